@@ -1,0 +1,406 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/error.hpp"
+
+/// One deck as plain values: what the user wrote, with every default filled in and every name known to point somewhere.
+///
+/// Numbers are in the user's own consistent units. Lists keep the order of the deck. Two decks are equal if they say the
+/// same, wherever in a file they say it.
+namespace arcwall::deck {
+
+/// Where something stands in its source; says nothing about the value, so all positions are equal.
+struct Position {
+  int line = 0;        ///< counts from 1; 0: unknown
+  int column = 0;      ///< counts from 1, in characters; 0: unknown
+  int assignment = 0;  ///< the `--set` it came from, counts from 1; 0: the file
+
+  friend bool operator==(const Position&, const Position&) { return true; }
+};
+
+/// What the deck was read from; like a position no part of its value.
+struct Source {
+  std::string file{};                      ///< as the user named it
+  std::vector<std::string> assignments{};  ///< the texts of `--set key=value`
+
+  friend bool operator==(const Source&, const Source&) { return true; }
+};
+
+/// A point or a vector of the plane: x along, z across.
+struct Vector {
+  double x = 0.0;
+  double z = 0.0;
+
+  bool operator==(const Vector&) const = default;
+};
+
+/// Labels only; nothing is converted.
+struct Units {
+  std::string length{};
+  std::string force{};
+
+  bool operator==(const Units&) const = default;
+};
+
+struct Material {
+  std::string name{};
+  Position position{};
+  double E = 0.0;              ///< Young's modulus, > 0 [force/length²]
+  std::optional<double> nu{};  ///< Poisson's ratio, in (-1, 1/2); there for every theory that needs it
+
+  bool operator==(const Material&) const = default;
+};
+
+struct Rectangle {
+  double width = 0.0;   ///< along y [length]
+  double height = 0.0;  ///< along z [length]
+
+  bool operator==(const Rectangle&) const = default;
+};
+
+struct Circle {
+  double radius = 0.0;
+
+  bool operator==(const Circle&) const = default;
+};
+
+struct Tube {
+  double radius = 0.0;     ///< outer
+  double thickness = 0.0;  ///< in (0, radius]
+
+  bool operator==(const Tube&) const = default;
+};
+
+/// A section of which only the properties are known.
+struct General {
+  double A = 0.0;
+  double I = 0.0;
+  std::optional<double> shear_area{};
+  std::optional<double> height{};
+
+  bool operator==(const General&) const = default;
+};
+
+struct Section {
+  std::string name{};
+  Position position{};
+  std::variant<Rectangle, Circle, Tube, General> shape{};
+  std::optional<double> shear_correction{};  ///< factor on the shear stiffness; empty: the theory's own
+
+  bool operator==(const Section&) const = default;
+};
+
+struct SectionProperties {
+  double A = 0.0;                      ///< [length²]
+  double I = 0.0;                      ///< second moment of area about y [length⁴]
+  std::optional<double> height{};      ///< between the faces z = ±h/2; empty: the section has no faces [length]
+  std::optional<double> shear_area{};  ///< empty: A times a correction [length²]
+};
+
+SectionProperties properties(const Section& section);
+
+struct Point {
+  std::string name{};
+  Position position{};
+  Vector at{};
+
+  bool operator==(const Point&) const = default;
+};
+
+enum class Theory { classic, essenburg, exact, elastica, truss };
+enum class Along { fixed, director };  ///< what ξ_z of the Essenburg theory is measured along
+enum class Strain { green, engineering, log };
+
+/// The axis is the chord.
+struct Straight {
+  bool operator==(const Straight&) const = default;
+};
+
+/// The circular arc through a third point, which is off the chord.
+struct Arc {
+  Vector via{};
+
+  bool operator==(const Arc&) const = default;
+};
+
+/// z = chord + rise sin(waves π s/length).
+struct SineAxis {
+  double rise = 0.0;
+  int waves = 1;  ///< half waves, ≥ 1
+
+  bool operator==(const SineAxis&) const = default;
+};
+
+/// Interpolating cubic spline over the cumulative chord length; the first and the last point are the member's ends.
+struct Curve {
+  std::vector<double> x{};
+  std::vector<double> z{};  ///< as many as x, at least 2
+
+  bool operator==(const Curve&) const = default;
+};
+
+/// Stress-free deviation amplitude·sin(waves π s/length), positive 90° anticlockwise from the direction of travel.
+struct Imperfection {
+  Position position{};
+  double amplitude = 0.0;
+  int waves = 1;  ///< half waves, ≥ 1
+
+  bool operator==(const Imperfection&) const = default;
+};
+
+/// Equally long elements between two points.
+struct Member {
+  std::string name{};
+  Position position{};
+  std::string from{};  ///< a point, another one than `to` and elsewhere
+  std::string to{};
+  Theory theory = Theory::classic;
+  std::string material{};
+  std::string section{};
+  int elements = 1;
+  std::optional<int> order{};    ///< essenburg and exact: 1 or 2; elastica: 4 or 6; otherwise empty
+  Along along = Along::fixed;    ///< essenburg only
+  Strain strain = Strain::green;  ///< truss only
+  std::variant<Straight, Arc, SineAxis, Curve> axis{};
+  std::vector<Imperfection> imperfections{};  ///< they add
+  bool hinge_from = false;                    ///< this end transmits no moment
+  bool hinge_to = false;
+
+  bool operator==(const Member&) const = default;
+};
+
+enum class Direction { x, z, rotation, thickness, thickness2 };
+
+struct Support {
+  std::string point{};
+  Position position{};
+  std::vector<Direction> directions{};  ///< at least one, each once
+
+  bool operator==(const Support&) const = default;
+};
+
+/// A node of the structure: a point, or a fraction of a member.
+struct Place {
+  std::string name{};                ///< of the point or the member
+  std::optional<double> fraction{};  ///< of the member's arc length, within 1e-9 of a node; empty: a point
+  Position position{};
+
+  bool operator==(const Place&) const = default;
+};
+
+/// `P` or `column:0.5`, as in a deck.
+std::string to_text(const Place& place);
+
+struct PointLoad {
+  Place at{};
+  Vector force{};
+  double moment = 0.0;  ///< positive anticlockwise [force·length]
+
+  bool operator==(const PointLoad&) const = default;
+};
+
+struct MemberLoad {
+  std::string member{};
+  Vector distributed{};  ///< dead [force/length of the undeformed axis]
+
+  bool operator==(const MemberLoad&) const = default;
+};
+
+struct Load {
+  Position position{};
+  std::variant<PointLoad, MemberLoad> action{};
+  bool constant = false;  ///< not multiplied by λ
+
+  bool operator==(const Load&) const = default;
+};
+
+enum class Side { above, below };
+enum class ActsOn { face, axis };
+
+struct FlatProfile {
+  double z = 0.0;
+
+  bool operator==(const FlatProfile&) const = default;
+};
+
+/// ψ = z + slope x.
+struct LineProfile {
+  double z = 0.0;
+  double slope = 0.0;
+
+  bool operator==(const LineProfile&) const = default;
+};
+
+/// The upper arc for a wall below, the lower for one above.
+struct CircleProfile {
+  Vector centre{};
+  double radius = 0.0;
+
+  bool operator==(const CircleProfile&) const = default;
+};
+
+/// ψ = apex.z + ½ curvature (x − apex.x)².
+struct ParabolaProfile {
+  Vector apex{};
+  double curvature = 0.0;
+
+  bool operator==(const ParabolaProfile&) const = default;
+};
+
+/// C² interpolating cubic.
+struct SplineProfile {
+  std::vector<double> x{};  ///< strictly increasing, at least 2
+  std::vector<double> z{};  ///< as many
+
+  bool operator==(const SplineProfile&) const = default;
+};
+
+struct Wall {
+  std::string name{};
+  Position position{};
+  Side side = Side::above;
+  ActsOn acts_on = ActsOn::face;
+  std::vector<std::string> members{};  ///< empty: every member
+  std::variant<FlatProfile, LineProfile, CircleProfile, ParabolaProfile, SplineProfile> profile{};
+
+  bool operator==(const Wall&) const = default;
+};
+
+enum class ContactMethod { multiplier, penalty, augmented };
+enum class ContactPoints { nodes, sliding };
+
+struct Contact {
+  ContactMethod method = ContactMethod::multiplier;
+  std::optional<ContactPoints> points{};  ///< empty: sliding for classic and elastica, else nodes
+  std::optional<double> penalty{};        ///< 1/μ, there for every method that needs it [force/length²]
+  double gap_tolerance = 1e-10;           ///< [length]
+
+  bool operator==(const Contact&) const = default;
+};
+
+/// What is measured, or controlled, at a place.
+enum class Component {
+  x,
+  z,
+  rotation,
+  face_above_z,
+  face_below_z,
+  reaction_x,
+  reaction_z,
+  reaction_moment,
+  thickness,
+  thickness2
+};
+
+struct Monitor {
+  std::string name{};
+  Position position{};
+  Place at{};
+  Component component = Component::z;
+  int sign = 1;  ///< 1 or -1, multiplies the column
+
+  bool operator==(const Monitor&) const = default;
+};
+
+enum class PathMethod {
+  load,
+  displacement,
+  riks,
+  normal_plane,
+  cylindrical,
+  spherical,
+  pseudo_arclength,
+  incremental
+};
+enum class Branches { primary, follow, all };
+enum class Events { locate, detect, none };
+
+/// Values to land on exactly.
+struct Landing {
+  std::string name{};  ///< `lambda` or a monitor
+  Position position{};
+  std::vector<double> values{};  ///< at least one
+
+  bool operator==(const Landing&) const = default;
+};
+
+/// Bounds that end a branch.
+struct StopBounds {
+  std::string name{};  ///< `lambda` or a monitor
+  Position position{};
+  double low = 0.0;
+  double high = 0.0;  ///< > low
+
+  bool operator==(const StopBounds&) const = default;
+};
+
+struct Stop {
+  std::vector<StopBounds> bounds{};
+  std::optional<int> contacts{};  ///< as many closed contacts end the branch
+
+  bool operator==(const Stop&) const = default;
+};
+
+/// The displacement that displacement control prescribes.
+struct Control {
+  Place at{};
+  Component component = Component::z;  ///< x, z or rotation
+
+  bool operator==(const Control&) const = default;
+};
+
+struct Path {
+  Position position{};
+  PathMethod method = PathMethod::spherical;
+  std::vector<Landing> land{};
+  std::optional<Control> control{};  ///< there for displacement control
+  double step = 0.02;                ///< of λ, for the first predictor; its sign is the direction; not 0
+  double min_step = 1e-8;            ///< [path metric]
+  double max_step = 0.2;             ///< ≥ min_step [path metric]
+  int max_points = 5000;
+  Branches branches = Branches::follow;
+  int depth = 2;
+  std::vector<std::string> watch{};  ///< monitors whose turning points are events
+  Events events = Events::locate;
+  Stop stop{};
+
+  bool operator==(const Path&) const = default;
+};
+
+struct Deck {
+  Source source{};
+  std::string title{};
+  std::string description{};
+  Units units{};
+  std::vector<Material> materials{};
+  std::vector<Section> sections{};
+  std::vector<Point> points{};
+  std::vector<Member> members{};  ///< at least one
+  std::vector<Support> supports{};
+  std::vector<Load> loads{};  ///< at least one that is neither constant nor zero
+  std::vector<Wall> walls{};
+  Contact contact{};
+  Path path{};
+  std::vector<Monitor> monitors{};
+
+  bool operator==(const Deck&) const = default;
+};
+
+/// The element of a list with that name, or null.
+template <class Named>
+const Named* find(const std::vector<Named>& list, const std::string& name) {
+  for (const Named& element : list) {
+    if (element.name == name) return &element;
+  }
+  return nullptr;
+}
+
+/// A diagnostic about the part of the deck that stands there, for the stages after reading.
+Diagnostic diagnostic_at(const Source& source, const Position& position, std::string key, std::string message,
+                         std::string cure = {});
+
+}  // namespace arcwall::deck

@@ -1,0 +1,17 @@
+# arcwall_library(NAME name SOURCES … HEADERS …): one of the four libraries of the star. Headers keep their folder below
+# the include root, in the build tree and installed: <arcwall/core/system.hpp> for users, "core/system.hpp" inside.
+function(arcwall_library)
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "NAME" "SOURCES;HEADERS")
+  set(target arcwall_${ARG_NAME})
+  add_library(${target})
+  add_library(arcwall::${ARG_NAME} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_sources(${target} PRIVATE ${ARG_SOURCES}
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
+  target_include_directories(${target} INTERFACE
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/arcwall>)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:arcwall_warnings>)
+  install(TARGETS ${target} EXPORT arcwallTargets
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/arcwall)
+endfunction()

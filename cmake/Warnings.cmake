@@ -1,0 +1,13 @@
+# Warnings of our own sources; errors when ARCWALL_WERROR is on.
+add_library(arcwall_warnings INTERFACE)
+target_compile_options(arcwall_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${ARCWALL_WERROR}>:-Werror>)
+# g++ 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(arcwall_warnings INTERFACE -Wno-restrict)
+endif()
+
+# Address and undefined-behaviour sanitizers for everything that is built here.
+if(ARCWALL_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "contact/profile.hpp"
+#include "core/tracked_point.hpp"
+
+namespace arcwall {
+
+/// Where a contact is, in the user's words.
+struct ContactLabel {
+  std::string wall{};
+  std::string member{};
+  double fraction = 0.0;  ///< of the member's arc length
+};
+
+/// A gap with its derivatives in the tracked point's unknowns (sizes as in PointKinematics).
+struct Gap {
+  double value = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, PointKinematics::max_unknowns, 1> gradient{};
+  PointKinematics::LocalSquare hessian{};
+};
+
+/// A body point and an obstacle that it must not enter. The gap is evaluated where the point is:
+///
+///     g = ±(z − ψ(x)) / √(1 + ψ′(x)²)                                       + below, − above the structure
+class Candidate {
+ public:
+  Candidate(std::unique_ptr<TrackedPoint> point, std::shared_ptr<const Profile> wall, Side side, ContactLabel label)
+      : point_(std::move(point)), wall_(std::move(wall)), side_(side), label_(std::move(label)) {}
+
+  const TrackedPoint& point() const { return *point_; }
+  const ContactLabel& label() const { return label_; }
+
+  /// Whether there is a surface at the point's x.
+  bool faces_wall(const Vector& x) const { return wall_->covers(point_->position(x).x()); }
+
+  /// The gap [length]; infinite where there is no surface.
+  double gap(const Vector& x) const;
+
+  /// Gap, gradient and Hessian; only where faces_wall().
+  void gap(const Vector& x, Gap& out) const;
+
+  /// Rate of the gap along a direction; 0 where there is no surface.
+  double gap_rate(const Vector& x, const Vector& dx) const;
+
+ private:
+  std::unique_ptr<TrackedPoint> point_;
+  std::shared_ptr<const Profile> wall_;
+  Side side_;
+  ContactLabel label_;
+};
+
+}  // namespace arcwall

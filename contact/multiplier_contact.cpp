@@ -1,0 +1,192 @@
+#include "contact/multiplier_contact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+// Calls `visit(j, k)` for each closed candidate j, the k-th of them.
+template <typename Visit>
+void for_each_closed(const Piece& piece, const Visit& visit) {
+  Index k = 0;
+  for (std::size_t j = 0; j < piece.size(); ++j)
+    if (piece[j]) visit(j, k++);
+}
+
+// Guard of a point that faces no wall: as far as the structure is large.
+constexpr double out_of_reach = 1.0;
+
+// The value of an entry that the pattern has.
+double& entry(SparseMatrix& A, Index row, Index column) {
+  const Index* first = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const Index* last = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  const Index* at = std::lower_bound(first, last, row);
+  assert(at != last && *at == row);
+  return A.valuePtr()[at - A.innerIndexPtr()];
+}
+
+}  // namespace
+
+Index MultiplierContact::multiplier_count(const Piece& piece) const {
+  return std::count_if(piece.begin(), piece.end(), [](std::uint8_t closed) { return closed != 0; });
+}
+
+void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const {
+  const State inner = inner_state(state);
+  const Index n = inner.x.size();
+  inner_.residual(inner, F.head(n));
+  Gap gap;
+  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+    const auto& unknowns = candidates_[j].point().unknowns();
+    candidates_[j].gap(inner.x, gap);
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      F[unknowns[i]] -= state.x[n + k] * gap.gradient[static_cast<Index>(i)];
+    F[n + k] = -gap.value;
+  });
+}
+
+void MultiplierContact::linearize(const State& state, Linearization& out) const {
+  if (!out.inner) out.inner = std::make_unique<Linearization>();
+  Linearization& inner = *out.inner;
+  const State inner_at = inner_state(state);
+  inner_.linearize(inner_at, inner);
+  if (!out.pattern_of || *out.pattern_of != state.piece) lay_out(state, out);
+
+  const Index n = inner_at.x.size(), m = out.K.cols() - n;
+  out.F.resize(n + m);
+  out.F_lambda.resize(n + m);
+  out.F.head(n) = inner.F;
+  out.F_lambda << inner.F_lambda, Vector::Zero(m);
+  // Each column of K begins with the inner one; rows of multipliers follow.
+  const double* from = inner.K.valuePtr();
+  const Index* start = inner.K.outerIndexPtr();
+  for (Index column = 0; column < n; ++column)
+    std::copy(from + start[column], from + start[column + 1], out.K.valuePtr() + out.K.outerIndexPtr()[column]);
+
+  Gap gap;
+  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+    const auto& unknowns = candidates_[j].point().unknowns();
+    const double p = state.x[n + k];
+    candidates_[j].gap(inner_at.x, gap);
+    out.F[n + k] = -gap.value;
+    for (Index a = 0; a < static_cast<Index>(unknowns.size()); ++a) {
+      const Index column = unknowns[static_cast<std::size_t>(a)];
+      out.F[column] -= p * gap.gradient[a];
+      entry(out.K, n + k, column) = -gap.gradient[a];
+      for (Index b = 0; b < static_cast<Index>(unknowns.size()); ++b) {
+        const Index row = unknowns[static_cast<std::size_t>(b)];
+        if (row >= column && gap.hessian(b, a) != 0.0) entry(out.K, row, column) -= p * gap.hessian(b, a);
+      }
+    }
+  });
+}
+
+void MultiplierContact::lay_out(const State& state, Linearization& out) const {
+  const SparseMatrix& inner = out.inner->K;
+  const Index n = inner.cols(), m = multiplier_count(state.piece);
+  std::vector<std::vector<Index>> behind(static_cast<std::size_t>(n));  // multipliers that touch each unknown
+  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+    for (const Index unknown : candidates_[j].point().unknowns()) behind[static_cast<std::size_t>(unknown)].push_back(n + k);
+  });
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  entries.reserve(static_cast<std::size_t>(inner.nonZeros() + 4 * m));
+  for (Index column = 0; column < n; ++column) {
+    for (SparseMatrix::InnerIterator it(inner, column); it; ++it) entries.emplace_back(it.row(), column, 0.0);
+    for (const Index row : behind[static_cast<std::size_t>(column)]) entries.emplace_back(row, column, 0.0);
+  }
+  for (Index k = 0; k < m; ++k) entries.emplace_back(n + k, n + k, 0.0);
+  out.K.resize(n + m, n + m);
+  out.K.setFromTriplets(entries.begin(), entries.end());
+  out.K.makeCompressed();
+  out.pattern_of = state.piece;
+}
+
+Vector MultiplierContact::weights(const Piece& piece) const {
+  Vector weights = Vector::Zero(size(piece));
+  weights.head(inner_.size({})) = inner_.weights({});
+  return weights;
+}
+
+Vector MultiplierContact::guards(const State& state) const {
+  Vector guards(guard_count());
+  Index k = inner_.size({});
+  for (Index j = 0; j < guards.size(); ++j)
+    guards[j] = state.piece[static_cast<std::size_t>(j)] ? state.x[k++] / scales_.force
+                                                         : open_guard(j, state.x);
+  return guards;
+}
+
+double MultiplierContact::open_guard(Index j, const Vector& x) const {
+  const double gap = candidate(j).gap(x);
+  return std::isfinite(gap) ? gap / scales_.length : out_of_reach;
+}
+
+Row MultiplierContact::guard_gradient(const State& state, Index j) const {
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (const auto k = multiplier_index(state.piece, j)) {
+    row.dx[*k] = 1.0 / scales_.force;
+  } else if (candidate(j).faces_wall(state.x)) {
+    Gap gap;
+    candidate(j).gap(state.x, gap);
+    const auto& unknowns = candidate(j).point().unknowns();
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      row.dx[unknowns[i]] = gap.gradient[static_cast<Index>(i)] / scales_.length;
+  }
+  return row;
+}
+
+Vector MultiplierContact::guard_rates(const State& state, const Direction& direction) const {
+  Vector rates(guard_count());
+  Index k = inner_.size({});
+  for (Index j = 0; j < rates.size(); ++j)
+    rates[j] = state.piece[static_cast<std::size_t>(j)] ? direction.dx[k++] / scales_.force
+                                                        : candidate(j).gap_rate(state.x, direction.dx) / scales_.length;
+  return rates;
+}
+
+std::vector<Index> MultiplierContact::weak_guards(const State& state, double tolerance) const {
+  const Vector now = guards(state);
+  std::vector<Index> weak;
+  for (Index j = 0; j < now.size(); ++j)
+    if (std::abs(now[j]) <= tolerance) weak.push_back(j);
+  return weak;
+}
+
+Vector MultiplierContact::unit_force(const State& state, Index j) const {
+  assert(!state.piece[static_cast<std::size_t>(j)]);
+  return guard_gradient(state, j).dx * scales_.length * scales_.force;
+}
+
+std::optional<Index> MultiplierContact::multiplier_index(const Piece& piece, Index j) const {
+  if (!piece[static_cast<std::size_t>(j)]) return std::nullopt;
+  return inner_.size({}) + std::count_if(piece.begin(), piece.begin() + j, [](std::uint8_t closed) { return closed != 0; });
+}
+
+Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {
+  const Index n = inner_.size({});
+  Vector moved = Vector::Zero(size(to));
+  moved.head(n) = x.head(n);
+  Index source = n, target = n;
+  for (std::size_t j = 0; j < to.size(); ++j) {
+    if (from[j] && to[j]) moved[target] = x[source];
+    source += from[j] ? 1 : 0;
+    target += to[j] ? 1 : 0;
+  }
+  return moved;
+}
+
+std::optional<std::string> MultiplierContact::obstruction(const State& state) const {
+  for (std::size_t j = 0; j < candidates_.size(); ++j)
+    if (state.piece[j] && !candidates_[j].faces_wall(state.x)) return "wall_end";
+  return std::nullopt;
+}
+
+double MultiplierContact::force(const State& state, Index j) const {
+  const auto k = multiplier_index(state.piece, j);
+  return k ? state.x[*k] : 0.0;
+}
+
+}  // namespace arcwall

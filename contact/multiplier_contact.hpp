@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/candidate.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// Scales that make guards of order 1.
+struct ContactScales {
+  double length = 1.0;  ///< of gaps [length]
+  double force = 1.0;   ///< of contact forces [force]
+};
+
+/// A system with unilateral contact: the forces p ≥ 0 of the closed contacts are unknowns behind those of the inner system.
+///
+///     F_inner(x, λ) − Σ p_j ∇g_j = 0,   −g_j = 0   (closed)          [ K − Σ p ∇²g   −Gᵀ ]
+///     p_j = 0,   g_j ≥ 0                           (open)            [ −G             0  ]
+class MultiplierContact final : public System {
+ public:
+  /// `inner` must have no guards of its own and outlive this.
+  MultiplierContact(const System& inner, std::vector<Candidate> candidates, const ContactScales& scales)
+      : inner_(inner), candidates_(std::move(candidates)), scales_(scales) {}
+
+  Index size(const Piece& piece) const override { return inner_.size({}) + multiplier_count(piece); }
+  void residual(const State& state, Eigen::Ref<Vector> F) const override;
+  void linearize(const State& state, Linearization& out) const override;
+  double energy(const State& state) const override { return inner_.energy(inner_state(state)); }
+  Vector weights(const Piece& piece) const override;
+  Index multiplier_count(const Piece& piece) const override;
+
+  Index guard_count() const override { return static_cast<Index>(candidates_.size()); }
+  Vector guards(const State& state) const override;
+  Row guard_gradient(const State& state, Index j) const override;
+  Vector guard_rates(const State& state, const Direction& direction) const override;
+  std::vector<Index> weak_guards(const State& state, double tolerance) const override;
+  Vector unit_force(const State& state, Index j) const override;
+  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
+  double multiplier_scale() const override { return scales_.force; }
+  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
+  std::optional<std::string> obstruction(const State& state) const override;
+
+  const Candidate& candidate(Index j) const { return candidates_[static_cast<std::size_t>(j)]; }
+  const ContactScales& scales() const { return scales_; }
+
+  /// Contact force of candidate j, 0 if open [force].
+  double force(const State& state, Index j) const;
+
+ private:
+  State inner_state(const State& state) const {
+    return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .piece = {}};
+  }
+  double open_guard(Index j, const Vector& x) const;
+  void lay_out(const State& state, Linearization& out) const;
+
+  const System& inner_;
+  std::vector<Candidate> candidates_;
+  ContactScales scales_;
+};
+
+}  // namespace arcwall

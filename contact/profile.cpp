@@ -1,0 +1,79 @@
+#include "contact/profile.hpp"
+
+#include <cmath>
+
+#include "core/cubic_spline.hpp"
+
+namespace arcwall {
+
+namespace {
+
+class LineProfile final : public Profile {
+ public:
+  LineProfile(double z, double slope) : z_(z), slope_(slope) {}
+  Height at(double x) const override { return {z_ + slope_ * x, slope_, 0.0, 0.0}; }
+
+ private:
+  double z_, slope_;
+};
+
+class ParabolaProfile final : public Profile {
+ public:
+  ParabolaProfile(const Vec2& apex, double curvature) : apex_(apex), curvature_(curvature) {}
+  Height at(double x) const override {
+    const double d = x - apex_.x();
+    return {apex_.y() + 0.5 * curvature_ * d * d, curvature_ * d, curvature_, 0.0};
+  }
+
+ private:
+  Vec2 apex_;
+  double curvature_;
+};
+
+class CircleProfile final : public Profile {
+ public:
+  CircleProfile(const Vec2& centre, double radius, Side side)
+      : centre_(centre), radius_(radius), sign_(side == Side::below ? 1.0 : -1.0) {}
+
+  // y = √(R² − d²):  y′ = −d/y,  y″ = −R²/y³,  y‴ = −3 R² d/y⁵
+  Height at(double x) const override {
+    const double d = x - centre_.x(), r2 = radius_ * radius_, y = std::sqrt(r2 - d * d);
+    return {centre_.y() + sign_ * y, -sign_ * d / y, -sign_ * r2 / (y * y * y), -3.0 * sign_ * r2 * d / std::pow(y, 5)};
+  }
+
+  // The arc ends where its normal is level to 1e-6: there the height says nothing about the distance any more.
+  bool covers(double x) const override { return std::abs(x - centre_.x()) < radius_ * (1.0 - 1e-6); }
+
+ private:
+  Vec2 centre_;
+  double radius_, sign_;
+};
+
+class SplineProfile final : public Profile {
+ public:
+  SplineProfile(std::vector<double> x, std::vector<double> z) : spline_(std::move(x), std::move(z)) {}
+  Height at(double x) const override {
+    const auto v = spline_.at(x);
+    return {v[0], v[1], v[2], v[3]};
+  }
+  bool covers(double x) const override { return x >= spline_.first() && x <= spline_.last(); }
+
+ private:
+  CubicSpline spline_;
+};
+
+}  // namespace
+
+std::unique_ptr<Profile> flat_profile(double z) { return std::make_unique<LineProfile>(z, 0.0); }
+std::unique_ptr<Profile> line_profile(double z, double slope) { return std::make_unique<LineProfile>(z, slope); }
+std::unique_ptr<Profile> parabola_profile(const Vec2& apex, double curvature) {
+  return std::make_unique<ParabolaProfile>(apex, curvature);
+}
+std::unique_ptr<Profile> circle_profile(const Vec2& centre, double radius, Side side) {
+  return std::make_unique<CircleProfile>(centre, radius, side);
+}
+std::unique_ptr<Profile> spline_profile(std::vector<double> x, std::vector<double> z) {
+  return std::make_unique<SplineProfile>(std::move(x), std::move(z));
+}
+
+}  // namespace arcwall

@@ -1,0 +1,82 @@
+#include "continuation/corrector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+// Newton on the closed system. The states that satisfy the linearised equilibrium are a line,
+//
+//   K δx + F_λ δλ = −F:   (δx, δλ) = particular + τ · tangent                                           (1)
+//
+// and the constraint picks the point on it: a linear equation for planes and values, a quadratic for spheres. This is the
+// bordered system of docs/theory.md, section 3, in a form that serves all of them and stays regular at limit points.
+CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint, const Metric& metric,
+                                   const Direction& along, double length) {
+  CorrectorResult result{.state = std::move(guess)};
+  const auto ended = [&](CorrectorStatus status) {
+    result.status = status;
+    return std::move(result);
+  };
+  double previous = length;
+  while (result.iterations < options_.max_iterations) {
+    if (const auto status = look(result.state); status != CorrectorStatus::converged) return ended(status);
+    if (!find_line(metric, along)) return ended(CorrectorStatus::singular);
+    const auto tau = constraint.advance(result.state, line_.particular, line_.tangent);
+    if (!tau) return ended(CorrectorStatus::complex_roots);
+    Direction& step = line_.particular;
+    step.dx += *tau * line_.tangent.dx;
+    step.dlambda += *tau * line_.tangent.dlambda;
+    result.state.x += step.dx;
+    result.state.lambda += step.dlambda;
+    ++result.iterations;
+
+    const double size = metric.norm(step);
+    if (!std::isfinite(size)) return ended(CorrectorStatus::not_finite);
+    const double ratio = size / std::max(previous, 1e-300);
+    const bool settled = size * ratio * ratio <= options_.tolerance && ratio <= 1.0;  // Newton's next correction
+    if (settled || (size <= options_.stagnation && ratio > 0.1)) return arrived(std::move(result), metric, along);
+    if (ratio > options_.divergence && result.iterations > 1) return ended(CorrectorStatus::diverged);
+    previous = size;
+  }
+  return ended(CorrectorStatus::too_many_iterations);
+}
+
+CorrectorResult Corrector::inspect(const State& state, const Metric& metric, const Direction& along) {
+  return arrived({.state = state}, metric, along);
+}
+
+// Evaluates and factorizes at a state; `converged` means that both could be done.
+CorrectorStatus Corrector::look(const State& state) {
+  system_.linearize(state, now_);
+  if (!now_.F.allFinite()) return CorrectorStatus::not_finite;
+  const FactorStatus status = solver_.factorize(now_, system_.multiplier_count(state.piece));
+  return status == FactorStatus::not_finite ? CorrectorStatus::not_finite : CorrectorStatus::converged;
+}
+
+// The line (1), its tangent of unit length and its particular solution normal to it.
+bool Corrector::find_line(const Metric& metric, const Direction& along) {
+  if (!solver_.line(metric.row(along), line_)) return false;
+  line_.tangent = unit(metric, std::move(line_.tangent));
+  const double component = metric.inner(line_.particular, line_.tangent);
+  line_.particular.dx -= component * line_.tangent.dx;
+  line_.particular.dlambda -= component * line_.tangent.dlambda;
+  return line_.tangent.dx.allFinite() && line_.particular.dx.allFinite();
+}
+
+CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {
+  result.status = look(result.state);
+  if (result.status != CorrectorStatus::converged) return result;
+  if (!find_line(metric, along)) {
+    result.status = CorrectorStatus::singular;
+    return result;
+  }
+  result.tangent = line_.tangent;
+  if (const auto inertia = solver_.inertia())
+    result.negative = inertia->negative - system_.multiplier_count(result.state.piece);
+  const double load = metric.dual_norm(now_.F_lambda) * std::max(std::abs(result.state.lambda), load_floor_);
+  result.residual = metric.dual_norm(now_.F) / std::max(load, 1e-300);
+  return result;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+
+#include "continuation/metric.hpp"
+#include "continuation/path_constraint.hpp"
+#include "core/bordered_solver.hpp"
+
+namespace arcwall {
+
+/// When Newton's method has arrived. All lengths in the path metric.
+struct CorrectorOptions {
+  double tolerance = 1e-12;   ///< of the distance that is left, estimated from the last two corrections
+  double stagnation = 1e-9;   ///< corrections below this that no longer shrink are round-off
+  double divergence = 3.0;    ///< a correction longer than this times the one before ends the attempt
+  int max_iterations = 10;
+};
+
+enum class CorrectorStatus { converged, too_many_iterations, diverged, complex_roots, singular, not_finite };
+
+struct CorrectorResult {
+  CorrectorStatus status = CorrectorStatus::too_many_iterations;
+  State state{};            ///< the last iterate, also when not converged
+  Direction tangent{};      ///< unit tangent there, of either orientation; only when converged
+  std::optional<Index> negative{};  ///< eigenvalues of K below zero with all closed contacts held; empty: not certain
+  int iterations = 0;
+  double residual = 0.0;    ///< ‖F‖ over the load's norm at max(|λ|, load_floor) [-]
+
+  bool converged() const { return status == CorrectorStatus::converged; }
+};
+
+/// Newton's method on the closed system, whatever closes it. Keeps factorization and workspaces from call to call.
+class Corrector {
+ public:
+  /// `system` must outlive this. `load_floor`: |λ| below which loads count as this large in the relative residual.
+  Corrector(const System& system, const CorrectorOptions& options, double load_floor)
+      : system_(system), options_(options), load_floor_(load_floor) {}
+
+  /// From `guess` to F = 0, c = 0. `length` is the distance from the guess to the last point known, `along` the tangent
+  /// there, which closes the system where K is singular.
+  CorrectorResult correct(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
+                          double length);
+
+  /// Tangent and signs at a state that is already on the path.
+  CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);
+
+ private:
+  CorrectorStatus look(const State& state);
+  bool find_line(const Metric& metric, const Direction& along);
+  CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Direction& along);
+
+  const System& system_;
+  CorrectorOptions options_;
+  double load_floor_;
+  Linearization now_;
+  BorderedSolver solver_;
+  EquilibriumLine line_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// Lengths in (x, λ), without units and independent of the number of elements:
+///
+///     ⟨a, b⟩ = Σ w_i a_i b_i + a_λ b_λ / λ₀²                                                        (docs/theory.md, 3)
+///
+/// Multipliers have no weight. λ₀ is set once for a run.
+class Metric {
+ public:
+  Metric(Vector weights, double lambda_scale) : weights_(std::move(weights)), lambda_scale_(lambda_scale) {}
+
+  double inner_x(const Direction& a, const Direction& b) const {
+    return (weights_.array() * a.dx.array() * b.dx.array()).sum();
+  }
+  double inner_lambda(const Direction& a, const Direction& b) const {
+    return a.dlambda * b.dlambda / (lambda_scale_ * lambda_scale_);
+  }
+  double inner(const Direction& a, const Direction& b) const { return inner_x(a, b) + inner_lambda(a, b); }
+  double norm(const Direction& a) const { return std::sqrt(inner(a, a)); }
+
+  /// The covector ⟨a, ·⟩.
+  Row row(const Direction& a) const {
+    return {.dx = weights_.cwiseProduct(a.dx), .dlambda = a.dlambda / (lambda_scale_ * lambda_scale_)};
+  }
+
+  /// Norm of a covector, so that |apply(row, d)| ≤ dual_norm(row) norm(d); entries without weight are left out.
+  double dual_norm(const Row& row) const {
+    const double scaled = row.dlambda * lambda_scale_;
+    return std::sqrt(dual_squared(row.dx) + scaled * scaled);
+  }
+  double dual_norm(const Vector& dx) const { return std::sqrt(dual_squared(dx)); }
+
+  double lambda_scale() const { return lambda_scale_; }
+
+ private:
+  double dual_squared(const Vector& dx) const {
+    return (weights_.array() > 0.0).select(dx.array().square() / weights_.array().max(1e-300), 0.0).sum();
+  }
+
+  Vector weights_;
+  double lambda_scale_;
+};
+
+/// The direction scaled to length 1.
+inline Direction unit(const Metric& metric, Direction direction) {
+  const double scale = 1.0 / metric.norm(direction);
+  direction.dx *= scale;
+  direction.dlambda *= scale;
+  return direction;
+}
+
+inline Direction reversed(Direction direction) {
+  direction.dx = -direction.dx;
+  direction.dlambda = -direction.dlambda;
+  return direction;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,73 @@
+#include "continuation/path_constraint.hpp"
+
+#include <cassert>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+const ParameterValue parameter;
+
+}  // namespace
+
+// c + ∇c · (particular + τ tangent) = 0
+std::optional<double> PathConstraint::advance(const State& at, const Direction& particular, const Direction& tangent) const {
+  const Row row = gradient(at);
+  const double slope = apply(row, tangent);
+  const double tau = -(value(at) + apply(row, particular)) / slope;
+  return std::isfinite(tau) ? std::optional(tau) : std::nullopt;
+}
+
+PlaneConstraint::PlaneConstraint(const Metric& metric, const State& origin, const Direction& normal, double offset)
+    : origin_(origin), normal_(metric.row(normal)), offset_(offset) {}
+
+double PlaneConstraint::value(const State& state) const { return apply(normal_, difference(state, origin_)) - offset_; }
+
+double SphereConstraint::value(const State& state) const {
+  const Direction chord = difference(state, origin_);
+  return inner(chord, chord) - radius_ * radius_;
+}
+
+Row SphereConstraint::gradient(const State& state) const {
+  Row row = metric_.row(difference(state, origin_));
+  row.dx *= 2.0;
+  row.dlambda *= form_ == Form::spherical ? 2.0 : 0.0;
+  return row;
+}
+
+// With D = X − origin + particular:  |D + τ t|² = radius²,  a τ² + 2 b τ + c = 0
+std::optional<double> SphereConstraint::advance(const State& at, const Direction& particular, const Direction& t) const {
+  Direction D = difference(at, origin_);
+  D.dx += particular.dx;
+  D.dlambda += particular.dlambda;
+  const double a = inner(t, t), b = inner(D, t), c = inner(D, D) - radius_ * radius_;
+  const double discriminant = b * b - a * c;
+  if (!(discriminant >= 0.0) || a == 0.0) return std::nullopt;
+  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+  const double roots[2] = {q / a, q != 0.0 ? c / q : 0.0};
+  // Nearer the previous tangent: the greater component of D + τ t along it.
+  const double along = inner(tangent_, t);
+  return roots[0] * along >= roots[1] * along ? roots[0] : roots[1];
+}
+
+std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric& metric, const State& from,
+                                                const Direction& tangent, double s, const Observable* control) {
+  using Form = SphereConstraint::Form;
+  switch (method) {
+    case PathMethod::load: return std::make_unique<ValueConstraint>(parameter, from.lambda + s * tangent.dlambda);
+    case PathMethod::displacement:
+      assert(control != nullptr);
+      return std::make_unique<ValueConstraint>(*control, control->value(moved(from, tangent, s)));
+    case PathMethod::riks:
+    case PathMethod::pseudo_arclength: return std::make_unique<PlaneConstraint>(metric, from, tangent, s);
+    case PathMethod::normal_plane: return std::make_unique<UpdatedPlaneConstraint>(metric, from);
+    case PathMethod::cylindrical:
+      return std::make_unique<SphereConstraint>(metric, Form::cylindrical, from, tangent,
+                                                s * std::sqrt(metric.inner_x(tangent, tangent)));
+    case PathMethod::spherical: return std::make_unique<SphereConstraint>(metric, Form::spherical, from, tangent, s);
+  }
+  return nullptr;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "continuation/metric.hpp"
+#include "core/observable.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// One scalar equation c(x, λ) = 0 that closes F(x, λ) = 0 in a step.
+///
+/// `value` and `gradient` are consistent, as for every Observable; the updated normal plane alone has no value, as it is
+/// defined from iterate to iterate.
+class PathConstraint : public Observable {
+ public:
+  /// τ such that the state moved by particular + τ · tangent fulfils the constraint: linearised, unless a constraint knows
+  /// better. Empty if there is none (complex roots).
+  virtual std::optional<double> advance(const State& at, const Direction& particular, const Direction& tangent) const;
+};
+
+/// The quantity has a given value: load and displacement control, stop rules, values to land on.
+class ValueConstraint final : public PathConstraint {
+ public:
+  /// `quantity` must outlive this.
+  ValueConstraint(const Observable& quantity, double target) : quantity_(quantity), target_(target) {}
+  double value(const State& state) const override { return quantity_.value(state) - target_; }
+  Row gradient(const State& state) const override { return quantity_.gradient(state); }
+
+ private:
+  const Observable& quantity_;
+  double target_;
+};
+
+/// Guard j is zero: landing on a change of contact.
+class GuardConstraint final : public PathConstraint {
+ public:
+  /// `system` must outlive this.
+  GuardConstraint(const System& system, Index j) : system_(system), j_(j) {}
+  double value(const State& state) const override { return system_.guards(state)[j_]; }
+  Row gradient(const State& state) const override { return system_.guard_gradient(state, j_); }
+
+ private:
+  const System& system_;
+  Index j_;
+};
+
+/// ⟨normal, X − origin⟩ = offset: a fixed plane (Riks 1979; Keller 1977, who calls offset the pseudo-arclength).
+class PlaneConstraint final : public PathConstraint {
+ public:
+  PlaneConstraint(const Metric& metric, const State& origin, const Direction& normal, double offset);
+  double value(const State& state) const override;
+  Row gradient(const State&) const override { return normal_; }
+
+ private:
+  State origin_;
+  Row normal_;
+  double offset_;
+};
+
+/// Each iterate stays in the plane normal to the chord from the origin to the last (Ramm 1981).
+class UpdatedPlaneConstraint final : public PathConstraint {
+ public:
+  UpdatedPlaneConstraint(const Metric& metric, const State& origin) : metric_(metric), origin_(origin) {}
+  double value(const State&) const override { return 0.0; }
+  Row gradient(const State& state) const override { return metric_.row(difference(state, origin_)); }
+
+ private:
+  Metric metric_;
+  State origin_;
+};
+
+/// |X − origin|² = radius² (Crisfield 1981), with λ in the distance (spherical) or without (cylindrical). The quadratic is
+/// solved as such: of its roots the one nearer the previous tangent is taken; complex roots give no step.
+class SphereConstraint final : public PathConstraint {
+ public:
+  enum class Form { spherical, cylindrical };
+
+  /// `tangent` is the one at the origin.
+  SphereConstraint(const Metric& metric, Form form, const State& origin, const Direction& tangent, double radius)
+      : metric_(metric), form_(form), origin_(origin), tangent_(tangent), radius_(radius) {}
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
+  std::optional<double> advance(const State& at, const Direction& particular, const Direction& tangent) const override;
+
+ private:
+  double inner(const Direction& a, const Direction& b) const {
+    return form_ == Form::spherical ? metric_.inner(a, b) : metric_.inner_x(a, b);
+  }
+
+  Metric metric_;
+  Form form_;
+  State origin_;
+  Direction tangent_;
+  double radius_;
+};
+
+/// How a step is closed.
+enum class PathMethod { load, displacement, riks, normal_plane, cylindrical, spherical, pseudo_arclength };
+
+/// The constraint of one step of length s along the unit tangent. `control` is the controlled quantity of `displacement`,
+/// and must outlive the constraint.
+std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric& metric, const State& from,
+                                                const Direction& tangent, double s, const Observable* control);
+
+}  // namespace arcwall

@@ -1,0 +1,21 @@
+#include "continuation/segment.hpp"
+
+#include <cmath>
+
+#include "core/root_find.hpp"
+
+namespace arcwall {
+
+State Segment::at(double t) const {
+  const double h01 = t * t * (3.0 - 2.0 * t), h10 = t * (1.0 - t) * (1.0 - t) * length_, h11 = t * t * (t - 1.0) * length_;
+  State state = moved(from_.state, chord_, h01);
+  state.x += h10 * from_.tangent.dx + h11 * to_.tangent.dx;
+  state.lambda += h10 * from_.tangent.dlambda + h11 * to_.tangent.dlambda;
+  return state;
+}
+
+std::optional<double> Segment::first_zero(double v0, double rate0, double v1, double rate1, double noise) const {
+  return first_cubic_zero(std::abs(v0) <= noise ? 0.0 : v0, rate0 * length_, v1, rate1 * length_);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "continuation/metric.hpp"
+#include "continuation/path_point.hpp"
+
+namespace arcwall {
+
+/// The stretch between two points of one piece, with cubic interpolation from values and rates at its ends.
+class Segment {
+ public:
+  /// All three must outlive the segment.
+  Segment(const Metric& metric, const PathPoint& from, const PathPoint& to)
+      : from_(from), to_(to), chord_(difference(to.state, from.state)), length_(metric.norm(chord_)) {}
+
+  const PathPoint& from() const { return from_; }
+  const PathPoint& to() const { return to_; }
+  const Direction& chord() const { return chord_; }
+  double length() const { return length_; }
+
+  /// The state at fraction t of the chord, by Hermite's cubic.
+  State at(double t) const;
+
+  /// The first fraction in (0, 1] at which a quantity with these end values and rates along the path vanishes; a start
+  /// within `noise` of zero does not count.
+  std::optional<double> first_zero(double v0, double rate0, double v1, double rate1, double noise) const;
+
+ private:
+  const PathPoint& from_;
+  const PathPoint& to_;
+  Direction chord_;
+  double length_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "core/ldlt.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// What the second variation says of an equilibrium under load control.
+enum class Stability { stable, unstable, undecided };
+
+/// Negative eigenvalues of K on {v : G_S v = 0}, S the contacts that are closed with a force above the tolerance, and what
+/// follows from it. Contacts without force hold nothing (Selke & Kikuchi's snap would be hidden if they did).
+struct StabilityCount {
+  std::optional<Index> unstable{};  ///< empty: K is singular to working precision
+  Stability stability = Stability::undecided;
+};
+
+/// Counts, with its own factorization; keeps workspaces from call to call.
+class StabilityCounter {
+ public:
+  /// `system` must outlive this. `force_tolerance` in the scale of the guards.
+  StabilityCounter(const System& system, double force_tolerance) : system_(system), force_tolerance_(force_tolerance) {}
+
+  /// `negative_held`: the count with all closed contacts held, if it is known already.
+  StabilityCount count(const State& state, std::optional<Index> negative_held);
+
+  /// Negative eigenvalues with all contacts of the state's piece held; empty where K is singular.
+  std::optional<Index> negative_on(const State& state);
+
+ private:
+  const System& system_;
+  double force_tolerance_;
+  Linearization now_;
+  Ldlt ldlt_;
+};
+
+/// The piece on which only the contacts that carry more than the tolerance are closed.
+Piece strongly_closed(const System& system, const State& state, double force_tolerance);
+
+}  // namespace arcwall

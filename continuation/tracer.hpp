@@ -1,0 +1,145 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "continuation/corner.hpp"
+#include "continuation/corrector.hpp"
+#include "continuation/event_detector.hpp"
+#include "continuation/path_point.hpp"
+#include "continuation/segment.hpp"
+#include "continuation/stability.hpp"
+#include "continuation/step_control.hpp"
+
+namespace arcwall {
+
+/// A bound that ends the branch, or a value to land on and go on.
+struct Landmark {
+  std::shared_ptr<const Observable> quantity{};
+  double value = 0.0;
+  bool stops = false;
+  std::string label{};  ///< for messages: `mid = -0.16`
+};
+
+/// What is done about zeros of the detectors inside a step.
+enum class EventSearch {
+  locate,  ///< each becomes a point of the path
+  detect,  ///< reported at the end of the step, with the interval
+  none,
+};
+
+/// What to trace and how. The defaults need no tuning.
+struct TraceOptions {
+  PathMethod method = PathMethod::spherical;
+  std::shared_ptr<const Observable> control{};  ///< of `displacement`
+  StepOptions step{};
+  CorrectorOptions corrector{};
+  CornerOptions corner{};
+  std::vector<Landmark> landmarks{};
+  std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
+  EventSearch events = EventSearch::locate;
+  double guard_tolerance = 1e-9;  ///< guards above −this are fulfilled, those within it weak
+  double localisation = 1e-12;    ///< bracket of an event as a part of its step
+  int max_points = 5000;
+};
+
+/// λ′ of the unit tangent, scaled to [−1, 1]: its zeros are limit points.
+EventDetector limit_point_detector(const Metric& metric);
+
+/// The rate of a quantity along the unit tangent, scaled likewise: its zeros are turning points of the quantity.
+EventDetector turning_detector(const System& system, const Metric& metric, std::shared_ptr<const Observable> quantity,
+                               std::string label);
+
+/// A monitor whose turning points are events.
+struct Watch {
+  std::shared_ptr<const Observable> quantity{};
+  std::string label{};
+};
+
+/// Traces one branch arc by arc, from a state on the path.
+class Tracer {
+ public:
+  /// `system` must outlive this; `start` solves its equations or nearly so.
+  Tracer(const System& system, State start, TraceOptions options, std::vector<Watch> watched = {});
+
+  /// The next arc; the first has length zero and carries the `start` event. Empty when the branch has ended: see end().
+  std::optional<Arc> next();
+
+  /// Why the branch ended; empty while it goes on.
+  const std::optional<BranchEnd>& end() const { return end_; }
+
+  /// Ends the branch where it is (a time limit, an interrupt).
+  void stop(BranchEnd end) { end_ = std::move(end); }
+
+  /// The last accepted point.
+  const PathPoint& here() const { return here_; }
+
+ private:
+  // Something that happens inside a step.
+  struct Found {
+    enum class What { detector, landmark } what;
+    std::size_t which;
+    double t;  // estimate, then place, as a fraction of the step
+    double half_width;
+  };
+
+  // A step that was taken: its end, and whether that lies on a corner.
+  struct Step {
+    PathPoint to;
+    bool corner = false;
+    Index guard = -1;  // landed on
+    double turn = 0.0;  // of the tangent [rad]
+  };
+
+  std::optional<Arc> begin();
+  std::optional<Arc> advance(double s);
+  std::optional<Step> take(double s);
+  bool trustworthy(const PathPoint& to, double s, double& turn) const;
+  bool hides_two_zeros(const Segment& segment) const;
+
+  struct Crossing {
+    Index guard;
+    double t;
+  };
+  std::optional<Crossing> first_crossing(const Segment& segment) const;
+  bool land(Step& step, Crossing crossing);
+
+  std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
+  std::optional<PathPoint> locate(Found& found, const PathPoint& to);
+  std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);
+  Event event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, double length) const;
+
+  bool turn_corner(PathPoint& at, Index landed, std::vector<Event>& events);
+  std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);
+  void add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const;
+
+  PathPoint point_of(CorrectorResult result, const Direction& forward) const;
+  std::vector<int> signs_at(const PathPoint& point) const;
+  bool came_back(const PathPoint& to);
+  void give_up();
+
+  const System& system_;
+  TraceOptions options_;
+  std::vector<Watch> watched_;
+  std::vector<EventDetector> detectors_;
+  Metric metric_;
+  Corrector corrector_;
+  StabilityCounter counter_;
+  StepControl step_;
+  PathPoint here_;
+  std::vector<int> signs_;  // of each detector just after here_
+  struct Visited {
+    State state;
+    double arc;
+  };
+  std::vector<Visited> visited_;  // where the branch began and where it turned
+  std::optional<BranchEnd> end_;
+  CorrectorStatus last_failure_ = CorrectorStatus::converged;
+  std::optional<std::string> obstruction_;
+  int points_ = 0;
+  int standing_ = 0;  // corners in a row at one place
+};
+
+}  // namespace arcwall

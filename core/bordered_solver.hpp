@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "core/ldlt.hpp"
+#include "core/lu.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// The states that satisfy the linearised equilibrium K δx + F_λ δλ = −F: a line, particular + τ · tangent.
+struct EquilibriumLine {
+  Direction particular{};
+  Direction tangent{};  ///< not normalised
+};
+
+/// Solves with K and with K bordered by F_λ and a row, by block elimination with one LDLᵀ factorization:
+///
+///     [ K   F_λ ] [δx]   [f]
+///     [ cᵀ   d  ] [δλ] = [g]
+///
+/// Where K is singular (limit points, branch points) the elimination loses digits: the result is checked, refined, and
+/// at worst taken from the LU factorization of the whole.
+class BorderedSolver {
+ public:
+  /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves.
+  FactorStatus factorize(const Linearization& equations, Index multipliers);
+
+  /// `border` closes the system where K alone is singular; the line itself does not depend on it.
+  /// False if the bordered matrix is singular too.
+  bool line(const Row& border, EquilibriumLine& out);
+
+  /// Solution of the bordered system for one right-hand side (f, g), with column F_λ; empty if it is singular.
+  std::optional<Direction> solve(const Row& border, const Vector& f, double g);
+
+  /// X := K⁻¹ X; only after `ok`.
+  void solve_inner(Eigen::Ref<Matrix> X) const { ldlt_.solve(X); }
+
+  /// Signs of the pivots of K; empty if K is singular to working precision.
+  std::optional<Inertia> inertia() const { return ldlt_.inertia(); }
+
+  bool inner_is_regular() const { return regular_; }
+
+ private:
+  bool factorize_whole(const Row& border);
+  Direction solve_whole(const Vector& f, double g) const;
+
+  const Linearization* equations_ = nullptr;
+  Ldlt ldlt_;
+  Lu lu_;
+  bool regular_ = false;
+  Matrix columns_;  // workspace: K⁻¹ [−F, −F_λ]
+};
+
+}  // namespace arcwall

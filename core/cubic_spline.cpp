@@ -1,0 +1,57 @@
+#include "core/cubic_spline.hpp"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cassert>
+
+#include "core/types.hpp"
+
+namespace arcwall {
+
+// Second derivatives m_i of the spline on intervals h_i with slopes s_i = (v_{i+1} − v_i)/h_i:
+//
+//   h_{i−1} m_{i−1} + 2 (h_{i−1} + h_i) m_i + h_i m_{i+1} = 6 (s_i − s_{i−1})            inner knots          (1)
+//   h_1 m_0 − (h_0 + h_1) m_1 + h_0 m_2 = 0, likewise at the other end                   not a knot           (2)
+CubicSpline::CubicSpline(std::vector<double> t, std::vector<double> v)
+    : t_(std::move(t)), v_(std::move(v)), second_(t_.size(), 0.0) {
+  assert(t_.size() == v_.size() && t_.size() >= 2);
+  const auto n = static_cast<Index>(t_.size());
+  if (n == 2) return;
+  const auto h = [&](Index i) { return t_[static_cast<std::size_t>(i + 1)] - t_[static_cast<std::size_t>(i)]; };
+  const auto slope = [&](Index i) { return (v_[static_cast<std::size_t>(i + 1)] - v_[static_cast<std::size_t>(i)]) / h(i); };
+  if (n == 3) {
+    std::fill(second_.begin(), second_.end(), 2.0 * (slope(1) - slope(0)) / (h(0) + h(1)));
+    return;
+  }
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  Vector right = Vector::Zero(n);
+  for (Index i = 1; i + 1 < n; ++i) {
+    entries.emplace_back(i, i - 1, h(i - 1));
+    entries.emplace_back(i, i, 2.0 * (h(i - 1) + h(i)));
+    entries.emplace_back(i, i + 1, h(i));
+    right[i] = 6.0 * (slope(i) - slope(i - 1));
+  }
+  const auto not_a_knot = [&](Index row, Index first) {
+    entries.emplace_back(row, first, h(first + 1));
+    entries.emplace_back(row, first + 1, -(h(first) + h(first + 1)));
+    entries.emplace_back(row, first + 2, h(first));
+  };
+  not_a_knot(0, 0);
+  not_a_knot(n - 1, n - 3);
+  SparseMatrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Vector m = Eigen::SparseLU<SparseMatrix>(A).solve(right);
+  second_.assign(m.begin(), m.end());
+}
+
+std::array<double, 4> CubicSpline::at(double t) const {
+  const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
+  const auto i = static_cast<std::size_t>(above - t_.begin()) - 1;
+  const double h = t_[i + 1] - t_[i], d = t - t_[i];
+  const double third = (second_[i + 1] - second_[i]) / h;
+  const double slope = (v_[i + 1] - v_[i]) / h - h * (2.0 * second_[i] + second_[i + 1]) / 6.0;
+  return {v_[i] + d * (slope + d * (0.5 * second_[i] + d * third / 6.0)), slope + d * (second_[i] + 0.5 * d * third),
+          second_[i] + d * third, third};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "core/factorization.hpp"
+
+namespace arcwall {
+
+/// CHOLMOD's simplicial LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included.
+///
+/// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown it
+/// touches, where its pivot −g S⁻¹ gᵀ is not zero, so that no pivoting is needed and no fill arises beyond that of K.
+class Ldlt final : public Factorization {
+ public:
+  Ldlt();
+  ~Ldlt() override;
+  Ldlt(Ldlt&&) noexcept;
+  Ldlt& operator=(Ldlt&&) noexcept;
+
+  /// The last `count` unknowns are multipliers; takes effect with the next new pattern.
+  void set_multiplier_count(Index count);
+
+  FactorStatus factorize(const SparseMatrix& lower_triangle) override;
+  void solve(Eigen::Ref<Matrix> X) const override;
+  std::optional<Inertia> inertia() const override;
+
+  /// Least |pivot| over greatest; small near singularity. 0 if not factorized.
+  double pivot_ratio() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,63 @@
+#include "core/near_null.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace arcwall {
+
+namespace {
+
+constexpr int max_rounds = 100;
+
+// The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants).
+Matrix start_block(Index rows, Index columns) {
+  Matrix X(rows, columns);
+  std::uint64_t seed = 1;
+  for (double& entry : X.reshaped()) {
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    entry = double(seed >> 11) / 9007199254740992.0 - 0.5;
+  }
+  return X;
+}
+
+void orthonormalise(Matrix& X) {
+  const Index rows = X.rows(), columns = X.cols();
+  X = Eigen::HouseholderQR<Matrix>(X).householderQ() * Matrix::Identity(rows, columns);
+}
+
+}  // namespace
+
+NearNull near_null(const Factorization& factorization, const SparseMatrix& K, Index count, double relative_tolerance) {
+  const Index n = K.rows();
+  count = std::min(count, n);
+  const Index block = std::min(n, count + 3);  // guard vectors speed the last wanted pair up
+  Matrix X = start_block(n, block);
+  orthonormalise(X);
+  Vector values = Vector::Constant(block, infinity);
+  for (int round = 0; round < max_rounds; ++round) {
+    factorization.solve(X);
+    orthonormalise(X);
+    // Rayleigh-Ritz: the best eigenpairs of K in the span of X, nearest zero first.
+    const Matrix KX = K.selfadjointView<Eigen::Lower>() * X;
+    const Eigen::SelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX);
+    std::vector<Index> order(static_cast<std::size_t>(block));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return std::abs(ritz.eigenvalues()[a]) < std::abs(ritz.eigenvalues()[b]);
+    });
+    X = X * ritz.eigenvectors()(Eigen::all, order);
+    const Vector previous = values;
+    values = ritz.eigenvalues()(order);
+    const double scale = values.cwiseAbs().maxCoeff();
+    const double change = (values - previous).head(count).cwiseAbs().maxCoeff();
+    if (change <= relative_tolerance * scale) break;
+  }
+  return {.values = values.head(count), .vectors = X.leftCols(count)};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <limits>
+
+namespace arcwall {
+
+using Index = Eigen::Index;
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+using Vec2 = Eigen::Vector2d;
+
+/// Compressed columns with 64-bit indices, as CHOLMOD's and UMFPACK's long interfaces read them without a copy.
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// v turned by +90° (anticlockwise).
+inline Vec2 perp(const Vec2& v) { return {-v.y(), v.x()}; }
+
+}  // namespace arcwall

@@ -1,0 +1,221 @@
+#include "elements/axis.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "core/cubic_spline.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using Gauss = boost::math::quadrature::gauss<double, 10>;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
+
+class StraightAxis final : public Axis {
+ public:
+  StraightAxis(const Vec2& from, const Vec2& to) : from_(from), to_(to), length_((to - from).norm()) {}
+  double length() const override { return length_; }
+  AxisPoint at(double s) const override {
+    const double t = s / length_;
+    return {.position = (1.0 - t) * from_ + t * to_, .angle = angle_of(to_ - from_), .curvature = 0.0};
+  }
+
+ private:
+  Vec2 from_, to_;
+  double length_;
+};
+
+class ArcAxis final : public Axis {
+ public:
+  // Centre from the perpendicular bisectors: with a = via − from and b = to − from,
+  // centre − from = (|a|² b⊥ − |b|² a⊥) / (2 b × a), turned so that both chords end on the circle.
+  ArcAxis(const Vec2& from, const Vec2& via, const Vec2& to) {
+    const Vec2 a = via - from, b = to - from;
+    centre_ = from + (b.squaredNorm() * perp(a) - a.squaredNorm() * perp(b)) / (2.0 * cross(a, b));
+    radius_ = (from - centre_).norm();
+    sense_ = cross(a, b) > 0.0 ? 1.0 : -1.0;
+    start_ = angle_of(from - centre_);
+    double sweep = sense_ * (angle_of(to - centre_) - start_);
+    while (sweep <= 0.0) sweep += 2.0 * pi;
+    sweep_ = sweep;
+  }
+  double length() const override { return radius_ * sweep_; }
+  AxisPoint at(double s) const override {
+    const double polar = start_ + sense_ * s / radius_;
+    return {.position = centre_ + radius_ * Vec2(std::cos(polar), std::sin(polar)),
+            .angle = polar + sense_ * 0.5 * pi,
+            .curvature = sense_ / radius_};
+  }
+
+ private:
+  Vec2 centre_{};
+  double radius_ = 0.0, sense_ = 1.0, start_ = 0.0, sweep_ = 0.0;
+};
+
+// A curve r(t) on knots t_0 < … < t_n, measured by arc length: lengths between knots are tabulated, then s → t by Newton.
+class ParametricAxis : public Axis {
+ public:
+  double length() const override { return lengths_.back(); }
+
+  AxisPoint at(double s) const override {
+    const double t = parameter(s);
+    const Derivatives r = curve(t);
+    const double speed = r.first.norm();
+    const auto k = interval(s);
+    // The tangent's angle, continued from the knot before (turns between knots stay below half a turn).
+    const Vec2 tangent_before = curve(knots_[k]).first;
+    const double turn = std::atan2(cross(tangent_before, r.first), tangent_before.dot(r.first));
+    return {.position = r.value, .angle = angles_[k] + turn, .curvature = cross(r.first, r.second) / (speed * speed * speed)};
+  }
+
+ protected:
+  struct Derivatives {
+    Vec2 value, first, second;
+  };
+  virtual Derivatives curve(double t) const = 0;
+
+  // To be called once by the constructor of the curve.
+  void measure(std::vector<double> knots) {
+    knots_ = std::move(knots);
+    lengths_.assign(1, 0.0);
+    angles_.assign(1, angle_of(curve(knots_[0]).first));
+    for (std::size_t k = 1; k < knots_.size(); ++k) {
+      lengths_.push_back(lengths_.back() + length_between(knots_[k - 1], knots_[k]));
+      const Vec2 a = curve(knots_[k - 1]).first, b = curve(knots_[k]).first;
+      angles_.push_back(angles_.back() + std::atan2(cross(a, b), a.dot(b)));
+    }
+  }
+
+ private:
+  double length_between(double a, double b) const {
+    return b > a ? Gauss::integrate([this](double t) { return curve(t).first.norm(); }, a, b) : 0.0;
+  }
+
+  std::size_t interval(double s) const {
+    const auto above = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, s);
+    return static_cast<std::size_t>(above - lengths_.begin()) - 1;
+  }
+
+  double parameter(double s) const {
+    const auto k = interval(s);
+    const double low = knots_[k], high = knots_[k + 1];
+    double t = low + (high - low) * (s - lengths_[k]) / (lengths_[k + 1] - lengths_[k]);
+    for (int i = 0; i < 20; ++i) {
+      const double error = lengths_[k] + length_between(low, t) - s;
+      t = std::clamp(t - error / curve(t).first.norm(), low, high);
+      if (std::abs(error) <= 1e-15 * lengths_.back()) break;
+    }
+    return t;
+  }
+
+  std::vector<double> knots_, lengths_, angles_;
+};
+
+class SineAxis final : public ParametricAxis {
+ public:
+  SineAxis(const Vec2& from, const Vec2& to, double rise, int waves)
+      : from_(from), chord_(to - from), normal_(perp(chord_.normalized())), rise_(rise), wave_number_(waves * pi) {
+    constexpr int knots_a_half_wave = 16;
+    const int count = knots_a_half_wave * waves;
+    std::vector<double> knots;
+    for (int k = 0; k <= count; ++k) knots.push_back(double(k) / count);
+    measure(std::move(knots));
+  }
+
+ protected:
+  Derivatives curve(double t) const override {
+    const double a = wave_number_ * t;
+    return {.value = (1.0 - t) * from_ + t * (from_ + chord_) + rise_ * std::sin(a) * normal_,
+            .first = chord_ + rise_ * wave_number_ * std::cos(a) * normal_,
+            .second = -rise_ * wave_number_ * wave_number_ * std::sin(a) * normal_};
+  }
+
+ private:
+  Vec2 from_, chord_, normal_;
+  double rise_, wave_number_;
+};
+
+std::vector<double> cumulative_chords(const std::vector<Vec2>& points) {
+  std::vector<double> t{0.0};
+  for (std::size_t k = 1; k < points.size(); ++k) t.push_back(t.back() + (points[k] - points[k - 1]).norm());
+  return t;
+}
+
+std::vector<double> coordinate(const std::vector<Vec2>& points, int which) {
+  std::vector<double> values;
+  for (const Vec2& point : points) values.push_back(point[which]);
+  return values;
+}
+
+class SplineAxis final : public ParametricAxis {
+ public:
+  explicit SplineAxis(const std::vector<Vec2>& points)
+      : x_(cumulative_chords(points), coordinate(points, 0)), z_(x_.knots(), coordinate(points, 1)) {
+    constexpr int parts = 4;  // of each stretch between points, for the accuracy of its length
+    std::vector<double> knots{x_.first()};
+    for (std::size_t k = 1; k < x_.knots().size(); ++k)
+      for (int i = 1; i <= parts; ++i)
+        knots.push_back(x_.knots()[k - 1] + (x_.knots()[k] - x_.knots()[k - 1]) * i / parts);
+    measure(std::move(knots));
+  }
+
+ protected:
+  Derivatives curve(double t) const override {
+    const auto x = x_.at(t), z = z_.at(t);
+    return {.value = {x[0], z[0]}, .first = {x[1], z[1]}, .second = {x[2], z[2]}};
+  }
+
+ private:
+  CubicSpline x_, z_;
+};
+
+}  // namespace
+
+std::unique_ptr<Axis> straight_axis(const Vec2& from, const Vec2& to) { return std::make_unique<StraightAxis>(from, to); }
+
+std::unique_ptr<Axis> arc_axis(const Vec2& from, const Vec2& via, const Vec2& to) {
+  return std::make_unique<ArcAxis>(from, via, to);
+}
+
+std::unique_ptr<Axis> sine_axis(const Vec2& from, const Vec2& to, double rise, int waves) {
+  return std::make_unique<SineAxis>(from, to, rise, waves);
+}
+
+std::unique_ptr<Axis> spline_axis(const std::vector<Vec2>& points) { return std::make_unique<SplineAxis>(points); }
+
+ImperfectAxis::Deviation ImperfectAxis::deviation(double s) const {
+  Deviation y{.value = 0.0, .slope = 0.0};
+  const double L = axis_.length();
+  for (const SineDeviation& wave : deviations_) {
+    const double k = wave.waves * pi / L;
+    y.value += wave.amplitude * std::sin(k * s);
+    y.slope += wave.amplitude * k * std::cos(k * s);
+  }
+  return y;
+}
+
+// r = r_axis + y n:  r′ = (1 − κ y) t + y′ n
+AxisPoint ImperfectAxis::at(double s) const {
+  AxisPoint point = axis_.at(s);
+  if (deviations_.empty()) return point;
+  const Deviation y = deviation(s);
+  point.position += y.value * Vec2(-std::sin(point.angle), std::cos(point.angle));
+  point.angle += std::atan2(y.slope, 1.0 - point.curvature * y.value);
+  return point;
+}
+
+double ImperfectAxis::length(double from, double to) const {
+  if (deviations_.empty()) return to - from;
+  return Gauss::integrate(
+      [this](double s) {
+        const Deviation y = deviation(s);
+        return std::hypot(1.0 - axis_.at(s).curvature * y.value, y.slope);
+      },
+      from, to);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace arcwall {
+
+/// A point of a plane curve that is measured by its arc length.
+struct AxisPoint {
+  Vec2 position{};
+  double angle = 0.0;      ///< of the tangent, continuous along the curve [rad]
+  double curvature = 0.0;  ///< d angle / d arc length [1/length]
+};
+
+/// The stress-free axis of a member, without imperfection.
+class Axis {
+ public:
+  virtual ~Axis() = default;
+  virtual double length() const = 0;
+
+  /// At arc length s from the start, 0 ≤ s ≤ length().
+  virtual AxisPoint at(double s) const = 0;
+};
+
+std::unique_ptr<Axis> straight_axis(const Vec2& from, const Vec2& to);
+
+/// Circular arc through `via`, which must not lie on the line of the ends.
+std::unique_ptr<Axis> arc_axis(const Vec2& from, const Vec2& via, const Vec2& to);
+
+/// chord + rise · sin(waves π ξ), ξ the fraction along the chord; positive 90° anticlockwise from the chord.
+std::unique_ptr<Axis> sine_axis(const Vec2& from, const Vec2& to, double rise, int waves);
+
+/// Interpolating cubic spline over the cumulative chord length of the points (at least two, none twice in a row).
+std::unique_ptr<Axis> spline_axis(const std::vector<Vec2>& points);
+
+/// One sine wave of a stress-free deviation normal to the axis.
+struct SineDeviation {
+  double amplitude = 0.0;  ///< positive 90° anticlockwise from the direction of travel [length]
+  int waves = 1;           ///< half waves over the axis' arc length
+};
+
+/// An axis with its imperfections: the stress-free shape of the member.
+class ImperfectAxis {
+ public:
+  /// `axis` must outlive this.
+  ImperfectAxis(const Axis& axis, std::vector<SineDeviation> deviations)
+      : axis_(axis), deviations_(std::move(deviations)) {}
+
+  /// Position and angle of the deviated curve at arc length s of the axis (its curvature is not filled in).
+  AxisPoint at(double s) const;
+
+  /// Arc length of the deviated curve between two such points.
+  double length(double from, double to) const;
+
+ private:
+  struct Deviation {
+    double value, slope;
+  };
+  Deviation deviation(double s) const;
+
+  const Axis& axis_;
+  std::vector<SineDeviation> deviations_;
+};
+
+}  // namespace arcwall

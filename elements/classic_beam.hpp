@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/types.hpp"
+#include "elements/element.hpp"
+
+namespace arcwall {
+
+/// A stretch of a beam between two nodes in its stress-free shape.
+struct BeamReference {
+  Vec2 chord{};         ///< from the first node to the second [length]
+  double length = 0.0;  ///< of the axis between them, ≥ |chord| [length]
+  double slope1 = 0.0;  ///< angle of the axis at the first node against the chord [rad]
+  double slope2 = 0.0;  ///< the same at the second
+};
+
+/// Euler-Bernoulli beam of any displacement and rotation: u linear, w cubic against the current chord.
+///
+/// Unknowns: u1, w1, θ1, u2, w2, θ2. Forces follow from total natural deformations, so they do not depend on the path;
+/// converges with order 4 to the extensible elastica, initially curved members included (docs/theory.md, section 2).
+class ClassicBeam final : public Element {
+ public:
+  ClassicBeam(const BeamReference& reference, double EA, double EI);
+
+  int unknown_count() const override { return 6; }
+  double evaluate(const double* u, double* f, double* K) const override;
+
+ private:
+  Vec2 chord_;           // stress-free
+  double chord_length_;  // its length l₀
+  double length_;        // h, of the stress-free axis
+  double t1_, t2_;       // stress-free end slopes against the chord
+  double q_;             // their averaged ½ w′²
+  double EA_, EI_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "core/tracked_point.hpp"
+#include "elements/structure.hpp"
+
+namespace arcwall {
+
+/// A material point of a member's section at a node: r + offset · n, n the section's normal (the axis' tangent turned by
+/// +90°), which turns with the node. offset = 0 is the axis, ± half the height a face.
+class MemberPoint final : public TrackedPoint {
+ public:
+  /// `structure` must outlive this. `offset` must be 0 for members whose nodes do not rotate.
+  MemberPoint(const Structure& structure, const MemberMesh& mesh, std::size_t node, double offset);
+
+  const std::vector<Index>& unknowns() const override { return unknowns_; }
+  Vec2 position(const Vector& x) const override;
+  void kinematics(const Vector& x, PointKinematics& out) const override;
+
+ private:
+  const Structure& structure_;
+  Index node_;
+  double angle_;   // stress-free angle of the section's normal, less a quarter turn
+  double offset_;  // [length]
+  std::vector<Index> unknowns_;
+  std::optional<Index> rotation_;             // freedom
+  std::optional<Index> x_, z_, turn_;         // columns of the derivatives, where not held
+};
+
+/// x, z or rotation of a member's node, measured from the axis without imperfection; or the z of one of its faces, likewise.
+class MemberObservable final : public Observable {
+ public:
+  enum class Component { x, z, rotation, face_above_z, face_below_z };
+
+  /// `structure` must outlive this. Faces need a height, rotations a rotation.
+  MemberObservable(const Structure& structure, const MemberMesh& mesh, std::size_t node, Component component);
+
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
+
+ private:
+  const Structure& structure_;
+  Component component_;
+  MemberPoint point_;
+  std::optional<Index> rotation_;
+  double origin_ = 0.0;  // what is subtracted
+};
+
+/// The displacement or rotation of one freedom.
+class FreedomObservable final : public Observable {
+ public:
+  FreedomObservable(const Structure& structure, Index freedom) : structure_(structure), freedom_(freedom) {}
+  double value(const State& state) const override { return structure_.value(state.x, freedom_); }
+  Row gradient(const State& state) const override;
+
+ private:
+  const Structure& structure_;
+  Index freedom_;
+};
+
+/// What a support does to the structure in one freedom.
+class ReactionObservable final : public Observable {
+ public:
+  ReactionObservable(const Structure& structure, Index freedom) : structure_(structure), freedom_(freedom) {}
+  double value(const State& state) const override { return structure_.reaction(state, freedom_); }
+  Row gradient(const State& state) const override { return structure_.reaction_gradient(state, freedom_); }
+
+ private:
+  const Structure& structure_;
+  Index freedom_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,163 @@
+#include "elements/structure.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+// Local unknowns, forces and stiffness of one element, on the stack.
+struct Local {
+  double u[Element::max_unknowns];
+  double f[Element::max_unknowns];
+  double K[Element::max_unknowns * Element::max_unknowns];
+};
+
+void scatter(std::span<const Index> unknowns, const double* f, double factor, double* F) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i] >= 0) F[unknowns[i]] += factor * f[i];
+}
+
+}  // namespace
+
+void Structure::gather(Index block, const Vector& x, double* u) const {
+  const auto unknowns = assembly_.unknowns(block);
+  for (std::size_t i = 0; i < unknowns.size(); ++i) u[i] = unknowns[i] >= 0 ? x[unknowns[i]] : 0.0;
+}
+
+void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
+  Local local;
+  for (Index i = 0; i < F.size(); ++i) {
+    const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
+    F[i] = -state.lambda * load_[freedom] - constant_load_[freedom];
+  }
+  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
+    gather(e, state.x, local.u);
+    elements_[static_cast<std::size_t>(e)]->evaluate(local.u, local.f, nullptr);
+    scatter(assembly_.unknowns(e), local.f, 1.0, F.data());
+  }
+  for (const LoadedElement& loaded : loaded_elements_) {
+    gather(loaded.element, state.x, local.u);
+    loaded.potential->evaluate(local.u, local.f, nullptr);
+    scatter(assembly_.unknowns(loaded.element), local.f, loaded.kind == LoadKind::proportional ? state.lambda : 1.0, F.data());
+  }
+}
+
+void Structure::linearize(const State& state, Linearization& out) const {
+  const Index n = assembly_.pattern().cols();
+  if (!out.pattern_of || out.K.cols() != n) {
+    out.K = assembly_.pattern();
+    out.pattern_of = state.piece;
+  }
+  out.F.resize(n);
+  out.F_lambda.resize(n);
+  double* values = out.K.valuePtr();
+  std::fill(values, values + out.K.nonZeros(), 0.0);
+  for (Index i = 0; i < n; ++i) {
+    const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
+    out.F_lambda[i] = -load_[freedom];
+    out.F[i] = state.lambda * out.F_lambda[i] - constant_load_[freedom];
+  }
+  Local local;
+  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
+    gather(e, state.x, local.u);
+    elements_[static_cast<std::size_t>(e)]->evaluate(local.u, local.f, local.K);
+    scatter(assembly_.unknowns(e), local.f, 1.0, out.F.data());
+    assembly_.add(e, local.K, 1.0, values);
+  }
+  for (const LoadedElement& loaded : loaded_elements_) {
+    const bool proportional = loaded.kind == LoadKind::proportional;
+    const double factor = proportional ? state.lambda : 1.0;
+    gather(loaded.element, state.x, local.u);
+    loaded.potential->evaluate(local.u, local.f, local.K);
+    scatter(assembly_.unknowns(loaded.element), local.f, factor, out.F.data());
+    if (proportional) scatter(assembly_.unknowns(loaded.element), local.f, 1.0, out.F_lambda.data());
+    assembly_.add(loaded.element, local.K, factor, values);
+  }
+}
+
+double Structure::energy(const State& state) const {
+  Local local;
+  double energy = 0.0;
+  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
+    gather(e, state.x, local.u);
+    energy += elements_[static_cast<std::size_t>(e)]->evaluate(local.u, nullptr, nullptr);
+  }
+  for (const LoadedElement& loaded : loaded_elements_) {
+    gather(loaded.element, state.x, local.u);
+    energy += (loaded.kind == LoadKind::proportional ? state.lambda : 1.0) *
+              loaded.potential->evaluate(local.u, nullptr, nullptr);
+  }
+  for (Index i = 0; i < assembly_.pattern().cols(); ++i) {
+    const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
+    energy -= (state.lambda * load_[freedom] + constant_load_[freedom]) * state.x[i];
+  }
+  return energy;
+}
+
+std::optional<Index> Structure::unknown(Index freedom) const {
+  const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
+  return i < 0 ? std::nullopt : std::optional(i);
+}
+
+double Structure::value(const Vector& x, Index freedom) const {
+  const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
+  return i < 0 ? 0.0 : x[i];
+}
+
+Vec2 Structure::current(const Vector& x, Index node) const {
+  return position(node) + Vec2(value(x, freedom(node, Freedom::x)), value(x, freedom(node, Freedom::z)));
+}
+
+Structure::Meaning Structure::meaning(Index unknown) const {
+  return meaning_of_freedom_[static_cast<std::size_t>(freedom_of_unknown_[static_cast<std::size_t>(unknown)])];
+}
+
+double Structure::reaction(const State& state, Index freedom) const {
+  if (unknown(freedom)) return 0.0;
+  Local local;
+  double force = -state.lambda * load_[freedom] - constant_load_[freedom];
+  const auto add = [&](const Element& element, Index block, const std::vector<Index>& freedoms, double factor) {
+    const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
+    if (at == freedoms.end()) return;
+    gather(block, state.x, local.u);
+    element.evaluate(local.u, local.f, nullptr);
+    force += factor * local.f[at - freedoms.begin()];
+  };
+  for (std::size_t e = 0; e < elements_.size(); ++e) add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
+  for (const LoadedElement& loaded : loaded_elements_)
+    add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],
+        loaded.kind == LoadKind::proportional ? state.lambda : 1.0);
+  return force;
+}
+
+Row Structure::reaction_gradient(const State& state, Index freedom) const {
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (unknown(freedom)) return row;
+  Local local;
+  row.dlambda = -load_[freedom];
+  const auto add = [&](const Element& element, Index block, const std::vector<Index>& freedoms, double factor) {
+    const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
+    if (at == freedoms.end()) return 0.0;
+    gather(block, state.x, local.u);
+    element.evaluate(local.u, local.f, local.K);
+    const auto n = static_cast<Index>(freedoms.size()), i = static_cast<Index>(at - freedoms.begin());
+    const auto unknowns = assembly_.unknowns(block);
+    for (Index j = 0; j < n; ++j)
+      if (unknowns[static_cast<std::size_t>(j)] >= 0)
+        row.dx[unknowns[static_cast<std::size_t>(j)]] += factor * local.K[std::max(i, j) + n * std::min(i, j)];
+    return local.f[i];
+  };
+  for (std::size_t e = 0; e < elements_.size(); ++e) add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
+  for (const LoadedElement& loaded : loaded_elements_) {
+    const bool proportional = loaded.kind == LoadKind::proportional;
+    const double f = add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],
+                         proportional ? state.lambda : 1.0);
+    if (proportional) row.dlambda += f;
+  }
+  return row;
+}
+
+}  // namespace arcwall

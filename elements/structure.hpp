@@ -1,0 +1,185 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/assembly.hpp"
+#include "core/observable.hpp"
+#include "core/system.hpp"
+#include "core/tracked_point.hpp"
+#include "elements/axis.hpp"
+#include "elements/element.hpp"
+#include "elements/section.hpp"
+#include "elements/truss.hpp"
+
+namespace arcwall {
+
+/// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there.
+enum class Freedom { x, z, rotation };
+
+enum class Theory { classic, truss };
+
+/// A load is multiplied by λ or held while λ varies.
+enum class LoadKind { proportional, constant };
+
+/// A run of elements between two joints.
+struct MemberDescription {
+  std::string name{};
+  Index from = 0, to = 0;  ///< joints
+  std::unique_ptr<Axis> axis{};
+  std::vector<SineDeviation> imperfection{};
+  Theory theory = Theory::classic;
+  TrussStrain strain = TrussStrain::green;
+  Section section{};
+  int elements = 1;
+  bool hinge_from = false, hinge_to = false;
+};
+
+/// The mesh of a member: node k of n + 1, at equal spacing of the axis' arc length.
+struct MemberMesh {
+  std::string name{};
+  std::vector<Index> nodes{};                       ///< index of each node in the structure
+  std::vector<std::optional<Index>> rotations{};    ///< freedom of the member's rotation at each node; a bar has none
+  std::vector<AxisPoint> axis{}, shape{};           ///< without and with imperfection
+  std::optional<double> height{};                   ///< of the section
+
+  double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
+};
+
+class StructureBuilder;
+
+/// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and rotations
+/// from the stress-free state as unknowns. Freedoms count every x, z and rotation; unknowns those that no support holds.
+class Structure final : public System {
+ public:
+  Index size(const Piece&) const override { return assembly_.pattern().cols(); }
+  void residual(const State& state, Eigen::Ref<Vector> F) const override;
+  void linearize(const State& state, Linearization& out) const override;
+  double energy(const State& state) const override;
+
+  /// ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale().
+  Vector weights(const Piece&) const override { return weights_; }
+
+  /// Diagonal of the box around the stress-free structure [length].
+  double length_scale() const { return length_scale_; }
+
+  /// Greatest reference load, moments divided by the length scale [force]; 0 if no load varies.
+  double force_scale() const { return force_scale_; }
+
+  const std::vector<MemberMesh>& members() const { return members_; }
+  Index node_count() const { return static_cast<Index>(positions_.size()); }
+  const Vec2& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }  ///< stress-free
+  /// The freedom of a node in x or z.
+  Index freedom(Index node, Freedom which) const { return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z); }
+
+  /// The unknown of a freedom, empty if a support holds it.
+  std::optional<Index> unknown(Index freedom) const;
+
+  /// Displacement or rotation, 0 where held.
+  double value(const Vector& x, Index freedom) const;
+
+  /// Current position of a node.
+  Vec2 current(const Vector& x, Index node) const;
+
+  /// The node and freedom that an unknown stands for.
+  struct Meaning {
+    Index node;
+    Freedom freedom;
+  };
+  Meaning meaning(Index unknown) const;
+
+  /// Force (or moment) that a support exerts on the structure through a freedom it holds; 0 in one that is free. Contact
+  /// forces on the supported node itself are not seen.
+  double reaction(const State& state, Index freedom) const;
+  Row reaction_gradient(const State& state, Index freedom) const;
+
+ private:
+  friend class StructureBuilder;
+
+  struct LoadedElement {
+    std::unique_ptr<Element> potential;
+    LoadKind kind;
+    Index element;  // whose unknowns it has: also its block of the assembly
+  };
+
+  Structure(Index unknowns, const std::vector<std::vector<Index>>& blocks) : assembly_(unknowns, blocks) {}
+  void gather(Index block, const Vector& x, double* u) const;
+
+  std::vector<Vec2> positions_;
+  std::vector<Index> first_freedom_;  // x of each node; z follows
+  std::vector<MemberMesh> members_;
+  std::vector<Index> unknown_of_freedom_;     // −1: held
+  std::vector<Meaning> meaning_of_freedom_;
+  std::vector<Index> freedom_of_unknown_;
+  std::vector<std::unique_ptr<Element>> elements_;  // element e is block e of the assembly
+  std::vector<std::vector<Index>> element_freedoms_;
+  std::vector<LoadedElement> loaded_elements_;
+  Vector load_, constant_load_;  // point loads per freedom
+  BlockAssembly assembly_;
+  Vector weights_;
+  double length_scale_ = 1.0, force_scale_ = 0.0;
+};
+
+/// Describes a structure step by step; build() makes it.
+class StructureBuilder {
+ public:
+  /// A joint of members. Returns its node.
+  Index add_joint(const Vec2& position);
+
+  /// Meshes the member at once, so that its inner nodes can be loaded. Returns its index.
+  Index add_member(MemberDescription member);
+  const MemberMesh& mesh(Index member) const { return meshes_[static_cast<std::size_t>(member)]; }
+
+  /// The rotation that the rigidly joined member ends at a joint share; empty if there are none.
+  std::optional<Index> shared_rotation(Index joint) const { return shared_rotation_[static_cast<std::size_t>(joint)]; }
+
+  Index freedom(Index node, Freedom which) const { return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z); }
+  void fix(Index freedom) { held_[static_cast<std::size_t>(freedom)] = true; }
+  void add_load(Index freedom, double value, LoadKind kind);
+  void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
+
+  /// The structure; `ramp` makes the constant loads the proportional ones and leaves the others out, so that a path in λ
+  /// from 0 to 1 applies them.
+  std::unique_ptr<Structure> build(bool ramp = false) const;
+
+ private:
+  struct Load {
+    Index freedom;
+    double value;
+    LoadKind kind;
+  };
+  struct DistributedLoad {
+    Index member;
+    Vec2 load;
+    LoadKind kind;
+  };
+
+  Index add_node(const Vec2& position);
+  Index add_freedom(Index node, Freedom which);
+  Index end_rotation(Index joint, bool hinged);
+  std::vector<Index> element_freedoms(const MemberMesh& mesh, std::size_t element) const;
+
+  std::vector<Vec2> positions_;
+  std::vector<Index> first_freedom_;
+  std::vector<std::optional<Index>> shared_rotation_;
+  std::vector<Structure::Meaning> freedoms_;
+  std::vector<bool> held_;
+  std::vector<MemberDescription> descriptions_;
+  std::vector<MemberMesh> meshes_;
+  std::vector<Load> loads_;
+  std::vector<DistributedLoad> distributed_loads_;
+};
+
+/// A motion without strain.
+struct Mechanism {
+  Index node;
+  Freedom freedom;  ///< where the motion is greatest
+};
+
+/// Whether the structure can move from its stress-free state without strain. Meant for one element a member, where the
+/// stiffness is well scaled: subdivision does not change the answer for beams.
+std::optional<Mechanism> find_mechanism(const Structure& structure);
+
+}  // namespace arcwall

@@ -1,0 +1,229 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/ldlt.hpp"
+#include "core/near_null.hpp"
+#include "elements/classic_beam.hpp"
+#include "elements/distributed_load.hpp"
+#include "elements/structure.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// The stress-free stretch of a member between two of its nodes.
+BeamReference reference(const ImperfectAxis& shape, const MemberMesh& mesh, std::size_t k, double axis_length) {
+  const Vec2 chord = mesh.shape[k + 1].position - mesh.shape[k].position;
+  const double direction = std::atan2(chord.y(), chord.x());
+  const auto against_chord = [&](double angle) { return std::remainder(angle - direction, 2.0 * pi); };
+  return {.chord = chord,
+          .length = shape.length(mesh.fraction(k) * axis_length, mesh.fraction(k + 1) * axis_length),
+          .slope1 = against_chord(mesh.shape[k].angle),
+          .slope2 = against_chord(mesh.shape[k + 1].angle)};
+}
+
+std::unique_ptr<Element> make_element(const MemberDescription& member, const BeamReference& reference) {
+  switch (member.theory) {
+    case Theory::classic:
+      return std::make_unique<ClassicBeam>(reference, member.section.EA(), member.section.EI());
+    case Theory::truss: return std::make_unique<Truss>(reference.chord, member.section.EA(), member.strain);
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Element> make_load(const MemberDescription& member, const BeamReference& reference, const Vec2& load) {
+  switch (member.theory) {
+    case Theory::classic: return std::make_unique<BeamDistributedLoad>(reference, load);
+    case Theory::truss: return std::make_unique<TrussDistributedLoad>(reference.length * load);
+  }
+  return nullptr;
+}
+
+double box_diagonal(const std::vector<Vec2>& points) {
+  Eigen::AlignedBox2d box;
+  for (const Vec2& point : points) box.extend(point);
+  return box.diagonal().norm();
+}
+
+}  // namespace
+
+Index StructureBuilder::add_joint(const Vec2& position) {
+  return add_node(position);
+}
+
+Index StructureBuilder::add_node(const Vec2& position) {
+  const auto node = static_cast<Index>(positions_.size());
+  positions_.push_back(position);
+  shared_rotation_.push_back(std::nullopt);
+  first_freedom_.push_back(add_freedom(node, Freedom::x));
+  add_freedom(node, Freedom::z);
+  return node;
+}
+
+Index StructureBuilder::add_freedom(Index node, Freedom which) {
+  freedoms_.push_back({.node = node, .freedom = which});
+  held_.push_back(false);
+  return static_cast<Index>(freedoms_.size()) - 1;
+}
+
+Index StructureBuilder::end_rotation(Index joint, bool hinged) {
+  if (hinged) return add_freedom(joint, Freedom::rotation);
+  auto& shared = shared_rotation_[static_cast<std::size_t>(joint)];
+  if (!shared) shared = add_freedom(joint, Freedom::rotation);
+  return *shared;
+}
+
+Index StructureBuilder::add_member(MemberDescription member) {
+  assert(member.elements >= 1 && member.axis != nullptr);
+  const ImperfectAxis shape(*member.axis, member.imperfection);
+  const bool rotates = member.theory != Theory::truss;
+  MemberMesh mesh{.name = member.name, .height = member.section.height};
+  for (int k = 0; k <= member.elements; ++k) {
+    const bool first = k == 0, last = k == member.elements;
+    const double s = member.axis->length() * k / member.elements;
+    mesh.axis.push_back(member.axis->at(s));
+    mesh.shape.push_back(shape.at(s));
+    mesh.nodes.push_back(first ? member.from : last ? member.to : add_node(mesh.shape.back().position));
+    if (first || last) {
+      // Joints are where they were put, free of the axis' round-off.
+      const Vec2& joint = positions_[static_cast<std::size_t>(mesh.nodes.back())];
+      mesh.axis.back().position = mesh.shape.back().position = joint;
+    }
+    std::optional<Index> rotation;
+    if (rotates && first) rotation = end_rotation(member.from, member.hinge_from);
+    if (rotates && last) rotation = end_rotation(member.to, member.hinge_to);
+    if (rotates && !first && !last) rotation = add_freedom(mesh.nodes.back(), Freedom::rotation);
+    mesh.rotations.push_back(rotation);
+  }
+  meshes_.push_back(std::move(mesh));
+  descriptions_.push_back(std::move(member));
+  return static_cast<Index>(meshes_.size()) - 1;
+}
+
+void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
+  loads_.push_back({.freedom = freedom, .value = value, .kind = kind});
+}
+
+void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind) {
+  distributed_loads_.push_back({.member = member, .load = load, .kind = kind});
+}
+
+std::vector<Index> StructureBuilder::element_freedoms(const MemberMesh& mesh, std::size_t k) const {
+  std::vector<Index> freedoms;
+  for (const std::size_t end : {k, k + 1}) {
+    freedoms.push_back(freedom(mesh.nodes[end], Freedom::x));
+    freedoms.push_back(freedom(mesh.nodes[end], Freedom::z));
+    if (mesh.rotations[end]) freedoms.push_back(*mesh.rotations[end]);
+  }
+  return freedoms;
+}
+
+std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
+  const auto proportional = [&](LoadKind kind) { return ramp ? kind == LoadKind::constant : kind == LoadKind::proportional; };
+
+  // Unknowns are numbered along the members, so that neighbours stay near.
+  std::vector<Index> unknown_of_freedom(freedoms_.size(), -1), freedom_of_unknown;
+  const auto number = [&](Index freedom) {
+    auto& unknown = unknown_of_freedom[static_cast<std::size_t>(freedom)];
+    if (held_[static_cast<std::size_t>(freedom)] || unknown >= 0) return;
+    unknown = static_cast<Index>(freedom_of_unknown.size());
+    freedom_of_unknown.push_back(freedom);
+  };
+  std::vector<std::vector<Index>> element_freedoms_of;
+  for (const MemberMesh& mesh : meshes_)
+    for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
+      element_freedoms_of.push_back(element_freedoms(mesh, k));
+      for (const Index freedom : element_freedoms_of.back()) number(freedom);
+    }
+  std::vector<std::vector<Index>> blocks;
+  for (const auto& freedoms : element_freedoms_of) {
+    blocks.emplace_back();
+    for (const Index freedom : freedoms) blocks.back().push_back(unknown_of_freedom[static_cast<std::size_t>(freedom)]);
+  }
+
+  auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));
+  structure->positions_ = positions_;
+  structure->first_freedom_ = first_freedom_;
+  structure->members_ = meshes_;
+  structure->unknown_of_freedom_ = std::move(unknown_of_freedom);
+  structure->freedom_of_unknown_ = std::move(freedom_of_unknown);
+  structure->meaning_of_freedom_ = freedoms_;
+  structure->element_freedoms_ = std::move(element_freedoms_of);
+  structure->length_scale_ = box_diagonal(positions_);
+
+  std::vector<Index> first_element;
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    first_element.push_back(static_cast<Index>(structure->elements_.size()));
+    const MemberDescription& member = descriptions_[m];
+    const ImperfectAxis shape(*member.axis, member.imperfection);
+    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+      structure->elements_.push_back(make_element(member, reference(shape, meshes_[m], k, member.axis->length())));
+  }
+
+  const double L = structure->length_scale_;
+  structure->load_ = structure->constant_load_ = Vector::Zero(static_cast<Index>(freedoms_.size()));
+  for (const Load& load : loads_) {
+    if (ramp && load.kind == LoadKind::proportional) continue;
+    const bool moment = freedoms_[static_cast<std::size_t>(load.freedom)].freedom == Freedom::rotation;
+    if (!proportional(load.kind)) structure->constant_load_[load.freedom] += load.value;
+    if (!proportional(load.kind)) continue;
+    structure->load_[load.freedom] += load.value;
+    structure->force_scale_ = std::max(structure->force_scale_, std::abs(load.value) / (moment ? L : 1.0));
+  }
+  for (const DistributedLoad& load : distributed_loads_) {
+    if (ramp && load.kind == LoadKind::proportional) continue;
+    const auto m = static_cast<std::size_t>(load.member);
+    const MemberDescription& member = descriptions_[m];
+    const ImperfectAxis shape(*member.axis, member.imperfection);
+    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+      structure->loaded_elements_.push_back(
+          {.potential = make_load(member, reference(shape, meshes_[m], k, member.axis->length()), load.load),
+           .kind = proportional(load.kind) ? LoadKind::proportional : LoadKind::constant,
+           .element = first_element[m] + static_cast<Index>(k)});
+    if (proportional(load.kind))
+      structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
+  }
+
+  // Means over all nodes and all rotations, held ones included: they count as zeros.
+  const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
+  const auto rotations = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
+  structure->weights_.resize(static_cast<Index>(structure->freedom_of_unknown_.size()));
+  for (Index i = 0; i < structure->weights_.size(); ++i)
+    structure->weights_[i] = structure->meaning(i).freedom == Freedom::rotation ? 1.0 / rotations
+                                                                               : 1.0 / (double(positions_.size()) * L * L);
+  return structure;
+}
+
+std::optional<Mechanism> find_mechanism(const Structure& structure) {
+  const State rest{.x = Vector::Zero(structure.size({}))};
+  if (rest.x.size() == 0) return std::nullopt;
+  Linearization now;
+  structure.linearize(rest, now);
+  // Lengths and rotations are made comparable: D K D with D = 1/√K_ii has a unit diagonal.
+  Vector scale = now.K.diagonal();
+  for (double& entry : scale) entry = entry > 0.0 ? 1.0 / std::sqrt(entry) : 1.0;
+  SparseMatrix K = scale.asDiagonal() * now.K * scale.asDiagonal();
+  constexpr double shift = 1e-9, zero = 1e-11;  // of a unit diagonal
+  SparseMatrix shifted = K;
+  for (Index i = 0; i < K.cols(); ++i) shifted.coeffRef(i, i) += shift;
+  Ldlt ldlt;
+  if (ldlt.factorize(shifted) != FactorStatus::ok) return std::nullopt;
+  const NearNull softest = near_null(ldlt, K, 1);
+  if (std::abs(softest.values[0]) > zero) return std::nullopt;
+  // The largest motion, rotations taken over the length scale.
+  Index largest = 0;
+  double motion = -1.0;
+  for (Index i = 0; i < K.cols(); ++i) {
+    const double length = structure.meaning(i).freedom == Freedom::rotation ? 0.5 * structure.length_scale() : 1.0;
+    const double here = std::abs(softest.vectors(i, 0)) * scale[i] * length;
+    if (here > motion * (1.0 + 1e-9)) {
+      motion = here;
+      largest = i;
+    }
+  }
+  return Mechanism{.node = structure.meaning(largest).node, .freedom = structure.meaning(largest).freedom};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/types.hpp"
+#include "elements/element.hpp"
+
+namespace arcwall {
+
+/// Measure of a bar's strain between its lengths L (stress-free) and l.
+enum class TrussStrain {
+  green,        ///< (l² − L²) / (2L²)
+  engineering,  ///< (l − L) / L
+  log,          ///< ln(l / L)
+};
+
+/// A bar that carries axial force only: U = ½ EA L ε². Unknowns: u1, w1, u2, w2.
+class Truss final : public Element {
+ public:
+  Truss(const Vec2& chord, double EA, TrussStrain strain) : chord_(chord), length_(chord.norm()), EA_(EA), strain_(strain) {}
+
+  int unknown_count() const override { return 4; }
+  double evaluate(const double* u, double* f, double* K) const override;
+
+ private:
+  Vec2 chord_;
+  double length_;
+  double EA_;
+  TrussStrain strain_;
+};
+
+}  // namespace arcwall
