@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "core/state.hpp"
 
 namespace arcwall {
@@ -22,6 +25,24 @@ class ParameterValue final : public Observable {
  public:
   double value(const State& state) const override { return state.lambda; }
   Row gradient(const State& state) const override { return {.dx = Vector::Zero(state.x.size()), .dlambda = 1.0}; }
+};
+
+/// Another quantity times a factor.
+class ScaledObservable final : public Observable {
+ public:
+  ScaledObservable(std::shared_ptr<const Observable> quantity, double factor)
+      : quantity_(std::move(quantity)), factor_(factor) {}
+  double value(const State& state) const override { return factor_ * quantity_->value(state); }
+  Row gradient(const State& state) const override {
+    Row row = quantity_->gradient(state);
+    row.dx *= factor_;
+    row.dlambda *= factor_;
+    return row;
+  }
+
+ private:
+  std::shared_ptr<const Observable> quantity_;
+  double factor_;
 };
 
 }  // namespace arcwall

@@ -54,7 +54,8 @@ const Value* Cursor::find(std::string_view key, Presence presence) {
   return found;
 }
 
-const Value* Cursor::find_of_kind(std::string_view key, Presence presence, Value::Kind kind, const std::string& wanted) {
+const Value* Cursor::find_of_kind(std::string_view key, Presence presence, Value::Kind kind,
+                                  const std::string& wanted) {
   const Value* found = find(key, presence);
   return found != nullptr && accept(*found, kind, path_of(key), wanted) ? found : nullptr;
 }
@@ -195,12 +196,14 @@ std::optional<Cursor> Cursor::table(std::string_view key, Presence presence) {
 }
 
 std::vector<Cursor> Cursor::tables(std::string_view key) {
-  const Value* found = find_of_kind(key, Presence::optional, Value::Kind::array, "an array of tables [[" + path_of(key) + "]]");
+  const Value* found =
+      find_of_kind(key, Presence::optional, Value::Kind::array, "an array of tables [[" + path_of(key) + "]]");
   std::vector<Cursor> result;
   if (found == nullptr) return result;
   for (std::size_t i = 0; i < found->items.size(); ++i) {
     const std::string path = path_of(key) + "." + std::to_string(i);
-    if (accept(found->items[i], Value::Kind::table, path, "a table")) result.emplace_back(found->items[i], path, findings_);
+    if (accept(found->items[i], Value::Kind::table, path, "a table"))
+      result.emplace_back(found->items[i], path, findings_);
   }
   return result;
 }
@@ -243,8 +246,6 @@ void Cursor::report_unknown(const Reference& found, const std::string& path, con
 
 Position Cursor::position() const { return value_.key.empty() ? value_.position : value_.key_position; }
 
-std::string Cursor::path_of(std::string_view key) const {
-  return (path_.empty() ? "" : path_ + ".") + key_text(key);
-}
+std::string Cursor::path_of(std::string_view key) const { return (path_.empty() ? "" : path_ + ".") + key_text(key); }
 
 }  // namespace arcwall::deck

@@ -23,6 +23,8 @@ class Findings {
 
   void add(const Position& position, std::string key, std::string message, std::string cure = {});
 
+  std::size_t count() const { return diagnostics_.size(); }
+
   /// InputError with all that was added, by their order in the text; returns if there is nothing.
   void throw_if_any() const;
 
@@ -73,7 +75,8 @@ class Cursor {
   bool reference(std::string_view key, Presence presence, Reference& target);
   bool vector(std::string_view key, Presence presence, Vector& target);  ///< [x, z]
   bool numbers(std::string_view key, Presence presence, std::vector<double>& target);
-  bool references(std::string_view key, Presence presence, std::vector<Reference>& target);  ///< at least one, each once
+  bool references(std::string_view key, Presence presence,
+                  std::vector<Reference>& target);  ///< at least one, each once
 
   /// One of a list of words.
   template <class Enum, std::size_t count>

@@ -9,8 +9,8 @@
 
 /// One deck as plain values: what the user wrote, with every default filled in and every name known to point somewhere.
 ///
-/// Numbers are in the user's own consistent units. Lists keep the order of the deck. Two decks are equal if they say the
-/// same, wherever in a file they say it.
+/// Numbers are in the user's own consistent units. Lists keep the order of the deck. Two decks are equal if they say
+/// the same, wherever in a file they say it.
 namespace arcwall::deck {
 
 /// Where something stands in its source; says nothing about the value, so all positions are equal.
@@ -162,8 +162,8 @@ struct Member {
   std::string material{};
   std::string section{};
   int elements = 1;
-  std::optional<int> order{};    ///< essenburg and exact: 1 or 2; elastica: 4 or 6; otherwise empty
-  Along along = Along::fixed;    ///< essenburg only
+  std::optional<int> order{};     ///< essenburg and exact: 1 or 2; elastica: 4 or 6; otherwise empty
+  Along along = Along::fixed;     ///< essenburg only
   Strain strain = Strain::green;  ///< truss only
   std::variant<Straight, Arc, SineAxis, Curve> axis{};
   std::vector<Imperfection> imperfections{};  ///< they add
@@ -306,16 +306,7 @@ struct Monitor {
   bool operator==(const Monitor&) const = default;
 };
 
-enum class PathMethod {
-  load,
-  displacement,
-  riks,
-  normal_plane,
-  cylindrical,
-  spherical,
-  pseudo_arclength,
-  incremental
-};
+enum class PathMethod { load, displacement, riks, normal_plane, cylindrical, spherical, pseudo_arclength, incremental };
 enum class Branches { primary, follow, all };
 enum class Events { locate, detect, none };
 

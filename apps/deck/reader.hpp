@@ -8,8 +8,8 @@
 
 namespace arcwall::deck {
 
-/// Reads and checks a deck; `assignments` are the texts of `--set key=value`, applied in their order. Everything that is
-/// wrong is in one InputError: file, line, column, key, the value found and what would be right.
+/// Reads and checks a deck; `assignments` are the texts of `--set key=value`, applied in their order. Everything that
+/// is wrong is in one InputError: file, line, column, key, the value found and what would be right.
 Deck read_deck(const std::string& file, const std::vector<std::string>& assignments = {});
 
 /// The same for a deck in memory; `file_name` is only named in messages.

@@ -13,9 +13,11 @@ Support read_support(Cursor& table, const Value& item, const Names& names, const
   Support support{.point = item.key, .position = item.key_position};
   const bool known = std::find(names.points.begin(), names.points.end(), item.key) != names.points.end();
   if (!known) {
-    table.report_unknown({item.key, item.key_position}, table.path_of(item.key), "is not a point of this deck", names.points);
+    table.report_unknown({item.key, item.key_position}, table.path_of(item.key), "is not a point of this deck",
+                         names.points);
   } else if (!ends_a_member(deck, item.key)) {
-    table.findings().add(item.key_position, table.path_of(item.key), "no member ends at this point", "support the end of a member");
+    table.findings().add(item.key_position, table.path_of(item.key), "no member ends at this point",
+                         "support the end of a member");
   }
   std::vector<Reference> directions;
   table.references(item.key, Presence::required, directions);
@@ -86,15 +88,11 @@ void read_supports(Cursor& root, const Names& names, Deck& deck) {
 }
 
 void read_loads(Cursor& root, const Names& names, Deck& deck) {
-  std::size_t usable = 0;  // loads whose values can be trusted to say whether λ moves anything
-  const std::vector<Cursor> tables = root.tables("load");
-  for (Cursor table : tables) {
-    deck.loads.push_back(read_load(table, names, deck));
-    ++usable;
-  }
-  const bool wrong_type = root.has("load") && usable == 0;
-  if (wrong_type || std::any_of(deck.loads.begin(), deck.loads.end(), follows_lambda)) return;
-  root.report("load", usable == 0 ? "there is no load" : "no load is multiplied by λ: all are constant or zero",
+  const std::size_t findings_before = root.findings().count();
+  for (Cursor& table : root.tables("load")) deck.loads.push_back(read_load(table, names, deck));
+  if (root.findings().count() > findings_before) return;  // what a wrong load would have been cannot be told
+  if (std::any_of(deck.loads.begin(), deck.loads.end(), follows_lambda)) return;
+  root.report("load", deck.loads.empty() ? "there is no load" : "no load is multiplied by λ: all are constant or zero",
               "add a [[load]] that is neither");
 }
 

@@ -86,9 +86,10 @@ void read_material_and_section(Cursor& table, const Names& names, const Deck& de
   const Material* material = find(deck.materials, member.material);
   const bool has_nu = material == nullptr || material->nu.has_value();
   if (is_shear_flexible(member.theory) && !has_nu) {
-    table.report("material",
-                 "material " + member.material + " has no nu, which theory " + text_of(theory_words, member.theory) + " needs",
-                 "add nu to material." + member.material);
+    table.report(
+        "material",
+        "material " + member.material + " has no nu, which theory " + text_of(theory_words, member.theory) + " needs",
+        "add nu to material." + member.material);
   }
 }
 
@@ -102,7 +103,8 @@ Arc read_arc(Cursor& table, const std::optional<Ends>& ends) {
   if (arc.via == ends->from || arc.via == ends->to) {
     table.report("via", point_text(arc.via) + " is an end of the member", "give a point between its ends");
   } else if (std::abs(c.x * v.z - c.z * v.x) <= tolerance * std::max(chord, distance(ends->from, arc.via))) {
-    table.report("via", point_text(arc.via) + " is on the straight line through the ends", "leave it out, or move it off the line");
+    table.report("via", point_text(arc.via) + " is on the straight line through the ends",
+                 "leave it out, or move it off the line");
   }
   return arc;
 }
@@ -124,11 +126,13 @@ void check_curve(Cursor& table, const Curve& curve, const Ends& ends) {
                  "begin at " + point_text(ends.from));
   }
   if (distance(last, ends.to) > tolerance) {
-    table.report("x", "the last point " + point_text(last) + " is not where the member ends", "end at " + point_text(ends.to));
+    table.report("x", "the last point " + point_text(last) + " is not where the member ends",
+                 "end at " + point_text(ends.to));
   }
   for (std::size_t i = 1; i < curve.x.size(); ++i) {
     if (distance({curve.x[i - 1], curve.z[i - 1]}, {curve.x[i], curve.z[i]}) > 0.0) continue;
-    table.report("x", "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are the same", "remove one of them");
+    table.report("x", "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are the same",
+                 "remove one of them");
   }
 }
 
@@ -145,7 +149,8 @@ void read_axis(Cursor& table, const std::optional<Ends>& ends, Member& member) {
     if (table.find(key, Presence::optional) != nullptr) given.emplace_back(key);
   }
   if (given.size() > 1) {
-    table.report(given[1], "a member has one axis, " + given[0] + " already gives it", "keep one of via, sine and curve");
+    table.report(given[1], "a member has one axis, " + given[0] + " already gives it",
+                 "keep one of via, sine and curve");
   }
   if (table.has("via")) member.axis = read_arc(table, ends);
   if (table.has("sine")) {

@@ -56,7 +56,8 @@ bool read_point_place(Cursor& table, std::string_view key, const Reference& foun
     return false;
   }
   if (!ends_a_member(deck, found.text)) {
-    table.report(key, "no member ends at point " + found.text, "name a point at the end of a member, or member:fraction");
+    table.report(key, "no member ends at point " + found.text,
+                 "name a point at the end of a member, or member:fraction");
     return false;
   }
   target = {.name = found.text, .position = found.position};
@@ -102,11 +103,13 @@ bool read_place(Cursor& table, std::string_view key, const Names& names, const D
                     .fraction = number_from(found.text.substr(colon + 1)),
                     .position = found.position};
   if (!contains(names.members, place.name)) {
-    table.report_unknown({place.name, found.position}, table.path_of(key), "is not a member of this deck", names.members);
+    table.report_unknown({place.name, found.position}, table.path_of(key), "is not a member of this deck",
+                         names.members);
     return false;
   }
   if (!place.fraction || *place.fraction < 0.0 || *place.fraction > 1.0) {
-    table.report(key, quoted(found.text, 60) + " has no fraction between 0 and 1", "write it as in " + place.name + ":0.5");
+    table.report(key, quoted(found.text, 60) + " has no fraction between 0 and 1",
+                 "write it as in " + place.name + ":0.5");
     return false;
   }
   if (!is_node(table, key, place, deck)) return false;

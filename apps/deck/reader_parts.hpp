@@ -6,8 +6,8 @@
 #include "apps/deck/cursor.hpp"
 #include "apps/deck/deck.hpp"
 
-/// The parts of the reader: each reads and checks some tables of the root into the deck. Later parts look up what earlier
-/// ones read, in the order below.
+/// The parts of the reader: each reads and checks some tables of the root into the deck. Later parts look up what
+/// earlier ones read, in the order below.
 namespace arcwall::deck {
 
 /// Every name the deck declares, also on tables with errors of their own, so that one error is not reported as two.

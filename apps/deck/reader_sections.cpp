@@ -51,10 +51,18 @@ Section read_section(Cursor& table) {
   ShapeWord shape{};
   if (!table.word("shape", Presence::required, shape_words, shape)) return section;
   switch (shape) {
-    case ShapeWord::rectangle: section.shape = read_rectangle(table); break;
-    case ShapeWord::circle: section.shape = read_circle(table); break;
-    case ShapeWord::tube: section.shape = read_tube(table); break;
-    case ShapeWord::general: section.shape = read_general(table); break;
+    case ShapeWord::rectangle:
+      section.shape = read_rectangle(table);
+      break;
+    case ShapeWord::circle:
+      section.shape = read_circle(table);
+      break;
+    case ShapeWord::tube:
+      section.shape = read_tube(table);
+      break;
+    case ShapeWord::general:
+      section.shape = read_general(table);
+      break;
   }
   table.finish();
   return section;
@@ -91,7 +99,8 @@ void read_points(Cursor& root, Deck& deck) {
   if (!table) return;
   for (const Value& item : table->value().items) {
     if (!is_name(item.key)) {
-      table->findings().add(item.key_position, table->path_of(item.key), "is no name", "use letters, digits, _ and - only");
+      table->findings().add(item.key_position, table->path_of(item.key), "is no name",
+                            "use letters, digits, _ and - only");
     }
     Point point{.name = item.key, .position = item.key_position};
     if (table->vector(item.key, Presence::required, point.at)) deck.points.push_back(point);

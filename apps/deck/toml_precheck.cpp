@@ -87,7 +87,8 @@ class Scanner {
     return true;
   }
 
-  // The rest of a string whose first quote is taken. One on a single line ends there, closed or not: the parser will say so.
+  // The rest of a string whose first quote is taken. One on a single line ends there, closed or not: the parser will
+  // say so.
   void take_string(char quote) {
     const bool multi_line = next_are(quote, 2);
     if (multi_line) take_characters(2);
@@ -123,7 +124,8 @@ class Scanner {
       depth_ = std::max(0, depth_ - 1);
     }
     if (c == '.') {
-      if (++dots_ >= limits_.key_parts) fail("a key of more than " + std::to_string(limits_.key_parts) + " parts", "use fewer");
+      if (++dots_ >= limits_.key_parts)
+        fail("a key of more than " + std::to_string(limits_.key_parts) + " parts", "use fewer");
     } else if (std::string_view("[]{}=,\n").find(c) != std::string_view::npos) {
       dots_ = 0;
     }

@@ -16,8 +16,8 @@ struct TextLimits {
   int key_parts = 32;  ///< of one dotted key
 };
 
-/// What forbids to hand the text to a TOML parser, with its line and column, or nothing: a limit, a byte that is not UTF-8,
-/// a control character, a table header without a name.
+/// What forbids to hand the text to a TOML parser, with its line and column, or nothing: a limit, a byte that is not
+/// UTF-8, a control character, a table header without a name.
 std::optional<Diagnostic> precheck(std::string_view text, const TextLimits& limits = {});
 
 }  // namespace arcwall::deck

@@ -22,8 +22,9 @@ constexpr void require(bool holds) {
 
 }  // namespace
 
-// Some invalid documents violate assertions of the library: an abort in a debug build, undefined behaviour in another one.
-// An exception is neither. The library drops this definition under NDEBUG; nothing else in this file depends on it.
+// Some invalid documents violate assertions of the library: an abort in a debug build, undefined behaviour in another
+// one. An exception is neither. The library drops this definition under NDEBUG; nothing else in this file depends on
+// it.
 #undef NDEBUG
 #define TOML_ASSERT(expression) require(static_cast<bool>(expression))
 #define TOML_HEADER_ONLY 1
@@ -188,7 +189,8 @@ std::string read_text_file(const std::string& file) {
 void assign(Value& root, const std::string& assignment, int number) {
   const std::string origin = "--set " + assignment;
   const std::string cure = "write key=value, the value as in TOML (text in quotes: --set path.method='\"riks\"')";
-  if (assignment.find('\n') != std::string::npos) fail({.file = origin, .message = "is more than one line", .cure = cure});
+  if (assignment.find('\n') != std::string::npos)
+    fail({.file = origin, .message = "is more than one line", .cure = cure});
   std::optional<Assignment> part;
   try {
     part = taken_apart(parsed(assignment, origin));
@@ -205,7 +207,10 @@ void assign(Value& root, const std::string& assignment, int number) {
   for (const std::string& key : part->key) {
     target = child(*target, key, position);
     if (target == nullptr) {
-      fail({.file = origin, .key = path, .message = "has no part " + key_text(key), .cure = "name a key that can be set"});
+      fail({.file = origin,
+            .key = path,
+            .message = "has no part " + key_text(key),
+            .cure = "name a key that can be set"});
     }
     path += (path.empty() ? "" : ".") + key_text(key);
   }

@@ -48,17 +48,26 @@ std::string quoted(std::string_view text, std::size_t most) {
 
 std::string key_text(std::string_view key) { return is_name(key) ? std::string(key) : quoted(key, most_shown); }
 
-bool is_name(std::string_view text) { return !text.empty() && std::all_of(text.begin(), text.end(), is_name_character); }
+bool is_name(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), is_name_character);
+}
 
 std::string shown(const Value& value) {
   switch (value.kind) {
-    case Value::Kind::boolean: return value.boolean ? "true" : "false";
-    case Value::Kind::integer: return std::to_string(value.integer);
-    case Value::Kind::number: return round_trip(value.number);
-    case Value::Kind::string: return quoted(value.string, most_shown);
-    case Value::Kind::date: return "a date or time";
-    case Value::Kind::array: return "an array of " + std::to_string(value.items.size());
-    case Value::Kind::table: return "a table";
+    case Value::Kind::boolean:
+      return value.boolean ? "true" : "false";
+    case Value::Kind::integer:
+      return std::to_string(value.integer);
+    case Value::Kind::number:
+      return round_trip(value.number);
+    case Value::Kind::string:
+      return quoted(value.string, most_shown);
+    case Value::Kind::date:
+      return "a date or time";
+    case Value::Kind::array:
+      return "an array of " + std::to_string(value.items.size());
+    case Value::Kind::table:
+      return "a table";
   }
   return {};
 }

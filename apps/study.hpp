@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/deck/deck.hpp"
+#include "contact/multiplier_contact.hpp"
+#include "continuation/tracer.hpp"
+#include "elements/structure.hpp"
+
+namespace arcwall {
+
+/// A column of path.csv.
+struct MonitorColumn {
+  std::string name{};
+  std::string unit{};  ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
+  std::shared_ptr<const Observable> quantity{};
+};
+
+/// A deck made ready to be traced: the model, what is read off it, and how it is followed.
+class Study {
+ public:
+  /// Builds the model. Throws InputError with all diagnostics: what this version does not support, a mechanism, a point
+  /// that is inside a wall, a load that moves nothing.
+  explicit Study(deck::Deck deck);
+
+  const deck::Deck& deck() const { return deck_; }
+  const Structure& structure() const { return *structure_; }
+
+  /// Null if the deck has no walls.
+  const MultiplierContact* contact() const { return contact_.get(); }
+
+  /// The structure with its contacts.
+  const System& system() const;
+
+  const std::vector<MonitorColumn>& monitors() const { return monitors_; }
+  const TraceOptions& options() const { return options_; }
+  const std::vector<Watch>& watched() const { return watched_; }
+
+  /// What the user should know though it is no error: one sentence each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// The state at λ = 0 under the constant loads, found by tracing their growth from nothing. `reason` says why there is
+  /// none.
+  std::optional<State> start(std::string& reason) const;
+
+  /// Number of closed contact points.
+  Index closed_contacts(const State& state) const;
+
+ private:
+  deck::Deck deck_;
+  std::unique_ptr<Structure> structure_, ramp_structure_;
+  std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
+  std::vector<MonitorColumn> monitors_;
+  TraceOptions options_;
+  std::vector<Watch> watched_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace arcwall
