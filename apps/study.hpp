@@ -41,8 +41,8 @@ class Study {
   /// What the user should know though it is no error: one sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The state at λ = 0 under the constant loads, found by tracing their growth from nothing. `reason` says why there is
-  /// none.
+  /// The state at λ = 0 under the constant loads, found by tracing their growth from nothing. `reason` says why there
+  /// is none.
   std::optional<State> start(std::string& reason) const;
 
   /// Number of closed contact points.

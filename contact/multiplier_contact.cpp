@@ -89,7 +89,8 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
   const Index n = inner.cols(), m = multiplier_count(state.piece);
   std::vector<std::vector<Index>> behind(static_cast<std::size_t>(n));  // multipliers that touch each unknown
   for_each_closed(state.piece, [&](std::size_t j, Index k) {
-    for (const Index unknown : candidates_[j].point().unknowns()) behind[static_cast<std::size_t>(unknown)].push_back(n + k);
+    for (const Index unknown : candidates_[j].point().unknowns())
+      behind[static_cast<std::size_t>(unknown)].push_back(n + k);
   });
   std::vector<Eigen::Triplet<double, Index>> entries;
   entries.reserve(static_cast<std::size_t>(inner.nonZeros() + 4 * m));
@@ -114,8 +115,7 @@ Vector MultiplierContact::guards(const State& state) const {
   Vector guards(guard_count());
   Index k = inner_.size({});
   for (Index j = 0; j < guards.size(); ++j)
-    guards[j] = state.piece[static_cast<std::size_t>(j)] ? state.x[k++] / scales_.force
-                                                         : open_guard(j, state.x);
+    guards[j] = state.piece[static_cast<std::size_t>(j)] ? state.x[k++] / scales_.force : open_guard(j, state.x);
   return guards;
 }
 
@@ -162,7 +162,8 @@ Vector MultiplierContact::unit_force(const State& state, Index j) const {
 
 std::optional<Index> MultiplierContact::multiplier_index(const Piece& piece, Index j) const {
   if (!piece[static_cast<std::size_t>(j)]) return std::nullopt;
-  return inner_.size({}) + std::count_if(piece.begin(), piece.begin() + j, [](std::uint8_t closed) { return closed != 0; });
+  return inner_.size({}) +
+         std::count_if(piece.begin(), piece.begin() + j, [](std::uint8_t closed) { return closed != 0; });
 }
 
 Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {

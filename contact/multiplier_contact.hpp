@@ -13,7 +13,8 @@ struct ContactScales {
   double force = 1.0;   ///< of contact forces [force]
 };
 
-/// A system with unilateral contact: the forces p ≥ 0 of the closed contacts are unknowns behind those of the inner system.
+/// A system with unilateral contact: the forces p ≥ 0 of the closed contacts are unknowns behind those of the inner
+/// system.
 ///
 ///     F_inner(x, λ) − Σ p_j ∇g_j = 0,   −g_j = 0   (closed)          [ K − Σ p ∇²g   −Gᵀ ]
 ///     p_j = 0,   g_j ≥ 0                           (open)            [ −G             0  ]

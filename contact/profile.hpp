@@ -31,7 +31,7 @@ class Profile {
 };
 
 std::unique_ptr<Profile> flat_profile(double z);
-std::unique_ptr<Profile> line_profile(double z, double slope);               ///< z + slope·x
+std::unique_ptr<Profile> line_profile(double z, double slope);                  ///< z + slope·x
 std::unique_ptr<Profile> parabola_profile(const Vec2& apex, double curvature);  ///< z = apex + ½ curvature (x − apex)²
 
 /// The upper arc for an obstacle below the structure, the lower one for an obstacle above it.

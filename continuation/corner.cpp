@@ -127,8 +127,8 @@ std::vector<Solution> enumerate(const RateProblem& problem) {
   return found;
 }
 
-// Candidates for a large problem: with positive definite M each sign of λ̇ has one solution and any covering vector finds
-// it; else several are tried.
+// Candidates for a large problem: with positive definite M each sign of λ̇ has one solution and any covering vector
+// finds it; else several are tried.
 std::vector<Solution> pivoted(const RateProblem& problem) {
   std::vector<Solution> found;
   const Index w = problem.a.size();
@@ -149,7 +149,8 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
 // The ray of a solution in the unknowns of its own piece; none if a rate has the wrong sign.
 std::vector<Ray> ray_of(const System& system, const State& corner, const std::vector<Index>& weak,
                         const RateProblem& problem, const Solution& solution, const CornerOptions& options) {
-  Direction motion{.dx = solution.lambda * problem.free_rate + problem.response * solution.p, .dlambda = solution.lambda};
+  Direction motion{.dx = solution.lambda * problem.free_rate + problem.response * solution.p,
+                   .dlambda = solution.lambda};
   Vector gap_rate = solution.lambda * problem.a + problem.M * solution.p;
   const double length = std::hypot(motion.dx.norm() / std::max(problem.free_rate.norm(), 1e-300), motion.dlambda);
   if (!(length > 0.0)) return {};
@@ -185,8 +186,7 @@ bool same(const System& system, const Ray& a, const Ray& b, double tolerance) {
   const auto w = weights.head(n).array();
   const double aa = (w * x(a).square()).sum(), bb = (w * x(b).square()).sum(), ab = (w * x(a) * x(b)).sum();
   const double lambda = a.direction.dlambda * b.direction.dlambda;
-  return lambda >= 0.0 && ab >= (1.0 - tolerance) * std::sqrt(aa * bb) &&
-         std::abs(aa - bb) <= 1e-4 * (aa + bb);
+  return lambda >= 0.0 && ab >= (1.0 - tolerance) * std::sqrt(aa * bb) && std::abs(aa - bb) <= 1e-4 * (aa + bb);
 }
 
 }  // namespace

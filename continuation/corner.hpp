@@ -24,8 +24,8 @@ struct CornerOptions {
 ///
 ///     0 ≤ ṗ  ⊥  λ̇ a + M ṗ ≥ 0
 ///
-/// `weak` are the contacts whose gap and force are both zero there. The ray along which the corner was reached (backwards)
-/// is among them. Empty where K with all weak contacts open is singular.
+/// `weak` are the contacts whose gap and force are both zero there. The ray along which the corner was reached
+/// (backwards) is among them. Empty where K with all weak contacts open is singular.
 std::vector<Ray> rays_of(const System& system, const State& corner, const std::vector<Index>& weak,
                          const CornerOptions& options);
 

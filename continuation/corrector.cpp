@@ -9,8 +9,9 @@ namespace arcwall {
 //
 //   K δx + F_λ δλ = −F:   (δx, δλ) = particular + τ · tangent                                           (1)
 //
-// and the constraint picks the point on it: a linear equation for planes and values, a quadratic for spheres. This is the
-// bordered system of docs/theory.md, section 3, in a form that serves all of them and stays regular at limit points.
+// and the constraint picks the point on it: a linear equation for planes and values, a quadratic for spheres. This is
+// the bordered system of docs/theory.md, section 3, in a form that serves all of them and stays regular at limit
+// points.
 CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint, const Metric& metric,
                                    const Direction& along, double length) {
   CorrectorResult result{.state = std::move(guess)};
@@ -34,7 +35,9 @@ CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint
     const double size = metric.norm(step);
     if (!std::isfinite(size)) return ended(CorrectorStatus::not_finite);
     const double ratio = size / std::max(previous, 1e-300);
-    const bool settled = size * ratio * ratio <= options_.tolerance && ratio <= 1.0;  // Newton's next correction
+    // Newton's next correction, from the last two; from one alone only if the path is nearly straight.
+    const double next = result.iterations > 1 ? size * ratio * ratio : size * options_.straight;
+    const bool settled = next <= options_.tolerance && ratio <= 1.0;
     if (settled || (size <= options_.stagnation && ratio > 0.1)) return arrived(std::move(result), metric, along);
     if (ratio > options_.divergence && result.iterations > 1) return ended(CorrectorStatus::diverged);
     previous = size;

@@ -10,9 +10,10 @@ namespace arcwall {
 
 /// When Newton's method has arrived. All lengths in the path metric.
 struct CorrectorOptions {
-  double tolerance = 1e-12;   ///< of the distance that is left, estimated from the last two corrections
-  double stagnation = 1e-9;   ///< corrections below this that no longer shrink are round-off
-  double divergence = 3.0;    ///< a correction longer than this times the one before ends the attempt
+  double tolerance = 1e-12;  ///< of the distance that is left, estimated from the last two corrections
+  double straight = 1e-4;    ///< part of a first correction that may be left
+  double stagnation = 1e-9;  ///< corrections below this that no longer shrink are round-off
+  double divergence = 3.0;   ///< a correction longer than this times the one before ends the attempt
   int max_iterations = 10;
 };
 
@@ -20,11 +21,11 @@ enum class CorrectorStatus { converged, too_many_iterations, diverged, complex_r
 
 struct CorrectorResult {
   CorrectorStatus status = CorrectorStatus::too_many_iterations;
-  State state{};            ///< the last iterate, also when not converged
-  Direction tangent{};      ///< unit tangent there, of either orientation; only when converged
+  State state{};                    ///< the last iterate, also when not converged
+  Direction tangent{};              ///< unit tangent there, of either orientation; only when converged
   std::optional<Index> negative{};  ///< eigenvalues of K below zero with all closed contacts held; empty: not certain
   int iterations = 0;
-  double residual = 0.0;    ///< ‖F‖ over the load's norm at max(|λ|, load_floor) [-]
+  double residual = 0.0;  ///< ‖F‖ over the load's norm at max(|λ|, load_floor) [-]
 
   bool converged() const { return status == CorrectorStatus::converged; }
 };

@@ -11,8 +11,9 @@ namespace arcwall {
 struct EventDetector {
   EventKind kind = EventKind::limit_point;
   std::string label{};
-  std::function<double(const PathPoint&)> value{};     ///< of order 1; its sign is what counts
-  std::function<double(const PathPoint&)> integral{};  ///< its integral over the arc length, where known: zeros come in pairs
+  std::function<double(const PathPoint&)> value{};  ///< of order 1; its sign is what counts
+  std::function<double(const PathPoint&)>
+      integral{};  ///< its integral over the arc length, where known: zeros come in pairs
 };
 
 /// Signs below this are round-off.

@@ -8,7 +8,8 @@ namespace arcwall {
 
 /// Lengths in (x, λ), without units and independent of the number of elements:
 ///
-///     ⟨a, b⟩ = Σ w_i a_i b_i + a_λ b_λ / λ₀²                                                        (docs/theory.md, 3)
+///     ⟨a, b⟩ = Σ w_i a_i b_i + a_λ b_λ / λ₀²                                                        (docs/theory.md,
+///     3)
 ///
 /// Multipliers have no weight. λ₀ is set once for a run.
 class Metric {

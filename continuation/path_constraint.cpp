@@ -12,7 +12,8 @@ const ParameterValue parameter;
 }  // namespace
 
 // c + ∇c · (particular + τ tangent) = 0
-std::optional<double> PathConstraint::advance(const State& at, const Direction& particular, const Direction& tangent) const {
+std::optional<double> PathConstraint::advance(const State& at, const Direction& particular,
+                                              const Direction& tangent) const {
   const Row row = gradient(at);
   const double slope = apply(row, tangent);
   const double tau = -(value(at) + apply(row, particular)) / slope;
@@ -37,7 +38,8 @@ Row SphereConstraint::gradient(const State& state) const {
 }
 
 // With D = X − origin + particular:  |D + τ t|² = radius²,  a τ² + 2 b τ + c = 0
-std::optional<double> SphereConstraint::advance(const State& at, const Direction& particular, const Direction& t) const {
+std::optional<double> SphereConstraint::advance(const State& at, const Direction& particular,
+                                                const Direction& t) const {
   Direction D = difference(at, origin_);
   D.dx += particular.dx;
   D.dlambda += particular.dlambda;
@@ -55,17 +57,21 @@ std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric&
                                                 const Direction& tangent, double s, const Observable* control) {
   using Form = SphereConstraint::Form;
   switch (method) {
-    case PathMethod::load: return std::make_unique<ValueConstraint>(parameter, from.lambda + s * tangent.dlambda);
+    case PathMethod::load:
+      return std::make_unique<ValueConstraint>(parameter, from.lambda + s * tangent.dlambda);
     case PathMethod::displacement:
       assert(control != nullptr);
       return std::make_unique<ValueConstraint>(*control, control->value(moved(from, tangent, s)));
     case PathMethod::riks:
-    case PathMethod::pseudo_arclength: return std::make_unique<PlaneConstraint>(metric, from, tangent, s);
-    case PathMethod::normal_plane: return std::make_unique<UpdatedPlaneConstraint>(metric, from);
+    case PathMethod::pseudo_arclength:
+      return std::make_unique<PlaneConstraint>(metric, from, tangent, s);
+    case PathMethod::normal_plane:
+      return std::make_unique<UpdatedPlaneConstraint>(metric, from);
     case PathMethod::cylindrical:
       return std::make_unique<SphereConstraint>(metric, Form::cylindrical, from, tangent,
                                                 s * std::sqrt(metric.inner_x(tangent, tangent)));
-    case PathMethod::spherical: return std::make_unique<SphereConstraint>(metric, Form::spherical, from, tangent, s);
+    case PathMethod::spherical:
+      return std::make_unique<SphereConstraint>(metric, Form::spherical, from, tangent, s);
   }
   return nullptr;
 }

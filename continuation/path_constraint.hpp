@@ -11,12 +11,12 @@ namespace arcwall {
 
 /// One scalar equation c(x, λ) = 0 that closes F(x, λ) = 0 in a step.
 ///
-/// `value` and `gradient` are consistent, as for every Observable; the updated normal plane alone has no value, as it is
-/// defined from iterate to iterate.
+/// `value` and `gradient` are consistent, as for every Observable; the updated normal plane alone has no value, as it
+/// is defined from iterate to iterate.
 class PathConstraint : public Observable {
  public:
-  /// τ such that the state moved by particular + τ · tangent fulfils the constraint: linearised, unless a constraint knows
-  /// better. Empty if there is none (complex roots).
+  /// τ such that the state moved by particular + τ · tangent fulfils the constraint: linearised, unless a constraint
+  /// knows better. Empty if there is none (complex roots).
   virtual std::optional<double> advance(const State& at, const Direction& particular, const Direction& tangent) const;
 };
 
@@ -71,8 +71,8 @@ class UpdatedPlaneConstraint final : public PathConstraint {
   State origin_;
 };
 
-/// |X − origin|² = radius² (Crisfield 1981), with λ in the distance (spherical) or without (cylindrical). The quadratic is
-/// solved as such: of its roots the one nearer the previous tangent is taken; complex roots give no step.
+/// |X − origin|² = radius² (Crisfield 1981), with λ in the distance (spherical) or without (cylindrical). The quadratic
+/// is solved as such: of its roots the one nearer the previous tangent is taken; complex roots give no step.
 class SphereConstraint final : public PathConstraint {
  public:
   enum class Form { spherical, cylindrical };
@@ -99,8 +99,8 @@ class SphereConstraint final : public PathConstraint {
 /// How a step is closed.
 enum class PathMethod { load, displacement, riks, normal_plane, cylindrical, spherical, pseudo_arclength };
 
-/// The constraint of one step of length s along the unit tangent. `control` is the controlled quantity of `displacement`,
-/// and must outlive the constraint.
+/// The constraint of one step of length s along the unit tangent. `control` is the controlled quantity of
+/// `displacement`, and must outlive the constraint.
 std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric& metric, const State& from,
                                                 const Direction& tangent, double s, const Observable* control);
 

@@ -12,13 +12,13 @@ namespace arcwall {
 /// A converged point of a path.
 struct PathPoint {
   State state{};
-  Direction tangent{};      ///< of unit length, forward along the path
-  double arc = 0.0;         ///< arc length from the branch's first point [path metric]
+  Direction tangent{};  ///< of unit length, forward along the path
+  double arc = 0.0;     ///< arc length from the branch's first point [path metric]
   StabilityCount count{};
-  int iterations = 0;       ///< of the step that led here
-  double residual = 0.0;    ///< relative
-  Vector guards{};          ///< in the scale of System::guards
-  Vector guard_rates{};     ///< along the tangent
+  int iterations = 0;     ///< of the step that led here
+  double residual = 0.0;  ///< relative
+  Vector guards{};        ///< in the scale of System::guards
+  Vector guard_rates{};   ///< along the tangent
 };
 
 enum class EventKind {
@@ -34,28 +34,28 @@ enum class EventKind {
 /// A located point of a path.
 struct Event {
   EventKind kind = EventKind::start;
-  std::string label{};              ///< which monitor turns; why the branch ends
+  std::string label{};  ///< which monitor turns; why the branch ends
   State state{};
   double arc = 0.0;
-  double residual = 0.0;            ///< relative
-  double localised = 0.0;           ///< half-width in λ of what is left uncertain
+  double residual = 0.0;   ///< relative
+  double localised = 0.0;  ///< half-width in λ of what is left uncertain
   std::optional<Index> unstable_before{}, unstable_after{};
-  std::vector<Index> guards{};      ///< contacts that change
+  std::vector<Index> guards{};  ///< contacts that change
 };
 
 /// Why a branch ended.
 enum class EndReason {
-  stop,              ///< a bound of the deck was met
-  closed_loop,       ///< it came back to a point it had passed
+  stop,         ///< a bound of the deck was met
+  closed_loop,  ///< it came back to a point it had passed
   max_points,
   max_time,
   interrupted,
-  min_step,          ///< no step above the least length succeeds
-  singular,          ///< the equations are singular where they should not be
+  min_step,  ///< no step above the least length succeeds
+  singular,  ///< the equations are singular where they should not be
   not_finite,
-  no_ray,            ///< no equilibrium leaves a corner
-  turning_control,   ///< the controlled quantity turns
-  wall_end,          ///< a contact reached the end of its wall
+  no_ray,           ///< no equilibrium leaves a corner
+  turning_control,  ///< the controlled quantity turns
+  wall_end,         ///< a contact reached the end of its wall
 };
 
 /// How a branch ended.

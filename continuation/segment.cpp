@@ -7,7 +7,8 @@
 namespace arcwall {
 
 State Segment::at(double t) const {
-  const double h01 = t * t * (3.0 - 2.0 * t), h10 = t * (1.0 - t) * (1.0 - t) * length_, h11 = t * t * (t - 1.0) * length_;
+  const double h01 = t * t * (3.0 - 2.0 * t), h10 = t * (1.0 - t) * (1.0 - t) * length_,
+               h11 = t * t * (t - 1.0) * length_;
   State state = moved(from_.state, chord_, h01);
   state.x += h10 * from_.tangent.dx + h11 * to_.tangent.dx;
   state.lambda += h10 * from_.tangent.dlambda + h11 * to_.tangent.dlambda;

@@ -11,12 +11,13 @@ Piece strongly_closed(const System& system, const State& state, double force_tol
   return piece;
 }
 
-// With weak contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0}, so a count
-// of 0 there means stable; it contains {G_S v = 0, G_W v = 0}, so a count above 0 there means unstable.
+// With weak contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0}, so a
+// count of 0 there means stable; it contains {G_S v = 0, G_W v = 0}, so a count above 0 there means unstable.
 StabilityCount StabilityCounter::count(const State& state, std::optional<Index> negative_held) {
   const Piece strong = strongly_closed(system_, state, force_tolerance_);
   if (!negative_held) negative_held = negative_on(state);
-  const std::optional<Index> unstable = strong == state.piece ? negative_held : negative_on(system_.with_piece(state, strong));
+  const std::optional<Index> unstable =
+      strong == state.piece ? negative_held : negative_on(system_.with_piece(state, strong));
   StabilityCount count{.unstable = unstable};
   if (unstable && *unstable == 0) count.stability = Stability::stable;
   if (negative_held && *negative_held > 0) count.stability = Stability::unstable;

@@ -31,7 +31,8 @@ class StepControl {
     const double by_turn = options_.wanted_turn / std::max(turn, 1e-12);
     const double factor = std::clamp(std::min(std::sqrt(by_iterations), by_turn), 0.25, 2.0);
     // A step cut by an event says nothing against the planned one.
-    length_ = std::min(factor >= 1.0 ? std::max(length_, taken * factor) : std::max(taken, 0.5 * length_) * factor, options_.max);
+    length_ = std::min(factor >= 1.0 ? std::max(length_, taken * factor) : std::max(taken, 0.5 * length_) * factor,
+                       options_.max);
   }
 
   void failed(double taken) { length_ = 0.5 * taken; }

@@ -11,6 +11,8 @@ namespace {
 
 constexpr int max_landings = 100;  // guards that turn out to come before the one landed on
 constexpr int max_standing = 50;
+constexpr double same_place = 1e-8;      // in the path metric
+constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
 
 int sign_of(double value) { return std::abs(value) <= detector_noise ? 0 : value > 0.0 ? 1 : -1; }
 
@@ -62,7 +64,8 @@ Tracer::Tracer(const System& system, State start, TraceOptions options, std::vec
   here_.state = std::move(start);
   if (options_.events == EventSearch::none) return;
   detectors_.push_back(limit_point_detector(metric_));
-  for (const Watch& watch : watched_) detectors_.push_back(turning_detector(system_, metric_, watch.quantity, watch.label));
+  for (const Watch& watch : watched_)
+    detectors_.push_back(turning_detector(system_, metric_, watch.quantity, watch.label));
 }
 
 std::optional<Arc> Tracer::next() {
@@ -103,7 +106,7 @@ std::optional<Arc> Tracer::begin() {
   here_.count = counter_.count(here_.state, std::nullopt);
   signs_ = signs_at(here_);
   step_.restart(std::abs(options_.step.first / here_.tangent.dlambda));
-  visited_.push_back({here_.state, 0.0});
+  first_ = here_.state;
   ++points_;
   arc.to = here_;
   arc.events.insert(arc.events.begin(), Event{.kind = EventKind::start,
@@ -114,7 +117,8 @@ std::optional<Arc> Tracer::begin() {
   return arc;
 }
 
-// One arc: predict and correct, land on the first change of contact, then on the first event before it; leave the corner.
+// One arc: predict and correct, land on the first change of contact, then on the first event before it; leave the
+// corner.
 std::optional<Arc> Tracer::advance(double s) {
   auto step = take(s);
   if (!step) return std::nullopt;
@@ -143,11 +147,10 @@ std::optional<Arc> Tracer::advance(double s) {
     PathPoint after = beyond;
     after.count = counter_.count(after.state, std::nullopt);
     if (found->what == Found::What::detector) arc.events.push_back(event_of(*found, to, after, length));
-    if (found->what == Found::What::detector) visited_.push_back({to.state, to.arc});
     if (found->what == Found::What::landmark && options_.landmarks[found->which].stops)
       end_ = {.reason = EndReason::stop, .detail = options_.landmarks[found->which].label};
   }
-  const bool back = came_back(to);
+  const bool back = !step->corner && came_back(to);
   if (back) end_ = {.reason = EndReason::closed_loop, .detail = "the branch came back to a point it had passed"};
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
 
@@ -164,7 +167,6 @@ std::optional<Arc> Tracer::advance(double s) {
       const std::vector<int> turned = signs_at(to);
       for (std::size_t i = 0; i < turned.size(); ++i)
         if (turned[i] != 0) signs_[i] = turned[i];
-      visited_.push_back({to.state, to.arc});
     }
     const Index closed = std::count(to.state.piece.begin(), to.state.piece.end(), std::uint8_t{1});
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
@@ -177,8 +179,10 @@ std::optional<Arc> Tracer::advance(double s) {
 }
 
 std::optional<Tracer::Step> Tracer::take(double s) {
-  const auto constraint = step_constraint(options_.method, metric_, here_.state, here_.tangent, s, options_.control.get());
-  CorrectorResult result = corrector_.correct(moved(here_.state, here_.tangent, s), *constraint, metric_, here_.tangent, s);
+  const auto constraint =
+      step_constraint(options_.method, metric_, here_.state, here_.tangent, s, options_.control.get());
+  CorrectorResult result =
+      corrector_.correct(moved(here_.state, here_.tangent, s), *constraint, metric_, here_.tangent, s);
   last_failure_ = result.status;
   if (!result.converged()) return std::nullopt;
   obstruction_ = system_.obstruction(result.state);
@@ -346,10 +350,7 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, std::vector<Event>& events
   if (landed >= 0 && std::find(weak.begin(), weak.end(), landed) == weak.end()) weak.push_back(landed);
   std::optional<Index> unstable;
   const auto ray = choose(rays_of(system_, at.state, weak, options_.corner), at, unstable);
-  if (!ray) {
-    end_ = {.reason = EndReason::no_ray, .detail = "no equilibrium leaves the change of contact"};
-    return false;
-  }
+  if (!ray) return false;
   const State state = system_.with_piece(at.state, ray->piece);
   const Metric metric(system_.weights(ray->piece), metric_.lambda_scale());
   CorrectorResult result = corrector_.inspect(state, metric, ray->direction);
@@ -369,16 +370,37 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, std::vector<Event>& events
   return true;
 }
 
-// Of the rays that are not the way back: the stable one; of several the one nearest the incoming direction; if none is
+// A direction with all contacts open, of unit length: how the structure moves.
+Direction Tracer::open_direction(const Direction& direction, const Piece& piece) const {
+  const Piece open(piece.size(), 0);
+  const Metric metric(system_.weights(open), metric_.lambda_scale());
+  return unit(metric, {.dx = system_.transfer(direction.dx, piece, open), .dlambda = direction.dlambda});
+}
+
+// Of the rays that were not taken before: the stable one; of several the one nearest the incoming direction; if none is
 // stable, the one with fewest unstable directions that leaves the old piece (docs/theory.md, section 4).
 std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable) {
-  const auto forward = [&](const Ray& ray) {
-    const Direction here{.dx = system_.transfer(ray.direction.dx, ray.piece, at.state.piece), .dlambda = ray.direction.dlambda};
-    return metric_.inner(here, at.tangent) / metric_.norm(here);
-  };
-  constexpr double way_back = -1.0 + 1e-6;
-  std::erase_if(rays, [&](const Ray& ray) { return forward(ray) < way_back; });
-  if (rays.empty()) return std::nullopt;
+  const Piece open(at.state.piece.size(), 0);
+  const Metric metric(system_.weights(open), metric_.lambda_scale());
+  const State here = system_.with_piece(at.state, open);
+  const Direction incoming = open_direction(at.tangent, at.state.piece);
+  const auto way = [&](const Ray& ray) { return open_direction(ray.direction, ray.piece); };
+
+  const auto known = [&](const Visited& v) { return metric.norm(difference(v.corner, here)) <= same_place; };
+  auto visited = std::find_if(visited_.begin(), visited_.end(), known);
+  if (visited == visited_.end()) visited = visited_.insert(visited_.end(), {.corner = here, .ways = {}});
+  const bool again = !visited->ways.empty();
+  visited->ways.push_back(reversed(incoming));
+  std::erase_if(rays, [&](const Ray& ray) {
+    const Direction direction = way(ray);
+    const auto taken = [&](const Direction& d) { return metric.inner(d, direction) > same_way; };
+    return std::any_of(visited->ways.begin(), visited->ways.end(), taken);
+  });
+  if (rays.empty()) {
+    end_ = again ? BranchEnd{.reason = EndReason::closed_loop, .detail = "the branch came back to a change of contact"}
+                 : BranchEnd{.reason = EndReason::no_ray, .detail = "no equilibrium leaves the change of contact"};
+    return std::nullopt;
+  }
   struct Rank {
     Index unstable;
     bool continues;
@@ -396,12 +418,15 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
   for (Ray& ray : rays) {
     const std::optional<Index> count = count_of(ray);
     const Index negative = count.value_or(std::numeric_limits<Index>::max());
-    const Rank rank{.unstable = negative, .continues = negative > 0 && ray.piece == at.state.piece, .backward = -forward(ray)};
+    const Rank rank{.unstable = negative,
+                    .continues = negative > 0 && ray.piece == at.state.piece,
+                    .backward = -metric.inner(way(ray), incoming)};
     if (best && !(rank < best_rank)) continue;
     best_rank = rank;
     best = ray;
     unstable = count;
   }
+  visited->ways.push_back(way(*best));
   return best;
 }
 
@@ -416,7 +441,8 @@ void Tracer::add_corner_events(const PathPoint& before, const PathPoint& after, 
     event.kind = kind;
     event.guards.clear();
     for (std::size_t j = 0; j < after.state.piece.size(); ++j)
-      if (before.state.piece[j] != after.state.piece[j] && (after.state.piece[j] != 0) == (kind == EventKind::contact_closes))
+      if (before.state.piece[j] != after.state.piece[j] &&
+          (after.state.piece[j] != 0) == (kind == EventKind::contact_closes))
         event.guards.push_back(static_cast<Index>(j));
     if (!event.guards.empty()) events.push_back(event);
   }
@@ -433,7 +459,8 @@ void Tracer::add_corner_events(const PathPoint& before, const PathPoint& after, 
 PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) const {
   PathPoint point;
   const Metric metric(system_.weights(result.state.piece), metric_.lambda_scale());
-  point.tangent = metric.inner(result.tangent, forward) >= 0.0 ? std::move(result.tangent) : reversed(std::move(result.tangent));
+  point.tangent =
+      metric.inner(result.tangent, forward) >= 0.0 ? std::move(result.tangent) : reversed(std::move(result.tangent));
   point.state = std::move(result.state);
   point.count.unstable = result.negative;
   point.iterations = result.iterations;
@@ -449,24 +476,18 @@ std::vector<int> Tracer::signs_at(const PathPoint& point) const {
   return signs;
 }
 
-// Whether the step passes a point visited before: it lies beside the chord, and exactly on the path.
+// Whether the step passes the branch's first point: it lies beside the chord, and exactly on the path.
 bool Tracer::came_back(const PathPoint& to) {
   const Segment segment(metric_, here_, to);
   const double L = segment.length();
-  constexpr double same_place = 1e-8;
-  for (const Visited& visited : visited_) {
-    if (to.arc - visited.arc < 3.0 * L + 1e-6) continue;
-    const State there = system_.with_piece(visited.state, to.state.piece);
-    const Direction offset = difference(there, here_.state);
-    const double t = metric_.inner(offset, segment.chord()) / (L * L);
-    if (!(t > 0.0 && t <= 1.0 + same_place)) continue;
-    const double beside = std::sqrt(std::max(0.0, metric_.inner(offset, offset) - t * t * L * L));
-    if (beside > 0.25 * L) continue;
-    const PlaneConstraint plane(metric_, there, segment.chord(), 0.0);
-    const auto at = correct_onto(plane, segment, std::min(t, 1.0));
-    if (at && metric_.norm(difference(at->state, there)) <= same_place) return true;
-  }
-  return false;
+  if (first_.piece != to.state.piece || to.arc < 3.0 * L + same_place) return false;
+  const Direction offset = difference(first_, here_.state);
+  const double t = metric_.inner(offset, segment.chord()) / (L * L);
+  if (!(t > 0.0 && t <= 1.0 + same_place)) return false;
+  const double beside = std::sqrt(std::max(0.0, metric_.inner(offset, offset) - t * t * L * L));
+  if (beside > 0.25 * L) return false;
+  const auto at = correct_onto(PlaneConstraint(metric_, first_, segment.chord(), 0.0), segment, std::min(t, 1.0));
+  return at && metric_.norm(difference(at->state, first_)) <= same_place;
 }
 
 void Tracer::give_up() {

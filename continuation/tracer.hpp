@@ -40,8 +40,8 @@ struct TraceOptions {
   std::vector<Landmark> landmarks{};
   std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
   EventSearch events = EventSearch::locate;
-  double guard_tolerance = 1e-9;  ///< guards above −this are fulfilled, those within it weak
-  double localisation = 1e-12;    ///< bracket of an event as a part of its step
+  double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it weak
+  double localisation = 1e-12;     ///< bracket of an event as a part of its step
   int max_points = 5000;
 };
 
@@ -89,7 +89,7 @@ class Tracer {
   struct Step {
     PathPoint to;
     bool corner = false;
-    Index guard = -1;  // landed on
+    Index guard = -1;   // landed on
     double turn = 0.0;  // of the tangent [rad]
   };
 
@@ -113,6 +113,7 @@ class Tracer {
 
   bool turn_corner(PathPoint& at, Index landed, std::vector<Event>& events);
   std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);
+  Direction open_direction(const Direction& direction, const Piece& piece) const;
   void add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const;
 
   PathPoint point_of(CorrectorResult result, const Direction& forward) const;
@@ -130,11 +131,13 @@ class Tracer {
   StepControl step_;
   PathPoint here_;
   std::vector<int> signs_;  // of each detector just after here_
+  State first_;             // where the branch began
+  // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
   struct Visited {
-    State state;
-    double arc;
+    State corner;
+    std::vector<Direction> ways;
   };
-  std::vector<Visited> visited_;  // where the branch began and where it turned
+  std::vector<Visited> visited_;
   std::optional<BranchEnd> end_;
   CorrectorStatus last_failure_ = CorrectorStatus::converged;
   std::optional<std::string> obstruction_;

@@ -5,7 +5,8 @@
 
 namespace arcwall {
 
-BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks) : pattern_(unknowns, unknowns) {
+BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks)
+    : pattern_(unknowns, unknowns) {
   std::vector<Eigen::Triplet<double, Index>> entries;
   for (Index i = 0; i < unknowns; ++i) entries.emplace_back(i, i, 0.0);
   for (const std::vector<Index>& block : blocks)

@@ -8,8 +8,8 @@
 
 namespace arcwall {
 
-/// Sums small symmetric blocks into a sparse matrix whose pattern is laid out once: where every entry of every block goes
-/// is looked up here, never in a step.
+/// Sums small symmetric blocks into a sparse matrix whose pattern is laid out once: where every entry of every block
+/// goes is looked up here, never in a step.
 class BlockAssembly {
  public:
   /// `blocks[b]` lists the unknowns of block b in the order of its rows; −1 stands for an unknown that is held.
@@ -24,11 +24,12 @@ class BlockAssembly {
     return std::span(unknowns_).subspan(from, to - from);
   }
 
-  /// Adds factor · lower triangle of the n × n block (column-major, leading dimension n) into the values of a matrix that
-  /// has pattern().
+  /// Adds factor · lower triangle of the n × n block (column-major, leading dimension n) into the values of a matrix
+  /// that has pattern().
   void add(Index block, const double* K, double factor, double* values) const {
     const std::int32_t* slot = &slots_[static_cast<std::size_t>(first_slot_[static_cast<std::size_t>(block)])];
-    const Index n = first_unknown_[static_cast<std::size_t>(block) + 1] - first_unknown_[static_cast<std::size_t>(block)];
+    const Index n =
+        first_unknown_[static_cast<std::size_t>(block) + 1] - first_unknown_[static_cast<std::size_t>(block)];
     for (Index j = 0; j < n; ++j)
       for (Index i = j; i < n; ++i, ++slot)
         if (*slot >= 0) values[*slot] += factor * K[i + j * n];

@@ -18,7 +18,9 @@ CubicSpline::CubicSpline(std::vector<double> t, std::vector<double> v)
   const auto n = static_cast<Index>(t_.size());
   if (n == 2) return;
   const auto h = [&](Index i) { return t_[static_cast<std::size_t>(i + 1)] - t_[static_cast<std::size_t>(i)]; };
-  const auto slope = [&](Index i) { return (v_[static_cast<std::size_t>(i + 1)] - v_[static_cast<std::size_t>(i)]) / h(i); };
+  const auto slope = [&](Index i) {
+    return (v_[static_cast<std::size_t>(i + 1)] - v_[static_cast<std::size_t>(i)]) / h(i);
+  };
   if (n == 3) {
     std::fill(second_.begin(), second_.end(), 2.0 * (slope(1) - slope(0)) / (h(0) + h(1)));
     return;

@@ -5,8 +5,8 @@
 
 namespace arcwall {
 
-/// The C² cubic through given points, without a knot at the second and the last but one ("not a knot"); a parabola through
-/// three points, a line through two.
+/// The C² cubic through given points, without a knot at the second and the last but one ("not a knot"); a parabola
+/// through three points, a line through two.
 class CubicSpline {
  public:
   /// `t` strictly increasing, at least two, as many as `v`.

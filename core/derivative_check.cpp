@@ -60,8 +60,8 @@ DerivativeReport check_derivatives(const System& system, const State& state, dou
     if (system.guard_count() == 0) continue;
     const Vector slopes = central_difference(guards, state, i, step);
     for (Index j = 0; j < slopes.size(); ++j)
-      report.guard_gradient = std::max(
-          report.guard_gradient, relative(std::abs(slopes[j] - guard_rows(j, i)), guard_rows.row(j).cwiseAbs().maxCoeff()));
+      report.guard_gradient = std::max(report.guard_gradient, relative(std::abs(slopes[j] - guard_rows(j, i)),
+                                                                       guard_rows.row(j).cwiseAbs().maxCoeff()));
   }
   return report;
 }

@@ -9,17 +9,17 @@ namespace arcwall {
 
 /// How far analytic derivatives are from central differences.
 struct DerivativeReport {
-  double K = 0.0;                ///< ∂F/∂x, relative to its greatest entry
-  double F_lambda = 0.0;         ///< ∂F/∂λ, relative
-  double consistency = 0.0;      ///< F of linearize() against residual(), relative
-  double energy = 0.0;           ///< ∂energy/∂x against F on the piece without contact forces; relative; see below
-  double guard_gradient = 0.0;   ///< all guards, relative to the greatest entry of each gradient
+  double K = 0.0;               ///< ∂F/∂x, relative to its greatest entry
+  double F_lambda = 0.0;        ///< ∂F/∂λ, relative
+  double consistency = 0.0;     ///< F of linearize() against residual(), relative
+  double energy = 0.0;          ///< ∂energy/∂x against F on the piece without contact forces; relative; see below
+  double guard_gradient = 0.0;  ///< all guards, relative to the greatest entry of each gradient
 
   double worst() const;
 };
 
-/// Compares K, F_λ and all guard gradients with central differences of step `step` (times 1 + |x|). The energy is compared
-/// only on pieces without multipliers, where F is its gradient.
+/// Compares K, F_λ and all guard gradients with central differences of step `step` (times 1 + |x|). The energy is
+/// compared only on pieces without multipliers, where F is its gradient.
 DerivativeReport check_derivatives(const System& system, const State& state, double step = 1e-6);
 
 /// Largest difference between the gradient and central differences, relative to the gradient's greatest entry.

@@ -33,6 +33,7 @@ InputError::InputError(std::vector<Diagnostic> diagnostics)
   assert(!diagnostics_.empty());
 }
 
-InputError::InputError(const std::string& message) : InputError(std::vector<Diagnostic>{Diagnostic{.message = message}}) {}
+InputError::InputError(const std::string& message)
+    : InputError(std::vector<Diagnostic>{Diagnostic{.message = message}}) {}
 
 }  // namespace arcwall

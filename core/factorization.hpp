@@ -19,7 +19,8 @@ class Factorization {
  public:
   virtual ~Factorization() = default;
 
-  /// Entries that are not finite are found before the library sees them. After any status but `ok` nothing may be solved.
+  /// Entries that are not finite are found before the library sees them. After any status but `ok` nothing may be
+  /// solved.
   virtual FactorStatus factorize(const SparseMatrix& matrix) = 0;
 
   /// X := A⁻¹ X, for any number of columns.

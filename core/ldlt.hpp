@@ -8,8 +8,9 @@ namespace arcwall {
 
 /// CHOLMOD's simplicial LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included.
 ///
-/// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown it
-/// touches, where its pivot −g S⁻¹ gᵀ is not zero, so that no pivoting is needed and no fill arises beyond that of K.
+/// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown
+/// it touches, where its pivot −g S⁻¹ gᵀ is not zero, so that no pivoting is needed and no fill arises beyond that of
+/// K.
 class Ldlt final : public Factorization {
  public:
   Ldlt();

@@ -28,10 +28,10 @@ struct Lu::Implementation {
 
   bool same_pattern(const SparseMatrix& A) const {
     return symbolic != nullptr && A.cols() == matrix.cols() && A.nonZeros() == matrix.nonZeros() &&
-           std::memcmp(A.outerIndexPtr(), matrix.outerIndexPtr(), static_cast<std::size_t>(A.cols() + 1) * sizeof(Index)) ==
-               0 &&
-           std::memcmp(A.innerIndexPtr(), matrix.innerIndexPtr(), static_cast<std::size_t>(A.nonZeros()) * sizeof(Index)) ==
-               0;
+           std::memcmp(A.outerIndexPtr(), matrix.outerIndexPtr(),
+                       static_cast<std::size_t>(A.cols() + 1) * sizeof(Index)) == 0 &&
+           std::memcmp(A.innerIndexPtr(), matrix.innerIndexPtr(),
+                       static_cast<std::size_t>(A.nonZeros()) * sizeof(Index)) == 0;
   }
 };
 
@@ -53,8 +53,8 @@ FactorStatus Lu::factorize(const SparseMatrix& A) {
                             self.control, nullptr) != UMFPACK_OK)
       return FactorStatus::singular;
   }
-  const auto status = umfpack_dl_numeric(self.columns(), self.rows(), self.matrix.valuePtr(), self.symbolic, &self.numeric,
-                                         self.control, nullptr);
+  const auto status = umfpack_dl_numeric(self.columns(), self.rows(), self.matrix.valuePtr(), self.symbolic,
+                                         &self.numeric, self.control, nullptr);
   if (status == UMFPACK_OK) return FactorStatus::ok;
   umfpack_dl_free_numeric(&self.numeric);
   return FactorStatus::singular;

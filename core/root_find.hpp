@@ -7,7 +7,7 @@ namespace arcwall {
 
 /// A bracketed zero of a scalar function.
 struct Root {
-  double at = 0.0;         ///< the argument of the least |value| seen
+  double at = 0.0;          ///< the argument of the least |value| seen
   double half_width = 0.0;  ///< of the interval that still holds the zero
 };
 

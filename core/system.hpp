@@ -9,14 +9,14 @@
 
 namespace arcwall {
 
-/// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the piece stays the
-/// same, the pattern of K does, and only values are written.
+/// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the piece stays
+/// the same, the pattern of K does, and only values are written.
 struct Linearization {
-  Vector F{};                               ///< residual, internal minus external
-  SparseMatrix K{};                         ///< ∂F/∂x, symmetric: the lower triangle alone is stored
-  Vector F_lambda{};                        ///< ∂F/∂λ
-  std::optional<Piece> pattern_of{};        ///< the piece whose pattern K has; empty: not laid out yet
-  std::unique_ptr<Linearization> inner{};   ///< workspace of a system that wraps another
+  Vector F{};                              ///< residual, internal minus external
+  SparseMatrix K{};                        ///< ∂F/∂x, symmetric: the lower triangle alone is stored
+  Vector F_lambda{};                       ///< ∂F/∂λ
+  std::optional<Piece> pattern_of{};       ///< the piece whose pattern K has; empty: not laid out yet
+  std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
 };
 
 /// Equilibrium equations F(x, λ) = 0 with unilateral side conditions (guards). Immutable: every function is const and
@@ -49,8 +49,8 @@ class System {
 
   virtual Index guard_count() const { return 0; }
 
-  /// Scaled to order 1 and ≥ 0 on this piece: the gap of an open contact, the force of a closed one. A guard that cannot
-  /// be reached is large.
+  /// Scaled to order 1 and ≥ 0 on this piece: the gap of an open contact, the force of a closed one. A guard that
+  /// cannot be reached is large.
   virtual Vector guards(const State&) const { return {}; }
 
   /// Derivative of guard j, scaled likewise.

@@ -12,10 +12,11 @@ struct PointKinematics {
   static constexpr int max_unknowns = 5;
   template <int Rows>
   using Local = Eigen::Matrix<double, Rows, Eigen::Dynamic, Eigen::ColMajor, Rows, max_unknowns>;
-  using LocalSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_unknowns, max_unknowns>;
+  using LocalSquare =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_unknowns, max_unknowns>;
 
   Vec2 position{};
-  Local<2> jacobian{};                    ///< ∂position/∂unknowns
+  Local<2> jacobian{};                     ///< ∂position/∂unknowns
   std::array<LocalSquare, 2> curvature{};  ///< second derivatives of x and of z
 };
 

@@ -56,7 +56,8 @@ class ArcAxis final : public Axis {
   double radius_ = 0.0, sense_ = 1.0, start_ = 0.0, sweep_ = 0.0;
 };
 
-// A curve r(t) on knots t_0 < … < t_n, measured by arc length: lengths between knots are tabulated, then s → t by Newton.
+// A curve r(t) on knots t_0 < … < t_n, measured by arc length: lengths between knots are tabulated, then s → t by
+// Newton.
 class ParametricAxis : public Axis {
  public:
   double length() const override { return lengths_.back(); }
@@ -69,7 +70,9 @@ class ParametricAxis : public Axis {
     // The tangent's angle, continued from the knot before (turns between knots stay below half a turn).
     const Vec2 tangent_before = curve(knots_[k]).first;
     const double turn = std::atan2(cross(tangent_before, r.first), tangent_before.dot(r.first));
-    return {.position = r.value, .angle = angles_[k] + turn, .curvature = cross(r.first, r.second) / (speed * speed * speed)};
+    return {.position = r.value,
+            .angle = angles_[k] + turn,
+            .curvature = cross(r.first, r.second) / (speed * speed * speed)};
   }
 
  protected:
@@ -175,7 +178,9 @@ class SplineAxis final : public ParametricAxis {
 
 }  // namespace
 
-std::unique_ptr<Axis> straight_axis(const Vec2& from, const Vec2& to) { return std::make_unique<StraightAxis>(from, to); }
+std::unique_ptr<Axis> straight_axis(const Vec2& from, const Vec2& to) {
+  return std::make_unique<StraightAxis>(from, to);
+}
 
 std::unique_ptr<Axis> arc_axis(const Vec2& from, const Vec2& via, const Vec2& to) {
   return std::make_unique<ArcAxis>(from, via, to);

@@ -17,7 +17,7 @@ double mean_half_square(double t1, double t2) { return (2.0 * t1 * t1 - t1 * t2 
 // Derivatives of the energy in the natural deformations: chord length l and end slopes t1, t2.
 struct Natural {
   double U;
-  double l, t1, t2;                        // first
+  double l, t1, t2;                             // first
   double l_l, l_t1, l_t2, t1_t1, t1_t2, t2_t2;  // second
 };
 
@@ -42,7 +42,8 @@ ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI)
 // The last term of (1) is the tilt of the chord where the stretch varies along the element; without it and the factor
 // 1 + q of (2) the order drops from 4 to 2. Gradient and Hessian in the nodal unknowns follow with
 //
-//   ∂l = r,  ∂β = z/l,  ∂²l = z zᵀ/l,  ∂²β = −(r zᵀ + z rᵀ)/l²,   r = (−c, −s, 0, c, s, 0),  z = (s, −c, 0, −s, c, 0)   (3)
+//   ∂l = r,  ∂β = z/l,  ∂²l = z zᵀ/l,  ∂²β = −(r zᵀ + z rᵀ)/l²,   r = (−c, −s, 0, c, s, 0),  z = (s, −c, 0, −s, c, 0)
+//   (3)
 double ClassicBeam::evaluate(const double* u, double* f, double* K) const {
   const double du = u[3] - u[0], dw = u[4] - u[1];
   const double x = chord_.x() + du, y = chord_.y() + dw;

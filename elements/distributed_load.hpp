@@ -9,8 +9,8 @@ namespace arcwall {
 ///
 ///     V = −h q·[(r1 + r2)/2 + Δr⊥ (φ1 − φ2)/12]
 ///
-/// with node displacements in r, the current chord Δr turned by +90° and end angles φ: the mean position of Hermite's cubic.
-/// Unknowns as in ClassicBeam. Measured from the undeformed state.
+/// with node displacements in r, the current chord Δr turned by +90° and end angles φ: the mean position of Hermite's
+/// cubic. Unknowns as in ClassicBeam. Measured from the undeformed state.
 class BeamDistributedLoad final : public Element {
  public:
   BeamDistributedLoad(const BeamReference& reference, const Vec2& load) : reference_(reference), load_(load) {}

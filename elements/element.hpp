@@ -12,8 +12,8 @@ class Element {
 
   virtual int unknown_count() const = 0;
 
-  /// The potential at local unknowns u. Where they are not null, `f` (n entries) receives its gradient and `K` the lower
-  /// triangle of its Hessian (n × n, column-major).
+  /// The potential at local unknowns u. Where they are not null, `f` (n entries) receives its gradient and `K` the
+  /// lower triangle of its Hessian (n × n, column-major).
   virtual double evaluate(const double* u, double* f, double* K) const = 0;
 };
 

@@ -11,11 +11,14 @@ Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
 
 double offset_of(const MemberMesh& mesh, MemberObservable::Component component) {
   switch (component) {
-    case MemberObservable::Component::face_above_z: return 0.5 * mesh.height.value();
-    case MemberObservable::Component::face_below_z: return -0.5 * mesh.height.value();
+    case MemberObservable::Component::face_above_z:
+      return 0.5 * mesh.height.value();
+    case MemberObservable::Component::face_below_z:
+      return -0.5 * mesh.height.value();
     case MemberObservable::Component::x:
     case MemberObservable::Component::z:
-    case MemberObservable::Component::rotation: return 0.0;
+    case MemberObservable::Component::rotation:
+      return 0.0;
   }
   return 0.0;
 }
@@ -58,16 +61,23 @@ void MemberPoint::kinematics(const Vector& x, PointKinematics& out) const {
   out.curvature[1](*turn_, *turn_) = -arm.y();
 }
 
-MemberObservable::MemberObservable(const Structure& structure, const MemberMesh& mesh, std::size_t node, Component component)
+MemberObservable::MemberObservable(const Structure& structure, const MemberMesh& mesh, std::size_t node,
+                                   Component component)
     : structure_(structure),
       component_(component),
       point_(structure, mesh, node, offset_of(mesh, component)),
       rotation_(mesh.rotations[node]) {
   const AxisPoint& axis = mesh.axis[node];
   switch (component) {
-    case Component::x: origin_ = axis.position.x(); break;
-    case Component::z: origin_ = axis.position.y(); break;
-    case Component::rotation: origin_ = axis.angle - mesh.shape[node].angle; break;
+    case Component::x:
+      origin_ = axis.position.x();
+      break;
+    case Component::z:
+      origin_ = axis.position.y();
+      break;
+    case Component::rotation:
+      origin_ = axis.angle - mesh.shape[node].angle;
+      break;
     case Component::face_above_z:
     case Component::face_below_z:
       origin_ = axis.position.y() + offset_of(mesh, component) * normal(axis.angle).y();

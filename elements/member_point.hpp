@@ -5,8 +5,8 @@
 
 namespace arcwall {
 
-/// A material point of a member's section at a node: r + offset · n, n the section's normal (the axis' tangent turned by
-/// +90°), which turns with the node. offset = 0 is the axis, ± half the height a face.
+/// A material point of a member's section at a node: r + offset · n, n the section's normal (the axis' tangent turned
+/// by +90°), which turns with the node. offset = 0 is the axis, ± half the height a face.
 class MemberPoint final : public TrackedPoint {
  public:
   /// `structure` must outlive this. `offset` must be 0 for members whose nodes do not rotate.
@@ -22,11 +22,12 @@ class MemberPoint final : public TrackedPoint {
   double angle_;   // stress-free angle of the section's normal, less a quarter turn
   double offset_;  // [length]
   std::vector<Index> unknowns_;
-  std::optional<Index> rotation_;             // freedom
-  std::optional<Index> x_, z_, turn_;         // columns of the derivatives, where not held
+  std::optional<Index> rotation_;      // freedom
+  std::optional<Index> x_, z_, turn_;  // columns of the derivatives, where not held
 };
 
-/// x, z or rotation of a member's node, measured from the axis without imperfection; or the z of one of its faces, likewise.
+/// x, z or rotation of a member's node, measured from the axis without imperfection; or the z of one of its faces,
+/// likewise.
 class MemberObservable final : public Observable {
  public:
   enum class Component { x, z, rotation, face_above_z, face_below_z };

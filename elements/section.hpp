@@ -6,10 +6,10 @@ namespace arcwall {
 
 /// What the theories need of a cross section and its material, in consistent units.
 struct Section {
-  double E = 0.0;                         ///< Young's modulus [force/length²]
-  double A = 0.0;                         ///< area [length²]
-  double I = 0.0;                         ///< second moment of area for bending in the plane [length⁴]
-  std::optional<double> height = {};      ///< along z [length]; needed where contact acts on faces
+  double E = 0.0;                     ///< Young's modulus [force/length²]
+  double A = 0.0;                     ///< area [length²]
+  double I = 0.0;                     ///< second moment of area for bending in the plane [length⁴]
+  std::optional<double> height = {};  ///< along z [length]; needed where contact acts on faces
 
   double EA() const { return E * A; }
   double EI() const { return E * I; }

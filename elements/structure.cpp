@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace arcwall {
 
@@ -41,7 +42,8 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
   for (const LoadedElement& loaded : loaded_elements_) {
     gather(loaded.element, state.x, local.u);
     loaded.potential->evaluate(local.u, local.f, nullptr);
-    scatter(assembly_.unknowns(loaded.element), local.f, loaded.kind == LoadKind::proportional ? state.lambda : 1.0, F.data());
+    scatter(assembly_.unknowns(loaded.element), local.f, loaded.kind == LoadKind::proportional ? state.lambda : 1.0,
+            F.data());
   }
 }
 
@@ -97,6 +99,15 @@ double Structure::energy(const State& state) const {
   return energy;
 }
 
+double Structure::force_roundoff() const {
+  Linearization rest;
+  linearize({.x = Vector::Zero(size({}))}, rest);
+  double stiffness = 0.0;
+  for (Index i = 0; i < rest.K.cols(); ++i)
+    if (meaning(i).freedom != Freedom::rotation) stiffness = std::max(stiffness, rest.K.coeff(i, i));
+  return 0.1 * std::numeric_limits<double>::epsilon() * length_scale_ * stiffness;
+}
+
 std::optional<Index> Structure::unknown(Index freedom) const {
   const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
   return i < 0 ? std::nullopt : std::optional(i);
@@ -126,7 +137,8 @@ double Structure::reaction(const State& state, Index freedom) const {
     element.evaluate(local.u, local.f, nullptr);
     force += factor * local.f[at - freedoms.begin()];
   };
-  for (std::size_t e = 0; e < elements_.size(); ++e) add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
   for (const LoadedElement& loaded : loaded_elements_)
     add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],
         loaded.kind == LoadKind::proportional ? state.lambda : 1.0);
@@ -150,7 +162,8 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
         row.dx[unknowns[static_cast<std::size_t>(j)]] += factor * local.K[std::max(i, j) + n * std::min(i, j)];
     return local.f[i];
   };
-  for (std::size_t e = 0; e < elements_.size(); ++e) add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
   for (const LoadedElement& loaded : loaded_elements_) {
     const bool proportional = loaded.kind == LoadKind::proportional;
     const double f = add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],

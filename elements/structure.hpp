@@ -40,18 +40,19 @@ struct MemberDescription {
 /// The mesh of a member: node k of n + 1, at equal spacing of the axis' arc length.
 struct MemberMesh {
   std::string name{};
-  std::vector<Index> nodes{};                       ///< index of each node in the structure
-  std::vector<std::optional<Index>> rotations{};    ///< freedom of the member's rotation at each node; a bar has none
-  std::vector<AxisPoint> axis{}, shape{};           ///< without and with imperfection
-  std::optional<double> height{};                   ///< of the section
+  std::vector<Index> nodes{};                     ///< index of each node in the structure
+  std::vector<std::optional<Index>> rotations{};  ///< freedom of the member's rotation at each node; a bar has none
+  std::vector<AxisPoint> axis{}, shape{};         ///< without and with imperfection
+  std::optional<double> height{};                 ///< of the section
 
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
 };
 
 class StructureBuilder;
 
-/// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and rotations
-/// from the stress-free state as unknowns. Freedoms count every x, z and rotation; unknowns those that no support holds.
+/// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
+/// rotations from the stress-free state as unknowns. Freedoms count every x, z and rotation; unknowns those that no
+/// support holds.
 class Structure final : public System {
  public:
   Index size(const Piece&) const override { return assembly_.pattern().cols(); }
@@ -68,11 +69,16 @@ class Structure final : public System {
   /// Greatest reference load, moments divided by the length scale [force]; 0 if no load varies.
   double force_scale() const { return force_scale_; }
 
+  /// Size of the round-off in nodal forces: stiff short elements between nodes that are far from the origin [force].
+  double force_roundoff() const;
+
   const std::vector<MemberMesh>& members() const { return members_; }
   Index node_count() const { return static_cast<Index>(positions_.size()); }
   const Vec2& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }  ///< stress-free
   /// The freedom of a node in x or z.
-  Index freedom(Index node, Freedom which) const { return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z); }
+  Index freedom(Index node, Freedom which) const {
+    return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
+  }
 
   /// The unknown of a freedom, empty if a support holds it.
   std::optional<Index> unknown(Index freedom) const;
@@ -90,8 +96,8 @@ class Structure final : public System {
   };
   Meaning meaning(Index unknown) const;
 
-  /// Force (or moment) that a support exerts on the structure through a freedom it holds; 0 in one that is free. Contact
-  /// forces on the supported node itself are not seen.
+  /// Force (or moment) that a support exerts on the structure through a freedom it holds; 0 in one that is free.
+  /// Contact forces on the supported node itself are not seen.
   double reaction(const State& state, Index freedom) const;
   Row reaction_gradient(const State& state, Index freedom) const;
 
@@ -110,7 +116,7 @@ class Structure final : public System {
   std::vector<Vec2> positions_;
   std::vector<Index> first_freedom_;  // x of each node; z follows
   std::vector<MemberMesh> members_;
-  std::vector<Index> unknown_of_freedom_;     // −1: held
+  std::vector<Index> unknown_of_freedom_;  // −1: held
   std::vector<Meaning> meaning_of_freedom_;
   std::vector<Index> freedom_of_unknown_;
   std::vector<std::unique_ptr<Element>> elements_;  // element e is block e of the assembly
@@ -135,13 +141,15 @@ class StructureBuilder {
   /// The rotation that the rigidly joined member ends at a joint share; empty if there are none.
   std::optional<Index> shared_rotation(Index joint) const { return shared_rotation_[static_cast<std::size_t>(joint)]; }
 
-  Index freedom(Index node, Freedom which) const { return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z); }
+  Index freedom(Index node, Freedom which) const {
+    return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
+  }
   void fix(Index freedom) { held_[static_cast<std::size_t>(freedom)] = true; }
   void add_load(Index freedom, double value, LoadKind kind);
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
 
-  /// The structure; `ramp` makes the constant loads the proportional ones and leaves the others out, so that a path in λ
-  /// from 0 to 1 applies them.
+  /// The structure; `ramp` makes the constant loads the proportional ones and leaves the others out, so that a path in
+  /// λ from 0 to 1 applies them.
   std::unique_ptr<Structure> build(bool ramp = false) const;
 
  private:

@@ -28,15 +28,18 @@ std::unique_ptr<Element> make_element(const MemberDescription& member, const Bea
   switch (member.theory) {
     case Theory::classic:
       return std::make_unique<ClassicBeam>(reference, member.section.EA(), member.section.EI());
-    case Theory::truss: return std::make_unique<Truss>(reference.chord, member.section.EA(), member.strain);
+    case Theory::truss:
+      return std::make_unique<Truss>(reference.chord, member.section.EA(), member.strain);
   }
   return nullptr;
 }
 
 std::unique_ptr<Element> make_load(const MemberDescription& member, const BeamReference& reference, const Vec2& load) {
   switch (member.theory) {
-    case Theory::classic: return std::make_unique<BeamDistributedLoad>(reference, load);
-    case Theory::truss: return std::make_unique<TrussDistributedLoad>(reference.length * load);
+    case Theory::classic:
+      return std::make_unique<BeamDistributedLoad>(reference, load);
+    case Theory::truss:
+      return std::make_unique<TrussDistributedLoad>(reference.length * load);
   }
   return nullptr;
 }
@@ -49,9 +52,7 @@ double box_diagonal(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-Index StructureBuilder::add_joint(const Vec2& position) {
-  return add_node(position);
-}
+Index StructureBuilder::add_joint(const Vec2& position) { return add_node(position); }
 
 Index StructureBuilder::add_node(const Vec2& position) {
   const auto node = static_cast<Index>(positions_.size());
@@ -121,7 +122,9 @@ std::vector<Index> StructureBuilder::element_freedoms(const MemberMesh& mesh, st
 }
 
 std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
-  const auto proportional = [&](LoadKind kind) { return ramp ? kind == LoadKind::constant : kind == LoadKind::proportional; };
+  const auto proportional = [&](LoadKind kind) {
+    return ramp ? kind == LoadKind::constant : kind == LoadKind::proportional;
+  };
 
   // Unknowns are numbered along the members, so that neighbours stay near.
   std::vector<Index> unknown_of_freedom(freedoms_.size(), -1), freedom_of_unknown;
@@ -191,8 +194,9 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   const auto rotations = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
   structure->weights_.resize(static_cast<Index>(structure->freedom_of_unknown_.size()));
   for (Index i = 0; i < structure->weights_.size(); ++i)
-    structure->weights_[i] = structure->meaning(i).freedom == Freedom::rotation ? 1.0 / rotations
-                                                                               : 1.0 / (double(positions_.size()) * L * L);
+    structure->weights_[i] = structure->meaning(i).freedom == Freedom::rotation
+                                 ? 1.0 / rotations
+                                 : 1.0 / (double(positions_.size()) * L * L);
   return structure;
 }
 

@@ -15,9 +15,12 @@ struct Strain {
 Strain strain_of(TrussStrain measure, double growth, double L) {
   const double a = L * L + growth, l = std::sqrt(a);
   switch (measure) {
-    case TrussStrain::green: return {0.5 * growth / (L * L), 0.5 / (L * L), 0.0};
-    case TrussStrain::engineering: return {growth / (L * (l + L)), 0.5 / (L * l), -0.25 / (L * l * a)};
-    case TrussStrain::log: return {0.5 * std::log1p(growth / (L * L)), 0.5 / a, -0.5 / (a * a)};
+    case TrussStrain::green:
+      return {0.5 * growth / (L * L), 0.5 / (L * L), 0.0};
+    case TrussStrain::engineering:
+      return {growth / (L * (l + L)), 0.5 / (L * l), -0.25 / (L * l * a)};
+    case TrussStrain::log:
+      return {0.5 * std::log1p(growth / (L * L)), 0.5 / a, -0.5 / (a * a)};
   }
   return {};
 }

@@ -15,7 +15,8 @@ enum class TrussStrain {
 /// A bar that carries axial force only: U = ½ EA L ε². Unknowns: u1, w1, u2, w2.
 class Truss final : public Element {
  public:
-  Truss(const Vec2& chord, double EA, TrussStrain strain) : chord_(chord), length_(chord.norm()), EA_(EA), strain_(strain) {}
+  Truss(const Vec2& chord, double EA, TrussStrain strain)
+      : chord_(chord), length_(chord.norm()), EA_(EA), strain_(strain) {}
 
   int unknown_count() const override { return 4; }
   double evaluate(const double* u, double* f, double* K) const override;

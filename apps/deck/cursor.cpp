@@ -23,7 +23,7 @@ std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t most = 12;
   std::string text;
   for (std::size_t i = 0; i < std::min(words.size(), most); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    if (i > 0) text += ", ";
     text += words[i];
   }
   return words.size() > most ? text + ", …" : text;
@@ -43,11 +43,11 @@ void Findings::throw_if_any() const {
 }
 
 Cursor::Cursor(const Value& table, std::string path, Findings& findings)
-    : value_(table), path_(std::move(path)), findings_(findings) {}
+    : value_(table), path_(std::move(path)), findings_(findings), is_known_(table.items.size(), false) {}
 
 const Value* Cursor::find(std::string_view key, Presence presence) {
   known_.emplace_back(key);
-  const Value* found = deck::find(value_, key);
+  const Value* found = lookup(key);
   if (found == nullptr && presence == Presence::required) {
     findings_.add(position(), path_of(key), "is missing", "add " + std::string(key));
   }
@@ -224,10 +224,25 @@ std::vector<Cursor> Cursor::named_tables(std::string_view key) {
   return result;
 }
 
+const Value* Cursor::lookup(std::string_view key) {
+  const Value* found =
+      next_ < value_.items.size() && value_.items[next_].key == key ? &value_.items[next_] : deck::find(value_, key);
+  if (found == nullptr) return nullptr;
+  const auto index = static_cast<std::size_t>(found - value_.items.data());
+  is_known_[index] = true;
+  next_ = index + 1;
+  return found;
+}
+
 void Cursor::finish() {
-  for (const Value& item : value_.items) {
-    if (std::find(known_.begin(), known_.end(), item.key) != known_.end()) continue;
-    report_unknown({item.key, item.key_position}, path_of(item.key), "is not a key that is known here", known_);
+  std::vector<std::string> known;
+  for (const std::string& key : known_) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
+  }
+  for (std::size_t i = 0; i < value_.items.size(); ++i) {
+    const Value& item = value_.items[i];
+    if (is_known_[i]) continue;
+    report_unknown({item.key, item.key_position}, path_of(item.key), "is not a key of this table", known);
   }
 }
 

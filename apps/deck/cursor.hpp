@@ -87,7 +87,7 @@ class Cursor {
     if (value) {
       target = *value;
     } else {
-      report_unknown(found, path_of(key), "is none of the words for it", texts(words));
+      report_unknown(found, path_of(key), "is not one of the words for this key", texts(words));
     }
     return value.has_value();
   }
@@ -119,6 +119,7 @@ class Cursor {
   Findings& findings() { return findings_; }
 
  private:
+  const Value* lookup(std::string_view key);
   bool accept_number(const Value& value, const std::string& path, const Requirement& requirement);
   bool accept(const Value& value, Value::Kind kind, const std::string& path, const std::string& wanted);
   const Value* find_of_kind(std::string_view key, Presence presence, Value::Kind kind, const std::string& wanted);
@@ -126,10 +127,12 @@ class Cursor {
   const Value& value_;
   std::string path_;
   Findings& findings_;
-  std::vector<std::string> known_{};
+  std::vector<std::string> known_{};  // every key that was asked for, there or not
+  std::vector<bool> is_known_;        // for each item of the table
+  std::size_t next_ = 0;              // keys are mostly asked for in their order, which makes long tables fast
 };
 
-/// `a`, `b` or `c`, as a message lists them; cut where it gets long.
+/// As a message lists them; cut where it gets long.
 std::string listed(const std::vector<std::string>& words);
 
 }  // namespace arcwall::deck

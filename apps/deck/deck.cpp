@@ -44,6 +44,15 @@ std::string to_text(const Place& place) {
   return place.fraction ? place.name + ":" + round_trip(*place.fraction) : place.name;
 }
 
+std::string origin_of(const std::string& assignment) {
+  constexpr std::size_t most_shown = 200;
+  std::string text = assignment.size() > most_shown ? assignment.substr(0, most_shown) + "…" : assignment;
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return "--set " + text;
+}
+
 Diagnostic diagnostic_at(const Source& source, const Position& position, std::string key, std::string message,
                          std::string cure) {
   Diagnostic diagnostic{.file = source.file,
@@ -53,7 +62,7 @@ Diagnostic diagnostic_at(const Source& source, const Position& position, std::st
                         .message = std::move(message),
                         .cure = std::move(cure)};
   if (position.assignment > 0) {
-    diagnostic.file = "--set " + source.assignments.at(static_cast<std::size_t>(position.assignment) - 1);
+    diagnostic.file = origin_of(source.assignments.at(static_cast<std::size_t>(position.assignment) - 1));
     diagnostic.line = 0;
     diagnostic.column = 0;
   }

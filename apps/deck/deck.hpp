@@ -390,6 +390,9 @@ const Named* find(const std::vector<Named>& list, const std::string& name) {
   return nullptr;
 }
 
+/// How messages name a `--set key=value`: on one line, cut where it gets long.
+std::string origin_of(const std::string& assignment);
+
 /// A diagnostic about the part of the deck that stands there, for the stages after reading.
 Diagnostic diagnostic_at(const Source& source, const Position& position, std::string key, std::string message,
                          std::string cure = {});

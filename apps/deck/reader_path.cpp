@@ -136,10 +136,10 @@ void read_control(Cursor& table, const Names& names, const Deck& deck, Path& pat
 
 void read_steps(Cursor& table, Path& path) {
   table.number("step", Presence::optional, not_zero, path.step);
-  const bool min = !table.has("min_step") || table.number("min_step", Presence::optional, positive, path.min_step);
-  const bool max = !table.has("max_step") || table.number("max_step", Presence::optional, positive, path.max_step);
-  for (const char* key : {"min_step", "max_step"}) table.find(key, Presence::optional);
-  if (min && max && path.max_step < path.min_step) {
+  const bool min = table.number("min_step", Presence::optional, positive, path.min_step);
+  const bool max = table.number("max_step", Presence::optional, positive, path.max_step);
+  const bool both_right = min == table.has("min_step") && max == table.has("max_step");
+  if (both_right && path.max_step < path.min_step) {
     table.report(table.has("max_step") ? "max_step" : "min_step",
                  "max_step = " + round_trip(path.max_step) + " is less than min_step = " + round_trip(path.min_step),
                  "make max_step at least min_step");

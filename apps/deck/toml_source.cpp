@@ -131,7 +131,27 @@ struct Assignment {
   Value value{};
 };
 
-std::optional<Assignment> taken_apart(const toml::table& document) {
+constexpr const char* how_to_assign =
+    "write key=value, the value as in TOML (text in quotes: --set path.method='\"riks\"')";
+
+toml::table parsed_assignment(const std::string& text, const std::string& origin) {
+  try {
+    return parsed(text, origin);
+  } catch (const InputError& error) {
+    Diagnostic diagnostic = error.diagnostics().front();
+    diagnostic.line = 0;  // there is only one
+    diagnostic.column = 0;
+    diagnostic.cure = how_to_assign;
+    fail(std::move(diagnostic));
+  }
+}
+
+// Nothing if the text is TOML but not one key with one value.
+std::optional<Assignment> taken_apart(const std::string& text, const std::string& origin) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  const bool is_header = begin != std::string::npos && text[begin] == '[';
+  if (is_header || text.find('\n') != std::string::npos) return std::nullopt;
+  const toml::table document = parsed_assignment(text, origin);
   Assignment result;
   const toml::node* node = &document;
   while (const auto* table = node->as_table()) {
@@ -187,31 +207,22 @@ std::string read_text_file(const std::string& file) {
 }
 
 void assign(Value& root, const std::string& assignment, int number) {
-  const std::string origin = "--set " + assignment;
-  const std::string cure = "write key=value, the value as in TOML (text in quotes: --set path.method='\"riks\"')";
-  if (assignment.find('\n') != std::string::npos)
-    fail({.file = origin, .message = "is more than one line", .cure = cure});
-  std::optional<Assignment> part;
-  try {
-    part = taken_apart(parsed(assignment, origin));
-  } catch (const InputError& error) {
-    Diagnostic diagnostic = error.diagnostics().front();
-    if (diagnostic.cure.empty()) diagnostic.cure = cure;
-    fail(std::move(diagnostic));
-  }
-  if (!part) fail({.file = origin, .message = "is not one key=value", .cure = cure});
+  const std::string origin = origin_of(assignment);
+  std::optional<Assignment> part = taken_apart(assignment, origin);
+  if (!part) fail({.file = origin, .message = "is not one key=value", .cure = how_to_assign});
 
   const Position position{.assignment = number};
   Value* target = &root;
   std::string path;
   for (const std::string& key : part->key) {
-    target = child(*target, key, position);
-    if (target == nullptr) {
+    Value* next = child(*target, key, position);
+    if (next == nullptr) {
       fail({.file = origin,
             .key = path,
-            .message = "has no part " + key_text(key),
-            .cure = "name a key that can be set"});
+            .message = shown(*target) + " has no part " + key_text(key),
+            .cure = "name a key of the deck; elements of an array count from 0"});
     }
+    target = next;
     path += (path.empty() ? "" : ".") + key_text(key);
   }
   part->value.key = target->key;

@@ -130,9 +130,13 @@ void write_axis(Document& out, const Curve& curve) {
   out.set("curve.z", numbers(curve.z));
 }
 
-std::string imperfection_text(const Imperfection& imperfection) {
-  return "\n  { shape = \"sine\", amplitude = " + number(imperfection.amplitude) +
-         ", waves = " + std::to_string(imperfection.waves) + " }";
+void write_imperfections(Document& out, const Member& member) {
+  for (const Imperfection& imperfection : member.imperfections) {
+    out.table_of_array("member." + name(member.name) + ".imperfection");
+    out.set_word("shape", imperfection_words, ImperfectionWord::sine);
+    out.set("amplitude", imperfection.amplitude);
+    out.set_integer("waves", imperfection.waves);
+  }
 }
 
 void write_member(Document& out, const Member& member) {
@@ -147,11 +151,11 @@ void write_member(Document& out, const Member& member) {
   out.set_text("section", member.section);
   out.set_integer("elements", member.elements);
   std::visit([&out](const auto& axis) { write_axis(out, axis); }, member.axis);
-  out.set("imperfection", array(member.imperfections, imperfection_text));
   std::vector<std::string> hinges;
   if (member.hinge_from) hinges.emplace_back("from");
   if (member.hinge_to) hinges.emplace_back("to");
   if (!hinges.empty()) out.set("hinge", strings(hinges));
+  write_imperfections(out, member);
 }
 
 void write_supports(Document& out, const Deck& deck) {

@@ -1,0 +1,94 @@
+#include "apps/build_contact.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.hpp"
+#include "elements/member_point.hpp"
+
+namespace arcwall {
+
+namespace {
+
+std::shared_ptr<const Profile> make_profile(const deck::Wall& wall, Side side) {
+  struct Maker {
+    Side side;
+    std::unique_ptr<Profile> operator()(const deck::FlatProfile& p) const { return flat_profile(p.z); }
+    std::unique_ptr<Profile> operator()(const deck::LineProfile& p) const { return line_profile(p.z, p.slope); }
+    std::unique_ptr<Profile> operator()(const deck::CircleProfile& p) const {
+      return circle_profile({p.centre.x, p.centre.z}, p.radius, side);
+    }
+    std::unique_ptr<Profile> operator()(const deck::ParabolaProfile& p) const {
+      return parabola_profile({p.apex.x, p.apex.z}, p.curvature);
+    }
+    std::unique_ptr<Profile> operator()(const deck::SplineProfile& p) const { return spline_profile(p.x, p.z); }
+  };
+  return std::visit(Maker{side}, wall.profile);
+}
+
+// Offsets from the axis of the points that may touch: 0, or the face whose normal looks at the wall; both of a section
+// that stands across it.
+std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, std::size_t k) {
+  if (wall.acts_on == deck::ActsOn::axis) return {0.0};
+  const double up = std::cos(mesh.shape[k].angle) * (wall.side == deck::Side::above ? 1.0 : -1.0);
+  const double half = 0.5 * mesh.height.value();
+  constexpr double level = 1e-9;
+  if (std::abs(up) <= level) return {half, -half};
+  return {up > 0.0 ? half : -half};
+}
+
+bool concerns(const deck::Wall& wall, const std::string& member) {
+  return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
+}
+
+// The deepest penetration of one wall at rest.
+struct Penetration {
+  double depth = 0.0;
+  ContactLabel label{};
+};
+
+}  // namespace
+
+std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
+  std::vector<Candidate> candidates;
+  const Vector rest = Vector::Zero(structure.size({}));
+  for (const deck::Wall& wall : deck.walls) {
+    const Side side = wall.side == deck::Side::above ? Side::above : Side::below;
+    const auto profile = make_profile(wall, side);
+    std::vector<std::pair<Index, Vec2>> taken;  // node and place: members that meet share a point
+    Penetration deepest;
+    for (const MemberMesh& mesh : structure.members()) {
+      if (!concerns(wall, mesh.name)) continue;
+      if (wall.acts_on == deck::ActsOn::face && !mesh.rotations.front()) {
+        problems.add(wall.position, "wall.acts_on",
+                     "member \"" + mesh.name + "\" is a truss and has no faces that turn", "use acts_on = \"axis\"");
+        continue;
+      }
+      for (std::size_t k = 0; k < mesh.nodes.size(); ++k)
+        for (const double offset : offsets(wall, mesh, k)) {
+          auto point = std::make_unique<MemberPoint>(structure, mesh, k, offset);
+          const Vec2 place = point->position(rest);
+          const auto same = [&](const auto& other) {
+            return other.first == mesh.nodes[k] && (other.second - place).norm() <= 1e-12 * structure.length_scale();
+          };
+          if (std::any_of(taken.begin(), taken.end(), same)) continue;
+          taken.emplace_back(mesh.nodes[k], place);
+          const bool movable = !point->unknowns().empty();
+          Candidate candidate(std::move(point), profile, side,
+                              {.wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k)});
+          const double gap = candidate.gap(rest);
+          if (-gap > deepest.depth) deepest = {.depth = -gap, .label = candidate.label()};
+          if (movable) candidates.push_back(std::move(candidate));
+        }
+    }
+    if (deepest.depth > 1e-12 * structure.length_scale())
+      problems.add(wall.position, "wall." + wall.name,
+                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{} by {}", deepest.label.member,
+                               deepest.label.member, round_trip(deepest.label.fraction), round_trip(deepest.depth)),
+                   "move the wall or the member apart");
+  }
+  return candidates;
+}
+
+}  // namespace arcwall

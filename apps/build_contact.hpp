@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "apps/build_structure.hpp"
+#include "contact/multiplier_contact.hpp"
+
+namespace arcwall {
+
+/// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
+/// each wall that a member penetrates at the start.
+std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
+
+}  // namespace arcwall

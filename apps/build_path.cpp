@@ -1,0 +1,218 @@
+#include "apps/build_path.hpp"
+
+#include <algorithm>
+
+#include "core/text.hpp"
+#include "elements/member_point.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using Component = MemberObservable::Component;
+
+std::optional<Component> member_component(deck::Component component) {
+  switch (component) {
+    case deck::Component::x:
+      return Component::x;
+    case deck::Component::z:
+      return Component::z;
+    case deck::Component::rotation:
+      return Component::rotation;
+    case deck::Component::face_above_z:
+      return Component::face_above_z;
+    case deck::Component::face_below_z:
+      return Component::face_below_z;
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+    case deck::Component::reaction_moment:
+    case deck::Component::thickness:
+    case deck::Component::thickness2:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Freedom> reaction_freedom(deck::Component component) {
+  switch (component) {
+    case deck::Component::reaction_x:
+      return Freedom::x;
+    case deck::Component::reaction_z:
+      return Freedom::z;
+    case deck::Component::reaction_moment:
+      return Freedom::rotation;
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::rotation:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+    case deck::Component::thickness:
+    case deck::Component::thickness2:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::string unit_of(const deck::Deck& deck, deck::Component component) {
+  switch (component) {
+    case deck::Component::rotation:
+      return "rad";
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+      return deck.units.force;
+    case deck::Component::reaction_moment:
+      return deck.units.force + " " + deck.units.length;
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+      return deck.units.length;
+    case deck::Component::thickness:
+      return "-";
+    case deck::Component::thickness2:
+      return "1/" + deck.units.length;
+  }
+  return {};
+}
+
+// The member whose end a joint is; where several meet, the first that has what is asked for.
+struct End {
+  const MemberMesh* mesh = nullptr;
+  std::size_t position = 0;
+};
+
+std::vector<End> ends_at(const Structure& structure, Index joint) {
+  std::vector<End> ends;
+  for (const MemberMesh& mesh : structure.members()) {
+    if (mesh.nodes.front() == joint) ends.push_back({.mesh = &mesh, .position = 0});
+    if (mesh.nodes.back() == joint) ends.push_back({.mesh = &mesh, .position = mesh.nodes.size() - 1});
+  }
+  return ends;
+}
+
+// What a place's component is read from; null if the place has no such component.
+std::shared_ptr<const Observable> observable(const Structure& structure, const Places& places, const deck::Place& place,
+                                             deck::Component component) {
+  const Places::Node node = places.find(place, structure.members());
+  std::vector<End> at = ends_at(structure, node.node);
+  if (node.member != nullptr) at.assign(1, End{.mesh = node.member, .position = node.position});
+  if (const auto freedom = reaction_freedom(component)) {
+    if (*freedom != Freedom::rotation)
+      return std::make_shared<ReactionObservable>(structure, structure.freedom(node.node, *freedom));
+    for (const End& end : at)
+      if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
+        return std::make_shared<ReactionObservable>(structure, *rotation);
+    return nullptr;
+  }
+  const auto wanted = member_component(component);
+  if (!wanted) return nullptr;
+  const bool turns = *wanted != Component::x && *wanted != Component::z;
+  const bool face = *wanted == Component::face_above_z || *wanted == Component::face_below_z;
+  for (const End& end : at) {
+    const auto rotation = end.mesh->rotations[end.position];
+    if ((turns && !rotation) || (face && !end.mesh->height)) continue;
+    // Members that meet at an angle agree on the rotation of their joint, not on the slopes of their imperfections.
+    if (*wanted == Component::rotation && at.size() > 1)
+      return std::make_shared<FreedomObservable>(structure, *rotation);
+    return std::make_shared<MemberObservable>(structure, *end.mesh, end.position, *wanted);
+  }
+  return nullptr;
+}
+
+PathMethod path_method(const deck::Path& path, DeckProblems& problems) {
+  switch (path.method) {
+    case deck::PathMethod::load:
+      return PathMethod::load;
+    case deck::PathMethod::displacement:
+      return PathMethod::displacement;
+    case deck::PathMethod::riks:
+      return PathMethod::riks;
+    case deck::PathMethod::normal_plane:
+      return PathMethod::normal_plane;
+    case deck::PathMethod::cylindrical:
+      return PathMethod::cylindrical;
+    case deck::PathMethod::spherical:
+      return PathMethod::spherical;
+    case deck::PathMethod::pseudo_arclength:
+      return PathMethod::pseudo_arclength;
+    case deck::PathMethod::incremental:
+      break;
+  }
+  problems.add(path.position, "path.method", "method \"incremental\" is not part of this version",
+               "use \"spherical\", or one of the other methods that solve the equilibrium equations");
+  return PathMethod::spherical;
+}
+
+EventSearch event_search(deck::Events events) {
+  switch (events) {
+    case deck::Events::locate:
+      return EventSearch::locate;
+    case deck::Events::detect:
+      return EventSearch::detect;
+    case deck::Events::none:
+      return EventSearch::none;
+  }
+  return EventSearch::locate;
+}
+
+}  // namespace
+
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Structure& structure, const Places& places,
+                                           DeckProblems& problems) {
+  std::vector<MonitorColumn> columns;
+  for (const deck::Monitor& monitor : deck.monitors) {
+    auto quantity = monitor.at.fraction || places.joints.contains(monitor.at.name)
+                        ? observable(structure, places, monitor.at, monitor.component)
+                        : nullptr;
+    if (!quantity) {
+      problems.add(monitor.position, "monitor.component",
+                   "\"" + to_text(monitor.at) + "\" does not have this component",
+                   "rotations need a beam, faces a section with a height, reactions a support, thickness the theory "
+                   "\"essenburg\"");
+      continue;
+    }
+    if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(quantity, -1.0);
+    columns.push_back(
+        {.name = monitor.name, .unit = unit_of(deck, monitor.component), .quantity = std::move(quantity)});
+  }
+  return columns;
+}
+
+TraceOptions trace_options(const deck::Deck& deck, const Structure& structure, const Places& places,
+                           const std::vector<MonitorColumn>& monitors, DeckProblems& problems) {
+  const deck::Path& path = deck.path;
+  TraceOptions options;
+  options.method = path_method(path, problems);
+  options.events = event_search(path.events);
+  options.step.first = path.step;
+  options.step.min = path.min_step;
+  options.step.max = path.max_step;
+  options.max_points = path.max_points;
+  if (path.control) {
+    options.control = observable(structure, places, path.control->at, path.control->component);
+    if (!options.control)
+      problems.add(path.control->at.position, "path.control",
+                   "\"" + to_text(path.control->at) + "\" cannot be controlled so",
+                   "name a component that the place has");
+  }
+  const auto quantity = [&](const std::string& name) -> std::shared_ptr<const Observable> {
+    if (name == "lambda") return std::make_shared<ParameterValue>();
+    const MonitorColumn* column = deck::find(monitors, name);
+    return column != nullptr ? column->quantity : nullptr;
+  };
+  const auto mark = [&](const std::string& name, double value, bool stops) {
+    if (auto q = quantity(name))
+      options.landmarks.push_back(
+          {.quantity = std::move(q), .value = value, .stops = stops, .label = name + " = " + round_trip(value)});
+  };
+  for (const deck::Landing& landing : path.land)
+    for (const double value : landing.values) mark(landing.name, value, false);
+  for (const deck::StopBounds& bounds : path.stop.bounds) {
+    mark(bounds.name, bounds.low, true);
+    mark(bounds.name, bounds.high, true);
+  }
+  if (path.stop.contacts) options.stop_contacts = *path.stop.contacts;
+  return options;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,222 @@
+#include "apps/build_structure.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+Vec2 vec(const deck::Vector& v) { return {v.x, v.z}; }
+
+std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, const Vec2& to) {
+  struct Maker {
+    const Vec2 &from, &to;
+    std::unique_ptr<Axis> operator()(const deck::Straight&) const { return straight_axis(from, to); }
+    std::unique_ptr<Axis> operator()(const deck::Arc& arc) const { return arc_axis(from, vec(arc.via), to); }
+    std::unique_ptr<Axis> operator()(const deck::SineAxis& sine) const {
+      return sine_axis(from, to, sine.rise, sine.waves);
+    }
+    std::unique_ptr<Axis> operator()(const deck::Curve& curve) const {
+      std::vector<Vec2> points;
+      for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(curve.x[i], curve.z[i]);
+      return spline_axis(points);
+    }
+  };
+  return std::visit(Maker{from, to}, member.axis);
+}
+
+std::optional<Theory> theory_of(const deck::Member& member, DeckProblems& problems) {
+  const auto unsupported = [&](const char* name) {
+    problems.add(member.position, "member." + member.name + ".theory",
+                 fmt::format("theory \"{}\" is not part of this version", name), "use \"classic\" or \"truss\"");
+    return std::nullopt;
+  };
+  switch (member.theory) {
+    case deck::Theory::classic:
+      return Theory::classic;
+    case deck::Theory::truss:
+      return Theory::truss;
+    case deck::Theory::essenburg:
+      return unsupported("essenburg");
+    case deck::Theory::exact:
+      return unsupported("exact");
+    case deck::Theory::elastica:
+      return unsupported("elastica");
+  }
+  return std::nullopt;
+}
+
+TrussStrain strain_of(deck::Strain strain) {
+  switch (strain) {
+    case deck::Strain::green:
+      return TrussStrain::green;
+    case deck::Strain::engineering:
+      return TrussStrain::engineering;
+    case deck::Strain::log:
+      return TrussStrain::log;
+  }
+  return TrussStrain::green;
+}
+
+Section section_of(const deck::Deck& deck, const deck::Member& member) {
+  const deck::SectionProperties section = properties(*deck::find(deck.sections, member.section));
+  return {
+      .E = deck::find(deck.materials, member.material)->E, .A = section.A, .I = section.I, .height = section.height};
+}
+
+void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
+  for (const deck::Member& member : deck.members) {
+    const auto theory = theory_of(member, problems);
+    if (!theory) continue;
+    if (*theory == Theory::truss && member.elements > 1)
+      problems.add(
+          member.position, "member." + member.name + ".elements",
+          fmt::format("a truss of {} elements is a chain of hinges that can move without strain", member.elements),
+          "use elements = 1, or theory = \"classic\"");
+    MemberDescription description{.name = member.name,
+                                  .from = out.places.joints.at(member.from),
+                                  .to = out.places.joints.at(member.to),
+                                  .theory = *theory,
+                                  .strain = strain_of(member.strain),
+                                  .section = section_of(deck, member),
+                                  .elements = elements.value_or(member.elements),
+                                  .hinge_from = member.hinge_from,
+                                  .hinge_to = member.hinge_to};
+    description.axis =
+        make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
+    for (const deck::Imperfection& wave : member.imperfections)
+      description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
+    out.places.members[member.name] = out.builder.add_member(std::move(description));
+  }
+}
+
+void add_support(const deck::Support& support, DeckProblems& problems, StructureOfDeck& out) {
+  const Index joint = out.places.joints.at(support.point);
+  for (const deck::Direction direction : support.directions) {
+    const std::string key = "support." + support.point;
+    switch (direction) {
+      case deck::Direction::x:
+        out.builder.fix(out.builder.freedom(joint, Freedom::x));
+        break;
+      case deck::Direction::z:
+        out.builder.fix(out.builder.freedom(joint, Freedom::z));
+        break;
+      case deck::Direction::rotation:
+        if (const auto rotation = out.builder.shared_rotation(joint)) {
+          out.builder.fix(*rotation);
+        } else {
+          problems.add(support.position, key, "no member end at \"" + support.point + "\" has a rotation to fix",
+                       "leave out \"rotation\", or join a beam there without a hinge");
+        }
+        break;
+      case deck::Direction::thickness:
+      case deck::Direction::thickness2:
+        problems.add(support.position, key, "only the theory \"essenburg\" has a thickness to fix",
+                     "leave out \"thickness\" and \"thickness2\"");
+        break;
+    }
+  }
+}
+
+// A fraction is a node of the deck's mesh; in the coarsest model loads inside members play no part.
+void add_point_load(const deck::Load& load, const deck::PointLoad& action, bool coarse, DeckProblems& problems,
+                    StructureOfDeck& out) {
+  const LoadKind kind = load.constant ? LoadKind::constant : LoadKind::proportional;
+  Index node = 0;
+  std::optional<Index> rotation;
+  if (action.at.fraction) {
+    if (coarse || !out.places.members.contains(action.at.name)) return;
+    const MemberMesh& mesh = out.builder.mesh(out.places.members.at(action.at.name));
+    const auto k = static_cast<std::size_t>(std::lround(*action.at.fraction * double(mesh.nodes.size() - 1)));
+    node = mesh.nodes[k];
+    rotation = mesh.rotations[k];
+  } else {
+    node = out.places.joints.at(action.at.name);
+    rotation = out.builder.shared_rotation(node);
+  }
+  out.builder.add_load(out.builder.freedom(node, Freedom::x), action.force.x, kind);
+  out.builder.add_load(out.builder.freedom(node, Freedom::z), action.force.z, kind);
+  if (action.moment == 0.0) return;
+  if (rotation) {
+    out.builder.add_load(*rotation, action.moment, kind);
+  } else {
+    problems.add(action.at.position, "load.moment", "nothing at \"" + to_text(action.at) + "\" can take a moment",
+                 "put the moment where a beam is joined without a hinge");
+  }
+}
+
+void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, StructureOfDeck& out) {
+  for (const deck::Load& load : deck.loads) {
+    if (const auto* at_point = std::get_if<deck::PointLoad>(&load.action)) {
+      add_point_load(load, *at_point, coarse, problems, out);
+    } else {
+      const auto& on_member = std::get<deck::MemberLoad>(load.action);
+      if (out.places.members.contains(on_member.member))
+        out.builder.add_distributed_load(out.places.members.at(on_member.member), vec(on_member.distributed),
+                                         load.constant ? LoadKind::constant : LoadKind::proportional);
+    }
+  }
+}
+
+}  // namespace
+
+Places::Node Places::find(const deck::Place& place, const std::vector<MemberMesh>& meshes) const {
+  if (!place.fraction) return {.node = joints.at(place.name)};
+  const MemberMesh& mesh = meshes[static_cast<std::size_t>(members.at(place.name))];
+  const auto k = static_cast<std::size_t>(std::lround(*place.fraction * double(mesh.nodes.size() - 1)));
+  return {.node = mesh.nodes[k], .member = &mesh, .position = k};
+}
+
+StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problems,
+                                   std::optional<int> elements_a_member) {
+  StructureOfDeck out;
+  // Points that no member joins stay out: they would be nodes without stiffness.
+  for (const deck::Member& member : deck.members)
+    for (const std::string& name : {member.from, member.to})
+      if (!out.places.joints.contains(name))
+        out.places.joints[name] = out.builder.add_joint(vec(deck::find(deck.points, name)->at));
+  add_members(deck, problems, elements_a_member, out);
+  const auto joined = [&](const std::string& name, const deck::Position& position, const std::string& key) {
+    if (out.places.joints.contains(name)) return true;
+    problems.add(position, key, "no member is joined to point \"" + name + "\"", "join a member there or leave it out");
+    return false;
+  };
+  for (const deck::Support& support : deck.supports)
+    if (joined(support.point, support.position, "support." + support.point)) add_support(support, problems, out);
+  bool places_are_known = true;
+  for (const deck::Load& load : deck.loads)
+    if (const auto* action = std::get_if<deck::PointLoad>(&load.action); action != nullptr && !action->at.fraction)
+      places_are_known = joined(action->at.name, action->at.position, "load.at") && places_are_known;
+  if (places_are_known) add_loads(deck, elements_a_member.has_value(), problems, out);
+  return out;
+}
+
+void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
+  DeckProblems ignored(deck.source);
+  const StructureOfDeck coarse = describe_structure(deck, ignored, 1);
+  const auto structure = coarse.builder.build();
+  const auto mechanism = find_mechanism(*structure);
+  if (!mechanism) return;
+  std::string where = "inside a member";
+  for (const auto& [name, node] : coarse.places.joints)
+    if (node == mechanism->node) where = "at point \"" + name + "\"";
+  const auto direction = [&] {
+    switch (mechanism->freedom) {
+      case Freedom::x:
+        return "in x";
+      case Freedom::z:
+        return "in z";
+      case Freedom::rotation:
+        return "in rotation";
+    }
+    return "";
+  }();
+  const deck::Position position =
+      deck.supports.empty() ? deck.members.front().position : deck.supports.front().position;
+  problems.add(position, "support",
+               fmt::format("the structure is a mechanism: it can move without strain, most {} {}", where, direction),
+               "add a support, or remove a hinge");
+}
+
+}  // namespace arcwall

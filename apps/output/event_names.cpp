@@ -1,0 +1,145 @@
+#include "apps/output/event_names.hpp"
+
+#include <array>
+#include <cassert>
+
+namespace arcwall {
+
+namespace {
+
+constexpr std::array event_kinds{EventKind::start,
+                                 EventKind::end,
+                                 EventKind::contact_closes,
+                                 EventKind::contact_opens,
+                                 EventKind::limit_point,
+                                 EventKind::contact_limit_point,
+                                 EventKind::displacement_limit};
+
+constexpr std::array end_reasons{
+    EndReason::stop,        EndReason::closed_loop,     EndReason::max_points, EndReason::max_time,
+    EndReason::interrupted, EndReason::min_step,        EndReason::singular,   EndReason::not_finite,
+    EndReason::no_ray,      EndReason::turning_control, EndReason::wall_end};
+
+template <class List>
+std::optional<typename List::value_type> with_text(const List& list, std::string_view text) {
+  for (const auto value : list) {
+    if (to_text(value) == text) return value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view to_text(EventKind kind) {
+  switch (kind) {
+    case EventKind::start:
+      return "start";
+    case EventKind::end:
+      return "end";
+    case EventKind::contact_closes:
+      return "contact-closes";
+    case EventKind::contact_opens:
+      return "contact-opens";
+    case EventKind::limit_point:
+      return "limit-point";
+    case EventKind::contact_limit_point:
+      return "contact-limit-point";
+    case EventKind::displacement_limit:
+      return "displacement-limit";
+  }
+  assert(false);
+  return {};
+}
+
+std::string_view to_text(EndReason reason) {
+  switch (reason) {
+    case EndReason::stop:
+      return "stop";
+    case EndReason::closed_loop:
+      return "closed_loop";
+    case EndReason::max_points:
+      return "max_points";
+    case EndReason::max_time:
+      return "max_time";
+    case EndReason::interrupted:
+      return "interrupted";
+    case EndReason::min_step:
+      return "min_step";
+    case EndReason::singular:
+      return "singular";
+    case EndReason::not_finite:
+      return "not_finite";
+    case EndReason::no_ray:
+      return "no_ray";
+    case EndReason::turning_control:
+      return "turning_control";
+    case EndReason::wall_end:
+      return "wall_end";
+  }
+  assert(false);
+  return {};
+}
+
+std::string_view to_text(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "stable";
+    case Stability::unstable:
+      return "unstable";
+    case Stability::undecided:
+      return "undecided";
+  }
+  assert(false);
+  return {};
+}
+
+std::optional<EventKind> event_kind(std::string_view text) { return with_text(event_kinds, text); }
+
+std::optional<EndReason> end_reason(std::string_view text) { return with_text(end_reasons, text); }
+
+bool changes_contact(EventKind kind) {
+  switch (kind) {
+    case EventKind::contact_closes:
+    case EventKind::contact_opens:
+      return true;
+    case EventKind::start:
+    case EventKind::end:
+    case EventKind::limit_point:
+    case EventKind::contact_limit_point:
+    case EventKind::displacement_limit:
+      return false;
+  }
+  assert(false);
+  return false;
+}
+
+std::string_view explanation(EndReason reason) {
+  switch (reason) {
+    case EndReason::stop:
+      return "a bound of the deck was met";
+    case EndReason::closed_loop:
+      return "the branch closed";
+    case EndReason::max_points:
+      return "the limit on points was met";
+    case EndReason::max_time:
+      return "the limit on time was met";
+    case EndReason::interrupted:
+      return "the run was interrupted";
+    case EndReason::min_step:
+      return "no step above the least length succeeds";
+    case EndReason::singular:
+      return "the equations are singular";
+    case EndReason::not_finite:
+      return "the numbers are not finite";
+    case EndReason::no_ray:
+      return "no equilibrium leaves a corner";
+    case EndReason::turning_control:
+      return "the controlled quantity turns back";
+    case EndReason::wall_end:
+      return "a contact reached the end of its wall";
+  }
+  assert(false);
+  return {};
+}
+
+}  // namespace arcwall

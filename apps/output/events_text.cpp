@@ -1,0 +1,84 @@
+#include "apps/output/events_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "apps/output/event_names.hpp"
+#include "apps/output/text_table.hpp"
+#include "apps/output/version.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr std::size_t most_contacts = 3;  // named in one row
+
+std::string unstable(const RecordEvent& event) {
+  const auto text = [](const std::optional<Index>& count) { return count ? std::to_string(*count) : "?"; };
+  if (event.unstable_before == event.unstable_after) return text(event.unstable_after);
+  return text(event.unstable_before) + " → " + text(event.unstable_after);
+}
+
+std::string contacts(const std::vector<RecordContact>& list) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(list.size(), most_contacts); ++i) {
+    const ContactLabel& label = list[i].label;
+    text += fmt::format("{}{} at {}:{:.4g}", i > 0 ? ", " : "", label.wall, label.member, label.fraction);
+  }
+  if (list.size() > most_contacts) text += fmt::format(" and {} more", list.size() - most_contacts);
+  return text;
+}
+
+std::string what(const RecordEvent& event) {
+  if (event.branch_end) return std::string(to_text(event.branch_end->reason));
+  if (event.monitor) return *event.monitor;
+  return contacts(event.contacts);
+}
+
+std::string table(const Record& record) {
+  using Side = TableColumn::Side;
+  const bool one_branch = record.branches.size() <= 1;
+  std::vector<TableColumn> columns{{"id", Side::right}};
+  if (!one_branch) columns.push_back({"branch", Side::right});
+  columns.insert(columns.end(), {{"step", Side::right}, {"λ", Side::right}, {"kind"}, {"what"}});
+  for (const RecordColumn& column : record.columns)
+    columns.push_back({column.unit.empty() ? column.name : column.name + " [" + column.unit + "]", Side::right});
+  columns.push_back({"unstable"});
+
+  std::vector<std::vector<std::string>> rows;
+  for (const RecordEvent& event : record.events) {
+    std::vector<std::string>& row = rows.emplace_back();
+    row.push_back(std::to_string(event.id));
+    if (!one_branch) row.push_back(std::to_string(event.branch));
+    row.push_back(std::to_string(event.step));
+    row.push_back(fmt::format("{:.10g}", event.lambda));
+    row.emplace_back(to_text(event.kind));
+    row.push_back(what(event));
+    for (const double value : event.monitors) row.push_back(fmt::format("{:.6g}", value));
+    row.push_back(unstable(event));
+  }
+  return text_table(columns, rows);
+}
+
+std::string ending(const RecordBranch& branch) {
+  const std::string points =
+      fmt::format("branch {}: {} {}", branch.id, branch.points, branch.points == 1 ? "point" : "points");
+  if (!branch.end) return points + "\n";
+  const BranchEnd& end = *branch.end;
+  const std::string detail = end.detail.empty() ? "" : ": " + end.detail;
+  return fmt::format("{}, ended because {} ({}{})\n", points, explanation(end.reason), to_text(end.reason), detail);
+}
+
+}  // namespace
+
+std::string events_text(const Record& record) {
+  std::string text = record.title.empty() ? "" : record.title + "\n";
+  text += fmt::format("{}, trace-path {}\n\n", record.deck, program_version());
+  text += table(record) + "\n";
+  for (const RecordBranch& branch : record.branches) text += ending(branch);
+  return text;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,121 @@
+#include "apps/output/files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace arcwall {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what, const std::string& reason) {
+  throw OutputError(file.string() + ": " + what + ": " + reason);
+}
+
+// A file under a hidden name that goes away unless it is renamed.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& target)
+      : target_(target),
+        path_(target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()))),
+        descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    if (descriptor_ < 0) give_up(errno);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  ~Temporary() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+
+  void write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) give_up(errno);
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  // Some file systems report a full disk only when the file is closed.
+  void rename() {
+    if (::close(std::exchange(descriptor_, -1)) != 0) give_up(errno);
+    std::error_code error;
+    fs::rename(path_, target_, error);
+    if (error) give_up(error.value());
+    path_.clear();
+  }
+
+ private:
+  [[noreturn]] void give_up(int error) const {
+    fail(target_, "cannot be written", std::generic_category().message(error));
+  }
+
+  fs::path target_;
+  fs::path path_;
+  int descriptor_;
+};
+
+// The deck that filled a folder, by its result.json; empty if that cannot be told.
+std::string filled_by(const fs::path& folder) {
+  std::ifstream stream(folder / "result.json", std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
+  const auto file = nlohmann::json::json_pointer("/deck/file");
+  if (!result.is_object() || !result.contains(file) || !result.at(file).is_string()) return {};
+  return result.at(file).get<std::string>();
+}
+
+}  // namespace
+
+void write_whole(const fs::path& file, std::string_view text) {
+  Temporary temporary(file);
+  temporary.write(text);
+  temporary.rename();
+}
+
+void require_usable(const fs::path& folder, const std::string& deck, Foreign foreign) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) {
+    if (error && error != std::errc::no_such_file_or_directory) fail(folder, "cannot be used", error.message());
+    return;
+  }
+  if (!fs::is_directory(status)) fail(folder, "is not a folder", "name another with --out");
+  if (foreign == Foreign::overwrite) return;
+  const bool empty = fs::is_empty(folder, error);
+  if (error) fail(folder, "cannot be read", error.message());
+  if (empty) return;
+  const std::string other = filled_by(folder);
+  if (other == deck) return;
+  fail(folder, other.empty() ? "is not empty, and not filled by this program" : "was filled by another deck, " + other,
+       "name another folder with --out, or write over it with --force");
+}
+
+OutputFolder::OutputFolder(fs::path folder, const std::string& deck, Foreign foreign) : folder_(std::move(folder)) {
+  require_usable(folder_, deck, foreign);
+  std::error_code error;
+  made_ = fs::create_directories(folder_, error);
+  if (error) fail(folder_, "cannot be made", error.message());
+  const Temporary probe(folder_ / "probe");
+}
+
+OutputFolder::~OutputFolder() {
+  if (made_) ::rmdir(folder_.c_str());  // fails if something is in it, as it should
+}
+
+void OutputFolder::write_whole(const std::string& name, std::string_view text) const {
+  arcwall::write_whole(folder_ / name, text);
+}
+
+}  // namespace arcwall

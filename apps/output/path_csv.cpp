@@ -1,0 +1,55 @@
+#include "apps/output/path_csv.hpp"
+
+#include "apps/output/event_names.hpp"
+#include "core/text.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// RFC 4180: a cell with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string titled(const std::string& name, const std::string& unit, UnitLabels labels) {
+  const bool with_unit = labels == UnitLabels::shown && !unit.empty();
+  return cell(with_unit ? name + " [" + unit + "]" : name);
+}
+
+std::string header(const Record& record, UnitLabels labels) {
+  std::string text = "branch,step,arc,lambda";
+  for (const RecordColumn& column : record.columns) text += "," + titled(column.name, column.unit, labels);
+  text += ",unstable,stability,contacts," + titled("energy", record.energy_unit, labels) + ",iterations,event\n";
+  return text;
+}
+
+std::string row(const RecordPoint& point) {
+  std::string text = std::to_string(point.branch) + "," + std::to_string(point.step) + "," + round_trip(point.arc) +
+                     "," + round_trip(point.lambda);
+  for (const double value : point.monitors) text += "," + round_trip(value);
+  text += ",";
+  if (point.count.unstable) text += std::to_string(*point.count.unstable);
+  text += ",";
+  text += to_text(point.count.stability);
+  text += "," + std::to_string(point.contacts) + "," + round_trip(point.energy) + "," +
+          std::to_string(point.iterations) + ",";
+  if (point.event) text += to_text(*point.event);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string path_csv(const Record& record, UnitLabels labels) {
+  std::string text = header(record, labels);
+  for (const RecordPoint& point : record.points) text += row(point);
+  return text;
+}
+
+}  // namespace arcwall

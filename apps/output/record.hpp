@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/candidate.hpp"
+#include "continuation/path_point.hpp"
+
+/// What the outputs say of a run: plain values, without the states they were read off.
+namespace arcwall {
+
+/// A monitor's name and unit.
+struct RecordColumn {
+  std::string name{};
+  std::string unit{};  ///< without brackets; may be empty
+};
+
+/// A row of path.csv.
+struct RecordPoint {
+  Index branch = 0;
+  Index step = 0;  ///< counts from 0 within the branch
+  double arc = 0.0;
+  double lambda = 0.0;
+  std::vector<double> monitors{};  ///< one a column of the record
+  StabilityCount count{};
+  Index contacts = 0;  ///< closed
+  double energy = 0.0;
+  int iterations = 0;
+  std::optional<EventKind> event{};  ///< of several the last that is no change of contact, else the last
+};
+
+/// A contact that changes.
+struct RecordContact {
+  ContactLabel label{};
+  double x = 0.0;  ///< present, of the contact point [length]
+};
+
+struct RecordEvent {
+  Index id = 0;  ///< counts from 0 over all branches
+  EventKind kind = EventKind::start;
+  Index branch = 0;
+  Index step = 0;  ///< of the point it lies on
+  double arc = 0.0;
+  double lambda = 0.0;
+  std::vector<double> monitors{};
+  std::optional<Index> unstable_before{}, unstable_after{};
+  double residual = 0.0;                  ///< relative
+  double localised = 0.0;                 ///< half-width in λ of what is left uncertain
+  std::vector<RecordContact> contacts{};  ///< of a change of contact
+  std::optional<std::string> monitor{};   ///< of a displacement limit
+  std::optional<BranchEnd> branch_end{};  ///< of an end
+};
+
+struct RecordBranch {
+  Index id = 0;
+  std::optional<Index> parent{};  ///< the branch it leaves
+  Index points = 0;
+  double least_lambda = infinity, greatest_lambda = -infinity;  ///< of its points
+  std::optional<BranchEnd> end{};                               ///< empty while it goes on
+};
+
+struct Record {
+  std::string deck{};  ///< file name without folder
+  std::string title{};
+  std::string energy_unit{};
+  std::vector<RecordColumn> columns{};
+  std::vector<RecordBranch> branches{};
+  std::vector<RecordPoint> points{};
+  std::vector<RecordEvent> events{};
+};
+
+}  // namespace arcwall

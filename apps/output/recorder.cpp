@@ -1,0 +1,95 @@
+#include "apps/output/recorder.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "apps/output/event_names.hpp"
+
+namespace arcwall {
+
+namespace {
+
+std::vector<double> values(const std::vector<MonitorColumn>& monitors, const State& state) {
+  std::vector<double> result;
+  for (const MonitorColumn& monitor : monitors) result.push_back(monitor.quantity->value(state));
+  return result;
+}
+
+}  // namespace
+
+Record empty_record(const Study& study) {
+  const deck::Deck& deck = study.deck();
+  const std::string between = deck.units.force.empty() || deck.units.length.empty() ? "" : " ";
+  Record record{.deck = std::filesystem::path(deck.source.file).filename().string(),
+                .title = deck.title,
+                .energy_unit = deck.units.force + between + deck.units.length};
+  for (const MonitorColumn& monitor : study.monitors()) record.columns.push_back({monitor.name, monitor.unit});
+  return record;
+}
+
+Recorder::Recorder(const Study& study, Record& record, std::optional<Index> parent)
+    : study_(study), record_(record), branch_(record.branches.size()) {
+  record_.branches.push_back({.id = static_cast<Index>(branch_), .parent = parent});
+}
+
+void Recorder::add(const Arc& arc) {
+  const PathPoint& to = arc.to;
+  record_.points.push_back({.branch = branch().id,
+                            .step = branch().points,
+                            .arc = to.arc,
+                            .lambda = to.state.lambda,
+                            .monitors = values(study_.monitors(), to.state),
+                            .count = to.count,
+                            .contacts = study_.closed_contacts(to.state),
+                            .energy = study_.system().energy(to.state),
+                            .iterations = to.iterations});
+  ++branch().points;
+  branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);
+  branch().greatest_lambda = std::max(branch().greatest_lambda, to.state.lambda);
+  residual_ = to.residual;
+  for (const Event& event : arc.events) add_event(recorded(event));
+}
+
+void Recorder::end(const BranchEnd& end) {
+  branch().end = end;
+  if (branch().points == 0) return;
+  const RecordPoint& last = record_.points.back();
+  add_event({.kind = EventKind::end,
+             .arc = last.arc,
+             .lambda = last.lambda,
+             .monitors = last.monitors,
+             .unstable_before = last.count.unstable,
+             .unstable_after = last.count.unstable,
+             .residual = residual_,
+             .branch_end = end});
+}
+
+RecordEvent Recorder::recorded(const Event& event) const {
+  RecordEvent record{.kind = event.kind,
+                     .arc = event.arc,
+                     .lambda = event.state.lambda,
+                     .monitors = values(study_.monitors(), event.state),
+                     .unstable_before = event.unstable_before,
+                     .unstable_after = event.unstable_after,
+                     .residual = event.residual,
+                     .localised = event.localised};
+  if (event.kind == EventKind::displacement_limit) record.monitor = event.label;
+  if (study_.contact() == nullptr) return record;
+  for (const Index j : event.guards) {
+    const Candidate& candidate = study_.contact()->candidate(j);
+    record.contacts.push_back({.label = candidate.label(), .x = candidate.point().position(event.state.x).x()});
+  }
+  return record;
+}
+
+void Recorder::add_event(RecordEvent event) {
+  event.id = static_cast<Index>(record_.events.size());
+  event.branch = branch().id;
+  event.step = branch().points - 1;
+  RecordPoint& point = record_.points.back();
+  if (!point.event || changes_contact(*point.event) || !changes_contact(event.kind)) point.event = event.kind;
+  record_.events.push_back(std::move(event));
+}
+
+}  // namespace arcwall

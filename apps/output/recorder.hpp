@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "apps/output/record.hpp"
+#include "apps/study.hpp"
+
+namespace arcwall {
+
+/// A record of the study's deck and columns, without branches yet.
+Record empty_record(const Study& study);
+
+/// Adds one branch to a record, arc by arc.
+class Recorder {
+ public:
+  /// Both must outlive this. `parent`: the branch that this one leaves.
+  Recorder(const Study& study, Record& record, std::optional<Index> parent = std::nullopt);
+
+  /// The arc's end as a point, and its events.
+  void add(const Arc& arc);
+
+  /// The end of the branch, as an event of its last point. A branch without points has no such event.
+  void end(const BranchEnd& end);
+
+ private:
+  RecordBranch& branch() { return record_.branches[branch_]; }
+  RecordEvent recorded(const Event& event) const;
+  void add_event(RecordEvent event);
+
+  const Study& study_;
+  Record& record_;
+  std::size_t branch_;
+  double residual_ = 0.0;  // of the last point
+};
+
+}  // namespace arcwall

@@ -1,0 +1,63 @@
+#include "apps/output/result_json.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include "apps/output/events_json.hpp"
+#include "apps/output/version.hpp"
+
+namespace arcwall {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr int schema_version = 1;
+
+std::string crc32_text(std::string_view text) {
+  return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
+Json model(const Study& study) {
+  const MultiplierContact* contact = study.contact();
+  return {{"nodes", study.structure().node_count()},
+          {"unknowns", study.structure().size({})},
+          {"contact_candidates", contact == nullptr ? Index{0} : contact->guard_count()}};
+}
+
+Json counts(const Record& record) {
+  Index iterations = 0;
+  for (const RecordPoint& point : record.points) iterations += point.iterations;
+  return {{"branches", record.branches.size()},
+          {"points", record.points.size()},
+          {"events", record.events.size()},
+          {"iterations", iterations}};
+}
+
+}  // namespace
+
+Json result_json(const Study& study, std::string_view deck_text, const Record& record, const RunSeconds& seconds,
+                 int status) {
+  Json libraries = Json::object();
+  for (const auto& [name, version] : library_versions()) libraries[name] = version;
+  Json branches = Json::array();
+  for (const RecordBranch& branch : record.branches)
+    branches.push_back({{"id", branch.id}, {"end", branch.end ? end_json(*branch.end) : Json(nullptr)}});
+
+  Json json;
+  json["schema"] = schema_version;
+  json["deck"] = {{"file", record.deck},
+                  {"title", record.title},
+                  {"crc32", crc32_text(deck_text)},
+                  {"set", study.deck().source.assignments}};
+  json["program"] = {{"name", "trace-path"}, {"version", program_version()}};
+  json["libraries"] = std::move(libraries);
+  json["model"] = model(study);
+  json["counts"] = counts(record);
+  json["seconds"] = {{"total", seconds.total}, {"tracing", seconds.tracing}};
+  json["status"] = status;
+  json["branches"] = std::move(branches);
+  return json;
+}
+
+}  // namespace arcwall

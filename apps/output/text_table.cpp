@@ -1,0 +1,36 @@
+#include "apps/output/text_table.hpp"
+
+#include <algorithm>
+
+namespace arcwall {
+
+std::size_t width(std::string_view text) {
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; };
+  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
+}
+
+std::string text_table(const std::vector<TableColumn>& columns, const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::string> titles;
+  std::vector<std::size_t> widths;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    titles.push_back(columns[i].title);
+    widths.push_back(width(columns[i].title));
+    for (const auto& row : rows) widths[i] = std::max(widths[i], width(row[i]));
+  }
+  std::string text;
+  const auto add_line = [&](const std::vector<std::string>& cells) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::string blanks(widths[i] - width(cells[i]), ' ');
+      if (i > 0) line += "  ";
+      line += columns[i].side == TableColumn::Side::right ? blanks + cells[i] : cells[i] + blanks;
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  };
+  add_line(titles);
+  for (const auto& row : rows) add_line(row);
+  return text;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,113 @@
+#include "apps/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/build_contact.hpp"
+#include "apps/build_path.hpp"
+#include "apps/build_structure.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Forces below the tolerance times this scale count as zero: small against the loads of a step, above the round-off of
+// the mesh.
+ContactScales contact_scales(const Structure& structure, double first_step) {
+  constexpr double steps = 10.0;
+  const double tolerance = TraceOptions{}.guard_tolerance;
+  return {.length = structure.length_scale(),
+          .force = std::max({steps * structure.force_scale() * std::abs(first_step),
+                             structure.force_roundoff() / tolerance, 1e-300})};
+}
+
+bool moves_something(const Structure& structure) {
+  Linearization now;
+  structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
+  return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
+}
+
+void check_contact_method(const deck::Deck& deck, DeckProblems& problems) {
+  if (deck.walls.empty()) return;
+  if (deck.contact.method != deck::ContactMethod::multiplier)
+    problems.add({}, "contact.method", "only method \"multiplier\" is part of this version", "use \"multiplier\"");
+  if (deck.contact.points == deck::ContactPoints::sliding)
+    problems.add({}, "contact.points", "points = \"sliding\" is not part of this version", "use \"nodes\"");
+}
+
+}  // namespace
+
+Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
+  DeckProblems problems(deck_.source);
+  const StructureOfDeck model = describe_structure(deck_, problems);
+  check_contact_method(deck_, problems);
+  problems.raise();
+  check_mechanism(deck_, problems);
+  problems.raise();
+
+  structure_ = model.builder.build();
+  if (!moves_something(*structure_))
+    problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
+                 "the loads that λ multiplies act on supports only: nothing moves", "load a free direction");
+  auto candidates = contact_candidates(deck_, *structure_, problems);
+  monitors_ = monitor_columns(deck_, *structure_, model.places, problems);
+  options_ = trace_options(deck_, *structure_, model.places, monitors_, problems);
+  problems.raise();
+
+  const auto constant = [](const deck::Load& load) { return load.constant; };
+  const bool ramp = std::any_of(deck_.loads.begin(), deck_.loads.end(), constant);
+  if (ramp) ramp_structure_ = model.builder.build(true);
+  if (!deck_.walls.empty()) {
+    const ContactScales scales = contact_scales(*structure_, deck_.path.step);
+    contact_ = std::make_unique<MultiplierContact>(*structure_, std::move(candidates), scales);
+    if (ramp)
+      ramp_contact_ = std::make_unique<MultiplierContact>(
+          *ramp_structure_, contact_candidates(deck_, *ramp_structure_, problems), scales);
+    if (!deck_.contact.points)
+      warnings_.push_back(
+          "contact is tied to the nodes of the mesh in this version (contact.points = \"nodes\"): small "
+          "teeth of the path and the load of a snap depend on the mesh");
+  }
+  for (const std::string& name : deck_.path.watch)
+    watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
+  if (deck_.path.branches != deck::Branches::primary)
+    warnings_.push_back(
+        "path.branches: branch points on smooth arcs are not reported in this version; the first branch "
+        "is followed, as with \"primary\"");
+}
+
+const System& Study::system() const {
+  if (contact_) return *contact_;
+  return *structure_;
+}
+
+std::optional<State> Study::start(std::string& reason) const {
+  State state{.x = Vector::Zero(structure_->size({})),
+              .lambda = 0.0,
+              .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->guard_count()) : 0, 0)};
+  if (!ramp_structure_) return state;
+  // The constant loads grow from nothing along a path of their own, contacts included.
+  TraceOptions options;
+  options.step.first = 0.1;
+  options.max_points = 2000;
+  options.events = EventSearch::none;
+  options.landmarks.push_back(
+      {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
+  const System* ramp = ramp_structure_.get();
+  if (ramp_contact_) ramp = ramp_contact_.get();
+  Tracer tracer(*ramp, state, options);
+  while (const auto arc = tracer.next()) state = arc->to.state;
+  if (!tracer.end() || tracer.end()->reason != EndReason::stop) {
+    reason = "the constant loads find no equilibrium: their growth ends at " + std::to_string(state.lambda) +
+             " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
+    return std::nullopt;
+  }
+  state.lambda = 0.0;
+  return state;
+}
+
+Index Study::closed_contacts(const State& state) const {
+  return std::count(state.piece.begin(), state.piece.end(), std::uint8_t{1});
+}
+
+}  // namespace arcwall

@@ -1,0 +1,77 @@
+#include "apps/deck/writer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "apps/deck/reader.hpp"
+#include "tests/apps/deck/sample_decks.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+Deck read(std::string_view text) { return read_deck_text(text, "sample.toml"); }
+
+void expect_same_after_writing(const Deck& deck) {
+  const std::string text = to_toml(deck);
+  const Deck again = read(text);
+  EXPECT_EQ(again, deck) << text;
+  EXPECT_EQ(to_toml(again), text);
+}
+
+}  // namespace
+
+TEST(DeckWriter, WritesWhatReadsTheSame) {
+  expect_same_after_writing(read(column_deck));
+  expect_same_after_writing(read(full_deck));
+}
+
+TEST(DeckWriter, TellsDifferentDecksApart) {
+  const Deck deck = read(column_deck);
+  Deck other = deck;
+  other.members.at(0).elements = 81;
+  Deck elsewhere = read("\n\n" + std::string(column_deck));
+
+  EXPECT_NE(deck, other);
+  EXPECT_EQ(deck, elsewhere);
+  EXPECT_NE(deck.members.at(0).position.line, elsewhere.members.at(0).position.line);
+}
+
+TEST(DeckWriter, WritesEveryDefault) {
+  const std::string text = to_toml(read(column_deck));
+
+  for (const char* line : {"method = \"spherical\"", "method = \"multiplier\"", "gap_tolerance = 1e-10", "step = 0.02",
+                           "min_step = 1e-08", "max_step = 0.2", "max_points = 5000", "branches = \"follow\"",
+                           "depth = 2", "watch = []", "events = \"locate\"", "constant = false", "moment = 0.0"}) {
+    EXPECT_NE(text.find(std::string("\n") + line + "\n"), std::string::npos) << line;
+  }
+}
+
+TEST(DeckWriter, KeepsTextAndNumbersExactly) {
+  Deck deck = read(column_deck);
+  deck.title = "quote \" backslash \\ newline \n tab \t bell \a é λ";
+  deck.materials.at(0).E = 0.1 + 0.2;
+  deck.points.at(1).at = {1.0 / 3.0, 1e300};
+
+  const Deck again = read(to_toml(deck));
+
+  EXPECT_EQ(again.title, deck.title);
+  EXPECT_EQ(again.materials.at(0).E, 0.1 + 0.2);
+  EXPECT_EQ(again.points.at(1).at, deck.points.at(1).at);
+}
+
+// A spline of many points must stay within the reader's limit on the length of a line.
+TEST(DeckWriter, BreaksLongLists) {
+  Deck deck = read(column_deck);
+  SplineProfile profile;
+  for (int i = 0; i < 20000; ++i) {
+    profile.x.push_back(i / 3.0);
+    profile.z.push_back(-1.0 - 1.0 / (i + 7.0));
+  }
+  deck.walls.push_back({.name = "ground", .side = Side::below, .profile = profile});
+
+  EXPECT_EQ(read(to_toml(deck)), deck);
+}
+
+}  // namespace arcwall::deck
