@@ -49,6 +49,11 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
   return arrived({.state = state}, metric, along);
 }
 
+std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count) const {
+  if (!solver_.inner_is_regular()) return std::nullopt;
+  return arcwall::near_null(solver_.inner(), now_.K, weights, count);
+}
+
 // Evaluates and factorizes at a state; `converged` means that both could be done.
 CorrectorStatus Corrector::look(const State& state) {
   system_.linearize(state, now_);

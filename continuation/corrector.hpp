@@ -5,6 +5,7 @@
 #include "continuation/metric.hpp"
 #include "continuation/path_constraint.hpp"
 #include "core/bordered_solver.hpp"
+#include "core/near_null.hpp"
 
 namespace arcwall {
 
@@ -41,6 +42,9 @@ class Corrector {
   /// there, which closes the system where K is singular.
   CorrectorResult correct(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
                           double length);
+
+  /// Eigenpairs nearest zero of K at the state reached last; empty where K is singular to working precision.
+  std::optional<NearNull> near_null(const Vector& weights, Index count) const;
 
   /// Tangent and signs at a state that is already on the path.
   CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ struct PathPoint {
   State state{};
   Direction tangent{};  ///< of unit length, forward along the path
   double arc = 0.0;     ///< arc length from the branch's first point [path metric]
+  std::optional<Index> held{};  ///< negative eigenvalues with all closed contacts held; empty: not certain
   StabilityCount count{};
   int iterations = 0;     ///< of the step that led here
   double residual = 0.0;  ///< relative
@@ -29,6 +31,24 @@ enum class EventKind {
   limit_point,
   contact_limit_point,
   displacement_limit,
+  branch_point,
+};
+
+/// How branches cross.
+enum class BranchType {
+  symmetric,   ///< a pitchfork: the other branch leaves along the mode, both sides alike at first order
+  asymmetric,  ///< transcritical
+  one_sided,   ///< several rays leave a change of contact
+};
+
+/// A point where several branches meet.
+struct BranchPoint {
+  BranchType type = BranchType::symmetric;
+  State state{};
+  Direction along{};       ///< unit tangent of the branch it was found on, forward
+  Direction mode{};        ///< critical mode, of unit length, largest component positive; no λ
+  Direction other{};       ///< unit tangent of the other branch
+  Index multiplicity = 1;  ///< of the zero eigenvalue
 };
 
 /// A located point of a path.
@@ -40,7 +60,8 @@ struct Event {
   double residual = 0.0;   ///< relative
   double localised = 0.0;  ///< half-width in λ of what is left uncertain
   std::optional<Index> unstable_before{}, unstable_after{};
-  std::vector<Index> guards{};  ///< contacts that change
+  std::vector<Index> guards{};                     ///< contacts that change
+  std::shared_ptr<const BranchPoint> branching{};  ///< of branch points
 };
 
 /// Why a branch ended.

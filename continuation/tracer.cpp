@@ -107,6 +107,7 @@ std::optional<Arc> Tracer::begin() {
   signs_ = signs_at(here_);
   step_.restart(std::abs(options_.step.first / here_.tangent.dlambda));
   first_ = here_.state;
+  held_ = here_.held;
   ++points_;
   arc.to = here_;
   arc.events.insert(arc.events.begin(), Event{.kind = EventKind::start,
@@ -124,7 +125,8 @@ std::optional<Arc> Tracer::advance(double s) {
   if (!step) return std::nullopt;
   const PathPoint beyond = step->to;
   const Segment whole(metric_, here_, beyond);
-  if (options_.events != EventSearch::none && hides_two_zeros(whole)) return std::nullopt;
+  if (options_.events != EventSearch::none && (hides_two_zeros(whole) || several_singular_points(whole)))
+    return std::nullopt;
 
   std::optional<Found> found;
   if (options_.events != EventSearch::none || !options_.landmarks.empty()) {
@@ -146,10 +148,13 @@ std::optional<Arc> Tracer::advance(double s) {
   if (found) {
     PathPoint after = beyond;
     after.count = counter_.count(after.state, std::nullopt);
-    if (found->what == Found::What::detector) arc.events.push_back(event_of(*found, to, after, length));
+    if (found->what != Found::What::landmark) arc.events.push_back(event_of(*found, to, after, length));
     if (found->what == Found::What::landmark && options_.landmarks[found->which].stops)
       end_ = {.reason = EndReason::stop, .detail = options_.landmarks[found->which].label};
   }
+  const bool singular = found && (found->what == Found::What::branch_point ||
+                                  (found->what == Found::What::detector && detectors_[found->which].kind == EventKind::limit_point));
+  held_ = singular ? beyond.held : to.held;
   const bool back = !step->corner && came_back(to);
   if (back) end_ = {.reason = EndReason::closed_loop, .detail = "the branch came back to a point it had passed"};
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
@@ -167,6 +172,7 @@ std::optional<Arc> Tracer::advance(double s) {
       const std::vector<int> turned = signs_at(to);
       for (std::size_t i = 0; i < turned.size(); ++i)
         if (turned[i] != 0) signs_[i] = turned[i];
+      held_ = to.held;
     }
     const Index closed = std::count(to.state.piece.begin(), to.state.piece.end(), std::uint8_t{1});
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
@@ -269,6 +275,10 @@ std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, 
 // The first detector or landmark with a zero inside the segment, besides the one that its end lies on.
 std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std::optional<Found>& already) const {
   std::optional<Found> first;
+  const bool turns = !signs_.empty() && signs_.front() * sign_of(segment.to().tangent.dlambda / metric_.lambda_scale()) < 0;
+  const bool whole = !already;  // counts are certain at the end of a step, not at a located point
+  if (options_.events == EventSearch::locate && whole && !turns && held_ && segment.to().held && *held_ != *segment.to().held)
+    return Found{.what = Found::What::branch_point, .which = 0, .t = 0.5, .half_width = 0.0};
   const auto consider = [&](Found::What what, std::size_t which, double t) {
     const bool done = already && already->what == what && already->which == which;
     if (!done && (!first || t < first->t)) first = Found{.what = what, .which = which, .t = t, .half_width = 0.0};
@@ -292,6 +302,7 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
 
 // Lands on a landmark with its value as the constraint; brackets a detector's zero in planes across the chord.
 std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
+  if (found.what == Found::What::branch_point) return locate_branch_point(to);
   const Segment segment(metric_, here_, to);
   if (found.what == Found::What::landmark) {
     const Landmark& mark = options_.landmarks[found.which];
@@ -322,7 +333,40 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
   return at(root->at);
 }
 
+std::optional<PathPoint> Tracer::locate_branch_point(const PathPoint& to) {
+  const Segment segment(metric_, here_, to);
+  auto branching = std::make_shared<BranchPoint>();
+  BranchPointLocator locator(system_, corrector_);
+  auto at = locator.locate(segment, metric_, held_.value(), to.held.value(), *branching);
+  if (!at) return std::nullopt;
+  CorrectorResult result = corrector_.inspect(at->state, metric_, at->tangent);
+  if (!result.converged()) return std::nullopt;
+  result.tangent = at->tangent;
+  result.iterations = at->iterations;
+  located_ = std::move(branching);
+  return point_of(std::move(result), here_.tangent);
+}
+
+// A fold changes the count of negative eigenvalues by one, and so does a simple branch point. Where a step shows more, or
+// a fold without its change, it is looked at again in shorter steps.
+bool Tracer::several_singular_points(const Segment& segment) const {
+  constexpr double inseparable = 1e-5;  // arc length below which they are one
+  if (!held_ || !segment.to().held || segment.length() < inseparable || detectors_.empty()) return false;
+  const Index changes = std::abs(*segment.to().held - *held_);
+  const bool turns = signs_.front() * sign_of(detectors_.front().value(segment.to())) < 0;
+  return changes > 1 || (turns && changes != 1);
+}
+
 Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, double length) const {
+  if (found.what == Found::What::branch_point)
+    return {.kind = EventKind::branch_point,
+            .state = at.state,
+            .arc = at.arc,
+            .residual = at.residual,
+            .localised = 1e-12 * length / metric_.lambda_scale(),
+            .unstable_before = here_.count.unstable,
+            .unstable_after = beyond.count.unstable,
+            .branching = located_};
   const EventDetector& detector = detectors_[found.which];
   // λ changes by λ′ δ + ½ λ″ δ² over the bracket that is left.
   const double width = found.half_width * length / std::max(found.t, 1e-3);
@@ -462,7 +506,7 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
   point.tangent =
       metric.inner(result.tangent, forward) >= 0.0 ? std::move(result.tangent) : reversed(std::move(result.tangent));
   point.state = std::move(result.state);
-  point.count.unstable = result.negative;
+  point.held = point.count.unstable = result.negative;
   point.iterations = result.iterations;
   point.residual = result.residual;
   point.guards = system_.guards(point.state);

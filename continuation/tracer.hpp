@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "continuation/branching.hpp"
 #include "continuation/corner.hpp"
 #include "continuation/corrector.hpp"
 #include "continuation/event_detector.hpp"
@@ -79,7 +80,7 @@ class Tracer {
  private:
   // Something that happens inside a step.
   struct Found {
-    enum class What { detector, landmark } what;
+    enum class What { branch_point, detector, landmark } what;
     std::size_t which;
     double t;  // estimate, then place, as a fraction of the step
     double half_width;
@@ -106,6 +107,8 @@ class Tracer {
   std::optional<Crossing> first_crossing(const Segment& segment) const;
   bool land(Step& step, Crossing crossing);
 
+  bool several_singular_points(const Segment& segment) const;
+  std::optional<PathPoint> locate_branch_point(const PathPoint& to);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);
@@ -130,7 +133,9 @@ class Tracer {
   StabilityCounter counter_;
   StepControl step_;
   PathPoint here_;
-  std::vector<int> signs_;  // of each detector just after here_
+  std::vector<int> signs_;     // of each detector just after here_
+  std::optional<Index> held_;  // negative eigenvalues just after here_, closed contacts held
+  std::shared_ptr<BranchPoint> located_;  // the last branch point
   State first_;             // where the branch began
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
   struct Visited {

@@ -33,8 +33,8 @@ class BorderedSolver {
   /// Solution of the bordered system for one right-hand side (f, g), with column F_λ; empty if it is singular.
   std::optional<Direction> solve(const Row& border, const Vector& f, double g);
 
-  /// X := K⁻¹ X; only after `ok`.
-  void solve_inner(Eigen::Ref<Matrix> X) const { ldlt_.solve(X); }
+  /// The factorization of K alone; only after `ok`.
+  const Factorization& inner() const { return ldlt_; }
 
   /// Signs of the pivots of K; empty if K is singular to working precision.
   std::optional<Inertia> inertia() const { return ldlt_.inertia(); }

@@ -25,6 +25,7 @@ Matrix start_block(Index rows, Index columns) {
   return X;
 }
 
+// Columns of unit length, without dependent ones growing: QR with respect to the ordinary product.
 void orthonormalise(Matrix& X) {
   const Index rows = X.rows(), columns = X.cols();
   X = Eigen::HouseholderQR<Matrix>(X).householderQ() * Matrix::Identity(rows, columns);
@@ -32,19 +33,24 @@ void orthonormalise(Matrix& X) {
 
 }  // namespace
 
-NearNull near_null(const Factorization& factorization, const SparseMatrix& K, Index count, double relative_tolerance) {
-  const Index n = K.rows();
-  count = std::min(count, n);
-  const Index block = std::min(n, count + 3);  // guard vectors speed the last wanted pair up
+NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
+                   double relative_tolerance) {
+  const Index n = K.rows(), free = (weights.array() > 0.0).count();
+  count = std::min(count, free);
+  const Index block = std::min(free, count + 3);  // guard vectors speed the last wanted pair up
+  if (block == 0) return {};
   Matrix X = start_block(n, block);
-  orthonormalise(X);
   Vector values = Vector::Constant(block, infinity);
   for (int round = 0; round < max_rounds; ++round) {
+    X = weights.asDiagonal() * X;
     factorization.solve(X);
     orthonormalise(X);
-    // Rayleigh-Ritz: the best eigenpairs of K in the span of X, nearest zero first.
+    // Rayleigh-Ritz: the best eigenpairs in the span of X. The reciprocal problem XᵀMX y = (1/μ) XᵀKX y would not do, as
+    // K is indefinite; XᵀMX is positive definite where X has no pure multipliers.
     const Matrix KX = K.selfadjointView<Eigen::Lower>() * X;
-    const Eigen::SelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX);
+    const Matrix MX = weights.asDiagonal() * X;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX, X.transpose() * MX);
+    if (ritz.info() != Eigen::Success || !ritz.eigenvalues().allFinite()) break;
     std::vector<Index> order(static_cast<std::size_t>(block));
     std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
@@ -53,7 +59,7 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, In
     X = X * ritz.eigenvectors()(Eigen::all, order);
     const Vector previous = values;
     values = ritz.eigenvalues()(order);
-    const double scale = values.cwiseAbs().maxCoeff();
+    const double scale = values.head(count).cwiseAbs().maxCoeff();
     const double change = (values - previous).head(count).cwiseAbs().maxCoeff();
     if (change <= relative_tolerance * scale) break;
   }

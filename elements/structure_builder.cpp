@@ -214,7 +214,7 @@ std::optional<Mechanism> find_mechanism(const Structure& structure) {
   for (Index i = 0; i < K.cols(); ++i) shifted.coeffRef(i, i) += shift;
   Ldlt ldlt;
   if (ldlt.factorize(shifted) != FactorStatus::ok) return std::nullopt;
-  const NearNull softest = near_null(ldlt, K, 1);
+  const NearNull softest = near_null(ldlt, K, Vector::Ones(K.cols()), 1);
   if (std::abs(softest.values[0]) > zero) return std::nullopt;
   // The largest motion, rotations taken over the length scale.
   Index largest = 0;

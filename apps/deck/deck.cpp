@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "apps/deck/value.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::deck {
@@ -47,10 +48,7 @@ std::string to_text(const Place& place) {
 std::string origin_of(const std::string& assignment) {
   constexpr std::size_t most_shown = 200;
   std::string text = assignment.size() > most_shown ? assignment.substr(0, most_shown) + "…" : assignment;
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
-  return "--set " + text;
+  return "--set " + on_one_line(text);
 }
 
 Diagnostic diagnostic_at(const Source& source, const Position& position, std::string key, std::string message,

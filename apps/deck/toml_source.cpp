@@ -113,7 +113,7 @@ toml::table parsed(std::string_view text, const std::string& file) {
     fail({.file = file,
           .line = position.line,
           .column = position.column,
-          .message = "not valid TOML: " + std::string(error.description())});
+          .message = "not valid TOML: " + on_one_line(std::string(error.description()))});
   } catch (const ParserDefect&) {
     fail({.file = file, .line = line_of_defect(text), .message = "not valid TOML", .cure = "check this line"});
   }

@@ -46,6 +46,12 @@ std::string quoted(std::string_view text, std::size_t most) {
   return result + (end < text.size() ? "…\"" : "\"");
 }
 
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '\x7F'; }, ' ');
+  return text;
+}
+
 std::string key_text(std::string_view key) { return is_name(key) ? std::string(key) : quoted(key, most_shown); }
 
 bool is_name(std::string_view text) {

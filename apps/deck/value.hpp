@@ -33,6 +33,9 @@ std::string shown(const Value& value);
 /// Text in quotes as TOML writes it, on one line and printable; cut after `most` bytes if that is not 0.
 std::string quoted(std::string_view text, std::size_t most = 0);
 
+/// The text with a space for every control character.
+std::string on_one_line(std::string text);
+
 /// `key`, quoted if TOML needs that.
 std::string key_text(std::string_view key);
 

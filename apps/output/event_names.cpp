@@ -13,7 +13,8 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::contact_opens,
                                  EventKind::limit_point,
                                  EventKind::contact_limit_point,
-                                 EventKind::displacement_limit};
+                                 EventKind::displacement_limit,
+                                 EventKind::branch_point};
 
 constexpr std::array end_reasons{
     EndReason::stop,        EndReason::closed_loop,     EndReason::max_points, EndReason::max_time,
@@ -46,6 +47,8 @@ std::string_view to_text(EventKind kind) {
       return "contact-limit-point";
     case EventKind::displacement_limit:
       return "displacement-limit";
+    case EventKind::branch_point:
+      return "branch-point";
   }
   assert(false);
   return {};
@@ -93,6 +96,19 @@ std::string_view to_text(Stability stability) {
   return {};
 }
 
+std::string_view to_text(BranchType type) {
+  switch (type) {
+    case BranchType::symmetric:
+      return "symmetric";
+    case BranchType::asymmetric:
+      return "asymmetric";
+    case BranchType::one_sided:
+      return "one-sided";
+  }
+  assert(false);
+  return {};
+}
+
 std::optional<EventKind> event_kind(std::string_view text) { return with_text(event_kinds, text); }
 
 std::optional<EndReason> end_reason(std::string_view text) { return with_text(end_reasons, text); }
@@ -107,6 +123,7 @@ bool changes_contact(EventKind kind) {
     case EventKind::limit_point:
     case EventKind::contact_limit_point:
     case EventKind::displacement_limit:
+    case EventKind::branch_point:
       return false;
   }
   assert(false);

@@ -17,6 +17,9 @@ std::string_view to_text(EndReason reason);
 /// `stable`, `unstable` or `undecided`.
 std::string_view to_text(Stability stability);
 
+/// `symmetric`, `asymmetric` or `one-sided`.
+std::string_view to_text(BranchType type);
+
 /// The kind of that name, or nothing.
 std::optional<EventKind> event_kind(std::string_view text);
 

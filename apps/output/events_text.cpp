@@ -33,6 +33,7 @@ std::string contacts(const std::vector<RecordContact>& list) {
 
 std::string what(const RecordEvent& event) {
   if (event.branch_end) return std::string(to_text(event.branch_end->reason));
+  if (event.branch_type) return std::string(to_text(*event.branch_type));
   if (event.monitor) return *event.monitor;
   return contacts(event.contacts);
 }

@@ -45,11 +45,13 @@ struct RecordEvent {
   double lambda = 0.0;
   std::vector<double> monitors{};
   std::optional<Index> unstable_before{}, unstable_after{};
-  double residual = 0.0;                  ///< relative
-  double localised = 0.0;                 ///< half-width in λ of what is left uncertain
-  std::vector<RecordContact> contacts{};  ///< of a change of contact
-  std::optional<std::string> monitor{};   ///< of a displacement limit
-  std::optional<BranchEnd> branch_end{};  ///< of an end
+  double residual = 0.0;                    ///< relative
+  double localised = 0.0;                   ///< half-width in λ of what is left uncertain
+  std::vector<RecordContact> contacts{};    ///< of a change of contact
+  std::optional<std::string> monitor{};     ///< of a displacement limit
+  std::optional<BranchEnd> branch_end{};    ///< of an end
+  std::optional<BranchType> branch_type{};  ///< of a branch point
+  std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
 };
 
 struct RecordBranch {

@@ -16,6 +16,15 @@ std::vector<double> values(const std::vector<MonitorColumn>& monitors, const Sta
   return result;
 }
 
+// The critical mode has no λ, and only that of a smooth crossing is known.
+std::vector<double> mode_rates(const std::vector<MonitorColumn>& monitors, const BranchPoint& point) {
+  std::vector<double> result;
+  if (point.mode.dx.size() != point.state.x.size()) return result;
+  for (const MonitorColumn& monitor : monitors)
+    result.push_back(monitor.quantity->gradient(point.state).dx.dot(point.mode.dx));
+  return result;
+}
+
 }  // namespace
 
 Record empty_record(const Study& study) {
@@ -75,6 +84,10 @@ RecordEvent Recorder::recorded(const Event& event) const {
                      .residual = event.residual,
                      .localised = event.localised};
   if (event.kind == EventKind::displacement_limit) record.monitor = event.label;
+  if (event.branching) {
+    record.branch_type = event.branching->type;
+    record.mode = mode_rates(study_.monitors(), *event.branching);
+  }
   if (study_.contact() == nullptr) return record;
   for (const Index j : event.guards) {
     const Candidate& candidate = study_.contact()->candidate(j);

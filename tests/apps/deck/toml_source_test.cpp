@@ -170,6 +170,13 @@ TEST(TomlSource, RefusesWhatIsNotToml) {
   expect_refused("= 1", 1, "");
 }
 
+TEST(TomlSource, KeepsMessagesOnOneLine) {
+  const Diagnostic found = refusal("a = tru\nb = 1");
+
+  EXPECT_EQ(found.line, 1);
+  EXPECT_EQ(to_text(found).find('\n'), std::string::npos) << to_text(found);
+}
+
 // Invalid documents on which the parser's own assertions fail.
 TEST(TomlSource, SurvivesWhatTheParserTakesForImpossible) {
   expect_refused("a = 1\n[=]", 2, "table header");

@@ -1,0 +1,31 @@
+#include <iostream>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/summary.hpp"
+#include "apps/deck/reader.hpp"
+
+namespace arcwall {
+
+namespace {
+
+ExitStatus check(const Options& options) {
+  const Study study(deck::read_deck(options.words().front(), options.texts("set")));
+  for (const std::string& warning : study.warnings()) std::cerr << "warning: " << warning << "\n";
+  std::cout << summary(study);
+  return ExitStatus::success;
+}
+
+}  // namespace
+
+Command check_command() {
+  return {.description = {.name = "check",
+                          .example = "trace-path check channel.toml",
+                          .usage = "DECK [options]",
+                          .summary = "reports every error of a deck, else says what it describes",
+                          .options = {set_option()},
+                          .least_words = 1,
+                          .most_words = 1},
+          .run = check};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace arcwall {
+
+/// A deck that comes with the program.
+struct ExampleDeck {
+  std::string_view name{};
+  std::string_view text{};
+};
+
+/// In the order of their names; made from the files of examples/ when the program is built.
+const std::vector<ExampleDeck>& example_decks();
+
+}  // namespace arcwall

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "continuation/path_point.hpp"
+
+namespace arcwall {
+
+/// What the program returns to the shell.
+enum class ExitStatus {
+  success = 0,
+  internal_error = 1,
+  wrong_input = 2,  ///< the command line or the deck
+  ended_early = 3,  ///< a branch, by one of a closed list of reasons
+  no_start = 4,     ///< no equilibrium
+  file_error = 5,
+  limit_met = 6,  ///< on points or time
+  interrupted = 130,
+};
+
+/// The status of a run whose branch ended so.
+ExitStatus exit_status(EndReason reason);
+
+}  // namespace arcwall

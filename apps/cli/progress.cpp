@@ -1,0 +1,59 @@
+#include "apps/cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "apps/output/text_table.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// A line that wraps could not be erased: it is cut to the terminal's width.
+std::string cut(std::string text, std::size_t columns) {
+  while (width(text) > columns) text.pop_back();
+  return text;
+}
+
+std::size_t terminal_columns() {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return (known ? size.ws_col : usual) - 1;
+}
+
+}  // namespace
+
+Progress progress_wanted() {
+  const bool wanted = ::isatty(STDERR_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
+  return wanted ? Progress::shown : Progress::hidden;
+}
+
+ProgressLine::~ProgressLine() {
+  if (visible_) std::cerr << "\r\x1b[K" << std::flush;
+}
+
+void ProgressLine::show(const Record& record) {
+  if (progress_ == Progress::hidden || record.points.empty()) return;
+  constexpr auto pause = std::chrono::milliseconds(100);
+  const Clock::time_point now = Clock::now();
+  if (visible_ && now - last_ < pause) return;
+  std::cerr << "\r" << cut(progress_text(record), terminal_columns()) << "\x1b[K" << std::flush;
+  last_ = now;
+  visible_ = true;
+}
+
+std::string progress_text(const Record& record) {
+  const RecordPoint& point = record.points.back();
+  std::string text = fmt::format("branch {}  {} points  λ={:.6g}", point.branch, point.step + 1, point.lambda);
+  for (std::size_t i = 0; i < point.monitors.size(); ++i)
+    text += fmt::format("  {}={:.5g}", record.columns[i].name, point.monitors[i]);
+  text += "  unstable " + (point.count.unstable ? std::to_string(*point.count.unstable) : "?");
+  return text + fmt::format("  contacts {}", point.contacts);
+}
+
+}  // namespace arcwall

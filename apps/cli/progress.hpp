@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+
+#include "apps/output/record.hpp"
+
+namespace arcwall {
+
+enum class Progress { shown, hidden };
+
+/// Hidden unless standard error is a terminal and NO_COLOR is not set.
+Progress progress_wanted();
+
+/// One line on standard error, rewritten at most ten times a second and gone in the end.
+class ProgressLine {
+ public:
+  explicit ProgressLine(Progress progress) : progress_(progress) {}
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine();
+
+  /// Shows the last point of the record.
+  void show(const Record& record);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Progress progress_;
+  Clock::time_point last_{};  // when it was written
+  bool visible_ = false;
+};
+
+/// `branch 0  123 points  λ=1.25  mid=0.1  unstable 0  contacts 3`
+std::string progress_text(const Record& record);
+
+}  // namespace arcwall

@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/interrupt.hpp"
+#include "apps/cli/progress.hpp"
+#include "apps/cli/summary.hpp"
+#include "apps/deck/reader.hpp"
+#include "apps/deck/toml_source.hpp"
+#include "apps/deck/writer.hpp"
+#include "apps/output/event_names.hpp"
+#include "apps/output/events_json.hpp"
+#include "apps/output/events_text.hpp"
+#include "apps/output/files.hpp"
+#include "apps/output/path_csv.hpp"
+#include "apps/output/recorder.hpp"
+#include "apps/output/result_json.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace arcwall {
+
+namespace {
+
+enum class Report { table, json_lines, none };
+
+// The command line of `run` as values.
+struct RunRequest {
+  std::string deck{};  // file
+  std::string deck_text{};
+  std::vector<std::string> assignments{};
+  std::filesystem::path folder{};
+  Foreign foreign = Foreign::refuse;
+  UnitLabels units = UnitLabels::shown;
+  std::optional<int> max_points{};
+  std::optional<double> max_seconds{};
+  Report report = Report::table;
+  Progress progress = Progress::hidden;
+  bool dry = false;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+RunRequest request_from(const Options& options);
+ExitStatus dry_run(const RunRequest& request, const Study& study);
+BranchEnd trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
+                Record& record);
+void write_files(const OutputFolder& folder, const RunRequest& request, const Study& study, const Record& record,
+                 const RunSeconds& seconds, ExitStatus status);
+void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolder& folder);
+
+ExitStatus run(const Options& options) {
+  const Stopwatch since_begin;
+  const RunRequest request = request_from(options);
+  const Study study(deck::read_deck_text(request.deck_text, request.deck, request.assignments));
+  for (const std::string& warning : study.warnings()) std::cerr << "warning: " << warning << "\n";
+  if (request.dry) return dry_run(request, study);
+
+  Record record = empty_record(study);
+  const OutputFolder folder(request.folder, record.deck, request.foreign);
+  const InterruptGuard interrupts;
+  const Stopwatch since_start;
+  std::string reason;
+  std::optional<State> start = study.start(reason);
+  if (!start) {
+    std::cerr << "error: there is no equilibrium at the start: " << reason << "\n";
+    return ExitStatus::no_start;
+  }
+  const BranchEnd end = trace(request, study, std::move(*start), interrupts, record);
+  if (record.points.empty() && (end.reason == EndReason::singular || end.reason == EndReason::not_finite)) {
+    std::cerr << "error: there is no equilibrium at the start: " << explanation(end.reason) << "\n";
+    return ExitStatus::no_start;
+  }
+  const ExitStatus status = exit_status(end.reason);
+  const RunSeconds seconds{.total = since_begin.seconds(), .tracing = since_start.seconds()};
+  write_files(folder, request, study, record, seconds, status);
+  if (request.report == Report::table) std::cout << events_text(record);
+  say_how_it_ended(end, status, folder);
+  return status;
+}
+
+RunRequest request_from(const Options& options) {
+  RunRequest request{.deck = options.words().front(),
+                     .assignments = options.texts("set"),
+                     .foreign = options.has("force") ? Foreign::overwrite : Foreign::refuse,
+                     .units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown,
+                     .max_points = options.count("max-points"),
+                     .max_seconds = options.seconds("max-time"),
+                     .dry = options.has("dry-run")};
+  request.folder = options.text("out").value_or(std::filesystem::path(request.deck).stem().string());
+  if (options.has("quiet")) request.report = Report::none;
+  if (options.has("json")) request.report = Report::json_lines;
+  if (!options.has("quiet") && !options.has("json")) request.progress = progress_wanted();
+  request.deck_text = deck::read_text_file(request.deck);
+  return request;
+}
+
+ExitStatus dry_run(const RunRequest& request, const Study& study) {
+  require_usable(request.folder, empty_record(study).deck, request.foreign);
+  if (request.report != Report::table) return ExitStatus::success;
+  std::cout << summary(study) << "\nwould write into " << request.folder.string()
+            << ": path.csv, events.json, events.txt, deck.toml, result.json\n";
+  return ExitStatus::success;
+}
+
+void print_lines(const Record& record, std::size_t& events_printed) {
+  const auto line = [](const char* name, nlohmann::ordered_json json) {
+    std::cout << to_text(nlohmann::ordered_json{{name, std::move(json)}}, JsonLayout::one_line);
+  };
+  if (!record.points.empty() && !record.branches.back().end) line("point", point_json(record, record.points.back()));
+  for (; events_printed < record.events.size(); ++events_printed)
+    line("event", event_json(record, record.events[events_printed]));
+  if (const auto& end = record.branches.back().end) {
+    nlohmann::ordered_json json{{"branch", record.branches.back().id}};
+    json.update(end_json(*end));
+    json["status"] = static_cast<int>(exit_status(end->reason));
+    line("end", std::move(json));
+  }
+  std::cout << std::flush;
+}
+
+BranchEnd trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
+                Record& record) {
+  const Stopwatch watch;
+  TraceOptions options = study.options();
+  if (request.max_points) options.max_points = *request.max_points;
+  Tracer tracer(study.system(), std::move(start), std::move(options), study.watched());
+  Recorder recorder(study, record);
+  ProgressLine progress(request.progress);
+  std::size_t events_printed = 0;
+  while (const std::optional<Arc> arc = tracer.next()) {
+    recorder.add(*arc);
+    progress.show(record);
+    if (request.report == Report::json_lines) print_lines(record, events_printed);
+    if (tracer.end()) continue;
+    if (interrupts.interrupted()) {
+      tracer.stop({.reason = EndReason::interrupted, .detail = "by a signal"});
+    } else if (request.max_seconds && watch.seconds() >= *request.max_seconds) {
+      tracer.stop({.reason = EndReason::max_time, .detail = round_trip(*request.max_seconds) + " s"});
+    }
+  }
+  recorder.end(*tracer.end());
+  if (request.report == Report::json_lines) print_lines(record, events_printed);
+  return *tracer.end();
+}
+
+// result.json comes last: where it is, the others are.
+void write_files(const OutputFolder& folder, const RunRequest& request, const Study& study, const Record& record,
+                 const RunSeconds& seconds, ExitStatus status) {
+  folder.write_whole("path.csv", path_csv(record, request.units));
+  folder.write_whole("events.json", to_text(events_json(record), JsonLayout::lines));
+  folder.write_whole("events.txt", events_text(record));
+  folder.write_whole("deck.toml", deck::to_toml(study.deck()));
+  const auto result = result_json(study, request.deck_text, record, seconds, static_cast<int>(status));
+  folder.write_whole("result.json", to_text(result, JsonLayout::lines));
+}
+
+void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolder& folder) {
+  if (status == ExitStatus::success) return;
+  const std::string detail = end.detail.empty() ? "" : ": " + end.detail;
+  std::cerr << fmt::format("{}: {} ({}{}); what was traced is in {}\n",
+                           status == ExitStatus::ended_early ? "error" : "note", explanation(end.reason),
+                           to_text(end.reason), detail, folder.path().string());
+}
+
+}  // namespace
+
+OptionDescription set_option() {
+  return {.name = "set",
+          .value = "key=value",
+          .help = "replace or add one value of the deck, written as in TOML; may be repeated",
+          .repeatable = true};
+}
+
+Command run_command() {
+  return {
+      .description = {.name = "run",
+                      .example = "trace-path run channel.toml --out results --set member.column.elements=160",
+                      .usage = "DECK [options]",
+                      .summary = "traces the paths of a deck and writes them into a folder",
+                      .options = {{"out", "DIR", "folder to write into (default: the deck's name without its ending)"},
+                                  {"no-units", "", "leave the units out of the header of path.csv"},
+                                  {"force", "", "write into DIR though something else filled it"},
+                                  set_option(),
+                                  {"max-points", "N", "end after N points (status 6)"},
+                                  {"max-time", "SECONDS", "end after that time (status 6)"},
+                                  {"json", "", "points, events and end on standard output, one JSON object a line"},
+                                  {"quiet", "", "no progress and no table of events"},
+                                  {"dry-run", "", "read, build and check, say what would be written, write nothing"}},
+                      .least_words = 1,
+                      .most_words = 1},
+      .run = run};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,114 @@
+#include "apps/cli/summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/deck/words.hpp"
+#include "apps/output/text_table.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Two columns: what is spoken of, said once, and what is said of it.
+class Lines {
+ public:
+  void add(const std::string& subject, const std::string& text) {
+    rows_.push_back({subject == last_ ? "" : subject, text});
+    last_ = subject;
+  }
+  std::string text(const std::string& file) const { return text_table({{"deck"}, {file}}, rows_); }
+
+ private:
+  std::string last_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
+
+std::string text_of(const deck::Vector& vector) { return fmt::format("({:.6g}, {:.6g})", vector.x, vector.z); }
+
+std::string text_of(const deck::PointLoad& load, const deck::Units& units) {
+  std::string text = "at " + to_text(load.at);
+  if (load.force.x != 0.0 || load.force.z != 0.0) text += " force " + with_unit(text_of(load.force), units.force);
+  if (load.moment != 0.0)
+    text += " moment " + with_unit(with_unit(fmt::format("{:.6g}", load.moment), units.force), units.length);
+  return text;
+}
+
+std::string text_of(const deck::MemberLoad& load, const deck::Units& units) {
+  const std::string unit = units.force.empty() || units.length.empty() ? "" : units.force + "/" + units.length;
+  return "on " + load.member + " " + with_unit(text_of(load.distributed), unit);
+}
+
+// The least gap of a wall in the stress-free state, and where.
+std::string first_gap(const Study& study, const deck::Wall& wall) {
+  if (study.contact() == nullptr) return "no candidates";
+  const MultiplierContact& contact = *study.contact();
+  const Vector at_rest = Vector::Zero(study.structure().size({}));
+  Index count = 0;
+  const Candidate* nearest_one = nullptr;
+  double least = infinity;
+  for (Index j = 0; j < contact.guard_count(); ++j) {
+    const Candidate& candidate = contact.candidate(j);
+    if (candidate.label().wall != wall.name) continue;
+    ++count;
+    const double gap = candidate.gap(at_rest);
+    if (gap >= least) continue;
+    least = gap;
+    nearest_one = &candidate;
+  }
+  std::string text = fmt::format("{} candidates", count);
+  if (nearest_one == nullptr) return text + ", none faces it";
+  const ContactLabel& label = nearest_one->label();
+  return text + ", first gap " + with_unit(fmt::format("{:.6g}", least), study.deck().units.length) +
+         fmt::format(" at {}:{:.4g}", label.member, label.fraction);
+}
+
+void add_model(const Study& study, Lines& lines) {
+  const deck::Deck& deck = study.deck();
+  lines.add("title", deck.title);
+  lines.add("nodes", std::to_string(study.structure().node_count()));
+  lines.add("unknowns", std::to_string(study.structure().size({})));
+  for (const deck::Member& member : deck.members)
+    lines.add("members", fmt::format("{}: {}, {} {}", member.name, text_of(deck::theory_words, member.theory),
+                                     member.elements, member.elements == 1 ? "element" : "elements"));
+  for (const deck::Support& support : deck.supports) {
+    std::vector<std::string> directions;
+    for (const deck::Direction direction : support.directions)
+      directions.push_back(text_of(deck::direction_words, direction));
+    lines.add("supports", fmt::format("{}: {}", support.point, fmt::join(directions, ", ")));
+  }
+  for (const deck::Load& load : deck.loads) {
+    const std::string text = std::visit([&](const auto& action) { return text_of(action, deck.units); }, load.action);
+    lines.add("loads", text + (load.constant ? ", constant" : ", times λ"));
+  }
+  for (const deck::Wall& wall : deck.walls)
+    lines.add("walls", fmt::format("{}: {} the structure, {}", wall.name, text_of(deck::side_words, wall.side),
+                                   first_gap(study, wall)));
+}
+
+void add_path(const deck::Deck& deck, Lines& lines) {
+  lines.add("path",
+            fmt::format("{}, first step {:.6g} of λ, at most {} points",
+                        text_of(deck::path_method_words, deck.path.method), deck.path.step, deck.path.max_points));
+  for (const deck::StopBounds& bounds : deck.path.stop.bounds)
+    lines.add("stops", fmt::format("{} at {:.6g} and {:.6g}", bounds.name, bounds.low, bounds.high));
+  if (deck.path.stop.contacts) lines.add("stops", fmt::format("at {} closed contacts", *deck.path.stop.contacts));
+  for (const deck::Monitor& monitor : deck.monitors)
+    lines.add("monitors", fmt::format("{}: {} of {}", monitor.name, text_of(deck::component_words, monitor.component),
+                                      to_text(monitor.at)));
+}
+
+}  // namespace
+
+std::string summary(const Study& study) {
+  Lines lines;
+  add_model(study, lines);
+  add_path(study.deck(), lines);
+  return lines.text(study.deck().source.file);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "apps/study.hpp"
+
+namespace arcwall {
+
+/// What a deck describes, for people: sizes, members, supports, loads, walls with their first gaps, and the path.
+std::string summary(const Study& study);
+
+}  // namespace arcwall

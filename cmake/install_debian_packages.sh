@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Installs those Debian 12 packages of the named groups that are missing:
+#
+#   bash cmake/install_debian_packages.sh build [test] [format] [benchmark]
+#
+# Needs root or sudo only if something is missing. Works without HOME, USER and TERM.
+set -euo pipefail
+
+packages_of() {
+  case "$1" in
+    build)
+      echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libboost-program-options-dev libboost-math-dev \
+        libtomlplusplus-dev nlohmann-json3-dev libfmt-dev zlib1g-dev
+      ;;
+    test) echo libgtest-dev python3 ;;
+    format) echo clang-format git ;;
+    benchmark) echo libbenchmark-dev ;;
+    *)
+      echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, format and" \
+        "benchmark" >&2
+      return 2
+      ;;
+  esac
+}
+
+is_installed() {
+  local status
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) || return 1
+  [[ $status == installed ]]
+}
+
+as_root() {
+  if [[ $(id -u) == 0 ]]; then
+    "$@"
+  else
+    sudo "$@"
+  fi
+}
+
+if [[ $# == 0 ]]; then
+  echo "usage: bash cmake/install_debian_packages.sh build [test] [format] [benchmark]" >&2
+  exit 2
+fi
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "note: this is not a Debian system; install the libraries that README.md lists by yourself" >&2
+  exit 0
+fi
+
+missing=()
+for group in "$@"; do
+  packages=$(packages_of "$group")
+  for package in $packages; do
+    is_installed "$package" || missing+=("$package")
+  done
+done
+[[ ${#missing[@]} == 0 ]] && exit 0
+
+if [[ $(id -u) != 0 ]] && ! command -v sudo >/dev/null; then
+  echo "error: these packages are missing: ${missing[*]}" >&2
+  echo "       neither root nor sudo is available to install them; have root run" >&2
+  echo "       apt-get install --no-install-recommends ${missing[*]}" >&2
+  exit 1
+fi
+
+# sbin holds what dpkg's maintainer scripts call; a bare environment may lack it.
+export PATH="$PATH:/usr/local/sbin:/usr/sbin:/sbin"
+echo "installing ${missing[*]}" >&2
+as_root env DEBIAN_FRONTEND=noninteractive PATH="$PATH" apt-get update --quiet
+as_root env DEBIAN_FRONTEND=noninteractive PATH="$PATH" \
+  apt-get install --yes --quiet --no-install-recommends "${missing[@]}"

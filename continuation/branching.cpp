@@ -1,0 +1,152 @@
+#include "continuation/branching.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/near_null.hpp"
+#include "core/root_find.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double coarse_bracket = 1e-3;  // of the segment, before interpolation
+constexpr double spread = 1e-2;          // of the segment, between the points that are interpolated
+constexpr double noise = 1e-6;           // ratio of two coefficients below which the first is zero
+
+// Values of Lagrange's polynomials on `nodes` at t.
+std::array<double, 4> lagrange(const std::array<double, 4>& nodes, double t) {
+  std::array<double, 4> value;
+  for (std::size_t i = 0; i < 4; ++i) {
+    value[i] = 1.0;
+    for (std::size_t j = 0; j < 4; ++j)
+      if (j != i) value[i] *= (t - nodes[j]) / (nodes[i] - nodes[j]);
+  }
+  return value;
+}
+
+// φᵀ (K(x + h d) − K(x − h d)) φ / 2h: how fast the eigenvalue changes along a direction.
+double eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& mode, double h) {
+  Linearization now;
+  double rate = 0.0;
+  for (const double sign : {1.0, -1.0}) {
+    system.linearize(moved(state, d, sign * h), now);
+    rate += sign * mode.dot(now.K.selfadjointView<Eigen::Lower>() * mode) / (2.0 * h);
+  }
+  return rate;
+}
+
+}  // namespace
+
+std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, const Metric& metric, Index before,
+                                                    Index after, BranchPoint& out) {
+  const Index order = std::max(before, after);  // the eigenvalue, counted from the least, that changes sign
+  const auto value = [&](double t) -> std::optional<double> {
+    const auto at = sample(segment, metric, t, order);
+    return at ? std::optional(at->eigenvalue) : std::nullopt;
+  };
+  const double falling = after > before ? 1.0 : -1.0;
+  const auto bracket = bracketed_root(value, 0.0, falling, 1.0, -falling, coarse_bracket);
+  if (!bracket) return std::nullopt;
+
+  const double middle = std::clamp(bracket->at, 1.5 * spread, 1.0 - 1.5 * spread);
+  std::array<double, 4> nodes;
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < 4; ++i) {
+    nodes[i] = middle + spread * (double(i) - 1.5);
+    auto at = sample(segment, metric, nodes[i], order);
+    if (!at) return std::nullopt;
+    samples.push_back(std::move(*at));
+  }
+  const auto interpolated = [&](double t) -> std::optional<double> {
+    const auto weight = lagrange(nodes, t);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) sum += weight[i] * samples[i].eigenvalue;
+    return sum;
+  };
+  const double low = bracket->at - 2.0 * spread, high = bracket->at + 2.0 * spread;
+  const auto root = bracketed_root(interpolated, low, *interpolated(low), high, *interpolated(high), 1e-14);
+  if (!root) return std::nullopt;
+
+  PathPoint point;
+  point.state = {.x = Vector::Zero(samples[0].state.x.size()), .lambda = 0.0, .piece = samples[0].state.piece};
+  point.tangent = {.dx = Vector::Zero(point.state.x.size()), .dlambda = 0.0};
+  const auto weight = lagrange(nodes, root->at);
+  for (std::size_t i = 0; i < 4; ++i) {
+    point.state.x += weight[i] * samples[i].state.x;
+    point.state.lambda += weight[i] * samples[i].state.lambda;
+    point.tangent.dx += weight[i] * samples[i].tangent.dx;
+    point.tangent.dlambda += weight[i] * samples[i].tangent.dlambda;
+    point.iterations = std::max(point.iterations, samples[i].iterations);
+  }
+  point.tangent = unit(metric, std::move(point.tangent));
+
+  const Vector weights = system_.weights(point.state.piece);
+  corrector_.inspect(point.state, metric, point.tangent);
+  const auto multiplicity = static_cast<Index>(std::abs(after - before));
+  const auto modes = corrector_.near_null(weights, multiplicity);
+  if (!modes || modes->values.size() < multiplicity) return std::nullopt;
+  out.state = point.state;
+  out.along = point.tangent;
+  out.multiplicity = multiplicity;
+  Vector mode = modes->vectors.col(0);
+  Index largest = 0;
+  mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
+  if (mode[largest] < 0.0) mode = -mode;  // the mode's largest component is positive
+  out.mode = {.dx = mode, .dlambda = 0.0};
+
+  // Algebraic branching equation a α² + 2 b α β = 0 for tangents α φ + β t, t the tangent we came along:
+  //   α = 0 (the old branch) or α : β = −2 b : a.
+  constexpr double h = 1e-4;
+  const double a = eigenvalue_rate(system_, point.state, out.mode, mode, h);
+  const double b = eigenvalue_rate(system_, point.state, out.along, mode, h);
+  out.type = std::abs(a) <= noise * std::abs(b) ? BranchType::symmetric : BranchType::asymmetric;
+  Direction other = out.mode;
+  if (out.type == BranchType::asymmetric) {
+    const double beta = -a / (2.0 * b);
+    other.dx += beta * out.along.dx;
+    other.dlambda += beta * out.along.dlambda;
+  }
+  out.other = unit(metric, std::move(other));
+  return point;
+}
+
+std::optional<BranchPointLocator::Sample> BranchPointLocator::sample(const Segment& segment, const Metric& metric, double t,
+                                                                     Index order) {
+  const double L = segment.length();
+  const PlaneConstraint plane(metric, segment.from().state, segment.chord(), t * L * L);
+  CorrectorResult at = corrector_.correct(segment.at(t), plane, metric, segment.from().tangent, 1e-2 * L);
+  if (!at.converged() || !at.negative) return std::nullopt;
+  constexpr Index nearest = 4;
+  const auto eigen = corrector_.near_null(system_.weights(at.state.piece), nearest);
+  if (!eigen) return std::nullopt;
+  // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least positive.
+  const bool negative = *at.negative >= order;
+  double value = 0.0;
+  for (const double candidate : eigen->values)
+    if ((candidate < 0.0) == negative && (value == 0.0 || std::abs(candidate) < std::abs(value))) value = candidate;
+  if (value == 0.0) return std::nullopt;
+  if (metric.inner(at.tangent, segment.from().tangent) < 0.0) at.tangent = reversed(std::move(at.tangent));
+  return Sample{.state = std::move(at.state), .tangent = std::move(at.tangent), .eigenvalue = value, .iterations = at.iterations};
+}
+
+std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
+                                   const BranchPoint& point, int sign, double distance, double guard_tolerance) {
+  constexpr int halvings = 20;
+  for (int attempt = 0; attempt < halvings; ++attempt, distance *= 0.5) {
+    const double offset = sign * distance * metric.inner(point.other, point.mode);
+    const PlaneConstraint plane(metric, point.state, point.mode, offset);
+    CorrectorResult at =
+        corrector.correct(moved(point.state, point.other, sign * distance), plane, metric, point.other, distance);
+    if (!at.converged()) continue;
+    if (system.guard_count() > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;
+    const Direction chord = difference(at.state, point.state);
+    if (metric.norm(chord) > 2.0 * distance) continue;
+    Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);
+    return SteppedOff{.state = std::move(at.state), .tangent = std::move(tangent)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace arcwall

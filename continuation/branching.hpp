@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "continuation/corrector.hpp"
+#include "continuation/path_point.hpp"
+#include "continuation/segment.hpp"
+
+namespace arcwall {
+
+/// Finds where K becomes singular between two points of an arc although λ does not turn there.
+///
+/// The eigenvalue that changes sign is bracketed along the arc. The point itself is interpolated from neighbours on both
+/// sides: the equations are regular there, while at the branch point itself Newton's method would lose half its digits.
+class BranchPointLocator {
+ public:
+  /// Both must outlive this.
+  BranchPointLocator(const System& system, Corrector& corrector) : system_(system), corrector_(corrector) {}
+
+  /// `before` and `after`: negative eigenvalues at the segment's ends, not equal. Empty where a correction fails.
+  std::optional<PathPoint> locate(const Segment& segment, const Metric& metric, Index before, Index after,
+                                  BranchPoint& out);
+
+ private:
+  struct Sample {
+    State state;
+    Direction tangent;
+    double eigenvalue;
+    int iterations;
+  };
+  std::optional<Sample> sample(const Segment& segment, const Metric& metric, double t, Index order);
+
+  const System& system_;
+  Corrector& corrector_;
+};
+
+/// A first point on a bifurcated branch.
+struct SteppedOff {
+  State state{};
+  Direction tangent{};  ///< away from the branch point, of unit length
+};
+
+/// Leaves the branch point along ± its other tangent by a distance near `distance`; halves it while a guard is violated by
+/// more than the tolerance or the step falls back onto the old branch.
+std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
+                                   const BranchPoint& point, int sign, double distance, double guard_tolerance);
+
+}  // namespace arcwall

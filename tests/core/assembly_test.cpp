@@ -1,0 +1,58 @@
+#include "core/assembly.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/dense.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Blocks that overlap, whose unknowns are in any order and in part held.
+const std::vector<std::vector<Index>> some_blocks{{0, 1, 2}, {4, 2, -1}, {-1, -1}, {3, 0}, {5}};
+
+}  // namespace
+
+TEST(BlockAssembly, SumsBlocksLikeADenseMatrix) {
+  const BlockAssembly assembly(6, some_blocks);
+  SparseMatrix K = assembly.pattern();
+  Matrix expected = Matrix::Zero(6, 6);
+  test::Numbers numbers(13);
+  for (std::size_t b = 0; b < some_blocks.size(); ++b) {
+    const auto n = static_cast<Index>(some_blocks[b].size());
+    Matrix block = numbers.matrix(n, n);
+    block = (block + block.transpose()).eval();
+    const double factor = numbers();
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j) {
+        const Index row = some_blocks[b][static_cast<std::size_t>(i)];
+        const Index column = some_blocks[b][static_cast<std::size_t>(j)];
+        if (row >= 0 && column >= 0) expected(row, column) += factor * block(i, j);
+      }
+    block.triangularView<Eigen::StrictlyUpper>().setConstant(infinity);  // not read
+    assembly.add(static_cast<Index>(b), block.data(), factor, K.valuePtr());
+  }
+  EXPECT_LE((test::full(K) - expected).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(BlockAssembly, PatternIsTheLowerTriangleOfAllBlocksWithTheWholeDiagonal) {
+  const BlockAssembly assembly(7, some_blocks);
+  const SparseMatrix& pattern = assembly.pattern();
+  EXPECT_TRUE(pattern.isCompressed());
+  EXPECT_EQ(pattern.nonZeros(), 7 + 3 + 1 + 1);  // diagonal; 1-0, 2-0, 2-1; 4-2; 3-0
+  for (Index column = 0; column < 7; ++column)
+    for (SparseMatrix::InnerIterator entry(pattern, column); entry; ++entry) {
+      EXPECT_GE(entry.row(), column);
+      EXPECT_EQ(entry.value(), 0.0);
+    }
+}
+
+TEST(BlockAssembly, GivesBackTheUnknownsOfEachBlock) {
+  const BlockAssembly assembly(6, some_blocks);
+  for (std::size_t b = 0; b < some_blocks.size(); ++b) {
+    const auto unknowns = assembly.unknowns(static_cast<Index>(b));
+    EXPECT_EQ(std::vector<Index>(unknowns.begin(), unknowns.end()), some_blocks[b]);
+  }
+}
+
+}  // namespace arcwall

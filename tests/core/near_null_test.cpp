@@ -1,0 +1,73 @@
+#include "core/near_null.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/ldlt.hpp"
+#include "tests/support/dense.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Tridiagonal with diagonal `d` and −1 beside: eigenvalues d − 2 cos(kπ/(n+1)).
+Matrix chain(Index n, double d) {
+  Matrix K = d * Matrix::Identity(n, n);
+  for (Index i = 0; i + 1 < n; ++i) K(i, i + 1) = K(i + 1, i) = -1.0;
+  return K;
+}
+
+std::vector<double> chain_values(Index n, double d) {
+  std::vector<double> values;
+  for (Index k = 1; k <= n; ++k) values.push_back(d - 2.0 * std::cos(double(k) * pi / double(n + 1)));
+  std::sort(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return values;
+}
+
+// Rayleigh-Ritz values are off by the square of what the vectors are off by; the search stops when values change by
+// less than 1e-10 of the greatest of the block, which is below 1 here.
+constexpr double tolerance = 1e-9;
+
+}  // namespace
+
+TEST(NearNull, FindsTheEigenvaluesNearestZeroOfDefiniteAndIndefiniteChains) {
+  for (const double d : {2.0, 0.35, -0.8}) {
+    SCOPED_TRACE(d);
+    constexpr Index n = 30;
+    const SparseMatrix K = test::lower_triangle(chain(n, d));
+    Ldlt ldlt;
+    ASSERT_EQ(ldlt.factorize(K), FactorStatus::ok);
+    const NearNull found = near_null(ldlt, K, 3);
+    const std::vector<double> expected = chain_values(n, d);
+    ASSERT_EQ(found.values.size(), 3);
+    for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.values[i], expected[static_cast<std::size_t>(i)], tolerance);
+    EXPECT_LE((found.vectors.transpose() * found.vectors - Matrix::Identity(3, 3)).norm(), 1e-13);
+    // Residuals of the vectors are the root of the values' errors.
+    EXPECT_LE((chain(n, d) * found.vectors - found.vectors * found.values.asDiagonal()).norm(), 1e-4);
+  }
+}
+
+TEST(NearNull, FindsTheNullVectorWithAShiftedFactorization) {
+  // A chain that is held nowhere: its null vector is constant.
+  constexpr Index n = 20;
+  Matrix K = chain(n, 2.0);
+  K(0, 0) = K(n - 1, n - 1) = 1.0;
+  Ldlt ldlt;
+  ASSERT_EQ(ldlt.factorize(test::lower_triangle(K + 1e-9 * Matrix::Identity(n, n))), FactorStatus::ok);
+  const NearNull found = near_null(ldlt, test::lower_triangle(K), 1);
+  EXPECT_NEAR(found.values[0], 0.0, 1e-14);
+  EXPECT_NEAR(std::abs(found.vectors.col(0).sum()), std::sqrt(double(n)), 1e-12);
+}
+
+TEST(NearNull, ASmallMatrixHasNoMorePairsThanRows) {
+  const SparseMatrix K = test::lower_triangle(Vector(Vector::LinSpaced(2, 3.0, 5.0)).asDiagonal());
+  Ldlt ldlt;
+  ASSERT_EQ(ldlt.factorize(K), FactorStatus::ok);
+  const NearNull found = near_null(ldlt, K, 4);
+  ASSERT_EQ(found.values.size(), 2);
+  EXPECT_NEAR(found.values[0], 3.0, 1e-14);
+  EXPECT_NEAR(found.values[1], 5.0, 1e-14);
+}
+
+}  // namespace arcwall

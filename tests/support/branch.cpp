@@ -1,0 +1,55 @@
+#include "tests/support/branch.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/text.hpp"
+
+namespace arcwall::test {
+
+State rest(const System& system) {
+  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  return {.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
+}
+
+Branch trace(const System& system, const TraceOptions& options, const State& start, std::vector<Watch> watched) {
+  Tracer tracer(system, start, options, std::move(watched));
+  Branch branch;
+  while (auto arc = tracer.next()) {
+    branch.arcs.push_back(std::move(*arc));
+    if (branch.arcs.size() > 20'000) tracer.stop({.reason = EndReason::interrupted, .detail = "too long for a test"});
+  }
+  EXPECT_TRUE(tracer.end().has_value());
+  if (tracer.end()) branch.end = *tracer.end();
+  return branch;
+}
+
+Branch trace(const System& system, const TraceOptions& options, std::vector<Watch> watched) {
+  return trace(system, options, rest(system), std::move(watched));
+}
+
+std::vector<Event> events_of(const Branch& branch) {
+  std::vector<Event> found;
+  for (const Arc& arc : branch.arcs) found.insert(found.end(), arc.events.begin(), arc.events.end());
+  return found;
+}
+
+std::vector<Event> events_of(const Branch& branch, EventKind kind) {
+  std::vector<Event> found = events_of(branch);
+  std::erase_if(found, [kind](const Event& event) { return event.kind != kind; });
+  return found;
+}
+
+Event only_event(const Branch& branch, EventKind kind) {
+  const std::vector<Event> found = events_of(branch, kind);
+  EXPECT_EQ(found.size(), 1U);
+  return found.empty() ? Event{} : found.front();
+}
+
+Landmark stop_at_lambda(double value) {
+  return {.quantity = std::make_shared<ParameterValue>(),
+          .value = value,
+          .stops = true,
+          .label = "lambda = " + round_trip(value)};
+}
+
+}  // namespace arcwall::test

@@ -1,0 +1,122 @@
+#include "tests/support/invariants.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/support/dense.hpp"
+
+namespace arcwall::test {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// What the unknowns may be off by: the corrector stops when the distance that is left is below its tolerance in the
+// path metric, and arithmetic on x itself is sure to a few ε. In forces that is |K| times as much, which grows like
+// EI/h³ with finer meshes although the displacements are as good as before.
+Vector residual_allowance(const System& system, const State& state, const Linearization& now,
+                          const TraceOptions& options) {
+  const Vector weights = system.weights(state.piece);
+  Vector off(state.x.size());
+  for (Index i = 0; i < off.size(); ++i) {
+    const double left = weights[i] > 0.0 ? options.corrector.tolerance / std::sqrt(weights[i]) : 0.0;
+    off[i] = left + 16.0 * epsilon * std::abs(state.x[i]);
+  }
+  SparseMatrix magnitude = now.K;
+  magnitude.coeffs() = magnitude.coeffs().abs();
+  return magnitude.selfadjointView<Eigen::Lower>() * off +
+         (16.0 * epsilon * std::abs(state.lambda)) * now.F_lambda.cwiseAbs();
+}
+
+void expect_equilibrium(const System& system, const PathPoint& point, const TraceOptions& options) {
+  Linearization now;
+  system.linearize(point.state, now);
+  const Vector allowed = residual_allowance(system, point.state, now, options);
+  Index worst = 0;
+  const double excess = (now.F.cwiseAbs() - allowed).maxCoeff(&worst);
+  EXPECT_LE(excess, 0.0) << "unknown " << worst << ": |F| = " << std::abs(now.F[worst]) << ", allowed "
+                         << allowed[worst];
+}
+
+void expect_side_conditions(const System& system, const PathPoint& point, double tolerance) {
+  if (system.guard_count() == 0) return;
+  const Vector guards = system.guards(point.state);
+  EXPECT_GE(guards.minCoeff(), -tolerance) << "a gap is negative or a contact pulls";
+  const Piece open(point.state.piece.size(), 0);
+  const Vector gaps = system.guards(system.with_piece(point.state, open));
+  for (Index j = 0; j < gaps.size(); ++j) {
+    const bool closed = point.state.piece[static_cast<std::size_t>(j)] != 0;
+    EXPECT_GE(gaps[j], -4.0 * tolerance) << "contact " << j << " penetrates";
+    EXPECT_LE(gaps[j], closed ? 4.0 * tolerance : infinity) << "the closed contact " << j << " has a gap";
+  }
+}
+
+// A singular matrix has no sure count: next to located limit points nothing is compared.
+bool singular_here(const Arc& arc) {
+  return std::any_of(arc.events.begin(), arc.events.end(),
+                     [](const Event& event) { return event.kind == EventKind::limit_point; });
+}
+
+void expect_count(const System& system, const Arc& arc, const TraceOptions& options) {
+  if (singular_here(arc) || !arc.to.count.unstable) return;
+  // Right behind a corner the contacts of the ray that is taken are closed already though they carry nothing yet: the
+  // count stored there is that of the ray.
+  const bool corner = std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) {
+    return event.kind == EventKind::contact_closes || event.kind == EventKind::contact_opens;
+  });
+  if (corner) return;
+  const Piece strong = strongly_closed(system, arc.to.state, options.guard_tolerance);
+  const auto dense = dense_unstable_count(system, system.with_piece(arc.to.state, strong));
+  if (dense) {
+    EXPECT_EQ(*arc.to.count.unstable, *dense);
+  }
+}
+
+void expect_extremum(const Event& event, const PathPoint& before, const PathPoint& after) {
+  const double rise = event.state.lambda - before.state.lambda, fall = event.state.lambda - after.state.lambda;
+  const double bracket = event.localised;
+  EXPECT_TRUE((rise >= -bracket && fall >= -bracket) || (rise <= bracket && fall <= bracket))
+      << "lambda " << before.state.lambda << " -> " << event.state.lambda << " -> " << after.state.lambda;
+  EXPECT_GE(bracket, 0.0);
+  EXPECT_LE(bracket, 1e-9 * std::max(1.0, std::abs(event.state.lambda)));
+}
+
+void expect_changes(const Event& event, const Piece& before, const Piece& after) {
+  if (event.kind != EventKind::contact_closes && event.kind != EventKind::contact_opens) return;
+  EXPECT_FALSE(event.guards.empty());
+  for (const Index j : event.guards) {
+    EXPECT_EQ(before[static_cast<std::size_t>(j)] != 0, event.kind == EventKind::contact_opens);
+    EXPECT_EQ(after[static_cast<std::size_t>(j)] != 0, event.kind == EventKind::contact_closes);
+  }
+}
+
+}  // namespace
+
+void expect_branch_invariants(const System& system, const Branch& branch, const TraceOptions& options,
+                              const InvariantOptions& what) {
+  ASSERT_FALSE(branch.arcs.empty());
+  for (std::size_t i = 0; i < branch.arcs.size(); ++i) {
+    SCOPED_TRACE("point " + std::to_string(i) + ", lambda = " + std::to_string(branch.arcs[i].to.state.lambda));
+    const Arc& arc = branch.arcs[i];
+    ASSERT_EQ(arc.to.state.x.size(), system.size(arc.to.state.piece));
+    expect_equilibrium(system, arc.to, options);
+    expect_side_conditions(system, arc.to, options.guard_tolerance);
+    if (i % static_cast<std::size_t>(what.recount_every) == 0) expect_count(system, arc, options);
+    if (i == 0) continue;
+    const Arc& before = branch.arcs[i - 1];
+    EXPECT_GE(arc.to.arc, before.to.arc);
+    EXPECT_LE(arc.to.arc - before.to.arc, 2.0 * options.step.max);
+    for (const Event& event : arc.events) {
+      EXPECT_EQ(event.arc, arc.to.arc);
+      expect_changes(event, before.to.state.piece, arc.to.state.piece);
+      if (event.kind == EventKind::limit_point && options.events == EventSearch::locate && i + 1 < branch.arcs.size())
+        expect_extremum(event, before.to, branch.arcs[i + 1].to);
+    }
+    if (::testing::Test::HasFailure()) return;  // the first violation says enough
+  }
+}
+
+}  // namespace arcwall::test

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "tests/support/branch.hpp"
+
+namespace arcwall::test {
+
+/// What is looked at beyond the defaults.
+struct InvariantOptions {
+  int recount_every = 1;  ///< every how many points the unstable count is recomputed with dense matrices
+};
+
+/// What every branch must fulfil, whatever the system (each violation fails the test once, with its place):
+///
+/// - F = 0 to what the corrector's tolerance and the round-off of the unknowns leave;
+/// - gaps and contact forces ≥ 0 and complementary, to the tracer's guard tolerance;
+/// - the stored unstable count equals the dense one, except next to a singular point;
+/// - arc length increases, and a step is no longer than allowed;
+/// - a located limit point is a maximum or minimum of λ among its neighbours, within its bracket;
+/// - contacts that an event says to have changed have changed.
+void expect_branch_invariants(const System& system, const Branch& branch, const TraceOptions& options,
+                              const InvariantOptions& what = {});
+
+}  // namespace arcwall::test

@@ -1,0 +1,187 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <functional>
+
+#include "core/system.hpp"
+#include "tests/support/dense.hpp"
+
+namespace arcwall::test {
+
+/// A smooth system from functions of (x, λ): energy, gradient in x, Hessian, and the gradient's derivative in λ.
+struct SmoothToy : System {
+  Index unknowns = 1;
+  std::function<double(const Vector&, double)> potential{};
+  std::function<Vector(const Vector&, double)> F{};
+  std::function<Matrix(const Vector&, double)> K{};
+  std::function<Vector(const Vector&, double)> F_lambda{};
+
+  Index size(const Piece&) const override { return unknowns; }
+  void residual(const State& s, Eigen::Ref<Vector> out) const override { out = F(s.x, s.lambda); }
+  void linearize(const State& s, Linearization& out) const override {
+    out.F = F(s.x, s.lambda);
+    out.F_lambda = F_lambda(s.x, s.lambda);
+    out.K = lower_triangle(K(s.x, s.lambda), -1.0);
+    out.pattern_of = s.piece;
+  }
+  double energy(const State& s) const override { return potential ? potential(s.x, s.lambda) : 0.0; }
+};
+
+inline Vector scalar(double v) { return Vector::Constant(1, v); }
+inline Matrix scalar_matrix(double v) { return Matrix::Constant(1, 1, v); }
+
+/// F = x² + λ: one fold, at x = 0, λ = 0. Equilibria x = ±√−λ; K = 2x.
+inline SmoothToy fold() {
+  SmoothToy toy;
+  toy.potential = [](const Vector& x, double lambda) { return x[0] * x[0] * x[0] / 3.0 + lambda * x[0]; };
+  toy.F = [](const Vector& x, double lambda) { return scalar(x[0] * x[0] + lambda); };
+  toy.K = [](const Vector& x, double) { return scalar_matrix(2.0 * x[0]); };
+  toy.F_lambda = [](const Vector&, double) { return scalar(1.0); };
+  return toy;
+}
+
+/// F = x³ − a x + λ: two folds at x = ±√(a/3), λ = a x − x³ = ±(2/3) a √(a/3). For a = 0 a cubic inflection.
+inline SmoothToy cusp(double a) {
+  SmoothToy toy;
+  toy.potential = [a](const Vector& x, double lambda) {
+    return std::pow(x[0], 4) / 4.0 - a * x[0] * x[0] / 2.0 + lambda * x[0];
+  };
+  toy.F = [a](const Vector& x, double lambda) { return scalar(std::pow(x[0], 3) - a * x[0] + lambda); };
+  toy.K = [a](const Vector& x, double) { return scalar_matrix(3.0 * x[0] * x[0] - a); };
+  toy.F_lambda = [](const Vector&, double) { return scalar(1.0); };
+  return toy;
+}
+
+/// F = ½ (x² + λ² − 1): a closed path, with folds at (0, ±1).
+inline SmoothToy unit_circle() {
+  SmoothToy toy;
+  toy.F = [](const Vector& x, double lambda) { return scalar(0.5 * (x[0] * x[0] + lambda * lambda - 1.0)); };
+  toy.K = [](const Vector& x, double) { return scalar_matrix(x[0]); };
+  toy.F_lambda = [](const Vector&, double lambda) { return scalar(lambda); };
+  return toy;
+}
+
+/// F = k x − λ: a straight path.
+inline SmoothToy spring(double k) {
+  SmoothToy toy;
+  toy.potential = [k](const Vector& x, double lambda) { return 0.5 * k * x[0] * x[0] - lambda * x[0]; };
+  toy.F = [k](const Vector& x, double lambda) { return scalar(k * x[0] - lambda); };
+  toy.K = [k](const Vector&, double) { return scalar_matrix(k); };
+  toy.F_lambda = [](const Vector&, double) { return scalar(-1.0); };
+  return toy;
+}
+
+/// A linear system with linear gaps, hand-made for corners:
+///
+///     A x − λ f − Gᵀ p = 0,   g = G x + g₀ ≥ 0,   p ≥ 0,   p g = 0
+///
+/// One contact a row of G. Guards are gaps and forces as they are (scales 1).
+struct LinearContactToy : System {
+  Matrix A{};
+  Vector f{};
+  Matrix G{};
+  Vector gap0{};
+
+  std::vector<Index> closed(const Piece& piece) const {
+    std::vector<Index> found;
+    for (std::size_t j = 0; j < piece.size(); ++j)
+      if (piece[j]) found.push_back(static_cast<Index>(j));
+    return found;
+  }
+
+  Index size(const Piece& piece) const override { return A.rows() + multiplier_count(piece); }
+  Index multiplier_count(const Piece& piece) const override { return static_cast<Index>(closed(piece).size()); }
+  void residual(const State& s, Eigen::Ref<Vector> F) const override {
+    const Index n = A.rows();
+    F.head(n) = A * s.x.head(n) - s.lambda * f;
+    Index k = n;
+    for (const Index j : closed(s.piece)) {
+      F.head(n) -= s.x[k] * G.row(j).transpose();
+      F[k++] = -(G.row(j).dot(s.x.head(n)) + gap0[j]);
+    }
+  }
+  void linearize(const State& s, Linearization& out) const override {
+    const Index n = A.rows(), total = size(s.piece);
+    Matrix K = Matrix::Zero(total, total);
+    K.topLeftCorner(n, n) = A;
+    Index k = n;
+    for (const Index j : closed(s.piece)) K.row(k++).head(n) = -G.row(j);
+    out.K = lower_triangle(K);
+    out.F.resize(total);
+    residual(s, out.F);
+    out.F_lambda = Vector::Zero(total);
+    out.F_lambda.head(n) = -f;
+    out.pattern_of = s.piece;
+  }
+  double energy(const State& s) const override {
+    const Vector x = s.x.head(A.rows());
+    return 0.5 * x.dot(A * x) - s.lambda * f.dot(x);
+  }
+  Vector weights(const Piece& piece) const override {
+    Vector w = Vector::Zero(size(piece));
+    w.head(A.rows()).setConstant(1.0 / double(A.rows()));
+    return w;
+  }
+
+  Index guard_count() const override { return G.rows(); }
+  Vector guards(const State& s) const override {
+    Vector values(G.rows());
+    for (Index j = 0; j < values.size(); ++j) {
+      const auto k = multiplier_index(s.piece, j);
+      values[j] = k ? s.x[*k] : G.row(j).dot(s.x.head(A.rows())) + gap0[j];
+    }
+    return values;
+  }
+  Row guard_gradient(const State& s, Index j) const override {
+    Row row{.dx = Vector::Zero(s.x.size()), .dlambda = 0.0};
+    if (const auto k = multiplier_index(s.piece, j))
+      row.dx[*k] = 1.0;
+    else
+      row.dx.head(A.rows()) = G.row(j).transpose();
+    return row;
+  }
+  std::vector<Index> weak_guards(const State& s, double tolerance) const override {
+    const Vector now = guards(s);
+    std::vector<Index> weak;
+    for (Index j = 0; j < now.size(); ++j)
+      if (std::abs(now[j]) <= tolerance) weak.push_back(j);
+    return weak;
+  }
+  Vector unit_force(const State& s, Index j) const override {
+    Vector force = Vector::Zero(s.x.size());
+    force.head(A.rows()) = G.row(j).transpose();
+    return force;
+  }
+  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override {
+    if (!piece[static_cast<std::size_t>(j)]) return std::nullopt;
+    Index k = A.rows();
+    for (Index i = 0; i < j; ++i) k += piece[static_cast<std::size_t>(i)] ? 1 : 0;
+    return k;
+  }
+  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
+    Vector moved = Vector::Zero(size(to));
+    moved.head(A.rows()) = x.head(A.rows());
+    for (Index j = 0; j < G.rows(); ++j) {
+      const auto source = multiplier_index(from, j), target = multiplier_index(to, j);
+      if (source && target) moved[*target] = x[*source];
+    }
+    return moved;
+  }
+};
+
+/// Two springs in a row, 1 and `k`, pushed by λ; the end of the first meets a stop at 1.
+///
+///     x₁ + k (x₁ − x₂) + p = 0,   k (x₂ − x₁) = λ,   g = 1 − x₁
+///
+/// Free: x₁ = λ, x₂ = λ (1 + 1/k). Behind the stop (λ > 1): x₁ = 1, x₂ = 1 + λ/k, p = λ − 1.
+inline LinearContactToy stopped_springs(double k) {
+  LinearContactToy toy;
+  toy.A = (Matrix(2, 2) << 1.0 + k, -k, -k, k).finished();
+  toy.f = Vector::Unit(2, 1);
+  toy.G = (Matrix(1, 2) << -1.0, 0.0).finished();
+  toy.gap0 = Vector::Ones(1);
+  return toy;
+}
+
+}  // namespace arcwall::test
