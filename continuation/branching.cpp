@@ -112,8 +112,8 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
   return point;
 }
 
-std::optional<BranchPointLocator::Sample> BranchPointLocator::sample(const Segment& segment, const Metric& metric, double t,
-                                                                     Index order) {
+std::optional<BranchPointLocator::Sample> BranchPointLocator::sample(const Segment& segment, const Metric& metric,
+                                                                     double t, Index order) {
   const double L = segment.length();
   const PlaneConstraint plane(metric, segment.from().state, segment.chord(), t * L * L);
   CorrectorResult at = corrector_.correct(segment.at(t), plane, metric, segment.from().tangent, 1e-2 * L);
@@ -128,7 +128,8 @@ std::optional<BranchPointLocator::Sample> BranchPointLocator::sample(const Segme
     if ((candidate < 0.0) == negative && (value == 0.0 || std::abs(candidate) < std::abs(value))) value = candidate;
   if (value == 0.0) return std::nullopt;
   if (metric.inner(at.tangent, segment.from().tangent) < 0.0) at.tangent = reversed(std::move(at.tangent));
-  return Sample{.state = std::move(at.state), .tangent = std::move(at.tangent), .eigenvalue = value, .iterations = at.iterations};
+  return Sample{
+      .state = std::move(at.state), .tangent = std::move(at.tangent), .eigenvalue = value, .iterations = at.iterations};
 }
 
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,

@@ -11,8 +11,9 @@ namespace arcwall {
 
 /// Finds where K becomes singular between two points of an arc although λ does not turn there.
 ///
-/// The eigenvalue that changes sign is bracketed along the arc. The point itself is interpolated from neighbours on both
-/// sides: the equations are regular there, while at the branch point itself Newton's method would lose half its digits.
+/// The eigenvalue that changes sign is bracketed along the arc. The point itself is interpolated from neighbours on
+/// both sides: the equations are regular there, while at the branch point itself Newton's method would lose half its
+/// digits.
 class BranchPointLocator {
  public:
   /// Both must outlive this.
@@ -41,8 +42,8 @@ struct SteppedOff {
   Direction tangent{};  ///< away from the branch point, of unit length
 };
 
-/// Leaves the branch point along ± its other tangent by a distance near `distance`; halves it while a guard is violated by
-/// more than the tolerance or the step falls back onto the old branch.
+/// Leaves the branch point along ± its other tangent by a distance near `distance`; halves it while a guard is violated
+/// by more than the tolerance or the step falls back onto the old branch.
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
                                    const BranchPoint& point, int sign, double distance, double guard_tolerance);
 

@@ -13,8 +13,8 @@ namespace arcwall {
 /// A converged point of a path.
 struct PathPoint {
   State state{};
-  Direction tangent{};  ///< of unit length, forward along the path
-  double arc = 0.0;     ///< arc length from the branch's first point [path metric]
+  Direction tangent{};          ///< of unit length, forward along the path
+  double arc = 0.0;             ///< arc length from the branch's first point [path metric]
   std::optional<Index> held{};  ///< negative eigenvalues with all closed contacts held; empty: not certain
   StabilityCount count{};
   int iterations = 0;     ///< of the step that led here
@@ -45,10 +45,11 @@ enum class BranchType {
 struct BranchPoint {
   BranchType type = BranchType::symmetric;
   State state{};
-  Direction along{};       ///< unit tangent of the branch it was found on, forward
-  Direction mode{};        ///< critical mode, of unit length, largest component positive; no λ
-  Direction other{};       ///< unit tangent of the other branch
-  Index multiplicity = 1;  ///< of the zero eigenvalue
+  Direction along{};            ///< unit tangent of the branch it was found on, forward
+  Direction mode{};             ///< critical mode, of unit length, largest component positive; no λ
+  Direction other{};            ///< unit tangent of the other branch
+  Index multiplicity = 1;       ///< of the zero eigenvalue
+  bool discretisation = false;  ///< contacts tied to nodes make it: the continuum has none
 };
 
 /// A located point of a path.
@@ -68,6 +69,8 @@ struct Event {
 enum class EndReason {
   stop,         ///< a bound of the deck was met
   closed_loop,  ///< it came back to a point it had passed
+  joined,       ///< it reached a branch point of another branch
+  branched,     ///< the path goes on along a bifurcated branch
   max_points,
   max_time,
   interrupted,

@@ -12,6 +12,7 @@ namespace {
 constexpr int max_landings = 100;  // guards that turn out to come before the one landed on
 constexpr int max_standing = 50;
 constexpr double same_place = 1e-8;      // in the path metric
+constexpr double passing = 1e-5;         // likewise, of points on a path near which it is singular
 constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
 
 int sign_of(double value) { return std::abs(value) <= detector_noise ? 0 : value > 0.0 ? 1 : -1; }
@@ -22,7 +23,7 @@ double angle_between(const Metric& metric, const Direction& a, const Direction& 
 }
 
 // λ₀ of the metric: the load that would move the structure by 1 if it stayed linear.
-double lambda_scale(const System& system, const State& start, double first) {
+double natural_lambda_scale(const System& system, const State& start, double first) {
   Metric metric(system.weights(start.piece), 1.0);
   Corrector corrector(system, {}, std::abs(first));
   const Direction up{.dx = Vector::Zero(start.x.size()), .dlambda = 1.0};
@@ -53,15 +54,18 @@ EventDetector turning_detector(const System& system, const Metric& metric, std::
   return {.kind = EventKind::displacement_limit, .label = std::move(label), .value = rate, .integral = nullptr};
 }
 
-Tracer::Tracer(const System& system, State start, TraceOptions options, std::vector<Watch> watched)
+Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, std::vector<Watch> watched)
     : system_(system),
       options_(std::move(options)),
       watched_(std::move(watched)),
-      metric_(system.weights(start.piece), lambda_scale(system, start, options_.step.first)),
+      metric_(system.weights(start.state.piece), start.lambda_scale
+                                                     ? *start.lambda_scale
+                                                     : natural_lambda_scale(system, start.state, options_.step.first)),
       corrector_(system, options_.corrector, std::abs(options_.step.first)),
       counter_(system, options_.guard_tolerance),
-      step_(options_.step, options_.step.max) {
-  here_.state = std::move(start);
+      step_(options_.step, options_.step.max),
+      start_(std::move(start)) {
+  here_.state = start_.state;
   if (options_.events == EventSearch::none) return;
   detectors_.push_back(limit_point_detector(metric_));
   for (const Watch& watch : watched_)
@@ -70,7 +74,7 @@ Tracer::Tracer(const System& system, State start, TraceOptions options, std::vec
 
 std::optional<Arc> Tracer::next() {
   if (end_) return std::nullopt;
-  if (points_ == 0) return begin();
+  if (points_ == 0) return start_.forward ? begin_at_branch_point() : begin();
   if (points_ >= options_.max_points) {
     end_ = {.reason = EndReason::max_points, .detail = std::to_string(points_) + " points"};
     return std::nullopt;
@@ -106,8 +110,9 @@ std::optional<Arc> Tracer::begin() {
   here_.count = counter_.count(here_.state, std::nullopt);
   signs_ = signs_at(here_);
   step_.restart(std::abs(options_.step.first / here_.tangent.dlambda));
-  first_ = here_.state;
+  start_.state = here_.state;
   held_ = here_.held;
+  after_ = here_.count;
   ++points_;
   arc.to = here_;
   arc.events.insert(arc.events.begin(), Event{.kind = EventKind::start,
@@ -115,6 +120,21 @@ std::optional<Arc> Tracer::begin() {
                                               .residual = here_.residual,
                                               .unstable_before = here_.count.unstable,
                                               .unstable_after = here_.count.unstable});
+  return arc;
+}
+
+// At a branch point K is singular: signs and counts are taken up behind the first step.
+std::optional<Arc> Tracer::begin_at_branch_point() {
+  CorrectorResult start = corrector_.inspect(here_.state, metric_, *start_.forward);
+  start.state = here_.state;
+  start.tangent = *start_.forward;
+  here_ = point_of(std::move(start), *start_.forward);
+  here_.held = here_.count.unstable = std::nullopt;
+  signs_ = signs_at(here_);
+  step_.restart(start_.distance);
+  ++points_;
+  Arc arc{.to = here_};
+  arc.events.push_back({.kind = EventKind::start, .state = here_.state, .residual = here_.residual});
   return arc;
 }
 
@@ -152,11 +172,12 @@ std::optional<Arc> Tracer::advance(double s) {
     if (found->what == Found::What::landmark && options_.landmarks[found->which].stops)
       end_ = {.reason = EndReason::stop, .detail = options_.landmarks[found->which].label};
   }
-  const bool singular = found && (found->what == Found::What::branch_point ||
-                                  (found->what == Found::What::detector && detectors_[found->which].kind == EventKind::limit_point));
+  const bool singular =
+      found && (found->what == Found::What::branch_point ||
+                (found->what == Found::What::detector && detectors_[found->which].kind == EventKind::limit_point));
   held_ = singular ? beyond.held : to.held;
-  const bool back = !step->corner && came_back(to);
-  if (back) end_ = {.reason = EndReason::closed_loop, .detail = "the branch came back to a point it had passed"};
+  after_ = singular ? counter_.count(beyond.state, beyond.held) : to.count;
+  if (!step->corner && !end_) end_where_known(to);
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
 
   std::vector<int> signs = signs_at(to);
@@ -173,6 +194,7 @@ std::optional<Arc> Tracer::advance(double s) {
       for (std::size_t i = 0; i < turned.size(); ++i)
         if (turned[i] != 0) signs_[i] = turned[i];
       held_ = to.held;
+      after_ = to.count;
     }
     const Index closed = std::count(to.state.piece.begin(), to.state.piece.end(), std::uint8_t{1});
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
@@ -185,8 +207,12 @@ std::optional<Arc> Tracer::advance(double s) {
 }
 
 std::optional<Tracer::Step> Tracer::take(double s) {
+  // Off a branch point the component along the mode is prescribed, so that the step cannot fall back.
+  const bool leaves = points_ == 1 && start_.forward;
   const auto constraint =
-      step_constraint(options_.method, metric_, here_.state, here_.tangent, s, options_.control.get());
+      leaves ? std::make_unique<PlaneConstraint>(metric_, here_.state, start_.mode,
+                                                 s * metric_.inner(here_.tangent, start_.mode))
+             : step_constraint(options_.method, metric_, here_.state, here_.tangent, s, options_.control.get());
   CorrectorResult result =
       corrector_.correct(moved(here_.state, here_.tangent, s), *constraint, metric_, here_.tangent, s);
   last_failure_ = result.status;
@@ -275,9 +301,11 @@ std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, 
 // The first detector or landmark with a zero inside the segment, besides the one that its end lies on.
 std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std::optional<Found>& already) const {
   std::optional<Found> first;
-  const bool turns = !signs_.empty() && signs_.front() * sign_of(segment.to().tangent.dlambda / metric_.lambda_scale()) < 0;
+  const bool turns =
+      !signs_.empty() && signs_.front() * sign_of(segment.to().tangent.dlambda / metric_.lambda_scale()) < 0;
   const bool whole = !already;  // counts are certain at the end of a step, not at a located point
-  if (options_.events == EventSearch::locate && whole && !turns && held_ && segment.to().held && *held_ != *segment.to().held)
+  if (options_.events == EventSearch::locate && whole && !turns && held_ && segment.to().held &&
+      *held_ != *segment.to().held)
     return Found{.what = Found::What::branch_point, .which = 0, .t = 0.5, .half_width = 0.0};
   const auto consider = [&](Found::What what, std::size_t which, double t) {
     const bool done = already && already->what == what && already->which == which;
@@ -343,12 +371,13 @@ std::optional<PathPoint> Tracer::locate_branch_point(const PathPoint& to) {
   if (!result.converged()) return std::nullopt;
   result.tangent = at->tangent;
   result.iterations = at->iterations;
+  branching->discretisation = options_.tied_contacts && system_.multiplier_count(to.state.piece) > 0;
   located_ = std::move(branching);
   return point_of(std::move(result), here_.tangent);
 }
 
-// A fold changes the count of negative eigenvalues by one, and so does a simple branch point. Where a step shows more, or
-// a fold without its change, it is looked at again in shorter steps.
+// A fold changes the count of negative eigenvalues by one, and so does a simple branch point. Where a step shows more,
+// or a fold without its change, it is looked at again in shorter steps.
 bool Tracer::several_singular_points(const Segment& segment) const {
   constexpr double inseparable = 1e-5;  // arc length below which they are one
   if (!held_ || !segment.to().held || segment.length() < inseparable || detectors_.empty()) return false;
@@ -364,7 +393,7 @@ Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint&
             .arc = at.arc,
             .residual = at.residual,
             .localised = 1e-12 * length / metric_.lambda_scale(),
-            .unstable_before = here_.count.unstable,
+            .unstable_before = after_.unstable,
             .unstable_after = beyond.count.unstable,
             .branching = located_};
   const EventDetector& detector = detectors_[found.which];
@@ -378,7 +407,7 @@ Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint&
           .arc = at.arc,
           .residual = at.residual,
           .localised = std::max(std::abs(at.tangent.dlambda) * width + 0.5 * bend * width * width, roundoff),
-          .unstable_before = here_.count.unstable,
+          .unstable_before = after_.unstable,
           .unstable_after = detector.kind == EventKind::limit_point ? beyond.count.unstable : at.count.unstable};
 }
 
@@ -479,7 +508,7 @@ void Tracer::add_corner_events(const PathPoint& before, const PathPoint& after, 
               .arc = after.arc,
               .residual = before.residual,
               .localised = 0.0,
-              .unstable_before = here_.count.unstable,
+              .unstable_before = after_.unstable,
               .unstable_after = after.count.unstable};
   for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_opens}) {
     event.kind = kind;
@@ -520,18 +549,29 @@ std::vector<int> Tracer::signs_at(const PathPoint& point) const {
   return signs;
 }
 
-// Whether the step passes the branch's first point: it lies beside the chord, and exactly on the path.
-bool Tracer::came_back(const PathPoint& to) {
+// Whether the step passes a point: it lies beside the chord, and on the path as exactly as such points are located.
+bool Tracer::passes(const PathPoint& to, const State& place) {
   const Segment segment(metric_, here_, to);
   const double L = segment.length();
-  if (first_.piece != to.state.piece || to.arc < 3.0 * L + same_place) return false;
-  const Direction offset = difference(first_, here_.state);
+  if (place.piece != to.state.piece) return false;
+  const Direction offset = difference(place, here_.state);
   const double t = metric_.inner(offset, segment.chord()) / (L * L);
   if (!(t > 0.0 && t <= 1.0 + same_place)) return false;
   const double beside = std::sqrt(std::max(0.0, metric_.inner(offset, offset) - t * t * L * L));
   if (beside > 0.25 * L) return false;
-  const auto at = correct_onto(PlaneConstraint(metric_, first_, segment.chord(), 0.0), segment, std::min(t, 1.0));
-  return at && metric_.norm(difference(at->state, first_)) <= same_place;
+  const auto at = correct_onto(PlaneConstraint(metric_, place, segment.chord(), 0.0), segment, std::min(t, 1.0));
+  return at && metric_.norm(difference(at->state, place)) <= passing;
+}
+
+void Tracer::end_where_known(const PathPoint& to) {
+  const bool far = to.arc > 3.0 * Segment(metric_, here_, to).length() + same_place;
+  if (far && passes(to, start_.state))
+    end_ = {.reason = EndReason::closed_loop, .detail = "the branch came back to its start"};
+  for (const KnownPoint& known : start_.known) {
+    if (end_ || !far) return;
+    if (passes(to, known.state))
+      end_ = {.reason = EndReason::joined, .detail = "joins branch " + std::to_string(known.branch)};
+  }
 }
 
 void Tracer::give_up() {

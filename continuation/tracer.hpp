@@ -41,6 +41,7 @@ struct TraceOptions {
   std::vector<Landmark> landmarks{};
   std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
   EventSearch events = EventSearch::locate;
+  bool tied_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
   double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it weak
   double localisation = 1e-12;     ///< bracket of an event as a part of its step
   int max_points = 5000;
@@ -59,11 +60,29 @@ struct Watch {
   std::string label{};
 };
 
+/// A branch point that another branch passes through.
+struct KnownPoint {
+  State state{};
+  int branch = 0;
+};
+
+/// Where a branch begins: at a state alone, forward with λ; or at a branch point, along one of its tangents.
+struct BranchStart {
+  State state{};
+  std::optional<Direction> forward{};    ///< unit tangent at a branch point
+  Direction mode{};                      ///< the first step keeps its component along this
+  double distance = 0.02;                ///< of the first step off a branch point [path metric]
+  std::optional<double> lambda_scale{};  ///< of the metric, as on the branches before
+  std::vector<KnownPoint> known{};       ///< branch points where this branch would join another
+};
+
 /// Traces one branch arc by arc, from a state on the path.
 class Tracer {
  public:
-  /// `system` must outlive this; `start` solves its equations or nearly so.
-  Tracer(const System& system, State start, TraceOptions options, std::vector<Watch> watched = {});
+  /// `system` must outlive this; the start solves its equations or nearly so.
+  Tracer(const System& system, BranchStart start, TraceOptions options, std::vector<Watch> watched = {});
+  Tracer(const System& system, State start, TraceOptions options, std::vector<Watch> watched = {})
+      : Tracer(system, BranchStart{.state = std::move(start)}, std::move(options), std::move(watched)) {}
 
   /// The next arc; the first has length zero and carries the `start` event. Empty when the branch has ended: see end().
   std::optional<Arc> next();
@@ -73,6 +92,9 @@ class Tracer {
 
   /// Ends the branch where it is (a time limit, an interrupt).
   void stop(BranchEnd end) { end_ = std::move(end); }
+
+  /// λ₀ of the path metric.
+  double lambda_scale() const { return metric_.lambda_scale(); }
 
   /// The last accepted point.
   const PathPoint& here() const { return here_; }
@@ -95,6 +117,7 @@ class Tracer {
   };
 
   std::optional<Arc> begin();
+  std::optional<Arc> begin_at_branch_point();
   std::optional<Arc> advance(double s);
   std::optional<Step> take(double s);
   bool trustworthy(const PathPoint& to, double s, double& turn) const;
@@ -121,7 +144,8 @@ class Tracer {
 
   PathPoint point_of(CorrectorResult result, const Direction& forward) const;
   std::vector<int> signs_at(const PathPoint& point) const;
-  bool came_back(const PathPoint& to);
+  bool passes(const PathPoint& to, const State& place);
+  void end_where_known(const PathPoint& to);
   void give_up();
 
   const System& system_;
@@ -133,10 +157,11 @@ class Tracer {
   StabilityCounter counter_;
   StepControl step_;
   PathPoint here_;
-  std::vector<int> signs_;     // of each detector just after here_
-  std::optional<Index> held_;  // negative eigenvalues just after here_, closed contacts held
+  std::vector<int> signs_;                // of each detector just after here_
+  std::optional<Index> held_;             // negative eigenvalues just after here_, closed contacts held
+  StabilityCount after_;                  // the count just after here_
   std::shared_ptr<BranchPoint> located_;  // the last branch point
-  State first_;             // where the branch began
+  BranchStart start_;
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
   struct Visited {
     State corner;

@@ -8,6 +8,8 @@ ExitStatus exit_status(EndReason reason) {
   switch (reason) {
     case EndReason::stop:
     case EndReason::closed_loop:
+    case EndReason::joined:
+    case EndReason::branched:
       return ExitStatus::success;
     case EndReason::max_points:
     case EndReason::max_time:

@@ -166,10 +166,10 @@ void write_files(const OutputFolder& folder, const RunRequest& request, const St
 
 void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolder& folder) {
   if (status == ExitStatus::success) return;
-  const std::string detail = end.detail.empty() ? "" : ": " + end.detail;
-  std::cerr << fmt::format("{}: {} ({}{}); what was traced is in {}\n",
-                           status == ExitStatus::ended_early ? "error" : "note", explanation(end.reason),
-                           to_text(end.reason), detail, folder.path().string());
+  std::cerr << fmt::format(
+      "{}{}; what was traced is in {}\n",
+      status == ExitStatus::ended_early ? "error: branch 0 ended early: " : "note: the run ended: ", how_it_ended(end),
+      folder.path().string());
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::branch_point};
 
 constexpr std::array end_reasons{
-    EndReason::stop,        EndReason::closed_loop,     EndReason::max_points, EndReason::max_time,
-    EndReason::interrupted, EndReason::min_step,        EndReason::singular,   EndReason::not_finite,
-    EndReason::no_ray,      EndReason::turning_control, EndReason::wall_end};
+    EndReason::stop,     EndReason::closed_loop,     EndReason::joined,   EndReason::branched, EndReason::max_points,
+    EndReason::max_time, EndReason::interrupted,     EndReason::min_step, EndReason::singular, EndReason::not_finite,
+    EndReason::no_ray,   EndReason::turning_control, EndReason::wall_end};
 
 template <class List>
 std::optional<typename List::value_type> with_text(const List& list, std::string_view text) {
@@ -60,6 +60,10 @@ std::string_view to_text(EndReason reason) {
       return "stop";
     case EndReason::closed_loop:
       return "closed_loop";
+    case EndReason::joined:
+      return "joined";
+    case EndReason::branched:
+      return "branched";
     case EndReason::max_points:
       return "max_points";
     case EndReason::max_time:
@@ -136,6 +140,10 @@ std::string_view explanation(EndReason reason) {
       return "a bound of the deck was met";
     case EndReason::closed_loop:
       return "the branch closed";
+    case EndReason::joined:
+      return "a branch point of another branch was reached";
+    case EndReason::branched:
+      return "the path goes on along another branch";
     case EndReason::max_points:
       return "the limit on points was met";
     case EndReason::max_time:

@@ -70,7 +70,10 @@ Json event_json(const Record& record, const RecordEvent& event) {
     for (const RecordContact& one : event.contacts) json["contact"].push_back(contact(one));
   }
   if (event.monitor) json["monitor"] = *event.monitor;
-  if (event.branch_type) json["type"] = to_text(*event.branch_type);
+  if (event.branch_type) {
+    json["type"] = to_text(*event.branch_type);
+    json["discretisation"] = event.discretisation;
+  }
   if (!event.mode.empty()) json["mode"] = monitors(record, event.mode);
   if (event.branch_end) json.update(end_json(*event.branch_end));
   return json;

@@ -38,6 +38,9 @@ std::string what(const RecordEvent& event) {
   return contacts(event.contacts);
 }
 
+// −0 is a number that people take for a mistake.
+std::string number(double value, int digits) { return fmt::format("{:.{}g}", value == 0.0 ? 0.0 : value, digits); }
+
 std::string table(const Record& record) {
   using Side = TableColumn::Side;
   const bool one_branch = record.branches.size() <= 1;
@@ -54,10 +57,10 @@ std::string table(const Record& record) {
     row.push_back(std::to_string(event.id));
     if (!one_branch) row.push_back(std::to_string(event.branch));
     row.push_back(std::to_string(event.step));
-    row.push_back(fmt::format("{:.10g}", event.lambda));
+    row.push_back(number(event.lambda, 10));
     row.emplace_back(to_text(event.kind));
     row.push_back(what(event));
-    for (const double value : event.monitors) row.push_back(fmt::format("{:.6g}", value));
+    for (const double value : event.monitors) row.push_back(number(value, 6));
     row.push_back(unstable(event));
   }
   return text_table(columns, rows);
@@ -67,12 +70,14 @@ std::string ending(const RecordBranch& branch) {
   const std::string points =
       fmt::format("branch {}: {} {}", branch.id, branch.points, branch.points == 1 ? "point" : "points");
   if (!branch.end) return points + "\n";
-  const BranchEnd& end = *branch.end;
-  const std::string detail = end.detail.empty() ? "" : ": " + end.detail;
-  return fmt::format("{}, ended because {} ({}{})\n", points, explanation(end.reason), to_text(end.reason), detail);
+  return fmt::format("{}, ended: {}\n", points, how_it_ended(*branch.end));
 }
 
 }  // namespace
+
+std::string how_it_ended(const BranchEnd& end) {
+  return fmt::format("{} ({})", end.detail.empty() ? explanation(end.reason) : end.detail, to_text(end.reason));
+}
 
 std::string events_text(const Record& record) {
   std::string text = record.title.empty() ? "" : record.title + "\n";

@@ -51,6 +51,7 @@ struct RecordEvent {
   std::optional<std::string> monitor{};     ///< of a displacement limit
   std::optional<BranchEnd> branch_end{};    ///< of an end
   std::optional<BranchType> branch_type{};  ///< of a branch point
+  bool discretisation = false;              ///< of a branch point that only contact at nodes makes
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
 };
 

@@ -86,9 +86,10 @@ RecordEvent Recorder::recorded(const Event& event) const {
   if (event.kind == EventKind::displacement_limit) record.monitor = event.label;
   if (event.branching) {
     record.branch_type = event.branching->type;
+    record.discretisation = event.branching->discretisation;
     record.mode = mode_rates(study_.monitors(), *event.branching);
   }
-  if (study_.contact() == nullptr) return record;
+  if (study_.contact() == nullptr || !changes_contact(event.kind)) return record;
   for (const Index j : event.guards) {
     const Candidate& candidate = study_.contact()->candidate(j);
     record.contacts.push_back({.label = candidate.label(), .x = candidate.point().position(event.state.x).x()});

@@ -120,7 +120,7 @@ TEST(BorderedSolver, WorksOnSaddlePoints) {
   expect_line(now, line);
   Matrix X = numbers.matrix(n + m, 2);
   const Matrix right = X;
-  solver.solve_inner(X);
+  solver.inner().solve(X);
   EXPECT_LE((K * X - right).norm(), 1e-13 * right.norm() * K.norm());
 }
 

@@ -38,7 +38,7 @@ TEST(NearNull, FindsTheEigenvaluesNearestZeroOfDefiniteAndIndefiniteChains) {
     const SparseMatrix K = test::lower_triangle(chain(n, d));
     Ldlt ldlt;
     ASSERT_EQ(ldlt.factorize(K), FactorStatus::ok);
-    const NearNull found = near_null(ldlt, K, 3);
+    const NearNull found = near_null(ldlt, K, Vector::Ones(n), 3);
     const std::vector<double> expected = chain_values(n, d);
     ASSERT_EQ(found.values.size(), 3);
     for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.values[i], expected[static_cast<std::size_t>(i)], tolerance);
@@ -55,16 +55,49 @@ TEST(NearNull, FindsTheNullVectorWithAShiftedFactorization) {
   K(0, 0) = K(n - 1, n - 1) = 1.0;
   Ldlt ldlt;
   ASSERT_EQ(ldlt.factorize(test::lower_triangle(K + 1e-9 * Matrix::Identity(n, n))), FactorStatus::ok);
-  const NearNull found = near_null(ldlt, test::lower_triangle(K), 1);
+  const NearNull found = near_null(ldlt, test::lower_triangle(K), Vector::Ones(n), 1);
   EXPECT_NEAR(found.values[0], 0.0, 1e-14);
   EXPECT_NEAR(std::abs(found.vectors.col(0).sum()), std::sqrt(double(n)), 1e-12);
+}
+
+TEST(NearNull, WeightsMakeTheGeneralisedProblem) {
+  constexpr Index n = 15;
+  const Matrix K = chain(n, 0.35);
+  const Vector weights = Vector::LinSpaced(n, 0.5, 2.0);
+  Ldlt ldlt;
+  ASSERT_EQ(ldlt.factorize(test::lower_triangle(K)), FactorStatus::ok);
+  const NearNull found = near_null(ldlt, test::lower_triangle(K), weights, 2);
+  Vector expected = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(K, Matrix(weights.asDiagonal())).eigenvalues();
+  std::sort(expected.begin(), expected.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  for (Index i = 0; i < 2; ++i) EXPECT_NEAR(found.values[i], expected[i], tolerance);
+  const Matrix product = found.vectors.transpose() * weights.asDiagonal() * found.vectors;
+  EXPECT_LE((product - Matrix::Identity(2, 2)).norm(), 1e-13);
+}
+
+TEST(NearNull, MultipliersOfWeightZeroLeaveTheSpaceThatTheyHold) {
+  // The middle of a chain is held by a multiplier: two chains of half the length, each eigenvalue twice.
+  constexpr Index n = 11, half = 5;
+  Matrix A = Matrix::Zero(n + 1, n + 1);
+  A.topLeftCorner(n, n) = chain(n, 2.0);
+  A(n, half) = A(half, n) = -1.0;
+  Vector weights = Vector::Ones(n + 1);
+  weights[n] = 0.0;
+  Ldlt ldlt;
+  ldlt.set_multiplier_count(1);
+  ASSERT_EQ(ldlt.factorize(test::lower_triangle(A)), FactorStatus::ok);
+  const NearNull found = near_null(ldlt, test::lower_triangle(A), weights, 2);
+  ASSERT_EQ(found.values.size(), 2);
+  const double least = 2.0 - 2.0 * std::cos(pi / double(half + 1));
+  EXPECT_NEAR(found.values[0], least, tolerance);
+  EXPECT_NEAR(found.values[1], least, tolerance);
+  EXPECT_NEAR(found.vectors.row(half).norm(), 0.0, 1e-9);
 }
 
 TEST(NearNull, ASmallMatrixHasNoMorePairsThanRows) {
   const SparseMatrix K = test::lower_triangle(Vector(Vector::LinSpaced(2, 3.0, 5.0)).asDiagonal());
   Ldlt ldlt;
   ASSERT_EQ(ldlt.factorize(K), FactorStatus::ok);
-  const NearNull found = near_null(ldlt, K, 4);
+  const NearNull found = near_null(ldlt, K, Vector::Ones(2), 4);
   ASSERT_EQ(found.values.size(), 2);
   EXPECT_NEAR(found.values[0], 3.0, 1e-14);
   EXPECT_NEAR(found.values[1], 5.0, 1e-14);

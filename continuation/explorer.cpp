@@ -1,0 +1,135 @@
+#include "continuation/explorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+constexpr double same_place = 1e-6;  // two located branch points in the path metric
+constexpr double same_value = 1e-9;  // relative difference of λ and energy between mirror images
+
+bool close(double a, double b, double scale) {
+  return std::abs(a - b) <= same_value * std::max(scale, std::abs(a) + std::abs(b));
+}
+
+}  // namespace
+
+Explorer::Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched,
+                   ExploreOptions options)
+    : system_(system), trace_(std::move(trace)), watched_(std::move(watched)), options_(std::move(options)) {
+  queue_.push_back({.start = {.state = std::move(start)}, .record = {}});
+}
+
+std::optional<Explorer::Step> Explorer::next() {
+  for (;;) {
+    if (stopped_) return std::nullopt;
+    if (!tracer_) {
+      if (queue_.empty()) return std::nullopt;
+      Queued queued = std::move(queue_.front());
+      queue_.pop_front();
+      current_ = static_cast<int>(branches_.size());
+      queued.record.id = current_;
+      queued.start.known = known_;
+      branches_.push_back(queued.record);
+      tracer_ = std::make_unique<Tracer>(system_, std::move(queued.start), trace_, watched_);
+      lambda_scale_ = tracer_->lambda_scale();
+    }
+    if (auto arc = tracer_->next()) {
+      for (const Event& event : arc->events)
+        if (event.branching) look_at(event);
+      return Step{.branch = current_, .arc = std::move(*arc)};
+    }
+    branches_[static_cast<std::size_t>(current_)].end = tracer_->end();
+    tracer_.reset();
+  }
+}
+
+void Explorer::stop(const BranchEnd& end) {
+  if (tracer_) branches_[static_cast<std::size_t>(current_)].end = tracer_->end().value_or(end);
+  stopped_ = true;
+}
+
+// A branch point was located on the branch under way: decide who goes on.
+void Explorer::look_at(const Event& event) {
+  const BranchPoint& point = *event.branching;
+  if (known(point)) return;
+  known_.push_back({.state = point.state, .branch = current_});
+  const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
+  if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
+  if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
+  const bool ahead_is_stable = event.unstable_after == Index{0};
+  if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
+
+  std::vector<Way> ways = ways_off(point);
+  if (ways.empty()) return;
+  const bool mirrored = mirror_images(ways);
+  const int preferred = preferred_sign(point, ways);
+  if (options_.policy == BranchPolicy::all) {
+    enqueue(event.branching, mirrored ? preferred : 1, mirrored);
+    if (!mirrored) enqueue(event.branching, -1, false);
+    return;
+  }
+  // follow: the way with fewest unstable directions; of equals the preferred side
+  const auto rank = [&](const Way& way) {
+    return std::pair(way.count.unstable.value_or(std::numeric_limits<Index>::max()), way.sign == preferred ? 0 : 1);
+  };
+  const Way& best =
+      *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) { return rank(a) < rank(b); });
+  enqueue(event.branching, best.sign, mirrored);
+  tracer_->stop({.reason = EndReason::branched, .detail = "followed by branch " + std::to_string(branches_.size())});
+}
+
+std::vector<Explorer::Way> Explorer::ways_off(const BranchPoint& point) {
+  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+  Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first));
+  StabilityCounter counter(system_, trace_.guard_tolerance);
+  std::vector<Way> ways;
+  for (const int sign : {1, -1})
+    if (auto step = step_off(system_, corrector, metric, point, sign, options_.distance, trace_.guard_tolerance)) {
+      Way way{.sign = sign, .step = std::move(*step)};
+      way.energy = system_.energy(way.step.state);
+      way.count = counter.count(way.step.state, std::nullopt);
+      ways.push_back(std::move(way));
+    }
+  return ways;
+}
+
+// Both sides of a symmetric branch point at the same distance have the same load and energy.
+bool Explorer::mirror_images(const std::vector<Way>& ways) const {
+  if (ways.size() != 2) return false;
+  const State &a = ways[0].step.state, &b = ways[1].step.state;
+  return close(a.lambda, b.lambda, 0.0) && close(ways[0].energy, ways[1].energy, 0.0);
+}
+
+int Explorer::preferred_sign(const BranchPoint& point, const std::vector<Way>& ways) const {
+  constexpr double changes = 1e-6;  // of the distance stepped
+  for (const auto& quantity : options_.preference) {
+    const Row row = quantity->gradient(point.state);
+    const double norm = Metric(system_.weights(point.state.piece), lambda_scale_).dual_norm(row);
+    const double rate = norm > 0.0 ? row.dx.dot(point.other.dx) / norm : 0.0;
+    if (std::abs(rate) > changes) return rate > 0.0 ? 1 : -1;
+  }
+  return ways.front().sign;  // along the mode, whose largest component is positive
+}
+
+void Explorer::enqueue(const std::shared_ptr<const BranchPoint>& point, int sign, bool mirrored) {
+  BranchStart start{.state = point->state, .lambda_scale = lambda_scale_};
+  start.forward = sign > 0 ? point->other : reversed(point->other);
+  start.mode = sign > 0 ? point->mode : reversed(point->mode);
+  start.distance = options_.distance;
+  const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
+  queue_.push_back({.start = std::move(start),
+                    .record = {.parent = current_, .depth = here.depth + 1, .sign = sign, .mirrored = mirrored}});
+}
+
+bool Explorer::known(const BranchPoint& point) const {
+  return std::any_of(known_.begin(), known_.end(), [&](const KnownPoint& other) {
+    if (other.state.piece != point.state.piece) return false;
+    const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+    return metric.norm(difference(other.state, point.state)) <= same_place;
+  });
+}
+
+}  // namespace arcwall

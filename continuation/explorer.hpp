@@ -1,0 +1,89 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "continuation/tracer.hpp"
+
+namespace arcwall {
+
+/// What is done at branch points.
+enum class BranchPolicy {
+  primary,  ///< stay on the first branch through every branch point
+  follow,   ///< where the branch ahead is unstable, take the bifurcated one: the one with fewest unstable directions
+  all,      ///< trace every branch found, to a depth
+};
+
+struct ExploreOptions {
+  BranchPolicy policy = BranchPolicy::primary;
+  int depth = 2;                                                ///< branches of branches, for `all`
+  std::vector<std::shared_ptr<const Observable>> preference{};  ///< of two mirror images the side on which the first of
+                                                                ///< these that changes increases
+  double distance = 0.02;                                       ///< of the first step off a branch point [path metric]
+};
+
+/// A branch of the graph.
+struct BranchRecord {
+  int id = 0;
+  std::optional<int> parent{};  ///< the branch it leaves
+  int depth = 0;
+  int sign = 1;           ///< side of its branch point's mode
+  bool mirrored = false;  ///< the other side is its mirror image and not traced
+  std::optional<BranchEnd> end{};
+};
+
+/// Traces a branch and those that leave it, one after the other, by a policy.
+class Explorer {
+ public:
+  /// `system` must outlive this.
+  Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched, ExploreOptions options);
+
+  struct Step {
+    int branch;
+    Arc arc;
+  };
+
+  /// The next arc of the branch under way, or the first of the next branch. Empty when all have ended.
+  std::optional<Step> next();
+
+  const std::vector<BranchRecord>& branches() const { return branches_; }
+
+  /// Ends everything where it is.
+  void stop(const BranchEnd& end);
+
+ private:
+  struct Queued {
+    BranchStart start;
+    BranchRecord record;
+  };
+  // A way off a branch point that was tried.
+  struct Way {
+    int sign = 1;
+    SteppedOff step{};
+    double energy = 0.0;
+    StabilityCount count{};
+  };
+
+  void look_at(const Event& event);
+  std::vector<Way> ways_off(const BranchPoint& point);
+  bool mirror_images(const std::vector<Way>& ways) const;
+  int preferred_sign(const BranchPoint& point, const std::vector<Way>& ways) const;
+  void enqueue(const std::shared_ptr<const BranchPoint>& point, int sign, bool mirrored);
+  bool known(const BranchPoint& point) const;
+
+  const System& system_;
+  TraceOptions trace_;
+  std::vector<Watch> watched_;
+  ExploreOptions options_;
+  std::unique_ptr<Tracer> tracer_;
+  int current_ = 0;
+  double lambda_scale_ = 1.0;
+  std::deque<Queued> queue_;
+  std::vector<BranchRecord> branches_;
+  std::vector<KnownPoint> known_;
+  bool stopped_ = false;
+};
+
+}  // namespace arcwall
