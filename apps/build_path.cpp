@@ -171,9 +171,10 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Structu
                    "\"essenburg\"");
       continue;
     }
-    if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(quantity, -1.0);
+    const auto raw = quantity;
+    if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(raw, -1.0);
     columns.push_back(
-        {.name = monitor.name, .unit = unit_of(deck, monitor.component), .quantity = std::move(quantity)});
+        {.name = monitor.name, .unit = unit_of(deck, monitor.component), .quantity = std::move(quantity), .raw = raw});
   }
   return columns;
 }
@@ -188,6 +189,7 @@ TraceOptions trace_options(const deck::Deck& deck, const Structure& structure, c
   options.step.min = path.min_step;
   options.step.max = path.max_step;
   options.max_points = path.max_points;
+  options.stay = path.branches != deck::Branches::follow;
   if (path.control) {
     options.control = observable(structure, places, path.control->at, path.control->component);
     if (!options.control)

@@ -27,6 +27,18 @@ bool moves_something(const Structure& structure) {
   return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
 }
 
+BranchPolicy policy_of(deck::Branches branches) {
+  switch (branches) {
+    case deck::Branches::primary:
+      return BranchPolicy::primary;
+    case deck::Branches::follow:
+      return BranchPolicy::follow;
+    case deck::Branches::all:
+      return BranchPolicy::all;
+  }
+  return BranchPolicy::follow;
+}
+
 void check_contact_method(const deck::Deck& deck, DeckProblems& problems) {
   if (deck.walls.empty()) return;
   if (deck.contact.method != deck::ContactMethod::multiplier)
@@ -70,10 +82,11 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   }
   for (const std::string& name : deck_.path.watch)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
-  if (deck_.path.branches != deck::Branches::primary)
-    warnings_.push_back(
-        "path.branches: branch points on smooth arcs are not reported in this version; the first branch "
-        "is followed, as with \"primary\"");
+  explore_.policy = policy_of(deck_.path.branches);
+  explore_.depth = deck_.path.depth;
+  for (const MonitorColumn& monitor : monitors_) explore_.preference.push_back(monitor.raw);
+  const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
+  options_.tied_contacts = contact_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }
 
 const System& Study::system() const {

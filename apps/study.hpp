@@ -6,7 +6,7 @@
 
 #include "apps/deck/deck.hpp"
 #include "contact/multiplier_contact.hpp"
-#include "continuation/tracer.hpp"
+#include "continuation/explorer.hpp"
 #include "elements/structure.hpp"
 
 namespace arcwall {
@@ -14,8 +14,9 @@ namespace arcwall {
 /// A column of path.csv.
 struct MonitorColumn {
   std::string name{};
-  std::string unit{};  ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
-  std::shared_ptr<const Observable> quantity{};
+  std::string unit{};                            ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
+  std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign
+  std::shared_ptr<const Observable> raw{};       ///< without
 };
 
 /// A deck made ready to be traced: the model, what is read off it, and how it is followed.
@@ -37,6 +38,7 @@ class Study {
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
   const TraceOptions& options() const { return options_; }
   const std::vector<Watch>& watched() const { return watched_; }
+  const ExploreOptions& explore() const { return explore_; }
 
   /// What the user should know though it is no error: one sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -55,6 +57,7 @@ class Study {
   std::vector<MonitorColumn> monitors_;
   TraceOptions options_;
   std::vector<Watch> watched_;
+  ExploreOptions explore_;
   std::vector<std::string> warnings_;
 };
 

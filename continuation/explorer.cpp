@@ -59,6 +59,11 @@ void Explorer::look_at(const Event& event) {
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
+  if (point.type == BranchType::one_sided) {
+    if (options_.policy == BranchPolicy::all)
+      for (const BranchPoint::Way& ray : point.rays) enqueue_ray(event, ray);
+    return;  // the tracer has taken the ray that `follow` wants
+  }
   const bool ahead_is_stable = event.unstable_after == Index{0};
   if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
 
@@ -67,8 +72,8 @@ void Explorer::look_at(const Event& event) {
   const bool mirrored = mirror_images(ways);
   const int preferred = preferred_sign(point, ways);
   if (options_.policy == BranchPolicy::all) {
-    enqueue(event.branching, mirrored ? preferred : 1, mirrored);
-    if (!mirrored) enqueue(event.branching, -1, false);
+    enqueue(event, mirrored ? preferred : 1, mirrored);
+    if (!mirrored) enqueue(event, -1, false);
     return;
   }
   // follow: the way with fewest unstable directions; of equals the preferred side
@@ -77,7 +82,7 @@ void Explorer::look_at(const Event& event) {
   };
   const Way& best =
       *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) { return rank(a) < rank(b); });
-  enqueue(event.branching, best.sign, mirrored);
+  enqueue(event, best.sign, mirrored);
   tracer_->stop({.reason = EndReason::branched, .detail = "followed by branch " + std::to_string(branches_.size())});
 }
 
@@ -114,10 +119,22 @@ int Explorer::preferred_sign(const BranchPoint& point, const std::vector<Way>& w
   return ways.front().sign;  // along the mode, whose largest component is positive
 }
 
-void Explorer::enqueue(const std::shared_ptr<const BranchPoint>& point, int sign, bool mirrored) {
-  BranchStart start{.state = point->state, .lambda_scale = lambda_scale_};
-  start.forward = sign > 0 ? point->other : reversed(point->other);
-  start.mode = sign > 0 ? point->mode : reversed(point->mode);
+void Explorer::enqueue_ray(const Event& event, const BranchPoint::Way& ray) {
+  const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
+  BranchStart start{.state = system_.with_piece(event.branching->state, ray.piece), .lambda_scale = lambda_scale_};
+  start.forward = start.mode = ray.direction;
+  start.distance = options_.distance;
+  start.unstable = event.unstable_before;
+  queue_.push_back({.start = std::move(start), .record = {.parent = current_, .depth = here.depth + 1}});
+}
+
+void Explorer::enqueue(const Event& event, int sign, bool mirrored) {
+  const BranchPoint& point = *event.branching;
+  BranchStart start{.state = point.state, .lambda_scale = lambda_scale_};
+  start.forward = sign > 0 ? point.other : reversed(point.other);
+  start.mode = sign > 0 ? point.mode : reversed(point.mode);
+  if (event.unstable_before && event.unstable_after)
+    start.unstable = std::min(*event.unstable_before, *event.unstable_after);
   start.distance = options_.distance;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   queue_.push_back({.start = std::move(start),

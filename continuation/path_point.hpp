@@ -43,11 +43,18 @@ enum class BranchType {
 
 /// A point where several branches meet.
 struct BranchPoint {
+  /// A one-sided way on: the contacts closed along it and its unit direction in the unknowns of that piece.
+  struct Way {
+    Piece piece{};
+    Direction direction{};
+  };
+
   BranchType type = BranchType::symmetric;
   State state{};
   Direction along{};            ///< unit tangent of the branch it was found on, forward
   Direction mode{};             ///< critical mode, of unit length, largest component positive; no λ
   Direction other{};            ///< unit tangent of the other branch
+  std::vector<Way> rays{};      ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
   Index multiplicity = 1;       ///< of the zero eigenvalue
   bool discretisation = false;  ///< contacts tied to nodes make it: the continuum has none
 };

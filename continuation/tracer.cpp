@@ -129,12 +129,17 @@ std::optional<Arc> Tracer::begin_at_branch_point() {
   start.state = here_.state;
   start.tangent = *start_.forward;
   here_ = point_of(std::move(start), *start_.forward);
-  here_.held = here_.count.unstable = std::nullopt;
+  here_.held = std::nullopt;
+  here_.count = {.unstable = start_.unstable, .stability = Stability::undecided};
   signs_ = signs_at(here_);
   step_.restart(start_.distance);
   ++points_;
   Arc arc{.to = here_};
-  arc.events.push_back({.kind = EventKind::start, .state = here_.state, .residual = here_.residual});
+  arc.events.push_back({.kind = EventKind::start,
+                        .state = here_.state,
+                        .residual = here_.residual,
+                        .unstable_before = start_.unstable,
+                        .unstable_after = start_.unstable});
   return arc;
 }
 
@@ -176,7 +181,7 @@ std::optional<Arc> Tracer::advance(double s) {
       found && (found->what == Found::What::branch_point ||
                 (found->what == Found::What::detector && detectors_[found->which].kind == EventKind::limit_point));
   held_ = singular ? beyond.held : to.held;
-  after_ = singular ? counter_.count(beyond.state, beyond.held) : to.count;
+  if (!step->corner) after_ = singular ? counter_.count(beyond.state, beyond.held) : to.count;
   if (!step->corner && !end_) end_where_known(to);
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
 
@@ -440,7 +445,28 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, std::vector<Event>& events
   at.count = counter_.count(at.state, std::nullopt);
   if (unstable) at.count.unstable = unstable;
   add_corner_events(before, at, events);
+  if (!others_.empty() && points_ > 0) events.push_back(one_sided_branch_point(before, at));
   return true;
+}
+
+// Several rays leave: each of those not taken begins a branch of its own.
+Event Tracer::one_sided_branch_point(const PathPoint& before, const PathPoint& after) const {
+  auto point = std::make_shared<BranchPoint>();
+  point->type = BranchType::one_sided;
+  point->state = after.state;
+  point->along = after.tangent;
+  point->discretisation = options_.tied_contacts;
+  for (const Ray& ray : others_) {
+    const Metric metric(system_.weights(ray.piece), metric_.lambda_scale());
+    point->rays.push_back({.piece = ray.piece, .direction = unit(metric, ray.direction)});
+  }
+  return {.kind = EventKind::branch_point,
+          .state = after.state,
+          .arc = after.arc,
+          .residual = before.residual,
+          .unstable_before = after_.unstable,
+          .unstable_after = after.count.unstable,
+          .branching = std::move(point)};
 }
 
 // A direction with all contacts open, of unit length: how the structure moves.
@@ -475,8 +501,8 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
     return std::nullopt;
   }
   struct Rank {
-    Index unstable;
-    bool continues;
+    bool unstable, continues;  // a continuation of the old piece only where nothing else leaves
+    Index count;
     double backward;
     auto operator<=>(const Rank&) const = default;
   };
@@ -488,18 +514,24 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
   };
   std::optional<Ray> best;
   Rank best_rank{};
+  std::size_t chosen = 0;
   for (Ray& ray : rays) {
     const std::optional<Index> count = count_of(ray);
     const Index negative = count.value_or(std::numeric_limits<Index>::max());
-    const Rank rank{.unstable = negative,
-                    .continues = negative > 0 && ray.piece == at.state.piece,
+    const bool continues = ray.piece == at.state.piece;
+    const Rank rank{.unstable = negative > 0,
+                    .continues = negative > 0 && continues != options_.stay,
+                    .count = negative,
                     .backward = -metric.inner(way(ray), incoming)};
     if (best && !(rank < best_rank)) continue;
     best_rank = rank;
     best = ray;
+    chosen = static_cast<std::size_t>(&ray - rays.data());
     unstable = count;
   }
   visited->ways.push_back(way(*best));
+  rays.erase(rays.begin() + static_cast<std::ptrdiff_t>(chosen));
+  others_ = std::move(rays);
   return best;
 }
 

@@ -45,6 +45,7 @@ struct TraceOptions {
   double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it weak
   double localisation = 1e-12;     ///< bracket of an event as a part of its step
   int max_points = 5000;
+  bool stay = false;  ///< at a corner that only unstable rays leave: keep the old contacts where one does
 };
 
 /// λ′ of the unit tangent, scaled to [−1, 1]: its zeros are limit points.
@@ -72,6 +73,7 @@ struct BranchStart {
   std::optional<Direction> forward{};    ///< unit tangent at a branch point
   Direction mode{};                      ///< the first step keeps its component along this
   double distance = 0.02;                ///< of the first step off a branch point [path metric]
+  std::optional<Index> unstable{};       ///< of the branch point
   std::optional<double> lambda_scale{};  ///< of the metric, as on the branches before
   std::vector<KnownPoint> known{};       ///< branch points where this branch would join another
 };
@@ -139,6 +141,7 @@ class Tracer {
 
   bool turn_corner(PathPoint& at, Index landed, std::vector<Event>& events);
   std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);
+  Event one_sided_branch_point(const PathPoint& before, const PathPoint& after) const;
   Direction open_direction(const Direction& direction, const Piece& piece) const;
   void add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const;
 
@@ -168,6 +171,7 @@ class Tracer {
     std::vector<Direction> ways;
   };
   std::vector<Visited> visited_;
+  std::vector<Ray> others_;  // rays of the last corner that were not taken
   std::optional<BranchEnd> end_;
   CorrectorStatus last_failure_ = CorrectorStatus::converged;
   std::optional<std::string> obstruction_;

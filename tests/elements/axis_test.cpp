@@ -29,8 +29,7 @@ void expect_consistent(const Axis& axis) {
 template <class Curve>
 double polygon_length(const Curve& curve, int parts) {
   double length = 0.0;
-  for (int i = 0; i < parts; ++i)
-    length += (curve(double(i + 1) / parts) - curve(double(i) / parts)).norm();
+  for (int i = 0; i < parts; ++i) length += (curve(double(i + 1) / parts) - curve(double(i) / parts)).norm();
   return length;
 }
 
@@ -107,7 +106,8 @@ TEST(SplineAxis, OfTwoPointsIsTheirChord) {
 }
 
 TEST(ParametricAxes, EqualStepsOfArcLengthAreEquallyFarApart) {
-  for (const auto& axis : {sine_axis({0.0, 0.0}, {1.0, 0.0}, 0.3, 2), spline_axis({{0, 0}, {1, 1}, {2, 0}, {2.5, -1}})}) {
+  for (const auto& axis :
+       {sine_axis({0.0, 0.0}, {1.0, 0.0}, 0.3, 2), spline_axis({{0, 0}, {1, 1}, {2, 0}, {2.5, -1}})}) {
     constexpr int parts = 2000;
     const double h = axis->length() / parts;
     for (int i = 0; i < parts; ++i) {

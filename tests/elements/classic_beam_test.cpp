@@ -87,8 +87,8 @@ TEST(ClassicBeam, ForcesAreIndifferentToRotationsOfTheWhole) {
     const double angle = 2.6;
     const Eigen::Rotation2Dd turn(angle);
     Vector v(6), f(6);
-    v << turn * u.segment<2>(0), u[2] + angle,
-        turn * Vec2(reference.chord + u.segment<2>(3)) - reference.chord, u[5] + angle;
+    v << turn * u.segment<2>(0), u[2] + angle, turn * Vec2(reference.chord + u.segment<2>(3)) - reference.chord,
+        u[5] + angle;
     f << turn * at.f.segment<2>(0), at.f[2], turn * at.f.segment<2>(3), at.f[5];
     const auto after = evaluated(beam, v);
     EXPECT_NEAR(after.energy, at.energy, 1e-13 * EA);
@@ -145,8 +145,7 @@ TEST(ClassicBeam, ACircleNeedsTheExactMoment) {
   const double l = h / (1.0 + alpha * alpha / 6.0);  // so that ε = l (1 + q)/h − 1 = 0, q = α²/6
   Vector u(6);
   u << 0.0, 0.0, -alpha, l - h, 0.0, alpha;
-  const Vector f =
-      evaluated(ClassicBeam({.chord = {h, 0.0}, .length = h, .slope1 = 0.0, .slope2 = 0.0}, EA, EI), u).f;
+  const Vector f = evaluated(ClassicBeam({.chord = {h, 0.0}, .length = h, .slope1 = 0.0, .slope2 = 0.0}, EA, EI), u).f;
   EXPECT_NEAR(f[5], EI * 2.0 * alpha / h, 1e-13 * EA);
   EXPECT_NEAR(f[2], -EI * 2.0 * alpha / h, 1e-13 * EA);
   EXPECT_NEAR(f.segment<2>(3).norm(), 0.0, 1e-13 * EA);

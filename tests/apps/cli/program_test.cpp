@@ -1,0 +1,297 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/apps/output/temporary_folder.hpp"
+
+// The built program, as a user runs it.
+namespace arcwall {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Json = nlohmann::json;
+using Names = std::set<std::string>;
+
+const Names outputs{"deck.toml", "events.json", "events.txt", "path.csv", "result.json"};
+
+struct Outcome {
+  int status = -1;
+  std::string out{}, err{};
+};
+
+class ProgramTest : public testing::Test {
+ protected:
+  // Arguments as in a shell, in the folder `work`.
+  Outcome run(const std::string& arguments) const { return shell("\"$PROGRAM\" " + arguments); }
+
+  Outcome shell(const std::string& script) const {
+    const std::string command = "cd '" + (folder_ / "work").string() + "' && PROGRAM='" TRACE_PATH_PROGRAM "' && { " +
+                                script + "; } >../out 2>../err </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ / "out"), content(folder_ / "err")};
+  }
+
+  void SetUp() override {
+    fs::create_directory(folder_ / "work");
+    ASSERT_EQ(run("examples truss --out truss.toml").status, 0);
+    before_ = names_in(work());
+  }
+
+  fs::path work() const { return folder_ / "work"; }
+  bool wrote_nothing() const { return names_in(work()) == before_; }
+
+ private:
+  TemporaryFolder folder_;
+  Names before_;
+};
+
+std::vector<Json> lines(const std::string& text) {
+  std::vector<Json> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(Json::parse(line));
+  return result;
+}
+
+void expect_in(const std::string& part, const std::string& text) {
+  EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in\n" << text;
+}
+
+TEST_F(ProgramTest, RunWritesAFolderNamedAfterTheDeckAndPrintsTheEvents) {
+  const Outcome outcome = run("run truss.toml");
+
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  EXPECT_EQ(outcome.out, content(work() / "truss" / "events.txt"));
+  EXPECT_EQ(outcome.err.find("branch 0"), std::string::npos) << "progress without a terminal";
+  const Json events = Json::parse(content(work() / "truss" / "events.json"))["events"];
+  ASSERT_EQ(events.size(), 4u);
+  // The first peak, 2 EA h³/(3 √3 L³).
+  EXPECT_NEAR(events[1]["lambda"].get<double>(), 2.0 * 1e5 * 0.125 / (3.0 * std::sqrt(3.0) * std::pow(25.25, 1.5)),
+              1e-8);
+}
+
+TEST_F(ProgramTest, ADeckAloneIsRun) {
+  EXPECT_EQ(run("truss.toml --quiet").status, 0);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+}
+
+TEST_F(ProgramTest, TheDeckAsItWasRunGivesTheSamePath) {
+  ASSERT_EQ(run("truss.toml --set path.step=2.5").status, 0);
+  ASSERT_EQ(run("truss/deck.toml --out again").status, 0);
+  EXPECT_EQ(content(work() / "truss" / "path.csv"), content(work() / "again" / "path.csv"));
+}
+
+TEST_F(ProgramTest, QuietPrintsNothingOnStandardOutput) {
+  const Outcome outcome = run("truss.toml --quiet");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(ProgramTest, NoUnitsLeavesTheBracketsOut) {
+  ASSERT_EQ(run("truss.toml --no-units").status, 0);
+  EXPECT_EQ(content(work() / "truss" / "path.csv").substr(0, 28), "branch,step,arc,lambda,w,uns");
+}
+
+TEST_F(ProgramTest, JsonIsOneObjectALine) {
+  const Outcome outcome = run("truss.toml --json");
+
+  EXPECT_EQ(outcome.status, 0);
+  const std::vector<Json> objects = lines(outcome.out);
+  std::size_t points = 0, events = 0;
+  for (const Json& object : objects) {
+    ASSERT_EQ(object.size(), 1u);
+    points += object.contains("point");
+    events += object.contains("event");
+  }
+  EXPECT_EQ(events, 4u);
+  EXPECT_EQ(points + events + 1, objects.size());
+  EXPECT_EQ(objects.back()["end"]["reason"], "stop");
+  EXPECT_EQ(objects.back()["end"]["status"], 0);
+  const std::string csv = content(work() / "truss" / "path.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), points + 1);
+}
+
+TEST_F(ProgramTest, DryRunWritesNothing) {
+  const Outcome outcome = run("truss.toml --dry-run --out results");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(wrote_nothing());
+  expect_in("would write into results", outcome.out);
+  expect_in("path.csv", outcome.out);
+}
+
+TEST_F(ProgramTest, CheckSummarisesTheDeck) {
+  const Outcome outcome = run("check truss.toml");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(wrote_nothing());
+  expect_in("unknowns  2", outcome.out);
+  expect_in("left: truss, 1 element", outcome.out);
+}
+
+TEST_F(ProgramTest, CheckNamesTheFirstGapOfAWall) {
+  ASSERT_EQ(run("examples foundation --out foundation.toml").status, 0);
+  const Outcome outcome = run("check foundation.toml");
+  EXPECT_EQ(outcome.status, 0);
+  expect_in("foundation: below the structure", outcome.out);
+  expect_in("first gap 0.08 cm at beam:", outcome.out);
+}
+
+TEST_F(ProgramTest, EveryErrorOfADeckIsReportedAndNothingWritten) {
+  const Outcome outcome = run("run truss.toml --set material.bar.E=-1 --set load.0.at='\"nowhere\"'");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(wrote_nothing());
+  EXPECT_EQ(outcome.out, "");
+  expect_in("E", outcome.err);
+  expect_in("nowhere", outcome.err);
+  std::istringstream stream(outcome.err);
+  for (std::string line; std::getline(stream, line);) EXPECT_TRUE(line.starts_with("error: ")) << line;
+}
+
+TEST_F(ProgramTest, ADeckThatIsNotThereIsWrongInput) {
+  EXPECT_EQ(run("run gone.toml").status, 2);
+  EXPECT_EQ(run("gone.toml").status, 2);
+  EXPECT_EQ(run("run .").status, 2);
+  EXPECT_TRUE(wrote_nothing());
+}
+
+TEST_F(ProgramTest, UnknownAndShortenedOptionsAreErrorsThatProposeTheNearest) {
+  const auto expect_proposal = [&](const std::string& arguments, const std::string& proposal) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    expect_in("did you mean " + proposal, outcome.err);
+  };
+  expect_proposal("run truss.toml --forse", "--force");
+  expect_proposal("run truss.toml --quie", "--quiet");
+  expect_proposal("run truss.toml --max 3", "--max-points or --max-time");
+  expect_proposal("run truss.toml --drY-run", "--dry-run");
+  expect_proposal("check truss.toml --sets a=1", "--set");
+  expect_proposal("--versoin", "--version");
+  expect_proposal("chek truss.toml", "check");
+  expect_proposal("examples trus", "truss");
+  EXPECT_TRUE(wrote_nothing());
+}
+
+TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
+  for (const char* arguments : {"",
+                                "run",
+                                "run truss.toml other.toml",
+                                "run truss.toml -x",
+                                "run truss.toml --out",
+                                "run truss.toml --out=",
+                                "run truss.toml --quiet=yes",
+                                "run truss.toml --out a --out b",
+                                "run truss.toml --max-points 0",
+                                "run truss.toml --max-points 1.5",
+                                "run truss.toml --max-points 99999999999",
+                                "run truss.toml --max-time -1",
+                                "run truss.toml --max-time nan",
+                                "run truss.toml --max-time 1s",
+                                "run truss.toml --set",
+                                "run truss.toml --set x",
+                                "run truss.toml --verbose",
+                                "run truss.toml --threads 2",
+                                "resume truss",
+                                "''",
+                                "run ''",
+                                "--quiet truss.toml",
+                                "examples --out x",
+                                "examples truss channel",
+                                "--help more"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_NE(outcome.err, "") << arguments;
+  }
+  EXPECT_TRUE(wrote_nothing());
+}
+
+TEST_F(ProgramTest, HelpBeginsWithAnExample) {
+  for (const char* command : {"", "run", "check", "examples"}) {
+    const Outcome outcome = run(std::string(command) + " --help");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out.find("  trace-path " + std::string(command)), 0u) << outcome.out;
+    EXPECT_EQ(outcome.err, "");
+    const Outcome version = run(std::string(command) + " --version");
+    EXPECT_EQ(version.status, 0);
+    EXPECT_EQ(version.out.find("trace-path "), 0u) << version.out;
+  }
+}
+
+TEST_F(ProgramTest, LimitsOnPointsAndTimeGiveStatus6AndWhatWasTraced) {
+  EXPECT_EQ(run("truss.toml --max-points 3").status, 6);
+  const std::string csv = content(work() / "truss" / "path.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
+
+  EXPECT_EQ(run("truss.toml --max-time 1e-9").status, 6);
+  const Json result = Json::parse(content(work() / "truss" / "result.json"));
+  EXPECT_EQ(result["status"], 6);
+  EXPECT_EQ(result["branches"][0]["end"]["reason"], "max_time");
+}
+
+TEST_F(ProgramTest, ABranchThatEndsEarlyGivesStatus3AndWhatWasTraced) {
+  const Outcome outcome = run("truss.toml --set path.method='\"load\"'");
+  EXPECT_EQ(outcome.status, 3);
+  expect_in("turning_control", outcome.err);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+}
+
+TEST_F(ProgramTest, ConstantLoadsThatNothingCarriesGiveStatus4) {
+  // A column that bends sideways a little under much more than it can carry, between no walls and without a way on.
+  const std::string load = "--set 'load.1={at=\"top\", force=[0.0, -1e300], constant=true}'";
+  const Outcome outcome = run("truss.toml " + load);
+  EXPECT_EQ(outcome.status, 4);
+  expect_in("no equilibrium at the start", outcome.err);
+  EXPECT_TRUE(wrote_nothing());
+}
+
+TEST_F(ProgramTest, AFolderOfAnotherDeckIsKept) {
+  ASSERT_EQ(run("truss.toml --out results").status, 0);
+  ASSERT_EQ(shell("cp truss.toml other.toml").status, 0);
+  const std::string before = content(work() / "results" / "result.json");
+
+  const Outcome refused = run("other.toml --out results");
+  EXPECT_EQ(refused.status, 5);
+  expect_in("--force", refused.err);
+  EXPECT_EQ(content(work() / "results" / "result.json"), before);
+
+  EXPECT_EQ(run("truss.toml --out results").status, 0);
+  EXPECT_EQ(run("other.toml --out results --force").status, 0);
+  EXPECT_EQ(Json::parse(content(work() / "results" / "result.json"))["deck"]["file"], "other.toml");
+}
+
+TEST_F(ProgramTest, WhatCannotBeWrittenGivesStatus5) {
+  EXPECT_EQ(run("truss.toml --out truss.toml/results").status, 5);
+  EXPECT_EQ(run("truss.toml --out truss.toml").status, 5);
+  EXPECT_EQ(run("examples truss --out truss.toml").status, 5);
+  EXPECT_EQ(run("examples truss --out gone/truss.toml").status, 5);
+  EXPECT_EQ(shell("\"$PROGRAM\" examples truss >/dev/full").status, 5);
+  EXPECT_TRUE(wrote_nothing());
+}
+
+TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
+  // Steps so small that the run would take minutes.
+  const Outcome outcome = shell(
+      "\"$PROGRAM\" truss.toml --quiet --set path.max_step=1e-6 --set path.step=1e-4 --set path.max_points=100000000 & "
+      "child=$!; sleep 0.5; kill -TERM $child; wait $child");
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  EXPECT_EQ(Json::parse(content(work() / "truss" / "events.json"))["events"].back()["reason"], "interrupted");
+}
+
+TEST_F(ProgramTest, ExamplesAreListedAndRight) {
+  const Outcome list = run("examples");
+  ASSERT_EQ(list.status, 0);
+  for (const char* name : {"arch", "cantilever", "channel", "foundation", "lee", "truss"}) {
+    expect_in(std::string("\n") + name + " ", list.out);
+    ASSERT_EQ(shell("\"$PROGRAM\" examples " + std::string(name) + " >deck.toml").status, 0);
+    EXPECT_EQ(run("deck.toml --quiet --out " + std::string(name)).status, 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace arcwall

@@ -1,0 +1,205 @@
+#include "contact/multiplier_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/derivative_check.hpp"
+#include "tests/contact/contact_models.hpp"
+#include "tests/support/dense.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using test::ContactModel;
+using test::Numbers;
+
+Piece closed_every(Index count, Index stride) {
+  Piece piece(static_cast<std::size_t>(count), 0);
+  if (stride > 0)
+    for (Index j = 1; j < count; j += stride) piece[static_cast<std::size_t>(j)] = 1;
+  return piece;
+}
+
+State random_state(const MultiplierContact& system, const Piece& piece, Numbers& numbers) {
+  return {.x = 0.2 * numbers.vector(system.size(piece)), .lambda = numbers(), .piece = piece};
+}
+
+}  // namespace
+
+// Central differences of step 1e-6: truncation 1e-12 and round-off 2e-10, times ratios of stiffnesses up to 100.
+TEST(MultiplierContact, DerivativesAreConsistentWhicheverContactsAreClosed) {
+  Numbers numbers(60);
+  for (const bool on_axis : {false, true}) {
+    const ContactModel model(test::contact_beam(), test::all_walls(on_axis), 0.1);
+    for (const Index stride : {0, 1, 2, 3, 7}) {
+      SCOPED_TRACE(stride);
+      const Piece piece = closed_every(model.system().guard_count(), stride);
+      EXPECT_LE(check_derivatives(model.system(), random_state(model.system(), piece, numbers)).worst(), 1e-7);
+    }
+  }
+}
+
+TEST(MultiplierContact, OneLinearizationServesChangingPieces) {
+  Numbers numbers(61);
+  const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
+  Linearization reused;
+  for (const Index stride : {0, 3, 3, 2, 0, 7}) {
+    const State state = random_state(model.system(), closed_every(model.system().guard_count(), stride), numbers);
+    model.system().linearize(state, reused);
+    Linearization fresh;
+    model.system().linearize(state, fresh);
+    EXPECT_EQ(reused.F, fresh.F);
+    EXPECT_EQ(reused.F_lambda, fresh.F_lambda);
+    EXPECT_EQ(Matrix(reused.K), Matrix(fresh.K));
+  }
+}
+
+TEST(MultiplierContact, AClosedContactPushesAgainstItsGapsGradient) {
+  const ContactModel model(test::contact_beam(),
+                           {{.name = "floor", .side = Side::below, .profile = flat_profile(-1.0)}}, 0.1);
+  const MultiplierContact& system = model.system();
+  Numbers numbers(62);
+  Piece piece(static_cast<std::size_t>(system.guard_count()), 0);
+  piece[2] = 1;
+  State state = random_state(system, piece, numbers);
+  const Index k = *system.multiplier_index(piece, 2);
+  EXPECT_EQ(k, system.size(piece) - 1);
+  state.x[k] = 5.0;
+  EXPECT_EQ(system.force(state, 2), 5.0);
+  EXPECT_EQ(system.force(state, 0), 0.0);
+  Vector F(state.x.size()), free(system.size({}) - 0);
+  system.residual(state, F);
+  model.structure().residual({.x = state.x.head(free.size()), .lambda = state.lambda}, free);
+  Gap gap;
+  system.candidate(2).gap(state.x, gap);
+  Vector expected = free;
+  const auto& unknowns = system.candidate(2).point().unknowns();
+  for (std::size_t i = 0; i < unknowns.size(); ++i) expected[unknowns[i]] -= 5.0 * gap.gradient[static_cast<Index>(i)];
+  EXPECT_LE((F.head(free.size()) - expected).norm(), 1e-14 * (1.0 + expected.norm()));
+  EXPECT_EQ(F[k], -gap.value);
+}
+
+TEST(MultiplierContact, GuardsAreGapsAndForcesInTheirScales) {
+  const ContactModel model(test::contact_beam(), test::all_walls(false), 0.3);
+  const MultiplierContact& system = model.system();
+  EXPECT_EQ(system.scales().force, 3.0);
+  EXPECT_EQ(system.multiplier_scale(), 3.0);
+  Numbers numbers(63);
+  const Piece piece = closed_every(system.guard_count(), 4);
+  const State state = random_state(system, piece, numbers);
+  const Vector guards = system.guards(state);
+  for (Index j = 0; j < guards.size(); ++j)
+    EXPECT_DOUBLE_EQ(guards[j], piece[static_cast<std::size_t>(j)]
+                                    ? system.force(state, j) / 3.0
+                                    : system.candidate(j).gap(state.x) / system.scales().length);
+}
+
+TEST(MultiplierContact, GuardRatesAreGradientsAppliedToADirection) {
+  const ContactModel model(test::contact_beam(), test::all_walls(true), 0.1);
+  const MultiplierContact& system = model.system();
+  Numbers numbers(64);
+  const State state = random_state(system, closed_every(system.guard_count(), 3), numbers);
+  const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
+  const Vector rates = system.guard_rates(state, direction);
+  for (Index j = 0; j < rates.size(); ++j)
+    EXPECT_NEAR(rates[j], apply(system.guard_gradient(state, j), direction), 1e-14 * (1.0 + std::abs(rates[j])));
+}
+
+TEST(MultiplierContact, TransferKeepsThePointAndTheForcesThatStay) {
+  const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
+  const MultiplierContact& system = model.system();
+  Numbers numbers(65);
+  const Piece from = closed_every(system.guard_count(), 2), to = closed_every(system.guard_count(), 3);
+  const State state = random_state(system, from, numbers);
+  const State moved = system.with_piece(state, to);
+  EXPECT_EQ(moved.piece, to);
+  EXPECT_EQ(moved.lambda, state.lambda);
+  EXPECT_EQ(moved.x.size(), system.size(to));
+  const Index n = system.size({});
+  EXPECT_EQ(Vector(moved.x.head(n)), Vector(state.x.head(n)));
+  for (Index j = 0; j < system.guard_count(); ++j) {
+    const bool stays = from[static_cast<std::size_t>(j)] && to[static_cast<std::size_t>(j)];
+    EXPECT_EQ(system.force(moved, j), stays ? system.force(state, j) : 0.0);
+  }
+  EXPECT_EQ(system.with_piece(state, from).x, state.x);
+}
+
+TEST(MultiplierContact, MultipliersHaveNoWeightInTheMetric) {
+  const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
+  const Piece piece = closed_every(model.system().guard_count(), 5);
+  const Vector weights = model.system().weights(piece);
+  const Index m = model.system().multiplier_count(piece);
+  EXPECT_GT(m, 0);
+  EXPECT_EQ(weights.tail(m).norm(), 0.0);
+  EXPECT_EQ(Vector(weights.head(weights.size() - m)), model.structure().weights({}));
+}
+
+TEST(MultiplierContact, AContactIsWeakWhereGapAndForceVanish) {
+  // A floor just under the beam's lower face at rest: node 0 is clamped and no candidate.
+  const test::TestWall floor{.name = "floor", .side = Side::below, .profile = flat_profile(0.0), .on_axis = true};
+  StructureBuilder builder;
+  for (const double x : {0.0, 1.0, 2.0}) builder.add_joint({x, 0.0});
+  for (Index i = 0; i < 2; ++i)
+    builder.add_member({.name = "m",
+                        .from = i,
+                        .to = i + 1,
+                        .axis = straight_axis({double(i), 0.0}, {double(i + 1), 0.0}),
+                        .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
+  builder.fix(builder.freedom(0, Freedom::x));
+  builder.add_load(builder.freedom(1, Freedom::z), -1.0, LoadKind::proportional);
+  const ContactModel model(builder.build(), {floor}, 0.1);
+  const MultiplierContact& system = model.system();
+  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  State state{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
+  EXPECT_EQ(static_cast<Index>(system.weak_guards(state, 1e-12).size()), system.guard_count());
+
+  // Lifted at one node, pressed at another: neither is weak.
+  Piece piece = open;
+  piece[1] = 1;
+  state = system.with_piece(state, piece);
+  state.x[system.candidate(0).point().unknowns()[1]] += 0.1;
+  EXPECT_EQ(system.weak_guards(state, 1e-12).front(), 1);
+  state.x[*system.multiplier_index(piece, 1)] = 1.0;
+  for (const Index j : system.weak_guards(state, 1e-12)) EXPECT_GT(j, 1);
+}
+
+TEST(MultiplierContact, UnitForceIsWhatAUnitOfTheForceGuardDoesToTheResidual) {
+  const ContactModel model(test::contact_beam(), test::all_walls(false), 0.3);
+  const MultiplierContact& system = model.system();
+  Numbers numbers(66);
+  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  const State state = random_state(system, open, numbers);
+  for (const Index j : {Index{0}, Index{5}, system.guard_count() - 1}) {
+    Piece piece = open;
+    piece[static_cast<std::size_t>(j)] = 1;
+    State closed = system.with_piece(state, piece);
+    closed.x[*system.multiplier_index(piece, j)] = system.multiplier_scale();
+    Vector F(closed.x.size()), F_open(state.x.size());
+    system.residual(closed, F);
+    system.residual(state, F_open);
+    EXPECT_LE((system.unit_force(state, j) - (F_open - F.head(F_open.size()))).norm(), 1e-13);
+  }
+}
+
+TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
+  // The wall ends at x = 1.2, between nodes.
+  const ContactModel model(
+      test::contact_beam(),
+      {{.name = "short", .side = Side::above, .profile = spline_profile({-1.0, 0.0, 1.2}, {1, 1, 1})}}, 0.1);
+  const MultiplierContact& system = model.system();
+  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  const State rest{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
+  EXPECT_FALSE(system.obstruction(rest).has_value()) << "open contacts may face nothing";
+  // The last node stands beside the wall: its guard is large and does not move.
+  const Index last = system.guard_count() - 1;
+  EXPECT_FALSE(system.candidate(last).faces_wall(rest.x));
+  EXPECT_GE(system.guards(rest)[last], 0.5);
+  EXPECT_EQ(system.guard_gradient(rest, last).dx.norm(), 0.0);
+  for (Index j = 0; j < system.guard_count(); ++j) {
+    Piece piece = open;
+    piece[static_cast<std::size_t>(j)] = 1;
+    EXPECT_EQ(system.obstruction(system.with_piece(rest, piece)).has_value(), !system.candidate(j).faces_wall(rest.x));
+  }
+}
+
+}  // namespace arcwall

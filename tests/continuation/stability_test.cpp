@@ -1,0 +1,60 @@
+#include "continuation/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/toys.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Two unknowns with stiffness −1 and 2, the first held by a contact.
+test::LinearContactToy held_unstable() {
+  test::LinearContactToy toy;
+  toy.A = (Matrix(2, 2) << -1.0, 0.0, 0.0, 2.0).finished();
+  toy.f = Vector::Ones(2);
+  toy.G = (Matrix(1, 2) << 1.0, 0.0).finished();
+  toy.gap0 = Vector::Zero(1);
+  return toy;
+}
+
+State with_force(double p) { return {.x = (Vector(3) << 0.0, 0.5, p).finished(), .lambda = 1.0, .piece = {1}}; }
+
+}  // namespace
+
+TEST(Stability, AContactThatCarriesForceHolds) {
+  const auto toy = held_unstable();
+  StabilityCounter counter(toy, 1e-12);
+  const StabilityCount count = counter.count(with_force(0.3), std::nullopt);
+  EXPECT_EQ(count.unstable, 0);
+  EXPECT_EQ(count.stability, Stability::stable);
+}
+
+TEST(Stability, AContactWithoutForceHoldsNothingAndLeavesTheMatterOpen) {
+  const auto toy = held_unstable();
+  StabilityCounter counter(toy, 1e-12);
+  const StabilityCount count = counter.count(with_force(1e-13), std::nullopt);
+  EXPECT_EQ(count.unstable, 1);
+  EXPECT_EQ(count.stability, Stability::undecided);  // only motions off the wall are allowed
+  EXPECT_EQ(strongly_closed(toy, with_force(1e-13), 1e-12), Piece{0});
+  EXPECT_EQ(strongly_closed(toy, with_force(0.3), 1e-12), Piece{1});
+}
+
+TEST(Stability, WhatIsUnstableWithAllContactsHeldIsUnstable) {
+  auto toy = held_unstable();
+  toy.A(1, 1) = -2.0;
+  StabilityCounter counter(toy, 1e-12);
+  const StabilityCount count = counter.count(with_force(0.0), std::nullopt);
+  EXPECT_EQ(count.unstable, 2);
+  EXPECT_EQ(count.stability, Stability::unstable);
+}
+
+TEST(Stability, ASingularStiffnessHasNoCount) {
+  const test::SmoothToy toy = test::fold();
+  StabilityCounter counter(toy, 1e-12);
+  EXPECT_FALSE(counter.count({.x = test::scalar(0.0)}, std::nullopt).unstable.has_value());
+  EXPECT_EQ(counter.count({.x = test::scalar(-1.0), .lambda = -1.0}, std::nullopt).unstable, 1);
+  EXPECT_EQ(counter.count({.x = test::scalar(1.0), .lambda = -1.0}, std::nullopt).unstable, 0);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "elements/structure.hpp"
+#include "tests/support/models.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// A portal of three beams, 3 high and 4 wide; hinges at the feet, and where asked for at both corners.
+std::unique_ptr<Structure> portal(bool hinged_corners, double unit = 1.0) {
+  StructureBuilder builder;
+  const Vec2 at[] = {Vec2(0.0, 0.0) * unit, Vec2(0.0, 3.0) * unit, Vec2(4.0, 3.0) * unit, Vec2(4.0, 0.0) * unit};
+  for (const Vec2& position : at) builder.add_joint(position);
+  for (int i = 0; i < 3; ++i)
+    builder.add_member({.name = "beam",
+                        .from = i,
+                        .to = i + 1,
+                        .axis = straight_axis(at[i], at[i + 1]),
+                        .section = {.E = 2.1e4, .A = 1.0 * unit * unit, .I = 0.1 * unit * unit * unit * unit},
+                        .hinge_from = hinged_corners && i == 1,
+                        .hinge_to = hinged_corners && i == 1});
+  for (const Index foot : {0, 3})
+    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(foot, which));
+  builder.add_load(builder.freedom(1, Freedom::x), 1.0, LoadKind::proportional);
+  return builder.build();
+}
+
+// Bars between the given points, each to the next; the first and the last are held.
+std::unique_ptr<Structure> bar_chain(const std::vector<Vec2>& at) {
+  StructureBuilder builder;
+  for (const Vec2& position : at) builder.add_joint(position);
+  for (std::size_t i = 0; i + 1 < at.size(); ++i)
+    builder.add_member({.name = "bar",
+                        .from = static_cast<Index>(i),
+                        .to = static_cast<Index>(i) + 1,
+                        .axis = straight_axis(at[i], at[i + 1]),
+                        .theory = Theory::truss,
+                        .section = {.E = 1.0, .A = 1.0}});
+  for (const std::size_t end : {std::size_t{0}, at.size() - 1})
+    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(static_cast<Index>(end), which));
+  return builder.build();
+}
+
+}  // namespace
+
+TEST(FindMechanism, APortalWithFourHingesSways) {
+  for (const double unit : {1.0, 100.0, 0.01}) {
+    const auto mechanism = find_mechanism(*portal(true, unit));
+    ASSERT_TRUE(mechanism.has_value());
+    // Sway moves both corners by the same; rotations of the columns are a third of it per unit of length.
+    EXPECT_TRUE(mechanism->node == 1 || mechanism->node == 2);
+    EXPECT_EQ(mechanism->freedom, Freedom::x);
+  }
+}
+
+TEST(FindMechanism, APortalWithRigidCornersStands) {
+  for (const double unit : {1.0, 100.0, 0.01}) EXPECT_FALSE(find_mechanism(*portal(false, unit)).has_value());
+}
+
+TEST(FindMechanism, AStraightChainOfTwoBarsMovesAcross) {
+  const auto mechanism = find_mechanism(*bar_chain({{0.0, 0.0}, {1.0, 0.0}, {2.5, 0.0}}));
+  ASSERT_TRUE(mechanism.has_value());
+  EXPECT_EQ(mechanism->node, 1);
+  EXPECT_EQ(mechanism->freedom, Freedom::z);
+}
+
+TEST(FindMechanism, ABentChainOfTwoBarsStandsAndOneOfThreeMoves) {
+  EXPECT_FALSE(find_mechanism(*bar_chain({{0.0, 0.0}, {1.0, 0.3}, {2.0, 0.0}})).has_value());
+  EXPECT_TRUE(find_mechanism(*bar_chain({{0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}, {3.0, 0.0}})).has_value());
+}
+
+TEST(FindMechanism, AStructureThatIsHeldNowhereMoves) {
+  StructureBuilder builder;
+  const Vec2 a(0.0, 0.0), b(1.0, 0.0);
+  builder.add_joint(a);
+  builder.add_joint(b);
+  builder.add_member(
+      {.name = "m", .from = 0, .to = 1, .axis = straight_axis(a, b), .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
+  EXPECT_TRUE(find_mechanism(*builder.build()).has_value());
+}
+
+TEST(FindMechanism, SoundModelsHaveNone) {
+  EXPECT_FALSE(find_mechanism(*test::lee_frame(5)).has_value());
+  EXPECT_FALSE(find_mechanism(*test::deep_arch(1)).has_value());
+  EXPECT_FALSE(find_mechanism(*test::williams_toggle(1)).has_value());
+  EXPECT_FALSE(find_mechanism(*test::VonMisesTruss{}.structure()).has_value());
+  EXPECT_FALSE(find_mechanism(*test::Cantilever{.elements = 1, .tip_force = 1.0}.structure()).has_value());
+}
+
+}  // namespace arcwall

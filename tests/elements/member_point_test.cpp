@@ -1,0 +1,138 @@
+#include "elements/member_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/derivative_check.hpp"
+#include "tests/support/dense.hpp"
+#include "tests/support/models.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using Component = MemberObservable::Component;
+
+// A curved, imperfect beam of height 0.4, clamped at the left, guided along x at the right.
+std::unique_ptr<Structure> beam() {
+  StructureBuilder builder;
+  const Vec2 a(0.0, 0.0), b(2.0, 0.5);
+  builder.add_joint(a);
+  builder.add_joint(b);
+  builder.add_member({.name = "beam",
+                      .from = 0,
+                      .to = 1,
+                      .axis = arc_axis(a, {1.0, 0.7}, b),
+                      .imperfection = {{.amplitude = 0.03, .waves = 2}},
+                      .section = {.E = 10.0, .A = 1.0, .I = 0.1, .height = 0.4},
+                      .elements = 4});
+  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.shared_rotation(0).value());
+  builder.fix(builder.freedom(1, Freedom::z));
+  builder.add_load(builder.freedom(1, Freedom::x), 1.0, LoadKind::proportional);
+  builder.add_distributed_load(0, {0.0, -1.0}, LoadKind::proportional);
+  return builder.build();
+}
+
+}  // namespace
+
+// Jacobian and curvature of the position by central differences of step 1e-5: truncation 1e-10, round-off 1e-11.
+TEST(MemberPoint, DerivativesAreThoseOfThePosition) {
+  const auto structure = beam();
+  const MemberMesh& mesh = structure->members()[0];
+  const Vector x = test::Numbers(40).vector(structure->size({}));
+  constexpr double step = 1e-5, tolerance = 1e-9;
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+    for (const double offset : {0.0, 0.2, -0.3}) {
+      const MemberPoint point(*structure, mesh, node, offset);
+      PointKinematics at;
+      point.kinematics(x, at);
+      EXPECT_EQ(at.position, point.position(x));
+      const auto& unknowns = point.unknowns();
+      ASSERT_EQ(at.jacobian.cols(), static_cast<Index>(unknowns.size()));
+      for (std::size_t i = 0; i < unknowns.size(); ++i) {
+        const auto column = static_cast<Index>(i);
+        Vector above = x, below = x;
+        above[unknowns[i]] += step;
+        below[unknowns[i]] -= step;
+        PointKinematics a, b;
+        point.kinematics(above, a);
+        point.kinematics(below, b);
+        EXPECT_LE(((a.position - b.position) / (2.0 * step) - at.jacobian.col(column)).norm(), tolerance);
+        for (int c = 0; c < 2; ++c) {
+          const auto& second = at.curvature[static_cast<std::size_t>(c)];
+          EXPECT_LE(((a.jacobian.row(c) - b.jacobian.row(c)) / (2.0 * step) - second.row(column)).norm(), tolerance);
+          EXPECT_EQ(second, second.transpose());
+        }
+      }
+    }
+}
+
+TEST(MemberPoint, FacesStandNormalToTheDeformedSection) {
+  const auto structure = beam();
+  const MemberMesh& mesh = structure->members()[0];
+  const Vector x = test::Numbers(41).vector(structure->size({}));
+  const Vec2 axis = MemberPoint(*structure, mesh, 2, 0.0).position(x);
+  const Vec2 face = MemberPoint(*structure, mesh, 2, 0.2).position(x);
+  const double angle = mesh.shape[2].angle + structure->value(x, mesh.rotations[2].value());
+  EXPECT_NEAR((face - axis).norm(), 0.2, 1e-15);
+  EXPECT_LE((face - axis - 0.2 * Vec2(-std::sin(angle), std::cos(angle))).norm(), 1e-15);
+  EXPECT_EQ(axis, structure->current(x, mesh.nodes[2]));
+}
+
+TEST(MemberPoint, OfAClampedEndDependsOnNothing) {
+  const auto structure = beam();
+  EXPECT_TRUE(MemberPoint(*structure, structure->members()[0], 0, 0.2).unknowns().empty());
+  EXPECT_EQ(MemberPoint(*structure, structure->members()[0], 4, 0.2).unknowns().size(), 2U);
+}
+
+TEST(MemberObservable, GradientsAreConsistent) {
+  const auto structure = beam();
+  const MemberMesh& mesh = structure->members()[0];
+  const State state{.x = test::Numbers(42).vector(structure->size({})), .lambda = 0.3};
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+    for (const Component component :
+         {Component::x, Component::z, Component::rotation, Component::face_above_z, Component::face_below_z}) {
+      const MemberObservable observable(*structure, mesh, node, component);
+      // Where everything is held the gradient is zero, and so is the difference.
+      EXPECT_LE(check_gradient(observable, state), 1e-8);
+    }
+}
+
+TEST(MemberObservable, IsMeasuredFromTheAxisWithoutImperfection) {
+  const auto structure = beam();
+  const MemberMesh& mesh = structure->members()[0];
+  const State rest{.x = Vector::Zero(structure->size({}))};
+  const auto at_rest = [&](Component component) {
+    return MemberObservable(*structure, mesh, 1, component).value(rest);
+  };
+  const Vec2 deviation = mesh.shape[1].position - mesh.axis[1].position;
+  EXPECT_NEAR(deviation.norm(), 0.03, 1e-15);  // the crest of the second half wave
+  EXPECT_NEAR(at_rest(Component::x), deviation.x(), 1e-15);
+  EXPECT_NEAR(at_rest(Component::z), deviation.y(), 1e-15);
+  EXPECT_NEAR(at_rest(Component::rotation), mesh.shape[1].angle - mesh.axis[1].angle, 1e-15);
+  const double above = mesh.shape[1].position.y() + 0.2 * std::cos(mesh.shape[1].angle) -
+                       (mesh.axis[1].position.y() + 0.2 * std::cos(mesh.axis[1].angle));
+  EXPECT_NEAR(at_rest(Component::face_above_z), above, 1e-15);
+}
+
+TEST(FreedomObservable, ReadsADisplacementAndIsZeroWhereHeld) {
+  const auto structure = beam();
+  const State state{.x = test::Numbers(43).vector(structure->size({}))};
+  const FreedomObservable free(*structure, structure->freedom(1, Freedom::x)),
+      held(*structure, structure->freedom(1, Freedom::z));
+  EXPECT_EQ(free.value(state), structure->value(state.x, structure->freedom(1, Freedom::x)));
+  EXPECT_LE(check_gradient(free, state), 1e-8);
+  EXPECT_EQ(held.value(state), 0.0);
+  EXPECT_EQ(held.gradient(state).dx.norm(), 0.0);
+}
+
+TEST(ReactionObservable, GradientsAreConsistent) {
+  const auto structure = beam();
+  const State state{.x = 0.3 * test::Numbers(44).vector(structure->size({})), .lambda = 0.7};
+  for (const Index freedom : {structure->freedom(0, Freedom::x), structure->freedom(0, Freedom::z),
+                              structure->freedom(1, Freedom::z), structure->members()[0].rotations[0].value()})
+    EXPECT_LE(check_gradient(ReactionObservable(*structure, freedom), state), 1e-7);
+}
+
+}  // namespace arcwall
