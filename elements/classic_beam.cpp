@@ -11,15 +11,37 @@ constexpr double two_pi = 2.0 * pi;
 // An angle to within half a turn: rotations against the chord are small, whatever the winding number of both.
 double within_half_a_turn(double angle) { return angle - two_pi * std::nearbyint(angle / two_pi); }
 
-// Mean of ½ w′² over the element for Hermite's cubic with end slopes t1, t2.
-double mean_half_square(double t1, double t2) { return (2.0 * t1 * t1 - t1 * t2 + 2.0 * t2 * t2) / 30.0; }
-
-// Derivatives of the energy in the natural deformations: chord length l and end slopes t1, t2.
-struct Natural {
-  double U;
-  double l, t1, t2;                             // first
-  double l_l, l_t1, l_t2, t1_t1, t1_t2, t2_t2;  // second
+// A function of the bend b = t2 − t1 and the skew σ = 3 (t1 + t2) of an element, with its derivatives.
+struct Shape {
+  double value, b, s, bb, bs, ss;
 };
+
+// Shortening of the chord of an inextensible element, h/l − 1 = q + q² − Q to the fourth order. The angle against the
+// chord is quadratic along the axis, θ = a + b x + c (x² − 1/12), |x| ≤ ½, with ∫ sin θ = 0, hence
+//
+//   a = b² σ/360 + σ³/22680,   c = σ − 6a,   q = b²/24 + σ²/360,
+//   Q = b⁴/1920 + (11/60480 + 1/10800) b² σ² + (1/362880 + 1/680400) σ⁴                                      (4)
+Shape shortening(double b, double s) {
+  constexpr double Q1 = 1.0 / 1920.0, Q2 = 11.0 / 60480.0 + 1.0 / 10800.0, Q3 = 1.0 / 362880.0 + 1.0 / 680400.0;
+  constexpr double q_bb = 1.0 / 12.0, q_ss = 1.0 / 180.0;
+  const double q = b * b / 24.0 + s * s / 360.0, q_b = q_bb * b, q_s = q_ss * s, f = 1.0 + 2.0 * q;
+  return {.value = q + q * q - (Q1 * b * b + Q2 * s * s) * b * b - Q3 * s * s * s * s,
+          .b = f * q_b - (4.0 * Q1 * b * b + 2.0 * Q2 * s * s) * b,
+          .s = f * q_s - (2.0 * Q2 * b * b + 4.0 * Q3 * s * s) * s,
+          .bb = f * q_bb + 2.0 * q_b * q_b - 12.0 * Q1 * b * b - 2.0 * Q2 * s * s,
+          .bs = 2.0 * q_b * q_s - 4.0 * Q2 * b * s,
+          .ss = f * q_ss + 2.0 * q_s * q_s - 2.0 * Q2 * b * b - 12.0 * Q3 * s * s};
+}
+
+// c of (4): the part of the curvature that varies along the element.
+Shape variation(double b, double s) {
+  return {.value = s - b * b * s / 60.0 - s * s * s / 3780.0,
+          .b = -b * s / 30.0,
+          .s = 1.0 - b * b / 60.0 - s * s / 1260.0,
+          .bb = -s / 30.0,
+          .bs = -b / 30.0,
+          .ss = -s / 630.0};
+}
 
 }  // namespace
 
@@ -27,79 +49,78 @@ ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI)
     : chord_(reference.chord),
       chord_length_(reference.chord.norm()),
       length_(reference.length),
-      t1_(reference.slope1),
-      t2_(reference.slope2),
-      q_(mean_half_square(reference.slope1, reference.slope2)),
+      b_(reference.slope2 - reference.slope1),
+      s_(3.0 * (reference.slope1 + reference.slope2)),
+      c_(variation(b_, s_).value),
+      shortening_(shortening(b_, s_).value),
       EA_(EA),
       EI_(EI) {}
 
-// With the chord l at angle β, rotations t_i = θ_i − (β − β₀) + t_i⁰ against it, d_i = t_i − t_i⁰ and
-// q = (2 t1² − t1 t2 + 2 t2²)/30, the mean of ½ w′²:
+// With the chord l at angle β, end slopes t_i = θ_i − (β − β₀) + t_i⁰ against it, b, σ and c as in (4):
 //
-//   U = ½ EA h ε² + (2EI/h) (d1² + d1 d2 + d2²) − c (d1 + d2)² q / l²,     c = 36 EI² / (EA h)         (1)
-//   ε = [l (1 + q) − l₀ (1 + q₀)] / h                                                                  (2)
+//   U = ½ EA h ε² + EI/(2h) [(b − b⁰)² + (c − c⁰)²/3] − 4 EI² (σ − σ⁰)² q / (EA h l²)                  (1)
+//   ε = [l (1 + q + q² − Q) − l₀ (1 + q⁰ + …)] / h                                                     (2)
 //
 // The last term of (1) is the tilt of the chord where the stretch varies along the element; without it and the factor
-// 1 + q of (2) the order drops from 4 to 2. Gradient and Hessian in the nodal unknowns follow with
+// of (2) the order drops from 4 to 2. Gradient and Hessian in the nodal unknowns follow with
 //
-//   ∂l = r,  ∂β = z/l,  ∂²l = z zᵀ/l,  ∂²β = −(r zᵀ + z rᵀ)/l²,   r = (−c, −s, 0, c, s, 0),  z = (s, −c, 0, −s, c, 0)
-//   (3)
+//   ∂l = r,  ∂σ = 3 (e3 + e6) − 6 z/l,  ∂b = e6 − e3,  ∂²l = z zᵀ/l,  ∂²σ = 6 (r zᵀ + z rᵀ)/l²,
+//   r = (−c, −s, 0, c, s, 0),  z = (s, −c, 0, −s, c, 0)  of the chord's direction (c, s)                 (3)
 double ClassicBeam::evaluate(const double* u, double* f, double* K) const {
   const double du = u[3] - u[0], dw = u[4] - u[1];
   const double x = chord_.x() + du, y = chord_.y() + dw;
-  const double l = std::sqrt(x * x + y * y);
+  const double l = std::sqrt(x * x + y * y), h = length_;
   const double turn = std::atan2(chord_.x() * y - chord_.y() * x, chord_.x() * x + chord_.y() * y);  // β − β₀
   const double d1 = within_half_a_turn(u[2] - turn), d2 = within_half_a_turn(u[5] - turn);
-  const double t1 = t1_ + d1, t2 = t2_ + d2, s = d1 + d2, h = length_;
-  const double q = mean_half_square(t1, t2), q1 = (4.0 * t1 - t2) / 30.0, q2 = (4.0 * t2 - t1) / 30.0;
-  constexpr double q11 = 4.0 / 30.0, q12 = -1.0 / 30.0;
+  const double db = d2 - d1, ds = 3.0 * (d1 + d2), b = b_ + db, s = s_ + ds;
 
-  // l − l₀ without cancellation
-  const double stretch = (du * (chord_.x() + x) + dw * (chord_.y() + y)) / (l + chord_length_);
-  const double strain = (stretch * (1.0 + q) + chord_length_ * (q - q_)) / h;
-  const double N = EA_ * strain, b = 2.0 * EI_ / h;
-  const double tilt = 36.0 * EI_ * EI_ / (EA_ * h * l * l);  // c / l²
+  const Shape p = shortening(b, s), v = variation(b, s);
+  const double stretch = (du * (chord_.x() + x) + dw * (chord_.y() + y)) / (l + chord_length_);  // l − l₀
+  const double N = EA_ * (stretch * (1.0 + p.value) + chord_length_ * (p.value - shortening_)) / h;
+  const double bending = EI_ / h, dc = v.value - c_;
+  const double tilt = 4.0 * EI_ * EI_ / (EA_ * h * l * l);
+  const double q = b * b / 24.0 + s * s / 360.0, q_b = b / 12.0, q_s = s / 180.0;
 
-  Natural n{};
-  n.U = 0.5 * h * N * strain + b * (d1 * d1 + d1 * d2 + d2 * d2) - tilt * s * s * q;
-  if (f == nullptr && K == nullptr) return n.U;
-  n.l = N * (1.0 + q) + 2.0 * tilt * s * s * q / l;
-  n.t1 = N * l * q1 + b * (2.0 * d1 + d2) - tilt * s * (2.0 * q + s * q1);
-  n.t2 = N * l * q2 + b * (d1 + 2.0 * d2) - tilt * s * (2.0 * q + s * q2);
+  const double U = 0.5 * N * N * h / EA_ + 0.5 * bending * (db * db + dc * dc / 3.0) - tilt * ds * ds * q;
+  if (f == nullptr && K == nullptr) return U;
+  const double U_l = N * (1.0 + p.value) + 2.0 * tilt * ds * ds * q / l;
+  const double U_b = N * l * p.b + bending * (db + dc * v.b / 3.0) - tilt * ds * ds * q_b;
+  const double U_s = N * l * p.s + bending * dc * v.s / 3.0 - tilt * ds * (2.0 * q + ds * q_s);
 
-  const double c = x / l, sn = y / l;
-  const double r[6] = {-c, -sn, 0.0, c, sn, 0.0}, z[6] = {sn, -c, 0.0, -sn, c, 0.0};
-  const double Q = (n.t1 + n.t2) / l;  // force across the chord
+  const double cosine = x / l, sine = y / l;
+  const double r[6] = {-cosine, -sine, 0.0, cosine, sine, 0.0}, z[6] = {sine, -cosine, 0.0, -sine, cosine, 0.0};
   if (f != nullptr) {
-    for (int i = 0; i < 6; ++i) f[i] = n.l * r[i] - Q * z[i];
-    f[2] += n.t1;
-    f[5] += n.t2;
+    for (int i = 0; i < 6; ++i) f[i] = U_l * r[i] - 6.0 * U_s / l * z[i];
+    f[2] += 3.0 * U_s - U_b;
+    f[5] += 3.0 * U_s + U_b;
   }
-  if (K == nullptr) return n.U;
+  if (K == nullptr) return U;
 
-  const double a = EA_ / h;
-  n.l_l = a * (1.0 + q) * (1.0 + q) - 6.0 * tilt * s * s * q / (l * l);
-  n.l_t1 = a * l * q1 * (1.0 + q) + N * q1 + 2.0 * tilt * s * (2.0 * q + s * q1) / l;
-  n.l_t2 = a * l * q2 * (1.0 + q) + N * q2 + 2.0 * tilt * s * (2.0 * q + s * q2) / l;
-  n.t1_t1 = a * l * l * q1 * q1 + N * l * q11 + 2.0 * b - tilt * (2.0 * q + 4.0 * s * q1 + s * s * q11);
-  n.t2_t2 = a * l * l * q2 * q2 + N * l * q11 + 2.0 * b - tilt * (2.0 * q + 4.0 * s * q2 + s * s * q11);
-  n.t1_t2 = a * l * l * q1 * q2 + N * l * q12 + b - tilt * (2.0 * q + 2.0 * s * (q1 + q2) + s * s * q12);
+  const double a = EA_ / h, m = 1.0 + p.value;
+  const double U_ll = a * m * m - 6.0 * tilt * ds * ds * q / (l * l);
+  const double U_lb = (a * l * m + N) * p.b + 2.0 * tilt * ds * ds * q_b / l;
+  const double U_ls = (a * l * m + N) * p.s + 2.0 * tilt * ds * (2.0 * q + ds * q_s) / l;
+  const double U_bb =
+      a * l * l * p.b * p.b + N * l * p.bb + bending * (1.0 + (v.b * v.b + dc * v.bb) / 3.0) - tilt * ds * ds / 12.0;
+  const double U_bs =
+      a * l * l * p.b * p.s + N * l * p.bs + bending * (v.b * v.s + dc * v.bs) / 3.0 - 2.0 * tilt * ds * q_b;
+  const double U_ss = a * l * l * p.s * p.s + N * l * p.ss + bending * (v.s * v.s + dc * v.ss) / 3.0 -
+                      tilt * (2.0 * q + 4.0 * ds * q_s + ds * ds / 180.0);
 
-  // With t_i = θ_i − β: rows of the natural deformations are r, e3 − z/l and e6 − z/l. Written out in r, z, e3, e6.
-  const double rz = -(n.l_t1 + n.l_t2) / l + Q / l;
-  const double zz = (n.t1_t1 + 2.0 * n.t1_t2 + n.t2_t2) / (l * l) + n.l / l;
-  const double z3 = -(n.t1_t1 + n.t1_t2) / l, z6 = -(n.t1_t2 + n.t2_t2) / l;
+  // K = Σ U_ab ∂a ∂bᵀ + U_l ∂²l + U_s ∂²σ by (3), sorted by r, z and the two rotations (θ1: 3σ − b, θ2: 3σ + b).
+  const double rz = 6.0 * (U_s / l - U_ls) / l, zz = U_l / l + 36.0 * U_ss / (l * l);
+  const double r1 = 3.0 * U_ls - U_lb, r2 = 3.0 * U_ls + U_lb;
+  const double z1 = -6.0 * (3.0 * U_ss - U_bs) / l, z2 = -6.0 * (3.0 * U_ss + U_bs) / l;
   for (int j = 0; j < 6; ++j)
-    for (int i = j; i < 6; ++i)
-      K[i + 6 * j] = n.l_l * r[i] * r[j] + rz * (r[i] * z[j] + z[i] * r[j]) + zz * z[i] * z[j];
+    for (int i = j; i < 6; ++i) K[i + 6 * j] = U_ll * r[i] * r[j] + rz * (r[i] * z[j] + z[i] * r[j]) + zz * z[i] * z[j];
   for (int i = 0; i < 6; ++i) {
-    K[i < 2 ? 2 + 6 * i : i + 12] += n.l_t1 * r[i] + z3 * z[i];
-    K[5 + 6 * i] += n.l_t2 * r[i] + z6 * z[i];
+    K[i < 2 ? 2 + 6 * i : i + 12] += r1 * r[i] + z1 * z[i];
+    K[5 + 6 * i] += r2 * r[i] + z2 * z[i];
   }
-  K[2 + 6 * 2] += n.t1_t1;
-  K[5 + 6 * 5] += n.t2_t2;
-  K[5 + 6 * 2] += n.t1_t2;
-  return n.U;
+  K[2 + 6 * 2] += 9.0 * U_ss - 6.0 * U_bs + U_bb;
+  K[5 + 6 * 5] += 9.0 * U_ss + 6.0 * U_bs + U_bb;
+  K[5 + 6 * 2] += 9.0 * U_ss - U_bb;
+  return U;
 }
 
 }  // namespace arcwall

@@ -28,8 +28,8 @@ class ClassicBeam final : public Element {
   Vec2 chord_;           // stress-free
   double chord_length_;  // its length l₀
   double length_;        // h, of the stress-free axis
-  double t1_, t2_;       // stress-free end slopes against the chord
-  double q_;             // their averaged ½ w′²
+  double b_, s_, c_;     // stress-free bend t2 − t1, skew 3 (t1 + t2) and variation of curvature
+  double shortening_;    // h/l₀ − 1
   double EA_, EI_;
 };
 

@@ -19,7 +19,7 @@ namespace arcwall {
 /// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there.
 enum class Freedom { x, z, rotation };
 
-enum class Theory { classic, truss };
+enum class Theory { classic, exact, truss };
 
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
@@ -31,19 +31,24 @@ struct MemberDescription {
   std::unique_ptr<Axis> axis{};
   std::vector<SineDeviation> imperfection{};
   Theory theory = Theory::classic;
+  int order = 2;  ///< exact only: 1 or 2, the degree of the shape functions
   TrussStrain strain = TrussStrain::green;
   Section section{};
   int elements = 1;
   bool hinge_from = false, hinge_to = false;
 };
 
-/// The mesh of a member: node k of n + 1, at equal spacing of the axis' arc length.
+/// The mesh of a member: node k of n + 1, at equal spacing of the axis' arc length. Elements of higher order have a
+/// middle node besides, which is a node of the structure but none of the mesh: nothing is joined, loaded or measured
+/// there.
 struct MemberMesh {
   std::string name{};
   std::vector<Index> nodes{};                     ///< index of each node in the structure
   std::vector<std::optional<Index>> rotations{};  ///< freedom of the member's rotation at each node; a bar has none
   std::vector<AxisPoint> axis{}, shape{};         ///< without and with imperfection
   std::optional<double> height{};                 ///< of the section
+  std::vector<Index> middle_nodes{};              ///< of each element, in the structure; empty where there are none
+  std::vector<Index> middle_rotations{};          ///< their freedoms, as many
 
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
 };

@@ -7,39 +7,73 @@
 #include "core/near_null.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
+#include "elements/exact_beam.hpp"
 #include "elements/structure.hpp"
 
 namespace arcwall {
 
 namespace {
 
-// The stress-free stretch of a member between two of its nodes.
-BeamReference reference(const ImperfectAxis& shape, const MemberMesh& mesh, std::size_t k, double axis_length) {
-  const Vec2 chord = mesh.shape[k + 1].position - mesh.shape[k].position;
+// Element k of a member and what its stress-free shape is made of.
+struct Stretch {
+  const MemberDescription& member;
+  const ImperfectAxis& shape;
+  const MemberMesh& mesh;
+  std::size_t k;
+
+  // Arc length of the axis without imperfection, at a fraction of the element.
+  double at(double fraction) const {
+    const double a = mesh.fraction(k) * member.axis->length(), b = mesh.fraction(k + 1) * member.axis->length();
+    return fraction == 0.0 ? a : fraction == 1.0 ? b : a + fraction * (b - a);
+  }
+};
+
+BeamReference beam_reference(const Stretch& stretch) {
+  const AxisPoint &first = stretch.mesh.shape[stretch.k], &second = stretch.mesh.shape[stretch.k + 1];
+  const Vec2 chord = second.position - first.position;
   const double direction = std::atan2(chord.y(), chord.x());
   const auto against_chord = [&](double angle) { return std::remainder(angle - direction, 2.0 * pi); };
   return {.chord = chord,
-          .length = shape.length(mesh.fraction(k) * axis_length, mesh.fraction(k + 1) * axis_length),
-          .slope1 = against_chord(mesh.shape[k].angle),
-          .slope2 = against_chord(mesh.shape[k + 1].angle)};
+          .length = stretch.shape.length(stretch.at(0.0), stretch.at(1.0)),
+          .slope1 = against_chord(first.angle),
+          .slope2 = against_chord(second.angle)};
 }
 
-std::unique_ptr<Element> make_element(const MemberDescription& member, const BeamReference& reference) {
-  switch (member.theory) {
+// From its first node, so that places far from the origin keep their digits.
+ExactBeamReference exact_reference(const Stretch& stretch) {
+  const auto& [member, shape, mesh, k] = stretch;
+  ExactBeamReference reference{.nodes = {Vec2::Zero()}, .arcs = {0.0}};
+  const auto add = [&](const Vec2& position, double fraction) {
+    reference.nodes.push_back(position - mesh.shape[k].position);
+    reference.arcs.push_back(shape.length(stretch.at(0.0), stretch.at(fraction)));
+  };
+  if (member.order == 2) add(shape.at(stretch.at(0.5)).position, 0.5);
+  add(mesh.shape[k + 1].position, 1.0);
+  return reference;
+}
+
+std::unique_ptr<Element> make_element(const Stretch& stretch) {
+  const Section& section = stretch.member.section;
+  switch (stretch.member.theory) {
     case Theory::classic:
-      return std::make_unique<ClassicBeam>(reference, member.section.EA(), member.section.EI());
+      return std::make_unique<ClassicBeam>(beam_reference(stretch), section.EA(), section.EI());
+    case Theory::exact:
+      return std::make_unique<ExactBeam>(
+          exact_reference(stretch), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
     case Theory::truss:
-      return std::make_unique<Truss>(reference.chord, member.section.EA(), member.strain);
+      return std::make_unique<Truss>(beam_reference(stretch).chord, section.EA(), stretch.member.strain);
   }
   return nullptr;
 }
 
-std::unique_ptr<Element> make_load(const MemberDescription& member, const BeamReference& reference, const Vec2& load) {
-  switch (member.theory) {
+std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
+  switch (stretch.member.theory) {
     case Theory::classic:
-      return std::make_unique<BeamDistributedLoad>(reference, load);
+      return std::make_unique<BeamDistributedLoad>(beam_reference(stretch), load);
+    case Theory::exact:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), load);
     case Theory::truss:
-      return std::make_unique<TrussDistributedLoad>(reference.length * load);
+      return std::make_unique<TrussDistributedLoad>(beam_reference(stretch).length * load);
   }
   return nullptr;
 }
@@ -78,12 +112,19 @@ Index StructureBuilder::end_rotation(Index joint, bool hinged) {
 
 Index StructureBuilder::add_member(MemberDescription member) {
   assert(member.elements >= 1 && member.axis != nullptr);
+  assert(member.theory != Theory::exact || ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0));
   const ImperfectAxis shape(*member.axis, member.imperfection);
   const bool rotates = member.theory != Theory::truss;
+  const bool has_middle_nodes = member.theory == Theory::exact && member.order == 2;
   MemberMesh mesh{.name = member.name, .height = member.section.height};
   for (int k = 0; k <= member.elements; ++k) {
     const bool first = k == 0, last = k == member.elements;
     const double s = member.axis->length() * k / member.elements;
+    if (has_middle_nodes && !first) {
+      const double middle = member.axis->length() * (k - 0.5) / member.elements;
+      mesh.middle_nodes.push_back(add_node(shape.at(middle).position));
+      mesh.middle_rotations.push_back(add_freedom(mesh.middle_nodes.back(), Freedom::rotation));
+    }
     mesh.axis.push_back(member.axis->at(s));
     mesh.shape.push_back(shape.at(s));
     mesh.nodes.push_back(first ? member.from : last ? member.to : add_node(mesh.shape.back().position));
@@ -113,11 +154,14 @@ void StructureBuilder::add_distributed_load(Index member, const Vec2& load, Load
 
 std::vector<Index> StructureBuilder::element_freedoms(const MemberMesh& mesh, std::size_t k) const {
   std::vector<Index> freedoms;
-  for (const std::size_t end : {k, k + 1}) {
-    freedoms.push_back(freedom(mesh.nodes[end], Freedom::x));
-    freedoms.push_back(freedom(mesh.nodes[end], Freedom::z));
-    if (mesh.rotations[end]) freedoms.push_back(*mesh.rotations[end]);
-  }
+  const auto add = [&](Index node, std::optional<Index> rotation) {
+    freedoms.push_back(freedom(node, Freedom::x));
+    freedoms.push_back(freedom(node, Freedom::z));
+    if (rotation) freedoms.push_back(*rotation);
+  };
+  add(mesh.nodes[k], mesh.rotations[k]);
+  if (!mesh.middle_nodes.empty()) add(mesh.middle_nodes[k], mesh.middle_rotations[k]);
+  add(mesh.nodes[k + 1], mesh.rotations[k + 1]);
   return freedoms;
 }
 
@@ -162,7 +206,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     const MemberDescription& member = descriptions_[m];
     const ImperfectAxis shape(*member.axis, member.imperfection);
     for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
-      structure->elements_.push_back(make_element(member, reference(shape, meshes_[m], k, member.axis->length())));
+      structure->elements_.push_back(make_element({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}));
   }
 
   const double L = structure->length_scale_;
@@ -182,7 +226,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     const ImperfectAxis shape(*member.axis, member.imperfection);
     for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
       structure->loaded_elements_.push_back(
-          {.potential = make_load(member, reference(shape, meshes_[m], k, member.axis->length()), load.load),
+          {.potential = make_load({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, load.load),
            .kind = proportional(load.kind) ? LoadKind::proportional : LoadKind::constant,
            .element = first_element[m] + static_cast<Index>(k)});
     if (proportional(load.kind))

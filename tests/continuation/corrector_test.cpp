@@ -85,11 +85,10 @@ TEST(Corrector, SaysThatTheEquationsAreSingular) {
 }
 
 TEST(Corrector, SaysThatNumbersAreNotFinite) {
-  const auto system =
-      toy([](double x) { return std::sqrt(x); }, [](double x) { return 0.5 / std::sqrt(x); }, -1.0);
+  const auto system = toy([](double x) { return std::sqrt(x); }, [](double x) { return 0.5 / std::sqrt(x); }, -1.0);
   EXPECT_EQ(status_at_fixed_load(system, at(-1.0, 0.5)), CorrectorStatus::not_finite);
-  const auto bad_slope = toy([](double x) { return x; },
-                             [](double) { return std::numeric_limits<double>::quiet_NaN(); }, -1.0);
+  const auto bad_slope =
+      toy([](double x) { return x; }, [](double) { return std::numeric_limits<double>::quiet_NaN(); }, -1.0);
   EXPECT_EQ(status_at_fixed_load(bad_slope, at(1.0, 0.5)), CorrectorStatus::not_finite);
 }
 

@@ -13,8 +13,7 @@ using Form = SphereConstraint::Form;
 
 const Metric metric((Vector(2) << 0.5, 2.0).finished(), 4.0);
 const State origin{.x = (Vector(2) << 1.0, -1.0).finished(), .lambda = 0.5};
-const Direction tangent =
-    unit(metric, {.dx = (Vector(2) << 1.0, 0.4).finished(), .dlambda = 2.0});
+const Direction tangent = unit(metric, {.dx = (Vector(2) << 1.0, 0.4).finished(), .dlambda = 2.0});
 const State nearby{.x = (Vector(2) << 1.3, -0.8).finished(), .lambda = 0.9};
 
 // The first unknown.
@@ -88,8 +87,7 @@ TEST(SphereConstraint, ALineThatMissesTheSphereHasComplexRoots) {
   // From a point 1 away, along a direction normal to the way back.
   const Direction away{.dx = (Vector(2) << std::sqrt(2.0), 0.0).finished(), .dlambda = 0.0};
   const Direction line{.dx = Vector::Unit(2, 1), .dlambda = 0.0};
-  EXPECT_FALSE(
-      sphere.advance(moved(origin, away, 1.0), {.dx = Vector::Zero(2), .dlambda = 0.0}, line).has_value());
+  EXPECT_FALSE(sphere.advance(moved(origin, away, 1.0), {.dx = Vector::Zero(2), .dlambda = 0.0}, line).has_value());
 }
 
 TEST(StepConstraint, ThePredictorFulfilsEveryMethodsConstraint) {

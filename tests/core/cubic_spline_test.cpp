@@ -75,12 +75,13 @@ TEST(CubicSpline, DerivativesAreThoseOfTheValue) {
   }
 }
 
+// A sine over a stretch whose ends are no zeros of its fourth derivative: there the error is of order 5.
 TEST(CubicSpline, ConvergesWithOrderFour) {
   std::vector<double> sizes, errors;
   for (const int parts : {8, 16, 32, 64}) {
-    const CubicSpline spline = through(equally_spaced(parts, 2.0 * pi), [](double t) { return std::sin(t); });
+    const CubicSpline spline = through(equally_spaced(parts, 4.0), [](double t) { return std::sin(t + 0.7); });
     double error = 0.0;
-    for (double t = 0.0; t < 2.0 * pi; t += 0.003) error = std::max(error, std::abs(spline.at(t)[0] - std::sin(t)));
+    for (double t = 0.0; t < 4.0; t += 0.003) error = std::max(error, std::abs(spline.at(t)[0] - std::sin(t + 0.7)));
     sizes.push_back(1.0 / parts);
     errors.push_back(error);
   }

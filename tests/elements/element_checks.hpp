@@ -30,7 +30,7 @@ inline void expect_derivatives(const Element& element, const Vector& u) {
   constexpr double step = 1e-6, tolerance = 1e-8;
   const Evaluated at = evaluated(element, u);
   const double K_scale = std::max(at.K.cwiseAbs().maxCoeff(), 1e-300);
-  const double f_scale = std::max(at.f.cwiseAbs().maxCoeff(), K_scale * u.cwiseAbs().maxCoeff());
+  const double f_scale = std::max(at.f.cwiseAbs().maxCoeff(), K_scale * std::max(1e-3, u.cwiseAbs().maxCoeff()));
   for (Index i = 0; i < u.size(); ++i) {
     Vector above = u, below = u;
     above[i] += step;

@@ -16,7 +16,7 @@ SparseMatrix lower_triangle(const Matrix& A, double drop) {
   std::vector<Eigen::Triplet<double, Index>> entries;
   for (Index j = 0; j < A.cols(); ++j)
     for (Index i = j; i < A.rows(); ++i)
-      if (i == j || std::abs(A(i, j)) > drop) entries.emplace_back(i, j, A(i, j));
+      if (i == j || !(std::abs(A(i, j)) <= drop)) entries.emplace_back(i, j, A(i, j));
   SparseMatrix sparse(A.rows(), A.cols());
   sparse.setFromTriplets(entries.begin(), entries.end());
   sparse.makeCompressed();

@@ -54,10 +54,11 @@ void expect_side_conditions(const System& system, const PathPoint& point, double
   }
 }
 
-// A singular matrix has no sure count: next to located limit points nothing is compared.
+// A singular matrix has no sure count: at located limit and branch points nothing is compared.
 bool singular_here(const Arc& arc) {
-  return std::any_of(arc.events.begin(), arc.events.end(),
-                     [](const Event& event) { return event.kind == EventKind::limit_point; });
+  return std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) {
+    return event.kind == EventKind::limit_point || event.kind == EventKind::branch_point;
+  });
 }
 
 void expect_count(const System& system, const Arc& arc, const TraceOptions& options) {

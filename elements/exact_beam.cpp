@@ -1,0 +1,172 @@
+#include "elements/exact_beam.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+constexpr int most_nodes = 3;
+
+struct ShapeFunctions {
+  std::array<double, most_nodes> N{}, dN{};  // values and derivatives in ξ; nodes at ξ = −1, (0,) 1
+};
+
+ShapeFunctions shape_functions(int order, double xi) {
+  if (order == 1) return {.N = {0.5 * (1.0 - xi), 0.5 * (1.0 + xi)}, .dN = {-0.5, 0.5}};
+  return {.N = {0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)}, .dN = {xi - 0.5, -2.0 * xi, xi + 0.5}};
+}
+
+struct GaussRule {
+  std::array<double, 2> xi{};
+  double weight = 0.0;
+};
+
+// As many points as the order: one fewer than for the whole polynomial, which would lock.
+GaussRule gauss_rule(int order) {
+  if (order == 1) return {.xi = {0.0}, .weight = 2.0};
+  const double xi = 1.0 / std::sqrt(3.0);
+  return {.xi = {-xi, xi}, .weight = 1.0};
+}
+
+// ds/dξ
+double arc_speed(const ExactBeamReference& reference, const ShapeFunctions& shape) {
+  double speed = 0.0;
+  for (std::size_t a = 0; a < reference.arcs.size(); ++a) speed += shape.dN[a] * reference.arcs[a];
+  return speed;
+}
+
+}  // namespace
+
+// Positions and the arc length are interpolated alike, ds/dξ = Σ N_a′ s_a: the whole length is exact, and the nodes
+// need not be equally far apart.
+ExactBeam::ExactBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness)
+    : order_(reference.order()), stiffness_(stiffness) {
+  assert((order_ == 1 || order_ == 2) && reference.arcs.size() == reference.nodes.size());
+  const GaussRule rule = gauss_rule(order_);
+  for (std::size_t g = 0; g < static_cast<std::size_t>(order_); ++g) {
+    const ShapeFunctions shape = shape_functions(order_, rule.xi[g]);
+    const double speed = arc_speed(reference, shape);
+    GaussPoint& point = points_[g];
+    point.ds = rule.weight * speed;
+    point.N = shape.N;
+    Vec2 tangent = Vec2::Zero();
+    for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
+      point.D[a] = shape.dN[a] / speed;
+      tangent += point.D[a] * reference.nodes[a];
+    }
+    point.stretch0 = tangent.norm();
+    point.cos0 = tangent.x() / point.stretch0;
+    point.sin0 = tangent.y() / point.stretch0;
+  }
+}
+
+// The section stands across r₀′ when stress-free and turns by θ: tangent t, normal n. With r′ = r₀′ + u′,
+//
+//   ε = t·r′ − |r₀′|,   γ = n·r′,   κ = θ′,     U = ½ ∫ (EA ε² + GA γ² + EI κ²) ds                        (1)
+//
+// With ∂t/∂θ = n, ∂n/∂θ = −t, N = EA ε, Q = GA γ and p = t·r′, the derivatives in (u′, θ, θ′) are
+//
+//   ∂U = (N t + Q n,  N γ − Q p,  EI κ)                                                                   (2)
+//
+//         [ EA t tᵀ + GA n nᵀ   (EA γ − Q) t + (N − GA p) n    0  ]
+//   ∂²U = [         ·           (EA γ − Q) γ − (N − GA p) p    0  ]                                       (3)
+//         [         ·                        ·                 EI ]
+double ExactBeam::evaluate(const double* u, double* f, double* K) const {
+  const auto nodes = static_cast<std::size_t>(order_ + 1), n = 3 * nodes;
+  const auto [EA, GA, EI] = stiffness_;
+  if (f != nullptr) std::fill(f, f + n, 0.0);
+  if (K != nullptr) std::fill(K, K + n * n, 0.0);
+  double U = 0.0;
+  for (std::size_t g = 0; g < nodes - 1; ++g) {
+    const GaussPoint& at = points_[g];
+    double du = 0.0, dw = 0.0, theta = 0.0, kappa = 0.0;  // u′, w′, θ, θ′
+    for (std::size_t a = 0; a < nodes; ++a) {
+      du += at.D[a] * u[3 * a];
+      dw += at.D[a] * u[3 * a + 1];
+      theta += at.N[a] * u[3 * a + 2];
+      kappa += at.D[a] * u[3 * a + 2];
+    }
+    // On the stress-free frame, then turned by θ; 1 − cos θ = 2 sin²(θ/2) keeps the digits of small strains.
+    const double along = at.cos0 * du + at.sin0 * dw, across = at.cos0 * dw - at.sin0 * du;
+    const double sin = std::sin(theta), half = std::sin(0.5 * theta), less = 2.0 * half * half, cos = 1.0 - less;
+    const double strain = cos * along + sin * across - less * at.stretch0;
+    const double shear = cos * across - sin * (along + at.stretch0);
+    const double N = EA * strain, Q = GA * shear, M = EI * kappa;
+    U += 0.5 * at.ds * (N * strain + Q * shear + M * kappa);
+    if (f == nullptr && K == nullptr) continue;
+
+    const double p = at.stretch0 + strain;
+    const double tx = cos * at.cos0 - sin * at.sin0, tz = sin * at.cos0 + cos * at.sin0;  // n = (−tz, tx)
+    if (f != nullptr)
+      add_forces(at, nodes, {.x = N * tx - Q * tz, .z = N * tz + Q * tx, .theta = N * shear - Q * p, .kappa = M}, f);
+    if (K == nullptr) continue;
+    const double t = EA * shear - Q, m = N - GA * p;  // of t and n in (3)
+    add_stiffness(at, nodes,
+                  {.xx = EA * tx * tx + GA * tz * tz,
+                   .xz = (EA - GA) * tx * tz,
+                   .zz = EA * tz * tz + GA * tx * tx,
+                   .xt = t * tx - m * tz,
+                   .zt = t * tz + m * tx,
+                   .tt = t * shear - m * p,
+                   .kk = EI},
+                  K);
+  }
+  return U;
+}
+
+void ExactBeam::add_forces(const GaussPoint& at, std::size_t nodes, const First& U, double* f) {
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const double D = at.ds * at.D[a], N = at.ds * at.N[a];
+    f[3 * a] += D * U.x;
+    f[3 * a + 1] += D * U.z;
+    f[3 * a + 2] += N * U.theta + D * U.kappa;
+  }
+}
+
+void ExactBeam::add_stiffness(const GaussPoint& at, std::size_t nodes, const Second& U, double* K) {
+  const std::size_t n = 3 * nodes;
+  for (std::size_t b = 0; b < nodes; ++b)
+    for (std::size_t a = b; a < nodes; ++a) {
+      const double DD = at.ds * at.D[a] * at.D[b], ND = at.ds * at.N[a] * at.D[b];
+      const double DN = at.ds * at.D[a] * at.N[b], NN = at.ds * at.N[a] * at.N[b];
+      double* block = K + 3 * a + 3 * b * n;
+      block[0] += DD * U.xx;
+      block[1] += DD * U.xz;
+      block[2] += ND * U.xt;
+      block[n] += DD * U.xz;
+      block[n + 1] += DD * U.zz;
+      block[n + 2] += ND * U.zt;
+      block[2 * n] += DN * U.xt;
+      block[2 * n + 1] += DN * U.zt;
+      block[2 * n + 2] += NN * U.tt + DD * U.kk;
+    }
+}
+
+ExactDistributedLoad::ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load)
+    : forces_(reference.nodes.size(), Vec2::Zero()) {
+  const GaussRule rule = gauss_rule(reference.order());
+  for (std::size_t g = 0; g + 1 < forces_.size(); ++g) {
+    const ShapeFunctions shape = shape_functions(reference.order(), rule.xi[g]);
+    const double ds = rule.weight * arc_speed(reference, shape);
+    for (std::size_t a = 0; a < forces_.size(); ++a) forces_[a] += ds * shape.N[a] * load;
+  }
+}
+
+double ExactDistributedLoad::evaluate(const double* u, double* f, double* K) const {
+  double V = 0.0;
+  for (std::size_t a = 0; a < forces_.size(); ++a) {
+    V -= forces_[a].x() * u[3 * a] + forces_[a].y() * u[3 * a + 1];
+    if (f == nullptr) continue;
+    f[3 * a] = -forces_[a].x();
+    f[3 * a + 1] = -forces_[a].y();
+    f[3 * a + 2] = 0.0;
+  }
+  const auto n = static_cast<std::size_t>(unknown_count());
+  if (K != nullptr) std::fill(K, K + n * n, 0.0);
+  return V;
+}
+
+}  // namespace arcwall

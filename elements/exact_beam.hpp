@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/types.hpp"
+#include "elements/element.hpp"
+
+namespace arcwall {
+
+/// A stretch of a beam in its stress-free shape: two nodes (order 1) or the ends with a middle node (order 2), in the
+/// order in which they lie along the axis.
+struct ExactBeamReference {
+  std::vector<Vec2> nodes{};   ///< positions [length]
+  std::vector<double> arcs{};  ///< arc length of the axis from the first node to each, rising from 0 [length]
+
+  int order() const { return static_cast<int>(nodes.size()) - 1; }
+};
+
+/// Stiffness of a section that is flexible in shear.
+struct ExactBeamStiffness {
+  double EA = 0.0;  ///< [force]
+  double GA = 0.0;  ///< shear modulus times shear area [force]
+  double EI = 0.0;  ///< [force·length²]
+};
+
+/// Geometrically exact beam that is flexible in shear (Reissner 1972, Simo 1985), of any displacement and rotation.
+///
+/// Unknowns: u, w, θ of each node along the axis: the first end, the middle node if there is one, the second end. θ is
+/// the rotation of the section from its stress-free state and need not be wrapped. Shape functions of degree `order`;
+/// integrated with `order` Gauss points, so that nothing locks however thin the beam. At nodes the error falls with
+/// h^(2 order), initially curved members included.
+class ExactBeam final : public Element {
+ public:
+  ExactBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness);
+
+  int unknown_count() const override { return 3 * (order_ + 1); }
+  double evaluate(const double* u, double* f, double* K) const override;
+
+ private:
+  struct GaussPoint {
+    double ds = 0.0;                 // weight times arc length
+    std::array<double, 3> N{}, D{};  // shape functions, and their derivatives in the arc length
+    double cos0 = 1.0, sin0 = 0.0;   // direction of the interpolated axis r₀, on which the section stands
+    double stretch0 = 1.0;           // |r₀′|, which is not quite 1
+  };
+  // Derivatives of the energy per length in u′ (x, z), θ and θ′.
+  struct First {
+    double x, z, theta, kappa;
+  };
+  struct Second {
+    double xx, xz, zz, xt, zt, tt, kk;
+  };
+
+  static void add_forces(const GaussPoint& at, std::size_t nodes, const First& U, double* f);
+  static void add_stiffness(const GaussPoint& at, std::size_t nodes, const Second& U, double* K);
+
+  int order_;
+  std::array<GaussPoint, 2> points_{};  // the first `order_`
+  ExactBeamStiffness stiffness_;
+};
+
+/// Potential of a dead load per length of the undeformed axis on an ExactBeam, whose unknowns it has:
+/// V = −∫ q·u ds with the same shape functions, linear in the displacements.
+class ExactDistributedLoad final : public Element {
+ public:
+  /// `load` [force/length].
+  ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load);
+
+  int unknown_count() const override { return static_cast<int>(3 * forces_.size()); }
+  double evaluate(const double* u, double* f, double* K) const override;
+
+ private:
+  std::vector<Vec2> forces_;  // at each node
+};
+
+}  // namespace arcwall

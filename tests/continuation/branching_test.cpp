@@ -1,0 +1,98 @@
+#include "continuation/branching.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/invariants.hpp"
+#include "tests/support/toys.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using test::Branch;
+using test::SmoothToy;
+
+State at(double x, double l) { return {.x = test::scalar(x), .lambda = l}; }
+
+// F = x³ − λ x: x = 0, and λ = x² from λ = 0 on.
+SmoothToy pitchfork() {
+  SmoothToy toy;
+  toy.F = [](const Vector& x, double l) { return test::scalar(x[0] * x[0] * x[0] - l * x[0]); };
+  toy.K = [](const Vector& x, double l) { return test::scalar_matrix(3.0 * x[0] * x[0] - l); };
+  toy.F_lambda = [](const Vector& x, double) { return test::scalar(-x[0]); };
+  return toy;
+}
+
+// F = x² − λ x: x = 0 and x = λ.
+SmoothToy transcritical() {
+  SmoothToy toy;
+  toy.F = [](const Vector& x, double l) { return test::scalar(x[0] * x[0] - l * x[0]); };
+  toy.K = [](const Vector& x, double l) { return test::scalar_matrix(2.0 * x[0] - l); };
+  toy.F_lambda = [](const Vector& x, double) { return test::scalar(-x[0]); };
+  return toy;
+}
+
+TraceOptions until_one() {
+  TraceOptions options;
+  options.landmarks.push_back(test::stop_at_lambda(1.0));
+  return options;
+}
+
+Event branch_point_of(const System& system) {
+  const TraceOptions options = until_one();
+  const Branch branch = trace(system, options, at(0.0, -1.0));
+  EXPECT_EQ(branch.end.reason, EndReason::stop);
+  expect_branch_invariants(system, branch, options);
+  return only_event(branch, EventKind::branch_point);
+}
+
+}  // namespace
+
+TEST(Branching, APitchforkIsLocatedAndSymmetric) {
+  const SmoothToy system = pitchfork();
+  const Event event = branch_point_of(system);
+  EXPECT_NEAR(event.state.lambda, 0.0, 1e-10);
+  EXPECT_EQ(event.unstable_before, 0);
+  EXPECT_EQ(event.unstable_after, 1);
+  ASSERT_NE(event.branching, nullptr);
+  EXPECT_EQ(event.branching->type, BranchType::symmetric);
+  EXPECT_EQ(event.branching->multiplicity, 1);
+  EXPECT_NEAR(event.branching->mode.dx[0], 1.0, 1e-9);
+  // The other branch leaves along the mode: λ = x² is level there.
+  EXPECT_NEAR(event.branching->other.dlambda, 0.0, 1e-6);
+}
+
+TEST(Branching, ATranscriticalPointIsLocatedAndAsymmetric) {
+  const SmoothToy system = transcritical();
+  const Event event = branch_point_of(system);
+  EXPECT_NEAR(event.state.lambda, 0.0, 1e-10);
+  ASSERT_NE(event.branching, nullptr);
+  EXPECT_EQ(event.branching->type, BranchType::asymmetric);
+  // x = λ; second derivatives are central differences here.
+  EXPECT_NEAR(event.branching->other.dx[0] / event.branching->other.dlambda, 1.0, 1e-5);
+}
+
+TEST(Branching, SteppingOffLandsOnTheOtherBranchOnEitherSide) {
+  const SmoothToy system = pitchfork();
+  const Event event = branch_point_of(system);
+  ASSERT_NE(event.branching, nullptr);
+  const Metric metric(Vector::Ones(1), 1.0);
+  Corrector corrector(system, {}, 1.0);
+  for (const int sign : {1, -1}) {
+    const auto off = step_off(system, corrector, metric, *event.branching, sign, 0.1, 1e-12);
+    ASSERT_TRUE(off.has_value());
+    EXPECT_GT(sign * off->state.x[0], 0.01);
+    EXPECT_NEAR(off->state.lambda, off->state.x[0] * off->state.x[0], 1e-12);
+    EXPECT_GT(sign * off->tangent.dx[0], 0.0);
+  }
+}
+
+TEST(Branching, AFoldIsNoBranchPoint) {
+  TraceOptions options;
+  options.max_points = 30;
+  const Branch branch = trace(test::fold(), options, at(1.0, -1.0));
+  EXPECT_EQ(events_of(branch, EventKind::limit_point).size(), 1U);
+  EXPECT_TRUE(events_of(branch, EventKind::branch_point).empty());
+}
+
+}  // namespace arcwall

@@ -1,0 +1,207 @@
+#include "continuation/corner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/toys.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using test::LinearContactToy;
+
+Piece open_piece(const LinearContactToy& toy) { return Piece(static_cast<std::size_t>(toy.guard_count()), 0); }
+
+State origin(const LinearContactToy& toy) {
+  return {.x = Vector::Zero(toy.A.rows()), .lambda = 0.0, .piece = open_piece(toy)};
+}
+
+std::vector<Index> all(const LinearContactToy& toy) {
+  std::vector<Index> weak;
+  for (Index j = 0; j < toy.guard_count(); ++j) weak.push_back(j);
+  return weak;
+}
+
+// Gaps are the unknowns themselves: M = A⁻¹, a = A⁻¹ f. Made from M and a.
+LinearContactToy rate_problem(const Matrix& M, const Vector& a) {
+  LinearContactToy toy;
+  toy.A = M.inverse();
+  toy.f = toy.A * a;
+  toy.G = Matrix::Identity(a.size(), a.size());
+  toy.gap0 = Vector::Zero(a.size());
+  return toy;
+}
+
+// Equilibrium of the rates, and 0 ≤ ṗ ⊥ ġ ≥ 0 for the weak contacts.
+void expect_ray(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak, const Ray& ray) {
+  Linearization now;
+  const State there = toy.with_piece(corner, ray.piece);
+  toy.linearize(there, now);
+  ASSERT_EQ(ray.direction.dx.size(), there.x.size());
+  const double size = ray.direction.dx.norm() + std::abs(ray.direction.dlambda);
+  EXPECT_GT(size, 0.0);
+  const Vector rate = test::full(now.K) * ray.direction.dx + now.F_lambda * ray.direction.dlambda;
+  EXPECT_LE(rate.norm(), 1e-10 * size * (1.0 + toy.A.norm()));
+  const Index n = toy.A.rows();
+  for (const Index j : weak) {
+    const auto k = toy.multiplier_index(ray.piece, j);
+    const double force = k ? ray.direction.dx[*k] : 0.0, opening = toy.G.row(j).dot(ray.direction.dx.head(n));
+    EXPECT_GE(force, -1e-6 * size);
+    EXPECT_GE(opening, -1e-6 * size);
+    EXPECT_LE(std::min(force, opening), 1e-6 * size);
+    EXPECT_EQ(ray.loading[static_cast<std::size_t>(j)] != 0, force > 1e-6 * size);
+  }
+}
+
+std::vector<Ray> rays(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak,
+                      const CornerOptions& options = {}) {
+  std::vector<Ray> found = rays_of(toy, corner, weak, options);
+  for (const Ray& ray : found) expect_ray(toy, corner, weak, ray);
+  return found;
+}
+
+Index with_rising_lambda(const std::vector<Ray>& found) {
+  return std::count_if(found.begin(), found.end(), [](const Ray& ray) { return ray.direction.dlambda > 0.0; });
+}
+
+}  // namespace
+
+TEST(Corner, AStopIsLeftForwardsClosedAndBackwardsOpen) {
+  const LinearContactToy toy = test::stopped_springs(2.0);
+  const State corner{.x = (Vector(2) << 1.0, 1.5).finished(), .lambda = 1.0, .piece = {0}};
+  const auto found = rays(toy, corner, {0});
+  ASSERT_EQ(found.size(), 2U);
+  for (const Ray& ray : found) {
+    const bool forward = ray.direction.dlambda > 0.0;
+    EXPECT_EQ(ray.piece, forward ? Piece{1} : Piece{0});
+    // Behind the stop ẋ = (0, 1/k), ṗ = 1; before it ẋ = (1, 1 + 1/k).
+    const Vector dx = ray.direction.dx / ray.direction.dlambda;
+    EXPECT_NEAR(dx[0], forward ? 0.0 : 1.0, 1e-14);
+    EXPECT_NEAR(dx[1], forward ? 0.5 : 1.5, 1e-14);
+    if (forward) {
+      EXPECT_NEAR(dx[2], 1.0, 1e-14);
+    }
+  }
+}
+
+TEST(Corner, TheSameRaysLeaveFromTheClosedPiece) {
+  const LinearContactToy toy = test::stopped_springs(2.0);
+  const State corner{.x = (Vector(3) << 1.0, 1.5, 0.0).finished(), .lambda = 1.0, .piece = {1}};
+  const auto found = rays(toy, corner, {0});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(with_rising_lambda(found), 1);
+}
+
+// A = −1, g = x: off the wall x = −λ, on it p = −λ. Both leave towards falling λ.
+TEST(Corner, AnUnstableFreeBranchMakesLambdaTurn) {
+  const LinearContactToy toy = rate_problem(-Matrix::Identity(1, 1), -Vector::Ones(1));
+  const auto found = rays(toy, origin(toy), {0});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(with_rising_lambda(found), 0);
+  EXPECT_NE(found[0].piece, found[1].piece);
+}
+
+// Two such contacts side by side, each open or closed as it likes: four rays, all towards falling λ.
+TEST(Corner, SeveralRaysAreAllFound) {
+  const LinearContactToy toy = rate_problem(-Matrix::Identity(2, 2), -Vector::Ones(2));
+  const auto found = rays(toy, origin(toy), all(toy));
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(with_rising_lambda(found), 0);
+  std::vector<Piece> pieces;
+  for (const Ray& ray : found) pieces.push_back(ray.piece);
+  std::sort(pieces.begin(), pieces.end());
+  EXPECT_EQ(pieces, (std::vector<Piece>{{0, 0}, {0, 1}, {1, 0}, {1, 1}}));
+}
+
+// M = −[1 2; 2 1], a = (1, −1). λ̇ = 1: none closed ġ₂ = −1; 2 closed p₂ = −1; 1 closed p₁ = 1, ġ₂ = −3; both p₁ = −1.
+// λ̇ = −1 by symmetry; λ̇ = 0: M p < 0.
+TEST(Corner, ThereMayBeNoRay) {
+  const LinearContactToy toy =
+      rate_problem((Matrix(2, 2) << -1.0, -2.0, -2.0, -1.0).finished(), (Vector(2) << 1.0, -1.0).finished());
+  EXPECT_TRUE(rays(toy, origin(toy), all(toy)).empty());
+}
+
+TEST(Corner, OneOfOppositeContactsThatAreSymmetricOpensAsTheOtherCloses) {
+  // Two equal stops in the two directions of a symmetric pair: both close together.
+  LinearContactToy toy = rate_problem(Matrix::Identity(2, 2), -Vector::Ones(2));
+  const auto found = rays(toy, origin(toy), all(toy));
+  ASSERT_EQ(found.size(), 2U);
+  for (const Ray& ray : found) EXPECT_EQ(ray.piece, ray.direction.dlambda > 0.0 ? (Piece{1, 1}) : (Piece{0, 0}));
+}
+
+// One stop named twice: the force may be shared in any way, the motion is one.
+TEST(Corner, GuardsThatCoincideGiveEachMotionOnce) {
+  LinearContactToy toy = test::stopped_springs(2.0);
+  toy.G = toy.G.replicate(2, 1).eval();
+  toy.gap0 = Vector::Ones(2);
+  const State corner{.x = (Vector(2) << 1.0, 1.5).finished(), .lambda = 1.0, .piece = {0, 0}};
+  const auto found = rays(toy, corner, {0, 1});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(with_rising_lambda(found), 1);
+}
+
+TEST(Corner, StronglyClosedContactsHoldMeanwhile) {
+  // The stop of the first spring carries 1; the second meets one of its own at x₂ = 2, λ = 2.
+  LinearContactToy toy = test::stopped_springs(1.0);
+  toy.G = (Matrix(2, 2) << -1.0, 0.0, 0.0, -1.0).finished();
+  toy.gap0 = (Vector(2) << 1.0, 3.0).finished();
+  const State corner{.x = (Vector(3) << 1.0, 3.0, 1.0).finished(), .lambda = 2.0, .piece = {1, 0}};
+  const auto found = rays(toy, corner, {1});
+  ASSERT_EQ(found.size(), 2U);
+  for (const Ray& ray : found) {
+    EXPECT_EQ(ray.piece[0], 1);
+    EXPECT_EQ(ray.piece[1], ray.direction.dlambda > 0.0 ? 1 : 0);
+  }
+}
+
+// With a positive definite stiffness each direction of λ has one ray.
+TEST(Corner, PivotingFindsTheRaysOfEnumerationForManyContacts) {
+  test::Numbers numbers(80);
+  for (const Index w : {3, 8, 13}) {
+    SCOPED_TRACE(w);
+    LinearContactToy toy;
+    const Matrix B = numbers.matrix(w, w);
+    toy.A = B * B.transpose() + Matrix::Identity(w, w);
+    toy.f = numbers.vector(w);
+    toy.G = numbers.matrix(w, w);
+    toy.gap0 = Vector::Zero(w);
+    const auto enumerated = rays(toy, origin(toy), all(toy), {.max_enumerated = 20});
+    const auto pivoted = rays(toy, origin(toy), all(toy), {.max_enumerated = 0});
+    ASSERT_EQ(enumerated.size(), 2U);
+    ASSERT_EQ(pivoted.size(), 2U);
+    for (const Ray& a : pivoted) {
+      const auto same = [&](const Ray& b) {
+        if (a.piece != b.piece || a.direction.dlambda * b.direction.dlambda <= 0.0) return false;
+        const Vector u = a.direction.dx / a.direction.dlambda, v = b.direction.dx / b.direction.dlambda;
+        return (u - v).norm() <= 1e-9 * u.norm();
+      };
+      EXPECT_EQ(std::count_if(enumerated.begin(), enumerated.end(), same), 1);
+    }
+  }
+}
+
+TEST(Corner, MoreThanTwelveWeakContactsAreSolvedByPivotingByDefault) {
+  // Independent stops whose gaps open and close in turn.
+  constexpr Index w = 15;
+  Vector a(w);
+  for (Index i = 0; i < w; ++i) a[i] = i % 2 == 0 ? 1.0 : -1.0;
+  const LinearContactToy toy = rate_problem(Matrix::Identity(w, w), a);
+  const auto found = rays(toy, origin(toy), all(toy));
+  ASSERT_EQ(found.size(), 2U);
+  for (const Ray& ray : found)
+    for (Index i = 0; i < w; ++i)
+      EXPECT_EQ(ray.piece[static_cast<std::size_t>(i)] != 0, a[i] * ray.direction.dlambda < 0.0);
+}
+
+TEST(Corner, ASingularStiffnessGivesNoRays) {
+  LinearContactToy toy;
+  toy.A = Matrix::Zero(1, 1);
+  toy.f = Vector::Ones(1);
+  toy.G = Matrix::Ones(1, 1);
+  toy.gap0 = Vector::Zero(1);
+  EXPECT_TRUE(rays_of(toy, origin(toy), {0}, {}).empty());
+}
+
+}  // namespace arcwall
