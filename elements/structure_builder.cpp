@@ -21,10 +21,9 @@ struct Stretch {
   const MemberMesh& mesh;
   std::size_t k;
 
-  // Arc length of the axis without imperfection, at a fraction of the element.
+  // Arc length of the axis without imperfection at a fraction of the element.
   double at(double fraction) const {
-    const double a = mesh.fraction(k) * member.axis->length(), b = mesh.fraction(k + 1) * member.axis->length();
-    return fraction == 0.0 ? a : fraction == 1.0 ? b : a + fraction * (b - a);
+    return (double(k) + fraction) / double(mesh.nodes.size() - 1) * member.axis->length();
   }
 };
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -52,8 +53,9 @@ class Stopwatch {
 
 RunRequest request_from(const Options& options);
 ExitStatus dry_run(const RunRequest& request, const Study& study);
-BranchEnd trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
-                Record& record);
+void trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
+           Record& record);
+const BranchEnd& decisive_end(const Record& record);
 void write_files(const OutputFolder& folder, const RunRequest& request, const Study& study, const Record& record,
                  const RunSeconds& seconds, ExitStatus status);
 void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolder& folder);
@@ -75,7 +77,8 @@ ExitStatus run(const Options& options) {
     std::cerr << "error: there is no equilibrium at the start: " << reason << "\n";
     return ExitStatus::no_start;
   }
-  const BranchEnd end = trace(request, study, std::move(*start), interrupts, record);
+  trace(request, study, std::move(*start), interrupts, record);
+  const BranchEnd& end = decisive_end(record);
   if (record.points.empty() && (end.reason == EndReason::singular || end.reason == EndReason::not_finite)) {
     std::cerr << "error: there is no equilibrium at the start: " << explanation(end.reason) << "\n";
     return ExitStatus::no_start;
@@ -128,29 +131,65 @@ void print_lines(const Record& record, std::size_t& events_printed) {
   std::cout << std::flush;
 }
 
-BranchEnd trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
-                Record& record) {
+// Every branch, one after the other; the record says how each ended.
+void trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
+           Record& record) {
   const Stopwatch watch;
   TraceOptions options = study.options();
   if (request.max_points) options.max_points = *request.max_points;
-  Tracer tracer(study.system(), std::move(start), std::move(options), study.watched());
-  Recorder recorder(study, record);
+  Explorer explorer(study.system(), std::move(start), std::move(options), study.watched(), study.explore());
+  std::optional<Recorder> recorder;
   ProgressLine progress(request.progress);
   std::size_t events_printed = 0;
-  while (const std::optional<Arc> arc = tracer.next()) {
-    recorder.add(*arc);
+  const auto end_branch = [&](int branch) {
+    recorder->end(explorer.branches()[static_cast<std::size_t>(branch)].end.value());
+    if (request.report == Report::json_lines) print_lines(record, events_printed);
+  };
+  int branch = -1;
+  while (const std::optional<Explorer::Step> step = explorer.next()) {
+    if (step->branch != branch) {
+      if (recorder) end_branch(branch);
+      branch = step->branch;
+      recorder.emplace(study, record, explorer.branches()[static_cast<std::size_t>(branch)].parent);
+    }
+    recorder->add(step->arc);
     progress.show(record);
     if (request.report == Report::json_lines) print_lines(record, events_printed);
-    if (tracer.end()) continue;
     if (interrupts.interrupted()) {
-      tracer.stop({.reason = EndReason::interrupted, .detail = "by a signal"});
+      explorer.stop({.reason = EndReason::interrupted, .detail = "by a signal"});
     } else if (request.max_seconds && watch.seconds() >= *request.max_seconds) {
-      tracer.stop({.reason = EndReason::max_time, .detail = round_trip(*request.max_seconds) + " s"});
+      explorer.stop({.reason = EndReason::max_time, .detail = round_trip(*request.max_seconds) + " s"});
     }
   }
-  recorder.end(*tracer.end());
-  if (request.report == Report::json_lines) print_lines(record, events_printed);
-  return *tracer.end();
+  if (!recorder) {  // not even a start: the branch has no points, but an end
+    recorder.emplace(study, record);
+    branch = 0;
+  }
+  end_branch(branch);
+}
+
+// The branch whose end decides the status: an interrupt, then a limit, then an early end.
+const BranchEnd& decisive_end(const Record& record) {
+  const auto severity = [](const RecordBranch& branch) {
+    switch (exit_status(branch.end->reason)) {
+      case ExitStatus::interrupted:
+        return 3;
+      case ExitStatus::limit_met:
+        return 2;
+      case ExitStatus::success:
+        return 0;
+      case ExitStatus::internal_error:
+      case ExitStatus::wrong_input:
+      case ExitStatus::ended_early:
+      case ExitStatus::no_start:
+      case ExitStatus::file_error:
+        return 1;
+    }
+    return 1;
+  };
+  return *std::max_element(record.branches.begin(), record.branches.end(),
+                           [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); })
+              ->end;
 }
 
 // result.json comes last: where it is, the others are.
@@ -168,7 +207,7 @@ void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolde
   if (status == ExitStatus::success) return;
   std::cerr << fmt::format(
       "{}{}; what was traced is in {}\n",
-      status == ExitStatus::ended_early ? "error: branch 0 ended early: " : "note: the run ended: ", how_it_ended(end),
+      status == ExitStatus::ended_early ? "error: a branch ended early: " : "note: the run ended: ", how_it_ended(end),
       folder.path().string());
 }
 
