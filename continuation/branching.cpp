@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/near_null.hpp"
 #include "core/root_find.hpp"
@@ -26,14 +27,22 @@ std::array<double, 4> lagrange(const std::array<double, 4>& nodes, double t) {
   return value;
 }
 
-// φᵀ (K(x + h d) − K(x − h d)) φ / 2h: how fast the eigenvalue changes along a direction.
-double eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& mode, double h) {
+// φᵀ (K(x + h d) − K(x − h d)) φ / 2h: how fast the eigenvalue changes along a direction, and the round-off of that.
+struct Rate {
+  double value = 0.0, roundoff = 0.0;
+};
+
+Rate eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& mode) {
+  constexpr double h = 1e-3;  // [path metric]
   Linearization now;
-  double rate = 0.0;
+  Rate rate;
   for (const double sign : {1.0, -1.0}) {
     system.linearize(moved(state, d, sign * h), now);
-    rate += sign * mode.dot(now.K.selfadjointView<Eigen::Lower>() * mode) / (2.0 * h);
+    rate.value += sign * mode.dot(now.K.selfadjointView<Eigen::Lower>() * mode) / (2.0 * h);
   }
+  const Vector size = mode.cwiseAbs();
+  rate.roundoff = 10.0 * std::numeric_limits<double>::epsilon() *
+                  size.dot(now.K.cwiseAbs().selfadjointView<Eigen::Lower>() * size) / h;
   return rate;
 }
 
@@ -98,13 +107,13 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
 
   // Algebraic branching equation a α² + 2 b α β = 0 for tangents α φ + β t, t the tangent we came along:
   //   α = 0 (the old branch) or α : β = −2 b : a.
-  constexpr double h = 1e-4;
-  const double a = eigenvalue_rate(system_, point.state, out.mode, mode, h);
-  const double b = eigenvalue_rate(system_, point.state, out.along, mode, h);
-  out.type = std::abs(a) <= noise * std::abs(b) ? BranchType::symmetric : BranchType::asymmetric;
+  const Rate a = eigenvalue_rate(system_, point.state, out.mode, mode);
+  const Rate b = eigenvalue_rate(system_, point.state, out.along, mode);
+  const bool symmetric = std::abs(a.value) <= std::max(noise * std::abs(b.value), a.roundoff);
+  out.type = symmetric ? BranchType::symmetric : BranchType::asymmetric;
   Direction other = out.mode;
-  if (out.type == BranchType::asymmetric) {
-    const double beta = -a / (2.0 * b);
+  if (!symmetric) {
+    const double beta = -a.value / (2.0 * b.value);
     other.dx += beta * out.along.dx;
     other.dlambda += beta * out.along.dlambda;
   }
