@@ -29,18 +29,18 @@ std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, co
 std::optional<Theory> theory_of(const deck::Member& member, DeckProblems& problems) {
   const auto unsupported = [&](const char* name) {
     problems.add(member.position, "member." + member.name + ".theory",
-                 fmt::format("theory \"{}\" is not part of this version", name), "use \"classic\" or \"truss\"");
+                 fmt::format("theory \"{}\" is not part of this version", name), "use \"classic\", \"exact\" or \"truss\"");
     return std::nullopt;
   };
   switch (member.theory) {
     case deck::Theory::classic:
       return Theory::classic;
+    case deck::Theory::exact:
+      return Theory::exact;
     case deck::Theory::truss:
       return Theory::truss;
     case deck::Theory::essenburg:
       return unsupported("essenburg");
-    case deck::Theory::exact:
-      return unsupported("exact");
     case deck::Theory::elastica:
       return unsupported("elastica");
   }
@@ -59,10 +59,32 @@ TrussStrain strain_of(deck::Strain strain) {
   return TrussStrain::green;
 }
 
+// Shear area over area of the exact theory: Cowper's (1966) for no lateral contraction, of which 5/6 for the rectangle
+// is the best known. A ring of the radii's ratio m has 6 (1 + m²)² / (7 (1 + m²)² + 20 m²): 6/7 for a circle, ½ for a
+// thin tube. A general section counts as a rectangle.
+double shear_correction(const deck::Section& section) {
+  struct Correction {
+    static double ring(double m) {
+      const double square = (1.0 + m * m) * (1.0 + m * m);
+      return 6.0 * square / (7.0 * square + 20.0 * m * m);
+    }
+    double operator()(const deck::Rectangle&) const { return 5.0 / 6.0; }
+    double operator()(const deck::Circle&) const { return ring(0.0); }
+    double operator()(const deck::Tube& tube) const { return ring(1.0 - tube.thickness / tube.radius); }
+    double operator()(const deck::General&) const { return 5.0 / 6.0; }
+  };
+  return section.shear_correction.value_or(std::visit(Correction{}, section.shape));
+}
+
 Section section_of(const deck::Deck& deck, const deck::Member& member) {
-  const deck::SectionProperties section = properties(*deck::find(deck.sections, member.section));
-  return {
-      .E = deck::find(deck.materials, member.material)->E, .A = section.A, .I = section.I, .height = section.height};
+  const deck::Section& described = *deck::find(deck.sections, member.section);
+  const deck::Material& material = *deck::find(deck.materials, member.material);
+  const deck::SectionProperties properties = deck::properties(described);
+  Section section{.E = material.E, .A = properties.A, .I = properties.I, .height = properties.height};
+  if (member.theory != deck::Theory::exact) return section;
+  section.G = material.E / (2.0 * (1.0 + material.nu.value()));
+  section.shear_area = properties.shear_area.value_or(shear_correction(described) * properties.A);
+  return section;
 }
 
 void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
@@ -78,6 +100,7 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
                                   .from = out.places.joints.at(member.from),
                                   .to = out.places.joints.at(member.to),
                                   .theory = *theory,
+                                  .order = member.order.value_or(2),
                                   .strain = strain_of(member.strain),
                                   .section = section_of(deck, member),
                                   .elements = elements.value_or(member.elements),

@@ -7,10 +7,15 @@
 
 namespace arcwall {
 
-/// A function along the path whose zeros are events.
+/// In which direction a detector's sign must change.
+enum class Crossing { any, rising, falling };
+
+/// A function along the path whose zeros are events. It triggers on a half-open interval: a zero at an arc's end
+/// belongs to that arc, one at its start does not count. A program adds its own to TraceOptions::detectors.
 struct EventDetector {
-  EventKind kind = EventKind::limit_point;
+  EventKind kind = EventKind::user;
   std::string label{};
+  Crossing crossing = Crossing::any;
   std::function<double(const PathPoint&)> value{};  ///< of order 1; its sign is what counts
   std::function<double(const PathPoint&)>
       integral{};  ///< its integral over the arc length, where known: zeros come in pairs

@@ -83,7 +83,9 @@ void Explorer::look_at(const Event& event) {
   const Way& best =
       *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) { return rank(a) < rank(b); });
   enqueue(event, best.sign, mirrored);
-  tracer_->stop({.reason = EndReason::branched, .detail = "followed by branch " + std::to_string(branches_.size())});
+  const auto next = static_cast<int>(branches_.size());
+  tracer_->stop(
+      {.reason = EndReason::branched, .detail = "goes on as branch " + std::to_string(next), .partner = next});
 }
 
 std::vector<Explorer::Way> Explorer::ways_off(const BranchPoint& point) {
@@ -125,7 +127,8 @@ void Explorer::enqueue_ray(const Event& event, const BranchPoint::Way& ray) {
   start.forward = start.mode = ray.direction;
   start.distance = options_.distance;
   start.unstable = event.unstable_before;
-  queue_.push_back({.start = std::move(start), .record = {.parent = current_, .depth = here.depth + 1}});
+  queue_.push_back(
+      {.start = std::move(start), .record = {.parent = current_, .origin = event.branching, .depth = here.depth + 1}});
 }
 
 void Explorer::enqueue(const Event& event, int sign, bool mirrored) {
@@ -138,7 +141,11 @@ void Explorer::enqueue(const Event& event, int sign, bool mirrored) {
   start.distance = options_.distance;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   queue_.push_back({.start = std::move(start),
-                    .record = {.parent = current_, .depth = here.depth + 1, .sign = sign, .mirrored = mirrored}});
+                    .record = {.parent = current_,
+                               .origin = event.branching,
+                               .depth = here.depth + 1,
+                               .sign = sign,
+                               .mirrored = mirrored}});
 }
 
 bool Explorer::known(const BranchPoint& point) const {

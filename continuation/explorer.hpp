@@ -27,7 +27,8 @@ struct ExploreOptions {
 /// A branch of the graph.
 struct BranchRecord {
   int id = 0;
-  std::optional<int> parent{};  ///< the branch it leaves
+  std::optional<int> parent{};                  ///< the branch it leaves
+  std::shared_ptr<const BranchPoint> origin{};  ///< where it leaves
   int depth = 0;
   int sign = 1;           ///< side of its branch point's mode
   bool mirrored = false;  ///< the other side is its mirror image and not traced

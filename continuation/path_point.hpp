@@ -32,6 +32,7 @@ enum class EventKind {
   contact_limit_point,
   displacement_limit,
   branch_point,
+  user,  ///< of a detector that the program added
 };
 
 /// How branches cross.
@@ -92,7 +93,8 @@ enum class EndReason {
 /// How a branch ended.
 struct BranchEnd {
   EndReason reason = EndReason::stop;
-  std::string detail{};  ///< which bound; what to try
+  std::string detail{};          ///< which bound; what to try
+  std::optional<int> partner{};  ///< the branch that it joined or that goes on
 };
 
 /// One accepted stretch of path and the events at its end. The first arc of a branch has length zero.

@@ -70,6 +70,7 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
   detectors_.push_back(limit_point_detector(metric_));
   for (const Watch& watch : watched_)
     detectors_.push_back(turning_detector(system_, metric_, watch.quantity, watch.label));
+  detectors_.insert(detectors_.end(), options_.detectors.begin(), options_.detectors.end());
 }
 
 std::optional<Arc> Tracer::next() {
@@ -261,22 +262,22 @@ bool Tracer::hides_two_zeros(const Segment& segment) const {
   return false;
 }
 
-std::optional<Tracer::Crossing> Tracer::first_crossing(const Segment& segment) const {
+std::optional<Tracer::GuardCrossing> Tracer::first_crossing(const Segment& segment) const {
   const PathPoint &from = segment.from(), &to = segment.to();
   const double L = segment.length(), tolerance = options_.guard_tolerance;
-  std::optional<Crossing> first;
+  std::optional<GuardCrossing> first;
   for (Index j = 0; j < to.guards.size(); ++j) {
     const double v0 = from.guards[j], r0 = from.guard_rates[j], v1 = to.guards[j], r1 = to.guard_rates[j];
     const bool touches = std::abs(v0) <= tolerance;
     if (v1 >= -tolerance && least_cubic_value(touches ? 0.0 : v0, r0 * L, v1, r1 * L) >= -tolerance) continue;
     const double t = segment.first_zero(v0, r0, v1, r1, tolerance).value_or(0.0);
-    if (!first || t < first->t) first = Crossing{.guard = j, .t = t};
+    if (!first || t < first->t) first = GuardCrossing{.guard = j, .t = t};
   }
   return first;
 }
 
 // Solves for the guard's zero, and for that of any guard that turns out to come before.
-bool Tracer::land(Step& step, Crossing crossing) {
+bool Tracer::land(Step& step, GuardCrossing crossing) {
   for (int landing = 0; landing < max_landings; ++landing) {
     const Segment segment(metric_, here_, step.to);
     auto at = correct_onto(GuardConstraint(system_, crossing.guard), segment, crossing.t);
@@ -318,7 +319,9 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
   };
   for (std::size_t i = 0; i < detectors_.size(); ++i) {
     const double v0 = detectors_[i].value(segment.from()), v1 = detectors_[i].value(segment.to());
-    if (signs_[i] * sign_of(v1) >= 0) continue;
+    const int sign = sign_of(v1);
+    if (signs_[i] * sign >= 0) continue;
+    if (detectors_[i].crossing != Crossing::any && (sign > 0) != (detectors_[i].crossing == Crossing::rising)) continue;
     consider(Found::What::detector, i, signs_[i] * v0 > 0.0 ? v0 / (v0 - v1) : 0.0);
   }
   for (std::size_t i = 0; i < options_.landmarks.size(); ++i) {
@@ -602,7 +605,9 @@ void Tracer::end_where_known(const PathPoint& to) {
   for (const KnownPoint& known : start_.known) {
     if (end_ || !far) return;
     if (passes(to, known.state))
-      end_ = {.reason = EndReason::joined, .detail = "joins branch " + std::to_string(known.branch)};
+      end_ = {.reason = EndReason::joined,
+              .detail = "joins branch " + std::to_string(known.branch),
+              .partner = known.branch};
   }
 }
 

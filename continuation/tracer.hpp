@@ -41,6 +41,7 @@ struct TraceOptions {
   std::vector<Landmark> landmarks{};
   std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
   EventSearch events = EventSearch::locate;
+  std::vector<EventDetector> detectors{};  ///< besides limit points and watched monitors
   bool tied_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
   double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it weak
   double localisation = 1e-12;     ///< bracket of an event as a part of its step
@@ -125,12 +126,12 @@ class Tracer {
   bool trustworthy(const PathPoint& to, double s, double& turn) const;
   bool hides_two_zeros(const Segment& segment) const;
 
-  struct Crossing {
+  struct GuardCrossing {
     Index guard;
     double t;
   };
-  std::optional<Crossing> first_crossing(const Segment& segment) const;
-  bool land(Step& step, Crossing crossing);
+  std::optional<GuardCrossing> first_crossing(const Segment& segment) const;
+  bool land(Step& step, GuardCrossing crossing);
 
   bool several_singular_points(const Segment& segment) const;
   std::optional<PathPoint> locate_branch_point(const PathPoint& to);

@@ -50,8 +50,8 @@ void ProgressLine::show(const Record& record) {
 std::string progress_text(const Record& record) {
   const RecordPoint& point = record.points.back();
   std::string text = fmt::format("branch {}  {} points  λ={:.6g}", point.branch, point.step + 1, point.lambda);
-  for (std::size_t i = 0; i < point.monitors.size(); ++i)
-    text += fmt::format("  {}={:.5g}", record.columns[i].name, point.monitors[i]);
+  for (std::size_t i = 0; i < point.monitors.size(); ++i)  // −0 + 0 is 0
+    text += fmt::format("  {}={:.5g}", record.columns[i].name, point.monitors[i] + 0.0);
   text += "  unstable " + (point.count.unstable ? std::to_string(*point.count.unstable) : "?");
   return text + fmt::format("  contacts {}", point.contacts);
 }

@@ -150,7 +150,7 @@ void trace(const RunRequest& request, const Study& study, State start, const Int
     if (step->branch != branch) {
       if (recorder) end_branch(branch);
       branch = step->branch;
-      recorder.emplace(study, record, explorer.branches()[static_cast<std::size_t>(branch)].parent);
+      recorder.emplace(study, record, explorer.branches()[static_cast<std::size_t>(branch)]);
     }
     recorder->add(step->arc);
     progress.show(record);

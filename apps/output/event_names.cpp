@@ -14,7 +14,8 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::limit_point,
                                  EventKind::contact_limit_point,
                                  EventKind::displacement_limit,
-                                 EventKind::branch_point};
+                                 EventKind::branch_point,
+                                 EventKind::user};
 
 constexpr std::array end_reasons{
     EndReason::stop,     EndReason::closed_loop,     EndReason::joined,   EndReason::branched, EndReason::max_points,
@@ -49,6 +50,8 @@ std::string_view to_text(EventKind kind) {
       return "displacement-limit";
     case EventKind::branch_point:
       return "branch-point";
+    case EventKind::user:
+      return "user";
   }
   assert(false);
   return {};
@@ -128,6 +131,7 @@ bool changes_contact(EventKind kind) {
     case EventKind::contact_limit_point:
     case EventKind::displacement_limit:
     case EventKind::branch_point:
+    case EventKind::user:
       return false;
   }
   assert(false);

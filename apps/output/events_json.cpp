@@ -33,6 +33,8 @@ Json branch(const RecordBranch& branch) {
   Json json;
   json["id"] = branch.id;
   json["parent"] = count(branch.parent);
+  json["origin"] = count(branch.origin);
+  json["mirrored"] = branch.mirrored;
   json["points"] = branch.points;
   json["lambda"] = Json::array({number(branch.least_lambda), number(branch.greatest_lambda)});
   json["end"] = branch.end ? end_json(*branch.end) : Json(nullptr);
@@ -73,6 +75,7 @@ Json event_json(const Record& record, const RecordEvent& event) {
   if (event.branch_type) {
     json["type"] = to_text(*event.branch_type);
     json["discretisation"] = event.discretisation;
+    json["branches"] = event.branches;
   }
   if (!event.mode.empty()) json["mode"] = monitors(record, event.mode);
   if (event.branch_end) json.update(end_json(*event.branch_end));
@@ -95,7 +98,11 @@ Json point_json(const Record& record, const RecordPoint& point) {
   return json;
 }
 
-Json end_json(const BranchEnd& end) { return {{"reason", to_text(end.reason)}, {"detail", end.detail}}; }
+Json end_json(const BranchEnd& end) {
+  Json json{{"reason", to_text(end.reason)}, {"detail", end.detail}};
+  if (end.partner) json["partner"] = *end.partner;
+  return json;
+}
 
 std::string to_text(const Json& json, JsonLayout layout) {
   const int indent = layout == JsonLayout::lines ? 2 : -1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include "apps/output/event_names.hpp"
 #include "apps/output/text_table.hpp"
@@ -33,7 +34,8 @@ std::string contacts(const std::vector<RecordContact>& list) {
 
 std::string what(const RecordEvent& event) {
   if (event.branch_end) return std::string(to_text(event.branch_end->reason));
-  if (event.branch_type) return std::string(to_text(*event.branch_type));
+  if (event.branch_type)
+    return std::string(to_text(*event.branch_type)) + (event.discretisation ? ", of the node contact" : "");
   if (event.monitor) return *event.monitor;
   return contacts(event.contacts);
 }
@@ -73,6 +75,24 @@ std::string ending(const RecordBranch& branch) {
   return fmt::format("{}, ended: {}\n", points, how_it_ended(*branch.end));
 }
 
+// The branches that leave a branch, each behind the event where it does, and those that leave them in turn.
+std::string tree(const Record& record, std::optional<Index> parent, int depth) {
+  std::string text;
+  for (const RecordBranch& branch : record.branches) {
+    if (branch.parent != parent) continue;
+    text += std::string(static_cast<std::size_t>(2 * depth), ' ');
+    if (branch.origin)
+      text += fmt::format("at λ = {} (event {}): ",
+                          number(record.events[static_cast<std::size_t>(*branch.origin)].lambda, 10), *branch.origin);
+    text += ending(branch);
+    if (branch.mirrored)
+      text +=
+          fmt::format("{}its mirror image is not traced\n", std::string(static_cast<std::size_t>(2 * depth + 2), ' '));
+    text += tree(record, branch.id, depth + 1);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string how_it_ended(const BranchEnd& end) {
@@ -83,7 +103,7 @@ std::string events_text(const Record& record) {
   std::string text = record.title.empty() ? "" : record.title + "\n";
   text += fmt::format("{}, trace-path {}\n\n", record.deck, program_version());
   text += table(record) + "\n";
-  for (const RecordBranch& branch : record.branches) text += ending(branch);
+  text += tree(record, std::nullopt, 0);
   return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,12 +53,15 @@ struct RecordEvent {
   std::optional<BranchEnd> branch_end{};    ///< of an end
   std::optional<BranchType> branch_type{};  ///< of a branch point
   bool discretisation = false;              ///< of a branch point that only contact at nodes makes
+  std::vector<Index> branches{};            ///< that leave a branch point
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
 };
 
 struct RecordBranch {
   Index id = 0;
   std::optional<Index> parent{};  ///< the branch it leaves
+  std::optional<Index> origin{};  ///< the event at which it does
+  bool mirrored = false;          ///< its mirror image leaves there too and is not traced
   Index points = 0;
   double least_lambda = infinity, greatest_lambda = -infinity;  ///< of its points
   std::optional<BranchEnd> end{};                               ///< empty while it goes on
@@ -71,6 +75,7 @@ struct Record {
   std::vector<RecordBranch> branches{};
   std::vector<RecordPoint> points{};
   std::vector<RecordEvent> events{};
+  std::map<const BranchPoint*, Index> branch_points{};  ///< event of each; for the branches that leave it
 };
 
 }  // namespace arcwall

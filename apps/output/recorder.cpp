@@ -37,9 +37,15 @@ Record empty_record(const Study& study) {
   return record;
 }
 
-Recorder::Recorder(const Study& study, Record& record, std::optional<Index> parent)
+Recorder::Recorder(const Study& study, Record& record, const BranchRecord& branch)
     : study_(study), record_(record), branch_(record.branches.size()) {
-  record_.branches.push_back({.id = static_cast<Index>(branch_), .parent = parent});
+  RecordBranch added{.id = static_cast<Index>(branch_), .mirrored = branch.mirrored};
+  if (branch.parent) added.parent = *branch.parent;
+  if (const auto origin = record.branch_points.find(branch.origin.get()); origin != record.branch_points.end()) {
+    added.origin = origin->second;
+    record.events[static_cast<std::size_t>(origin->second)].branches.push_back(added.id);
+  }
+  record_.branches.push_back(std::move(added));
 }
 
 void Recorder::add(const Arc& arc) {
@@ -57,7 +63,10 @@ void Recorder::add(const Arc& arc) {
   branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);
   branch().greatest_lambda = std::max(branch().greatest_lambda, to.state.lambda);
   residual_ = to.residual;
-  for (const Event& event : arc.events) add_event(recorded(event));
+  for (const Event& event : arc.events) {
+    if (event.branching) record_.branch_points[event.branching.get()] = static_cast<Index>(record_.events.size());
+    add_event(recorded(event));
+  }
 }
 
 void Recorder::end(const BranchEnd& end) {

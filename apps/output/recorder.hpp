@@ -13,8 +13,8 @@ Record empty_record(const Study& study);
 /// Adds one branch to a record, arc by arc.
 class Recorder {
  public:
-  /// Both must outlive this. `parent`: the branch that this one leaves.
-  Recorder(const Study& study, Record& record, std::optional<Index> parent = std::nullopt);
+  /// `study` and `record` must outlive this. `branch` says where the branch leaves another; without it, it leaves none.
+  Recorder(const Study& study, Record& record, const BranchRecord& branch = {});
 
   /// The arc's end as a point, and its events.
   void add(const Arc& arc);

@@ -169,7 +169,7 @@ TEST_F(RecorderTest, ASecondBranchCountsItsOwnSteps) {
   Recorder first(study_, record_);
   first.add(arc_at(study_, 0.0, 0.0, {EventKind::start}));
   first.end({EndReason::stop, ""});
-  Recorder second(study_, record_, 0);
+  Recorder second(study_, record_, BranchRecord{.id = 1, .parent = 0});
   second.add(arc_at(study_, 0.1, 0.0, {EventKind::start}));
 
   EXPECT_EQ(record_.branches[1].parent, 0);
