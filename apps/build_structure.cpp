@@ -29,7 +29,8 @@ std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, co
 std::optional<Theory> theory_of(const deck::Member& member, DeckProblems& problems) {
   const auto unsupported = [&](const char* name) {
     problems.add(member.position, "member." + member.name + ".theory",
-                 fmt::format("theory \"{}\" is not part of this version", name), "use \"classic\", \"exact\" or \"truss\"");
+                 fmt::format("theory \"{}\" is not part of this version", name),
+                 "use \"classic\", \"exact\" or \"truss\"");
     return std::nullopt;
   };
   switch (member.theory) {

@@ -12,9 +12,7 @@ namespace arcwall {
 
 namespace {
 
-constexpr double coarse_bracket = 1e-3;  // of the segment, before interpolation
-constexpr double spread = 1e-2;          // of the segment, between the points that are interpolated
-constexpr double noise = 1e-6;           // ratio of two coefficients below which the first is zero
+constexpr double noise = 1e-6;  // ratio of two coefficients below which the first is zero
 
 // Values of Lagrange's polynomials on `nodes` at t.
 std::array<double, 4> lagrange(const std::array<double, 4>& nodes, double t) {
@@ -48,57 +46,36 @@ Rate eigenvalue_rate(const System& system, const State& state, const Direction& 
 
 }  // namespace
 
-std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, const Metric& metric, Index before,
-                                                    Index after, BranchPoint& out) {
+// Newton's method is at a loss on the branch point itself, where K is singular, and the nearer the less sure. So the
+// eigenvalue is interpolated from points at a distance, which shrinks from level to level as long as all goes well.
+PathPoint BranchPointLocator::locate(const Segment& segment, const Metric& metric, Index before, Index after,
+                                     BranchPoint& out) {
   const Index order = std::max(before, after);  // the eigenvalue, counted from the least, that changes sign
-  const auto value = [&](double t) -> std::optional<double> {
-    const auto at = sample(segment, metric, t, order);
-    return at ? std::optional(at->eigenvalue) : std::nullopt;
-  };
-  const double falling = after > before ? 1.0 : -1.0;
-  const auto bracket = bracketed_root(value, 0.0, falling, 1.0, -falling, coarse_bracket);
-  if (!bracket) return std::nullopt;
-
-  const double middle = std::clamp(bracket->at, 1.5 * spread, 1.0 - 1.5 * spread);
-  std::array<double, 4> nodes;
-  std::vector<Sample> samples;
-  for (std::size_t i = 0; i < 4; ++i) {
-    nodes[i] = middle + spread * (double(i) - 1.5);
-    auto at = sample(segment, metric, nodes[i], order);
-    if (!at) return std::nullopt;
-    samples.push_back(std::move(*at));
+  const auto start = inspect(segment.from().state, metric, segment.from().tangent, order);
+  const auto end = inspect(segment.to().state, metric, segment.from().tangent, order);
+  Estimate best{.t = 0.5, .uncertainty = 0.5, .point = {}};
+  if (start && end && (start->eigenvalue < 0.0) != (end->eigenvalue < 0.0))
+    best.t = start->eigenvalue / (start->eigenvalue - end->eigenvalue);
+  best.point.state = segment.at(best.t);
+  best.point.tangent = unit(metric, segment.chord());
+  for (const double spread : {0.2, 0.04, 0.01}) {
+    auto next = interpolate(segment, metric, best.t, spread, order);
+    if (!next) break;
+    next->uncertainty = std::max(1e-3 * std::abs(next->t - best.t), 1e-12);
+    best = std::move(*next);
+    if (best.uncertainty <= 1e-12) break;
   }
-  const auto interpolated = [&](double t) -> std::optional<double> {
-    const auto weight = lagrange(nodes, t);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) sum += weight[i] * samples[i].eigenvalue;
-    return sum;
-  };
-  const double low = bracket->at - 2.0 * spread, high = bracket->at + 2.0 * spread;
-  const auto root = bracketed_root(interpolated, low, *interpolated(low), high, *interpolated(high), 1e-14);
-  if (!root) return std::nullopt;
-
-  PathPoint point;
-  point.state = {.x = Vector::Zero(samples[0].state.x.size()), .lambda = 0.0, .piece = samples[0].state.piece};
-  point.tangent = {.dx = Vector::Zero(point.state.x.size()), .dlambda = 0.0};
-  const auto weight = lagrange(nodes, root->at);
-  for (std::size_t i = 0; i < 4; ++i) {
-    point.state.x += weight[i] * samples[i].state.x;
-    point.state.lambda += weight[i] * samples[i].state.lambda;
-    point.tangent.dx += weight[i] * samples[i].tangent.dx;
-    point.tangent.dlambda += weight[i] * samples[i].tangent.dlambda;
-    point.iterations = std::max(point.iterations, samples[i].iterations);
-  }
-  point.tangent = unit(metric, std::move(point.tangent));
+  PathPoint point = std::move(best.point);
+  out.localised = best.uncertainty * std::abs(segment.chord().dlambda);
 
   const Vector weights = system_.weights(point.state.piece);
   corrector_.inspect(point.state, metric, point.tangent);
   const auto multiplicity = static_cast<Index>(std::abs(after - before));
   const auto modes = corrector_.near_null(weights, multiplicity);
-  if (!modes || modes->values.size() < multiplicity) return std::nullopt;
   out.state = point.state;
   out.along = point.tangent;
   out.multiplicity = multiplicity;
+  if (!modes || modes->vectors.cols() < multiplicity) return point;
   Vector mode = modes->vectors.col(0);
   Index largest = 0;
   mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
@@ -121,22 +98,66 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
   return point;
 }
 
-std::optional<BranchPointLocator::Sample> BranchPointLocator::sample(const Segment& segment, const Metric& metric,
-                                                                     double t, Index order) {
-  const double L = segment.length();
-  const PlaneConstraint plane(metric, segment.from().state, segment.chord(), t * L * L);
-  CorrectorResult at = corrector_.correct(segment.at(t), plane, metric, segment.from().tangent, 1e-2 * L);
-  if (!at.converged() || !at.negative) return std::nullopt;
+// The zero of the cubic through four samples around t, and the state there by the same cubic.
+std::optional<BranchPointLocator::Estimate> BranchPointLocator::interpolate(const Segment& segment,
+                                                                            const Metric& metric, double t,
+                                                                            double spread, Index order) {
+  const double middle = std::clamp(t, 1.5 * spread, 1.0 - 1.5 * spread), L = segment.length();
+  std::array<double, 4> nodes;
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < 4; ++i) {
+    nodes[i] = middle + spread * (double(i) - 1.5);
+    const PlaneConstraint plane(metric, segment.from().state, segment.chord(), nodes[i] * L * L);
+    CorrectorResult at = corrector_.correct(segment.at(nodes[i]), plane, metric, segment.from().tangent, 1e-2 * L);
+    if (!at.converged()) return std::nullopt;
+    auto sample = sampled(std::move(at), metric, segment.from().tangent, order);
+    if (!sample) return std::nullopt;
+    samples.push_back(std::move(*sample));
+  }
+  const auto eigenvalue = [&](double s) -> std::optional<double> {
+    const auto weight = lagrange(nodes, s);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) sum += weight[i] * samples[i].eigenvalue;
+    return sum;
+  };
+  const double low = std::max(0.0, nodes[0] - spread), high = std::min(1.0, nodes[3] + spread);
+  const auto root = bracketed_root(eigenvalue, low, *eigenvalue(low), high, *eigenvalue(high), 1e-14);
+  if (!root) return std::nullopt;
+
+  Estimate estimate{.t = root->at, .uncertainty = 1.0, .point = {}};
+  PathPoint& point = estimate.point;
+  point.state = {.x = Vector::Zero(samples[0].state.x.size()), .lambda = 0.0, .piece = samples[0].state.piece};
+  point.tangent = {.dx = Vector::Zero(point.state.x.size()), .dlambda = 0.0};
+  const auto weight = lagrange(nodes, root->at);
+  for (std::size_t i = 0; i < 4; ++i) {
+    point.state.x += weight[i] * samples[i].state.x;
+    point.state.lambda += weight[i] * samples[i].state.lambda;
+    point.tangent.dx += weight[i] * samples[i].tangent.dx;
+    point.tangent.dlambda += weight[i] * samples[i].tangent.dlambda;
+    point.iterations = std::max(point.iterations, samples[i].iterations);
+  }
+  point.tangent = unit(metric, std::move(point.tangent));
+  return estimate;
+}
+
+std::optional<BranchPointLocator::Sample> BranchPointLocator::inspect(const State& state, const Metric& metric,
+                                                                      const Direction& forward, Index order) {
+  return sampled(corrector_.inspect(state, metric, forward), metric, forward, order);
+}
+
+// Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least positive.
+std::optional<BranchPointLocator::Sample> BranchPointLocator::sampled(CorrectorResult at, const Metric& metric,
+                                                                      const Direction& forward, Index order) {
   constexpr Index nearest = 4;
+  if (!at.converged() || !at.negative) return std::nullopt;
   const auto eigen = corrector_.near_null(system_.weights(at.state.piece), nearest);
   if (!eigen) return std::nullopt;
-  // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least positive.
   const bool negative = *at.negative >= order;
   double value = 0.0;
   for (const double candidate : eigen->values)
     if ((candidate < 0.0) == negative && (value == 0.0 || std::abs(candidate) < std::abs(value))) value = candidate;
   if (value == 0.0) return std::nullopt;
-  if (metric.inner(at.tangent, segment.from().tangent) < 0.0) at.tangent = reversed(std::move(at.tangent));
+  if (metric.inner(at.tangent, forward) < 0.0) at.tangent = reversed(std::move(at.tangent));
   return Sample{
       .state = std::move(at.state), .tangent = std::move(at.tangent), .eigenvalue = value, .iterations = at.iterations};
 }

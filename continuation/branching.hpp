@@ -10,18 +10,14 @@
 namespace arcwall {
 
 /// Finds where K becomes singular between two points of an arc although λ does not turn there.
-///
-/// The eigenvalue that changes sign is bracketed along the arc. The point itself is interpolated from neighbours on
-/// both sides: the equations are regular there, while at the branch point itself Newton's method would lose half its
-/// digits.
 class BranchPointLocator {
  public:
   /// Both must outlive this.
   BranchPointLocator(const System& system, Corrector& corrector) : system_(system), corrector_(corrector) {}
 
-  /// `before` and `after`: negative eigenvalues at the segment's ends, not equal. Empty where a correction fails.
-  std::optional<PathPoint> locate(const Segment& segment, const Metric& metric, Index before, Index after,
-                                  BranchPoint& out);
+  /// `before` and `after`: negative eigenvalues at the segment's ends, not equal. Always gives a point inside the
+  /// segment; `out.localised` says how surely. Where no mode can be computed, `out.mode` stays empty.
+  PathPoint locate(const Segment& segment, const Metric& metric, Index before, Index after, BranchPoint& out);
 
  private:
   struct Sample {
@@ -30,7 +26,15 @@ class BranchPointLocator {
     double eigenvalue;
     int iterations;
   };
-  std::optional<Sample> sample(const Segment& segment, const Metric& metric, double t, Index order);
+  struct Estimate {
+    double t;            // as a fraction of the segment
+    double uncertainty;  // likewise
+    PathPoint point;
+  };
+  std::optional<Estimate> interpolate(const Segment& segment, const Metric& metric, double t, double spread,
+                                      Index order);
+  std::optional<Sample> inspect(const State& state, const Metric& metric, const Direction& forward, Index order);
+  std::optional<Sample> sampled(CorrectorResult at, const Metric& metric, const Direction& forward, Index order);
 
   const System& system_;
   Corrector& corrector_;

@@ -58,6 +58,7 @@ void Explorer::look_at(const Event& event) {
   known_.push_back({.state = point.state, .branch = current_});
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
+  if (point.type != BranchType::one_sided && point.mode.dx.size() == 0) return;
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
   if (point.type == BranchType::one_sided) {
     if (options_.policy == BranchPolicy::all)

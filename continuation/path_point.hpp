@@ -57,6 +57,7 @@ struct BranchPoint {
   Direction other{};            ///< unit tangent of the other branch
   std::vector<Way> rays{};      ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
   Index multiplicity = 1;       ///< of the zero eigenvalue
+  double localised = 0.0;       ///< half-width in λ of what is left uncertain
   bool discretisation = false;  ///< contacts tied to nodes make it: the continuum has none
 };
 

@@ -369,16 +369,15 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
   return at(root->at);
 }
 
-std::optional<PathPoint> Tracer::locate_branch_point(const PathPoint& to) {
+PathPoint Tracer::locate_branch_point(const PathPoint& to) {
   const Segment segment(metric_, here_, to);
   auto branching = std::make_shared<BranchPoint>();
   BranchPointLocator locator(system_, corrector_);
-  auto at = locator.locate(segment, metric_, held_.value(), to.held.value(), *branching);
-  if (!at) return std::nullopt;
-  CorrectorResult result = corrector_.inspect(at->state, metric_, at->tangent);
-  if (!result.converged()) return std::nullopt;
-  result.tangent = at->tangent;
-  result.iterations = at->iterations;
+  const PathPoint at = locator.locate(segment, metric_, held_.value(), to.held.value(), *branching);
+  CorrectorResult result = corrector_.inspect(at.state, metric_, at.tangent);
+  result.state = at.state;
+  result.tangent = at.tangent;
+  result.iterations = at.iterations;
   branching->discretisation = options_.tied_contacts && system_.multiplier_count(to.state.piece) > 0;
   located_ = std::move(branching);
   return point_of(std::move(result), here_.tangent);
@@ -400,7 +399,8 @@ Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint&
             .state = at.state,
             .arc = at.arc,
             .residual = at.residual,
-            .localised = 1e-12 * length / metric_.lambda_scale(),
+            .localised =
+                std::max(located_->localised, 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda)),
             .unstable_before = after_.unstable,
             .unstable_after = beyond.count.unstable,
             .branching = located_};

@@ -10,8 +10,8 @@ struct Section {
   double A = 0.0;                     ///< area [length²]
   double I = 0.0;                     ///< second moment of area for bending in the plane [length⁴]
   std::optional<double> height = {};  ///< along z [length]; needed where contact acts on faces
-  double G = 0.0;                     ///< shear modulus [force/length²]; needed by the theories that are flexible in shear
-  double shear_area = 0.0;            ///< area times the shear correction [length²]; likewise
+  double G = 0.0;           ///< shear modulus [force/length²]; needed by the theories that are flexible in shear
+  double shear_area = 0.0;  ///< area times the shear correction [length²]; likewise
 
   double EA() const { return E * A; }
   double EI() const { return E * I; }

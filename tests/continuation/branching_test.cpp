@@ -40,10 +40,10 @@ TraceOptions until_one() {
 
 Event branch_point_of(const System& system) {
   const TraceOptions options = until_one();
-  const Branch branch = trace(system, options, at(0.0, -1.0));
+  const Branch branch = test::trace(system, options, at(0.0, -1.0));
   EXPECT_EQ(branch.end.reason, EndReason::stop);
-  expect_branch_invariants(system, branch, options);
-  return only_event(branch, EventKind::branch_point);
+  test::expect_branch_invariants(system, branch, options);
+  return test::only_event(branch, EventKind::branch_point);
 }
 
 }  // namespace
@@ -90,9 +90,9 @@ TEST(Branching, SteppingOffLandsOnTheOtherBranchOnEitherSide) {
 TEST(Branching, AFoldIsNoBranchPoint) {
   TraceOptions options;
   options.max_points = 30;
-  const Branch branch = trace(test::fold(), options, at(1.0, -1.0));
-  EXPECT_EQ(events_of(branch, EventKind::limit_point).size(), 1U);
-  EXPECT_TRUE(events_of(branch, EventKind::branch_point).empty());
+  const Branch branch = test::trace(test::fold(), options, at(1.0, -1.0));
+  EXPECT_EQ(test::events_of(branch, EventKind::limit_point).size(), 1U);
+  EXPECT_TRUE(test::events_of(branch, EventKind::branch_point).empty());
 }
 
 }  // namespace arcwall

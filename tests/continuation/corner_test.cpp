@@ -70,7 +70,7 @@ Index with_rising_lambda(const std::vector<Ray>& found) {
 
 TEST(Corner, AStopIsLeftForwardsClosedAndBackwardsOpen) {
   const LinearContactToy toy = test::stopped_springs(2.0);
-  const State corner{.x = (Vector(2) << 1.0, 1.5).finished(), .lambda = 1.0, .piece = {0}};
+  const State corner{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0}};
   const auto found = rays(toy, corner, {0});
   ASSERT_EQ(found.size(), 2U);
   for (const Ray& ray : found) {
@@ -88,7 +88,7 @@ TEST(Corner, AStopIsLeftForwardsClosedAndBackwardsOpen) {
 
 TEST(Corner, TheSameRaysLeaveFromTheClosedPiece) {
   const LinearContactToy toy = test::stopped_springs(2.0);
-  const State corner{.x = (Vector(3) << 1.0, 1.5, 0.0).finished(), .lambda = 1.0, .piece = {1}};
+  const State corner{.x = Vector{{1.0, 1.5, 0.0}}, .lambda = 1.0, .piece = {1}};
   const auto found = rays(toy, corner, {0});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(with_rising_lambda(found), 1);
@@ -118,8 +118,7 @@ TEST(Corner, SeveralRaysAreAllFound) {
 // M = −[1 2; 2 1], a = (1, −1). λ̇ = 1: none closed ġ₂ = −1; 2 closed p₂ = −1; 1 closed p₁ = 1, ġ₂ = −3; both p₁ = −1.
 // λ̇ = −1 by symmetry; λ̇ = 0: M p < 0.
 TEST(Corner, ThereMayBeNoRay) {
-  const LinearContactToy toy =
-      rate_problem((Matrix(2, 2) << -1.0, -2.0, -2.0, -1.0).finished(), (Vector(2) << 1.0, -1.0).finished());
+  const LinearContactToy toy = rate_problem(Matrix{{-1.0, -2.0}, {-2.0, -1.0}}, Vector{{1.0, -1.0}});
   EXPECT_TRUE(rays(toy, origin(toy), all(toy)).empty());
 }
 
@@ -136,7 +135,7 @@ TEST(Corner, GuardsThatCoincideGiveEachMotionOnce) {
   LinearContactToy toy = test::stopped_springs(2.0);
   toy.G = toy.G.replicate(2, 1).eval();
   toy.gap0 = Vector::Ones(2);
-  const State corner{.x = (Vector(2) << 1.0, 1.5).finished(), .lambda = 1.0, .piece = {0, 0}};
+  const State corner{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0, 0}};
   const auto found = rays(toy, corner, {0, 1});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(with_rising_lambda(found), 1);
@@ -145,9 +144,9 @@ TEST(Corner, GuardsThatCoincideGiveEachMotionOnce) {
 TEST(Corner, StronglyClosedContactsHoldMeanwhile) {
   // The stop of the first spring carries 1; the second meets one of its own at x₂ = 2, λ = 2.
   LinearContactToy toy = test::stopped_springs(1.0);
-  toy.G = (Matrix(2, 2) << -1.0, 0.0, 0.0, -1.0).finished();
-  toy.gap0 = (Vector(2) << 1.0, 3.0).finished();
-  const State corner{.x = (Vector(3) << 1.0, 3.0, 1.0).finished(), .lambda = 2.0, .piece = {1, 0}};
+  toy.G = Matrix{{-1.0, 0.0}, {0.0, -1.0}};
+  toy.gap0 = Vector{{1.0, 3.0}};
+  const State corner{.x = Vector{{1.0, 3.0, 1.0}}, .lambda = 2.0, .piece = {1, 0}};
   const auto found = rays(toy, corner, {1});
   ASSERT_EQ(found.size(), 2U);
   for (const Ray& ray : found) {

@@ -9,14 +9,13 @@ namespace arcwall {
 
 namespace {
 
-Metric some_metric() { return {(Vector(3) << 0.5, 2.0, 0.0).finished(), 4.0}; }
+Metric some_metric() { return {Vector{{0.5, 2.0, 0.0}}, 4.0}; }
 
 }  // namespace
 
 TEST(Metric, IsTheWeightedSumWithoutMultipliers) {
   const Metric metric = some_metric();
-  const Direction a{.dx = (Vector(3) << 1.0, 2.0, 100.0).finished(), .dlambda = 8.0},
-      b{.dx = (Vector(3) << 3.0, -1.0, 7.0).finished(), .dlambda = 2.0};
+  const Direction a{.dx = Vector{{1.0, 2.0, 100.0}}, .dlambda = 8.0}, b{.dx = Vector{{3.0, -1.0, 7.0}}, .dlambda = 2.0};
   EXPECT_DOUBLE_EQ(metric.inner_x(a, b), 0.5 * 3.0 - 2.0 * 2.0);
   EXPECT_DOUBLE_EQ(metric.inner_lambda(a, b), 1.0);
   EXPECT_DOUBLE_EQ(metric.inner(a, b), -1.5);
@@ -34,13 +33,13 @@ TEST(Metric, ACovectorIsBoundedByItsDualNorm) {
     EXPECT_LE(std::abs(apply(row, d)), metric.dual_norm(row) * metric.norm(d) * (1.0 + 1e-15));
   }
   // And it is the least such bound.
-  const Direction d{.dx = (Vector(3) << 1.0, -2.0, 0.0).finished(), .dlambda = 3.0};
+  const Direction d{.dx = Vector{{1.0, -2.0, 0.0}}, .dlambda = 3.0};
   EXPECT_NEAR(metric.dual_norm(metric.row(d)), metric.norm(d), 1e-14);
 }
 
 TEST(Metric, UnitAndReversedDirections) {
   const Metric metric = some_metric();
-  const Direction d{.dx = (Vector(3) << 1.0, -2.0, 5.0).finished(), .dlambda = 3.0};
+  const Direction d{.dx = Vector{{1.0, -2.0, 5.0}}, .dlambda = 3.0};
   const Direction u = unit(metric, d);
   EXPECT_NEAR(metric.norm(u), 1.0, 1e-15);
   EXPECT_NEAR(u.dx[2] / u.dlambda, 5.0 / 3.0, 1e-15);

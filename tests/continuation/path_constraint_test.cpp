@@ -11,10 +11,10 @@ namespace {
 
 using Form = SphereConstraint::Form;
 
-const Metric metric((Vector(2) << 0.5, 2.0).finished(), 4.0);
-const State origin{.x = (Vector(2) << 1.0, -1.0).finished(), .lambda = 0.5};
-const Direction tangent = unit(metric, {.dx = (Vector(2) << 1.0, 0.4).finished(), .dlambda = 2.0});
-const State nearby{.x = (Vector(2) << 1.3, -0.8).finished(), .lambda = 0.9};
+const Metric metric(Vector{{0.5, 2.0}}, 4.0);
+const State origin{.x = Vector{{1.0, -1.0}}, .lambda = 0.5};
+const Direction tangent = unit(metric, {.dx = Vector{{1.0, 0.4}}, .dlambda = 2.0});
+const State nearby{.x = Vector{{1.3, -0.8}}, .lambda = 0.9};
 
 // The first unknown.
 struct First final : Observable {
@@ -45,7 +45,7 @@ TEST(PathConstraint, TheUpdatedPlaneStandsAcrossTheChord) {
 }
 
 TEST(PathConstraint, AdvancesToWhereTheLinearisedConstraintVanishes) {
-  const Direction particular{.dx = (Vector(2) << 0.05, 0.02).finished(), .dlambda = -0.1};
+  const Direction particular{.dx = Vector{{0.05, 0.02}}, .dlambda = -0.1};
   const PlaneConstraint plane(metric, origin, tangent, 0.2);
   const auto tau = plane.advance(nearby, particular, tangent);
   ASSERT_TRUE(tau.has_value());
@@ -85,7 +85,7 @@ TEST(SphereConstraint, TheRootIsOnTheSphereAndTheOneNearerThePreviousTangent) {
 TEST(SphereConstraint, ALineThatMissesTheSphereHasComplexRoots) {
   const SphereConstraint sphere(metric, Form::spherical, origin, tangent, 0.1);
   // From a point 1 away, along a direction normal to the way back.
-  const Direction away{.dx = (Vector(2) << std::sqrt(2.0), 0.0).finished(), .dlambda = 0.0};
+  const Direction away{.dx = Vector{{std::sqrt(2.0), 0.0}}, .dlambda = 0.0};
   const Direction line{.dx = Vector::Unit(2, 1), .dlambda = 0.0};
   EXPECT_FALSE(sphere.advance(moved(origin, away, 1.0), {.dx = Vector::Zero(2), .dlambda = 0.0}, line).has_value());
 }

@@ -11,14 +11,14 @@ namespace {
 // Two unknowns with stiffness −1 and 2, the first held by a contact.
 test::LinearContactToy held_unstable() {
   test::LinearContactToy toy;
-  toy.A = (Matrix(2, 2) << -1.0, 0.0, 0.0, 2.0).finished();
+  toy.A = Matrix{{-1.0, 0.0}, {0.0, 2.0}};
   toy.f = Vector::Ones(2);
-  toy.G = (Matrix(1, 2) << 1.0, 0.0).finished();
+  toy.G = Matrix{{1.0, 0.0}};
   toy.gap0 = Vector::Zero(1);
   return toy;
 }
 
-State with_force(double p) { return {.x = (Vector(3) << 0.0, 0.5, p).finished(), .lambda = 1.0, .piece = {1}}; }
+State with_force(double p) { return {.x = Vector{{0.0, 0.5, p}}, .lambda = 1.0, .piece = {1}}; }
 
 }  // namespace
 

@@ -248,7 +248,7 @@ TEST(Tracer, ClosesAContactWhereItTouchesAndGoesOn) {
 
 TEST(Tracer, OpensAContactWhoseForceVanishes) {
   const auto system = test::stopped_springs(2.0);
-  const State pressed{.x = (Vector(3) << 1.0, 2.0, 1.0).finished(), .lambda = 2.0, .piece = {1}};
+  const State pressed{.x = Vector{{1.0, 2.0, 1.0}}, .lambda = 2.0, .piece = {1}};
   const TraceOptions options{.step = {.first = -0.02}, .landmarks = {stop_at_lambda(0.5)}};
   const Branch branch = trace(system, options, pressed);
   const Event opens = only_event(branch, EventKind::contact_opens);
@@ -280,7 +280,7 @@ TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {
 
 TEST(Tracer, StartsOnAClosedContactWithoutForce) {
   const auto system = test::stopped_springs(2.0);
-  const State touching{.x = (Vector(2) << 1.0, 1.5).finished(), .lambda = 1.0, .piece = {0}};
+  const State touching{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0}};
   const TraceOptions options{.landmarks = {stop_at_lambda(2.0), stop_at_lambda(0.0)}};
   const Branch branch = trace(system, options, touching);
   EXPECT_NEAR(branch.last().state.lambda, 2.0, 1e-12);
@@ -289,8 +289,8 @@ TEST(Tracer, StartsOnAClosedContactWithoutForce) {
 
 TEST(Tracer, EndsAtACornerThatNoRayLeaves) {
   test::LinearContactToy system;  // the rate problem of Corner.ThereMayBeNoRay
-  system.A = (Matrix(2, 2) << -1.0, -2.0, -2.0, -1.0).finished().inverse();
-  system.f = system.A * (Vector(2) << 1.0, -1.0).finished();
+  system.A = Matrix{{-1.0, -2.0}, {-2.0, -1.0}}.inverse();
+  system.f = system.A * Vector{{1.0, -1.0}};
   system.G = Matrix::Identity(2, 2);
   system.gap0 = Vector::Zero(2);
   Tracer tracer(system, {.x = Vector::Zero(2), .lambda = 0.0, .piece = {0, 0}}, {});

@@ -28,7 +28,7 @@ SmoothToy right() {
   return toy;
 }
 
-const State somewhere{.x = (Vector(2) << 0.7, -0.4).finished(), .lambda = 0.3};
+const State somewhere{.x = Vector{{0.7, -0.4}}, .lambda = 0.3};
 
 // A system whose guard is x₀² λ, and that says so or not.
 struct Guarded final : SmoothToy {
@@ -37,7 +37,7 @@ struct Guarded final : SmoothToy {
   Index guard_count() const override { return 1; }
   Vector guards(const State& s) const override { return test::scalar(s.x[0] * s.x[0] * s.lambda); }
   Row guard_gradient(const State& s, Index) const override {
-    return {.dx = (Vector(2) << 2.0 * s.x[0] * s.lambda, 0.0).finished(), .dlambda = factor * s.x[0] * s.x[0]};
+    return {.dx = Vector{{2.0 * s.x[0] * s.lambda, 0.0}}, .dlambda = factor * s.x[0] * s.x[0]};
   }
 };
 

@@ -86,7 +86,7 @@ TEST(Ldlt, SaddlePointsHaveOneNegativePivotAMultiplierMore) {
 TEST(Ldlt, AMultiplierThatHoldsOneUnknownNeedsNoPivoting) {
   // [k −1; −1 0]: whatever k, one eigenvalue of each sign.
   for (const double k : {1.0, 1e-30, -1.0}) {
-    const Matrix A = (Matrix(2, 2) << k, -1.0, -1.0, 0.0).finished();
+    const Matrix A = Matrix{{k, -1.0}, {-1.0, 0.0}};
     Ldlt ldlt;
     ldlt.set_multiplier_count(1);
     ASSERT_EQ(ldlt.factorize(lower_triangle(A)), FactorStatus::ok);

@@ -57,12 +57,12 @@ TEST(Lu, TheSamePatternIsFactorizedAgainWithOtherValues) {
 }
 
 TEST(Lu, PivotsWhereTheDiagonalIsZero) {
-  const Matrix A = (Matrix(2, 2) << 0.0, 2.0, 1.0, 0.0).finished();
+  const Matrix A = Matrix{{0.0, 2.0}, {1.0, 0.0}};
   Lu lu;
   ASSERT_EQ(lu.factorize(sparse(A)), FactorStatus::ok);
-  Matrix X = (Matrix(2, 1) << 2.0, 3.0).finished();
+  Matrix X = Matrix{{2.0}, {3.0}};
   lu.solve(X);
-  EXPECT_EQ(X, (Matrix(2, 1) << 3.0, 1.0).finished());
+  EXPECT_EQ(X, (Matrix{{3.0}, {1.0}}));
 }
 
 TEST(Lu, FindsSingularMatricesAndEntriesThatAreNotFinite) {

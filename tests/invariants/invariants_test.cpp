@@ -64,7 +64,7 @@ TEST(Invariants, HoldOnFramesOfSeveralMeshes) {
     TraceOptions options;
     options.step.first = 0.1;
     options.max_points = 60;
-    expect_branch_invariants(*frame, trace(*frame, options), options, {.recount_every = elements > 20 ? 10 : 1});
+    expect_branch_invariants(*frame, test::trace(*frame, options), options, {.recount_every = elements > 20 ? 10 : 1});
   }
 }
 
@@ -75,7 +75,7 @@ TEST(Invariants, HoldInTheChannelOnSeveralMeshes) {
     TraceOptions options;
     options.step.first = 0.05;
     options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(9.0)};
-    expect_branch_invariants(model.system(), trace(model.system(), options), options);
+    expect_branch_invariants(model.system(), test::trace(model.system(), options), options);
   }
 }
 
@@ -94,7 +94,7 @@ TEST(Invariants, SeeAWrongUnstableCount) {
 TEST(Invariants, SeeAContactThatPulls) {
   broken() = pressed();
   State& last = broken().arcs.back().to.state;
-  last = {.x = (Vector(3) << 1.0, 1.25, -0.5).finished(), .lambda = 0.5, .piece = {1}};
+  last = {.x = Vector{{1.0, 1.25, -0.5}}, .lambda = 0.5, .piece = {1}};
   broken().arcs = {broken().arcs.back()};
   EXPECT_NONFATAL_FAILURE(expect_branch_invariants(springs(), broken(), until_two()), "pulls");
 }

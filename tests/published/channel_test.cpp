@@ -13,6 +13,8 @@ namespace arcwall {
 
 namespace {
 
+using test::trace;
+
 constexpr double half_sine = 0.00176;
 
 double shortening(const test::ContactModel& model, const State& state) {

@@ -11,6 +11,8 @@ namespace arcwall {
 
 namespace {
 
+using test::trace;
+
 struct Point {
   EventKind kind;
   double lambda, ux, uz;

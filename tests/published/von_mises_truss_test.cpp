@@ -15,6 +15,8 @@ namespace arcwall {
 
 namespace {
 
+using test::trace;
+
 struct Limit {
   TrussStrain strain;
   double load, descent;

@@ -177,9 +177,9 @@ struct LinearContactToy : System {
 /// Free: x₁ = λ, x₂ = λ (1 + 1/k). Behind the stop (λ > 1): x₁ = 1, x₂ = 1 + λ/k, p = λ − 1.
 inline LinearContactToy stopped_springs(double k) {
   LinearContactToy toy;
-  toy.A = (Matrix(2, 2) << 1.0 + k, -k, -k, k).finished();
+  toy.A = Matrix{{1.0 + k, -k}, {-k, k}};
   toy.f = Vector::Unit(2, 1);
-  toy.G = (Matrix(1, 2) << -1.0, 0.0).finished();
+  toy.G = Matrix{{-1.0, 0.0}};
   toy.gap0 = Vector::Ones(1);
   return toy;
 }
