@@ -88,6 +88,15 @@ Section section_of(const deck::Deck& deck, const deck::Member& member) {
   return section;
 }
 
+// What can move without strain does not depend on how stiff a member is in bending and shear, but shows best where both
+// are as stiff as the axis: in a thin beam shear is far stiffer than bending.
+Section balanced(Section section, double length) {
+  section.I = section.A * length * length;
+  section.G = section.E;
+  section.shear_area = section.A;
+  return section;
+}
+
 void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
   for (const deck::Member& member : deck.members) {
     const auto theory = theory_of(member, problems);
@@ -109,6 +118,8 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
                                   .hinge_to = member.hinge_to};
     description.axis =
         make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
+    if (elements && *theory == Theory::exact)
+      description.section = balanced(description.section, description.axis->length());
     for (const deck::Imperfection& wave : member.imperfections)
       description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
     out.places.members[member.name] = out.builder.add_member(std::move(description));

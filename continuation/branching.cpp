@@ -48,22 +48,18 @@ Rate eigenvalue_rate(const System& system, const State& state, const Direction& 
 
 // Newton's method is at a loss on the branch point itself, where K is singular, and the nearer the less sure. So the
 // eigenvalue is interpolated from points at a distance, which shrinks from level to level as long as all goes well.
-PathPoint BranchPointLocator::locate(const Segment& segment, const Metric& metric, Index before, Index after,
-                                     BranchPoint& out) {
+std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, const Metric& metric, Index before,
+                                                    Index after, BranchPoint& out) {
   const Index order = std::max(before, after);  // the eigenvalue, counted from the least, that changes sign
-  const auto start = inspect(segment.from().state, metric, segment.from().tangent, order);
-  const auto end = inspect(segment.to().state, metric, segment.from().tangent, order);
-  Estimate best{.t = 0.5, .uncertainty = 0.5, .point = {}};
-  if (start && end && (start->eigenvalue < 0.0) != (end->eigenvalue < 0.0))
-    best.t = start->eigenvalue / (start->eigenvalue - end->eigenvalue);
-  best.point.state = segment.at(best.t);
-  best.point.tangent = unit(metric, segment.chord());
-  for (const double spread : {0.2, 0.04, 0.01}) {
+  constexpr double short_segment = 1e-4;        // [path metric]
+  Estimate best = bisect(segment, metric, order, after > before);
+  // No point of the path between the ends: they may lie on different branches, which shorter steps will show.
+  if (best.uncertainty == 1.0 && segment.length() > short_segment) return std::nullopt;
+  for (const double spread : {0.04, 0.01}) {
     auto next = interpolate(segment, metric, best.t, spread, order);
-    if (!next) break;
+    if (!next || std::abs(next->t - best.t) > best.uncertainty) break;
     next->uncertainty = std::max(1e-3 * std::abs(next->t - best.t), 1e-12);
     best = std::move(*next);
-    if (best.uncertainty <= 1e-12) break;
   }
   PathPoint point = std::move(best.point);
   out.localised = best.uncertainty * std::abs(segment.chord().dlambda);
@@ -98,19 +94,39 @@ PathPoint BranchPointLocator::locate(const Segment& segment, const Metric& metri
   return point;
 }
 
+// A few halvings by the sign of the eigenvalue, then the straight line through the ends of what is left.
+BranchPointLocator::Estimate BranchPointLocator::bisect(const Segment& segment, const Metric& metric, Index order,
+                                                        bool falls) {
+  struct End {
+    double t, eigenvalue;
+  };
+  std::optional<End> low, high;
+  double from = 0.0, to = 1.0;
+  for (int halving = 0; halving < 4; ++halving) {
+    const double t = 0.5 * (from + to);
+    const auto sample = sample_at(segment, metric, t, order);
+    if (!sample) break;
+    const bool before = (sample->eigenvalue > 0.0) == falls;
+    (before ? low : high) = End{.t = t, .eigenvalue = sample->eigenvalue};
+    (before ? from : to) = t;
+  }
+  Estimate estimate{.t = 0.5 * (from + to), .uncertainty = to - from, .point = {}};
+  if (low && high) estimate.t = low->t + (high->t - low->t) * low->eigenvalue / (low->eigenvalue - high->eigenvalue);
+  estimate.point.state = segment.at(estimate.t);
+  estimate.point.tangent = unit(metric, segment.chord());
+  return estimate;
+}
+
 // The zero of the cubic through four samples around t, and the state there by the same cubic.
 std::optional<BranchPointLocator::Estimate> BranchPointLocator::interpolate(const Segment& segment,
                                                                             const Metric& metric, double t,
                                                                             double spread, Index order) {
-  const double middle = std::clamp(t, 1.5 * spread, 1.0 - 1.5 * spread), L = segment.length();
+  const double middle = std::clamp(t, 1.5 * spread, 1.0 - 1.5 * spread);
   std::array<double, 4> nodes;
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < 4; ++i) {
     nodes[i] = middle + spread * (double(i) - 1.5);
-    const PlaneConstraint plane(metric, segment.from().state, segment.chord(), nodes[i] * L * L);
-    CorrectorResult at = corrector_.correct(segment.at(nodes[i]), plane, metric, segment.from().tangent, 1e-2 * L);
-    if (!at.converged()) return std::nullopt;
-    auto sample = sampled(std::move(at), metric, segment.from().tangent, order);
+    auto sample = sample_at(segment, metric, nodes[i], order);
     if (!sample) return std::nullopt;
     samples.push_back(std::move(*sample));
   }
@@ -140,9 +156,15 @@ std::optional<BranchPointLocator::Estimate> BranchPointLocator::interpolate(cons
   return estimate;
 }
 
-std::optional<BranchPointLocator::Sample> BranchPointLocator::inspect(const State& state, const Metric& metric,
-                                                                      const Direction& forward, Index order) {
-  return sampled(corrector_.inspect(state, metric, forward), metric, forward, order);
+// The path across the chord at t. A point far from the interpolated one lies on another branch.
+std::optional<BranchPointLocator::Sample> BranchPointLocator::sample_at(const Segment& segment, const Metric& metric,
+                                                                        double t, Index order) {
+  const double L = segment.length();
+  const PlaneConstraint plane(metric, segment.from().state, segment.chord(), t * L * L);
+  const State guess = segment.at(t);
+  CorrectorResult at = corrector_.correct(guess, plane, metric, segment.from().tangent, 1e-2 * L);
+  if (!at.converged() || metric.norm(difference(at.state, guess)) > 0.05 * L) return std::nullopt;
+  return sampled(std::move(at), metric, segment.from().tangent, order);
 }
 
 // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least positive.

@@ -15,9 +15,11 @@ class BranchPointLocator {
   /// Both must outlive this.
   BranchPointLocator(const System& system, Corrector& corrector) : system_(system), corrector_(corrector) {}
 
-  /// `before` and `after`: negative eigenvalues at the segment's ends, not equal. Always gives a point inside the
-  /// segment; `out.localised` says how surely. Where no mode can be computed, `out.mode` stays empty.
-  PathPoint locate(const Segment& segment, const Metric& metric, Index before, Index after, BranchPoint& out);
+  /// `before` and `after`: negative eigenvalues at the segment's ends, not equal. Gives a point inside the segment;
+  /// `out.localised` says how surely. Where no mode can be computed, `out.mode` stays empty. Empty if the ends do not seem
+  /// to belong to one arc.
+  std::optional<PathPoint> locate(const Segment& segment, const Metric& metric, Index before, Index after,
+                                  BranchPoint& out);
 
  private:
   struct Sample {
@@ -31,9 +33,10 @@ class BranchPointLocator {
     double uncertainty;  // likewise
     PathPoint point;
   };
+  Estimate bisect(const Segment& segment, const Metric& metric, Index order, bool falls);
   std::optional<Estimate> interpolate(const Segment& segment, const Metric& metric, double t, double spread,
                                       Index order);
-  std::optional<Sample> inspect(const State& state, const Metric& metric, const Direction& forward, Index order);
+  std::optional<Sample> sample_at(const Segment& segment, const Metric& metric, double t, Index order);
   std::optional<Sample> sampled(CorrectorResult at, const Metric& metric, const Direction& forward, Index order);
 
   const System& system_;

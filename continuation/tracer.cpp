@@ -369,15 +369,16 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
   return at(root->at);
 }
 
-PathPoint Tracer::locate_branch_point(const PathPoint& to) {
+std::optional<PathPoint> Tracer::locate_branch_point(const PathPoint& to) {
   const Segment segment(metric_, here_, to);
   auto branching = std::make_shared<BranchPoint>();
   BranchPointLocator locator(system_, corrector_);
-  const PathPoint at = locator.locate(segment, metric_, held_.value(), to.held.value(), *branching);
-  CorrectorResult result = corrector_.inspect(at.state, metric_, at.tangent);
-  result.state = at.state;
-  result.tangent = at.tangent;
-  result.iterations = at.iterations;
+  const auto at = locator.locate(segment, metric_, held_.value(), to.held.value(), *branching);
+  if (!at) return std::nullopt;
+  CorrectorResult result = corrector_.inspect(at->state, metric_, at->tangent);
+  result.state = at->state;
+  result.tangent = at->tangent;
+  result.iterations = at->iterations;
   branching->discretisation = options_.tied_contacts && system_.multiplier_count(to.state.piece) > 0;
   located_ = std::move(branching);
   return point_of(std::move(result), here_.tangent);

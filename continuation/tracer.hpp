@@ -134,7 +134,7 @@ class Tracer {
   bool land(Step& step, GuardCrossing crossing);
 
   bool several_singular_points(const Segment& segment) const;
-  PathPoint locate_branch_point(const PathPoint& to);
+  std::optional<PathPoint> locate_branch_point(const PathPoint& to);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);

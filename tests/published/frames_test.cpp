@@ -28,8 +28,9 @@ struct Model {
 test::Branch traced(const Model& model, TraceOptions& options) {
   options.step.first = model.first_step;
   options.landmarks = {model.stop};
-  return trace(*model.structure, options,
-               {{.quantity = test::displacement(*model.structure, model.loaded, Freedom::z), .label = "w"}});
+  return trace(
+      *model.structure, options,
+      std::vector<Watch>{{.quantity = test::displacement(*model.structure, model.loaded, Freedom::z), .label = "w"}});
 }
 
 // The events of the two kinds in their order, against the expected ones.

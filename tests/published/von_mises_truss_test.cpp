@@ -37,7 +37,7 @@ TEST(VonMisesTruss, LimitLoadsMatchTheClosedFormsForAllStrains) {
     const auto w = test::displacement(*truss, 1, Freedom::z);
     TraceOptions options;
     options.landmarks.push_back({.quantity = w, .value = -2.3, .stops = true, .label = "w"});
-    const test::Branch branch = trace(*truss, options, {{.quantity = w, .label = "w"}});
+    const test::Branch branch = trace(*truss, options, std::vector<Watch>{{.quantity = w, .label = "w"}});
 
     const auto found = events_of(branch, EventKind::limit_point);
     ASSERT_EQ(found.size(), 2U);

@@ -13,7 +13,7 @@ State rest(const System& system) {
 
 Branch trace(const System& system, const TraceOptions& options, const State& start, std::vector<Watch> watched) {
   Tracer tracer(system, start, options, std::move(watched));
-  Branch branch;
+  Branch branch{.lambda_scale = tracer.lambda_scale()};
   while (auto arc = tracer.next()) {
     branch.arcs.push_back(std::move(*arc));
     if (branch.arcs.size() > 20'000) tracer.stop({.reason = EndReason::interrupted, .detail = "too long for a test"});

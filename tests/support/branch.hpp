@@ -10,6 +10,7 @@ namespace arcwall::test {
 struct Branch {
   std::vector<Arc> arcs{};
   BranchEnd end{};
+  double lambda_scale = 1.0;  ///< λ₀ of the path metric
 
   const PathPoint& last() const { return arcs.back().to; }
 };

@@ -29,6 +29,7 @@ std::optional<Index> dense_unstable_count(const System& system, const State& sta
   const Matrix whole = full(now.K);
   const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
   const Vector scale = whole.diagonal().head(n).cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  if (m >= n) return 0;
   Matrix K = scale.asDiagonal() * whole.topLeftCorner(n, n) * scale.asDiagonal();
   if (m > 0) {
     Matrix G = whole.bottomLeftCorner(m, n) * scale.asDiagonal();

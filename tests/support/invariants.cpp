@@ -18,7 +18,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // path metric, and arithmetic on x itself is sure to a few ε. In forces that is |K| times as much, which grows like
 // EI/h³ with finer meshes although the displacements are as good as before.
 Vector residual_allowance(const System& system, const State& state, const Linearization& now,
-                          const TraceOptions& options) {
+                          const TraceOptions& options, double lambda_scale) {
   const Vector weights = system.weights(state.piece);
   Vector off(state.x.size());
   for (Index i = 0; i < off.size(); ++i) {
@@ -28,13 +28,15 @@ Vector residual_allowance(const System& system, const State& state, const Linear
   SparseMatrix magnitude = now.K;
   magnitude.coeffs() = magnitude.coeffs().abs();
   return magnitude.selfadjointView<Eigen::Lower>() * off +
-         (16.0 * epsilon * std::abs(state.lambda)) * now.F_lambda.cwiseAbs();
+         (options.corrector.tolerance * lambda_scale + 16.0 * epsilon * std::abs(state.lambda)) *
+             now.F_lambda.cwiseAbs();
 }
 
-void expect_equilibrium(const System& system, const PathPoint& point, const TraceOptions& options) {
+void expect_equilibrium(const System& system, const PathPoint& point, const TraceOptions& options,
+                        double lambda_scale) {
   Linearization now;
   system.linearize(point.state, now);
-  const Vector allowed = residual_allowance(system, point.state, now, options);
+  const Vector allowed = residual_allowance(system, point.state, now, options, lambda_scale);
   Index worst = 0;
   const double excess = (now.F.cwiseAbs() - allowed).maxCoeff(&worst);
   EXPECT_LE(excess, 0.0) << "unknown " << worst << ": |F| = " << std::abs(now.F[worst]) << ", allowed "
@@ -103,7 +105,7 @@ void expect_branch_invariants(const System& system, const Branch& branch, const 
     SCOPED_TRACE("point " + std::to_string(i) + ", lambda = " + std::to_string(branch.arcs[i].to.state.lambda));
     const Arc& arc = branch.arcs[i];
     ASSERT_EQ(arc.to.state.x.size(), system.size(arc.to.state.piece));
-    expect_equilibrium(system, arc.to, options);
+    expect_equilibrium(system, arc.to, options, branch.lambda_scale);
     expect_side_conditions(system, arc.to, options.guard_tolerance);
     if (i % static_cast<std::size_t>(what.recount_every) == 0) expect_count(system, arc, options);
     if (i == 0) continue;
