@@ -10,6 +10,7 @@ function(arcwall_library)
   target_sources(${target} PRIVATE ${ARG_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
   target_include_directories(${target} INTERFACE
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/arcwall>)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:arcwall_warnings>)
   install(TARGETS ${target} EXPORT arcwallTargets

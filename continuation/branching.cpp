@@ -52,6 +52,7 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
                                                     Index after, BranchPoint& out) {
   const Index order = std::max(before, after);  // the eigenvalue, counted from the least, that changes sign
   constexpr double short_segment = 1e-4;        // [path metric]
+  seen_.clear();
   Estimate best = bisect(segment, metric, order, after > before);
   // No point of the path between the ends: they may lie on different branches, which shorter steps will show.
   if (best.uncertainty == 1.0 && segment.length() > short_segment) return std::nullopt;
@@ -61,8 +62,19 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
     next->uncertainty = std::max(1e-3 * std::abs(next->t - best.t), 1e-12);
     best = std::move(*next);
   }
-  PathPoint point = std::move(best.point);
   out.localised = best.uncertainty * std::abs(segment.chord().dlambda);
+  PathPoint point = std::move(best.point);
+  // Where the path bends too sharply to be interpolated, the nearest of its own points has to do.
+  constexpr double on_the_path = 1e-8;
+  if (!(corrector_.inspect(point.state, metric, point.tangent).residual <= on_the_path)) {
+    const auto nearest = std::min_element(seen_.begin(), seen_.end(), [&](const Seen& a, const Seen& b) {
+      return std::abs(a.t - best.t) < std::abs(b.t - best.t);
+    });
+    if (nearest == seen_.end()) return std::nullopt;
+    out.localised = std::max(out.localised, std::abs((nearest->t - best.t) * segment.chord().dlambda));
+    point.state = nearest->sample.state;
+    point.tangent = nearest->sample.tangent;
+  }
 
   const Vector weights = system_.weights(point.state.piece);
   corrector_.inspect(point.state, metric, point.tangent);
@@ -98,22 +110,33 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
 BranchPointLocator::Estimate BranchPointLocator::bisect(const Segment& segment, const Metric& metric, Index order,
                                                         bool falls) {
   struct End {
-    double t, eigenvalue;
+    double t;
+    Sample sample;
   };
   std::optional<End> low, high;
   double from = 0.0, to = 1.0;
   for (int halving = 0; halving < 4; ++halving) {
     const double t = 0.5 * (from + to);
-    const auto sample = sample_at(segment, metric, t, order);
+    auto sample = sample_at(segment, metric, t, order);
     if (!sample) break;
     const bool before = (sample->eigenvalue > 0.0) == falls;
-    (before ? low : high) = End{.t = t, .eigenvalue = sample->eigenvalue};
+    (before ? low : high) = End{.t = t, .sample = std::move(*sample)};
     (before ? from : to) = t;
   }
+  // The point is one of the path's own: the equations hold there, if not quite the vanishing of the eigenvalue.
   Estimate estimate{.t = 0.5 * (from + to), .uncertainty = to - from, .point = {}};
-  if (low && high) estimate.t = low->t + (high->t - low->t) * low->eigenvalue / (low->eigenvalue - high->eigenvalue);
-  estimate.point.state = segment.at(estimate.t);
-  estimate.point.tangent = unit(metric, segment.chord());
+  if (low && high) {
+    const double v0 = low->sample.eigenvalue, v1 = high->sample.eigenvalue;
+    estimate.t = low->t + (high->t - low->t) * v0 / (v0 - v1);
+  }
+  if (const auto& end = low ? low : high) {
+    estimate.point.state = end->sample.state;
+    estimate.point.tangent = end->sample.tangent;
+    estimate.point.iterations = end->sample.iterations;
+  } else {
+    estimate.point.state = segment.from().state;
+    estimate.point.tangent = segment.from().tangent;
+  }
   return estimate;
 }
 
@@ -164,7 +187,9 @@ std::optional<BranchPointLocator::Sample> BranchPointLocator::sample_at(const Se
   const State guess = segment.at(t);
   CorrectorResult at = corrector_.correct(guess, plane, metric, segment.from().tangent, 1e-2 * L);
   if (!at.converged() || metric.norm(difference(at.state, guess)) > 0.05 * L) return std::nullopt;
-  return sampled(std::move(at), metric, segment.from().tangent, order);
+  auto sample = sampled(std::move(at), metric, segment.from().tangent, order);
+  if (sample) seen_.push_back({.t = t, .sample = *sample});
+  return sample;
 }
 
 // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least positive.

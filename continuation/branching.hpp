@@ -41,6 +41,11 @@ class BranchPointLocator {
 
   const System& system_;
   Corrector& corrector_;
+  struct Seen {
+    double t;
+    Sample sample;
+  };
+  std::vector<Seen> seen_;  // on the segment under way
 };
 
 /// A first point on a bifurcated branch.

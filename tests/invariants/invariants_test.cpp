@@ -109,7 +109,9 @@ TEST(Invariants, SeeALengthThatDecreases) {
 TEST(Invariants, SeeALimitPointBesideTheLimit) {
   broken() = folded();
   const std::size_t i = at_event(broken(), EventKind::limit_point);
-  broken().arcs[i].events[0].state.lambda = broken().arcs[i + 1].to.state.lambda - 1e-6;
+  const double before = broken().arcs[i - 1].to.state.lambda, after = broken().arcs[i + 1].to.state.lambda;
+  ASSERT_GT(std::abs(after - before), 1e-6);
+  broken().arcs[i].events[0].state.lambda = 0.5 * (before + after);
   EXPECT_NONFATAL_FAILURE(expect_branch_invariants(fold(), broken(), short_run()), "lambda");
 }
 

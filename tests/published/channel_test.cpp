@@ -149,26 +149,23 @@ TEST(Channel, APerfectColumnStaysStraightAndCountsItsBucklingModes) {
   const test::Branch branch = trace(model.structure(), options);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   EXPECT_NEAR(branch.last().state.lambda, 8.0, 1e-12);
-  std::vector<Index> counts;
   for (const Arc& arc : branch.arcs) {
     EXPECT_NEAR(shortening(model, arc.to.state), arc.to.state.lambda * 2.0 / 210.0, 1e-12);
     EXPECT_NEAR(middle(model, arc.to.state), 0.0, 1e-12);
-    if (!arc.to.count.unstable) continue;
-    if (counts.empty() || counts.back() != *arc.to.count.unstable) counts.push_back(*arc.to.count.unstable);
   }
-  EXPECT_EQ(counts, (std::vector<Index>{0, 1, 2, 3, 4}));
   const auto buckling = events_of(branch, EventKind::branch_point);
   ASSERT_EQ(buckling.size(), 4U);
   for (int n = 1; n <= 4; ++n) {
-    // The deflection converges with order 4: the load of mode n is off by less than (n π/20)⁴/100.
+    // Hermite cubics overestimate the load of a half wave number k by (k h)⁴/720 to first order.
     const Event& event = buckling[static_cast<std::size_t>(n) - 1];
-    EXPECT_NEAR(event.state.lambda / buckling_load(n), 1.0, std::pow(n * pi / 20.0, 4) / 100.0);
+    EXPECT_NEAR(event.state.lambda / buckling_load(n), 1.0, std::pow(n * pi / 20.0, 4) / 600.0);
     EXPECT_EQ(event.unstable_before, n - 1);
     EXPECT_EQ(event.unstable_after, n);
     ASSERT_NE(event.branching, nullptr);
     EXPECT_EQ(event.branching->type, BranchType::symmetric);
     EXPECT_EQ(event.branching->multiplicity, 1);
   }
+  EXPECT_EQ(branch.last().count.unstable, 4);
   EXPECT_TRUE(events_of(branch, EventKind::limit_point).empty());
   expect_branch_invariants(model.structure(), branch, options);
 }

@@ -79,7 +79,7 @@ TEST(WilliamsToggle, LimitLoadsAreThoseOfTheElastica) {
   expect_points(model, branch,
                 {{EventKind::limit_point, 33.8703851779, 0.0, -0.232156872412},
                  {EventKind::limit_point, 31.2817744575, 0.0, -0.391594258130}},
-                1e-4, 1e-5);
+                8e-5, 2e-6);
   expect_branch_invariants(*model.structure, branch, options);
 }
 
@@ -87,7 +87,7 @@ TEST(LeesFrame, LimitPointsAndSnapBacksAreThoseOfTheElastica) {
   const Model model = lee(40);
   TraceOptions options;
   const test::Branch branch = traced(model, options);
-  expect_points(model, branch, lee_points, 2e-5, 2e-3);
+  expect_points(model, branch, lee_points, 6e-7, 6e-6);
   const auto limits = events_of(branch, EventKind::limit_point);
   EXPECT_EQ(limits.at(0).unstable_before, 0);
   EXPECT_EQ(limits.at(0).unstable_after, 1);
@@ -106,7 +106,7 @@ TEST(DeepArch, LimitPointsAndSnapBacksAreThoseOfTheElastica) {
                  {EventKind::displacement_limit, 559.219378191646, -64.963819621710, -120.388749570584},
                  {EventKind::displacement_limit, 8.711863197127, -61.064543757440, -118.479972180842},
                  {EventKind::limit_point, -73.051143418756, -57.067750595019, -122.065270509795}},
-                2e-3, 1e-3);
+                3.5e-3, 8e-5);
   expect_branch_invariants(*model.structure, branch, options);
 }
 
@@ -122,7 +122,7 @@ TEST(LeesFrame, AnyGreatestStepFindsTheSameFourPointsSlow) {
       options.step.max = max;
       const test::Branch branch = traced(model, options);
       EXPECT_EQ(branch.end.reason, EndReason::stop);
-      expect_points(model, branch, lee_points, 2e-4, 2e-2);
+      expect_points(model, branch, lee_points, 8e-6, 1e-4);
       std::vector<Event> events = events_of(branch);
       if (first.empty()) first = events;
       ASSERT_EQ(events.size(), first.size());
