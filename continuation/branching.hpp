@@ -16,8 +16,8 @@ class BranchPointLocator {
   BranchPointLocator(const System& system, Corrector& corrector) : system_(system), corrector_(corrector) {}
 
   /// `before` and `after`: negative eigenvalues at the segment's ends, not equal. Gives a point inside the segment;
-  /// `out.localised` says how surely. Where no mode can be computed, `out.mode` stays empty. Empty if the ends do not seem
-  /// to belong to one arc.
+  /// `out.localised` says how surely. Where no mode can be computed, `out.mode` stays empty. Empty if the ends do not
+  /// seem to belong to one arc.
   std::optional<PathPoint> locate(const Segment& segment, const Metric& metric, Index before, Index after,
                                   BranchPoint& out);
 

@@ -27,8 +27,9 @@ TEST(EventsJson, NamesDeckVersionAndBranches) {
   EXPECT_EQ(keys(json), (std::vector<std::string>{"deck", "version", "branches", "events"}));
   EXPECT_EQ(json["deck"], "sample.toml");
   EXPECT_EQ(json["version"], program_version());
-  EXPECT_EQ(json["branches"].dump(),
-            R"([{"id":0,"parent":null,"origin":null,"mirrored":false,"points":3,"lambda":[0.0,0.1],"end":{"reason":"stop","detail":"mid = 0.2"}}])");
+  EXPECT_EQ(
+      json["branches"].dump(),
+      R"([{"id":0,"parent":null,"origin":null,"mirrored":false,"points":3,"lambda":[0.0,0.1],"end":{"reason":"stop","detail":"mid = 0.2"}}])");
 }
 
 TEST(EventsJson, AnEventHasTheKeysOfItsKind) {
