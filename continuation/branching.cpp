@@ -64,9 +64,11 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
   }
   out.localised = best.uncertainty * std::abs(segment.chord().dlambda);
   PathPoint point = std::move(best.point);
-  // Where the path bends too sharply to be interpolated, the nearest of its own points has to do.
+  // Where the path bends too sharply to be interpolated, shorter steps will show more, and at last the nearest of its
+  // own points has to do.
   constexpr double on_the_path = 1e-8;
-  if (!(corrector_.inspect(point.state, metric, point.tangent).residual <= on_the_path)) {
+  if (!(corrector_.inspect(point.state, metric, point.tangent).residual <= on_the_path) || best.uncertainty > 0.01) {
+    if (segment.length() > short_segment) return std::nullopt;
     const auto nearest = std::min_element(seen_.begin(), seen_.end(), [&](const Seen& a, const Seen& b) {
       return std::abs(a.t - best.t) < std::abs(b.t - best.t);
     });

@@ -10,6 +10,7 @@ namespace arcwall {
 namespace {
 
 constexpr int max_landings = 100;  // guards that turn out to come before the one landed on
+constexpr double together = 1e3;   // guard tolerances within which guards that are landed on in turn are one corner
 constexpr int max_standing = 50;
 constexpr double same_place = 1e-8;      // in the path metric
 constexpr double passing = 1e-5;         // likewise, of points on a path near which it is singular
@@ -105,8 +106,7 @@ std::optional<Arc> Tracer::begin() {
   here_ = point_of(std::move(start), forward);
   Arc arc;
   if (system_.guard_count() > 0 && !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
-    here_.tangent = reversed(here_.tangent);  // no way led here: any may be taken
-    if (!turn_corner(here_, -1, arc.events)) return std::nullopt;
+    if (!turn_corner(here_, -1, 0.0, arc.events)) return std::nullopt;
   }
   here_.count = counter_.count(here_.state, std::nullopt);
   signs_ = signs_at(here_);
@@ -195,7 +195,7 @@ std::optional<Arc> Tracer::advance(double s) {
   if (step->corner && !end_) {
     standing_ = length <= options_.guard_tolerance ? standing_ + 1 : 0;
     const PathPoint before = to;
-    if (turn_corner(to, step->guard, arc.events)) {
+    if (turn_corner(to, step->guard, step->slack, arc.events)) {
       const std::vector<int> turned = signs_at(to);
       for (std::size_t i = 0; i < turned.size(); ++i)
         if (turned[i] != 0) signs_[i] = turned[i];
@@ -278,19 +278,25 @@ std::optional<Tracer::GuardCrossing> Tracer::first_crossing(const Segment& segme
 
 // Solves for the guard's zero, and for that of any guard that turns out to come before.
 bool Tracer::land(Step& step, GuardCrossing crossing) {
+  // Contacts that should vanish together miss each other by round-off, more so where a mode is almost neutral: then
+  // none of the landings leaves all guards fulfilled to the last digit, and the best of them is the corner.
+  std::optional<Step> nearly;
   for (int landing = 0; landing < max_landings; ++landing) {
     const Segment segment(metric_, here_, step.to);
     auto at = correct_onto(GuardConstraint(system_, crossing.guard), segment, crossing.t);
-    if (!at) return false;
+    if (!at) break;
     step.corner = true;
     step.guard = crossing.guard;
     step.to = std::move(*at);
-    if ((step.to.guards.array() >= -options_.guard_tolerance).all()) return true;
+    step.slack = std::max(0.0, -step.to.guards.minCoeff());
+    if (step.slack <= options_.guard_tolerance) return true;
+    if (step.slack <= together * options_.guard_tolerance && (!nearly || step.slack < nearly->slack)) nearly = step;
     const auto before = first_crossing(Segment(metric_, here_, step.to));
-    if (!before) return false;
+    if (!before || (nearly && landing >= 3)) break;
     crossing = *before;
   }
-  return false;
+  if (nearly) step = std::move(*nearly);
+  return step.corner && step.slack <= together * options_.guard_tolerance;
 }
 
 std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, double t) {
@@ -422,13 +428,13 @@ Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint&
 
 // Leaves a corner by one of its rays; `at` becomes the same point on that ray's piece. False, and the branch ends, if
 // there is none.
-bool Tracer::turn_corner(PathPoint& at, Index landed, std::vector<Event>& events) {
+bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events) {
   if (standing_ > max_standing) {
     end_ = {.reason = EndReason::no_ray, .detail = "the contacts keep changing at one point; try a finer mesh"};
     return false;
   }
   const PathPoint before = at;
-  std::vector<Index> weak = system_.weak_guards(at.state, options_.guard_tolerance);
+  std::vector<Index> weak = system_.weak_guards(at.state, std::max(options_.guard_tolerance, 2.0 * slack));
   if (landed >= 0 && std::find(weak.begin(), weak.end(), landed) == weak.end()) weak.push_back(landed);
   std::optional<Index> unstable;
   const auto ray = choose(rays_of(system_, at.state, weak, options_.corner), at, unstable);

@@ -115,8 +115,9 @@ class Tracer {
   struct Step {
     PathPoint to;
     bool corner = false;
-    Index guard = -1;   // landed on
-    double turn = 0.0;  // of the tangent [rad]
+    Index guard = -1;    // landed on
+    double turn = 0.0;   // of the tangent [rad]
+    double slack = 0.0;  // by how much other guards are violated at the corner: they belong to it
   };
 
   std::optional<Arc> begin();
@@ -140,7 +141,7 @@ class Tracer {
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);
   Event event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, double length) const;
 
-  bool turn_corner(PathPoint& at, Index landed, std::vector<Event>& events);
+  bool turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events);
   std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);
   Event one_sided_branch_point(const PathPoint& before, const PathPoint& after) const;
   Direction open_direction(const Direction& direction, const Piece& piece) const;

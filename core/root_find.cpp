@@ -66,7 +66,9 @@ std::optional<Root> bracketed_root(const std::function<std::optional<double>(dou
   const auto [left, right] = a < b ? boost::math::tools::toms748_solve(value, a, b, fa, fb, narrow, evaluations)
                                    : boost::math::tools::toms748_solve(value, b, a, fb, fa, narrow, evaluations);
   if (failed) return std::nullopt;
-  return Root{.at = best, .half_width = 0.5 * (right - left)};
+  // A value near zero far from the bracket says nothing: f may touch zero elsewhere.
+  const double middle = 0.5 * (left + right);
+  return Root{.at = best >= left && best <= right ? best : middle, .half_width = 0.5 * (right - left)};
 }
 
 std::optional<double> first_cubic_zero(double v0, double d0, double v1, double d1) {

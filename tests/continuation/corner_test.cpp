@@ -111,8 +111,8 @@ TEST(Corner, SeveralRaysAreAllFound) {
   EXPECT_EQ(with_rising_lambda(found), 0);
   std::vector<Piece> pieces;
   for (const Ray& ray : found) pieces.push_back(ray.piece);
-  std::sort(pieces.begin(), pieces.end());
-  EXPECT_EQ(pieces, (std::vector<Piece>{{0, 0}, {0, 1}, {1, 0}, {1, 1}}));
+  const std::vector<Piece> expected{{0, 0}, {0, 1}, {1, 0}, {1, 1}};
+  EXPECT_TRUE(std::is_permutation(pieces.begin(), pieces.end(), expected.begin(), expected.end()));
 }
 
 // M = −[1 2; 2 1], a = (1, −1). λ̇ = 1: none closed ġ₂ = −1; 2 closed p₂ = −1; 1 closed p₁ = 1, ġ₂ = −3; both p₁ = −1.

@@ -184,8 +184,8 @@ TEST(Channel, UnstableCountsOfAPerfectColumnChangeAtTheBucklingLoads) {
 }
 
 // An imperfect column bends away before the buckling load, however small the imperfection: the path is connected, and
-// the straight branch beyond is another. The perfect beam touches at 0.435739888353; the imperfection moves that by
-// much less than itself over the gap, and the mesh by some 1e-8.
+// the straight branch beyond is another. The perfect beam touches at 0.435739888353, the one with 0.00176 earlier by
+// 2.888 times that; the curvature between leaves a thousandth of it, the mesh some 1e-9.
 TEST(Channel, ASmallImperfectionBendsTheColumnToTheWall) {
   for (const double amplitude : {1e-5, 1e-6, 1e-7}) {
     SCOPED_TRACE(amplitude);
@@ -196,7 +196,7 @@ TEST(Channel, ASmallImperfectionBendsTheColumnToTheWall) {
     EXPECT_NEAR(branch.last().state.lambda, 3.0, 1e-12);
     const auto closes = events_of(branch, EventKind::contact_closes);
     ASSERT_FALSE(closes.empty());
-    EXPECT_NEAR(closes[0].state.lambda, 0.435739888353, 1e-8 + amplitude);
+    EXPECT_NEAR(closes[0].state.lambda, 0.435739888353 - 2.888 * amplitude, 5e-9 + 0.005 * amplitude);
     EXPECT_NEAR(middle(model, closes[0].state), 0.15, 1e-11);
     expect_branch_invariants(model.system(), branch, options, {.recount_every = 10});
   }
