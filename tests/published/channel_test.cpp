@@ -190,10 +190,10 @@ TEST(Channel, ASmallImperfectionBendsTheColumnToTheWall) {
   for (const double amplitude : {1e-5, 1e-6, 1e-7}) {
     SCOPED_TRACE(amplitude);
     const auto model = test::Channel{.imperfection = {{.amplitude = amplitude}}}.model();
-    const TraceOptions options = until(3.0);
+    const TraceOptions options = until(1.5);
     const test::Branch branch = trace(model.system(), options);
     EXPECT_EQ(branch.end.reason, EndReason::stop);
-    EXPECT_NEAR(branch.last().state.lambda, 3.0, 1e-12);
+    EXPECT_NEAR(branch.last().state.lambda, 1.5, 1e-12);
     const auto closes = events_of(branch, EventKind::contact_closes);
     ASSERT_FALSE(closes.empty());
     EXPECT_NEAR(closes[0].state.lambda, 0.435739888353 - 2.888 * amplitude, 5e-9 + 0.005 * amplitude);
