@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -23,5 +24,8 @@ struct EventDetector {
 
 /// Signs below this are round-off.
 constexpr double detector_noise = 1e-7;
+
+/// −1, 0 (within the noise) or 1.
+inline int sign_of(double value) { return std::abs(value) <= detector_noise ? 0 : value > 0.0 ? 1 : -1; }
 
 }  // namespace arcwall

@@ -1,0 +1,162 @@
+// How the tracer leaves a change of contact: the rays, the choice between them, and the events that are reported.
+#include <algorithm>
+#include <limits>
+
+#include "continuation/tracer.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr int max_standing = 50;
+constexpr double same_place = 1e-8;      // in the path metric
+constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
+
+}  // namespace
+
+// Leaves a corner by one of its rays; `at` becomes the same point on that ray's piece. False, and the branch ends, if
+// there is none.
+bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events) {
+  if (standing_ > max_standing) {
+    end_ = {.reason = EndReason::no_ray, .detail = "the contacts keep changing at one point; try a finer mesh"};
+    return false;
+  }
+  const PathPoint before = at;
+  std::vector<Index> weak = system_.weak_guards(at.state, std::max(options_.guard_tolerance, 2.0 * slack));
+  if (landed >= 0 && std::find(weak.begin(), weak.end(), landed) == weak.end()) weak.push_back(landed);
+  std::optional<Index> unstable;
+  const auto ray = choose(rays_of(system_, at.state, weak, options_.corner), at, unstable);
+  if (!ray) return false;
+  const State state = system_.with_piece(at.state, ray->piece);
+  const Metric metric(system_.weights(ray->piece), metric_.lambda_scale());
+  CorrectorResult result = corrector_.inspect(state, metric, ray->direction);
+  if (!result.converged()) {
+    end_ = {.reason = EndReason::singular, .detail = "behind a change of contact"};
+    return false;
+  }
+  metric_ = metric;
+  const double arc = at.arc;
+  const int iterations = at.iterations;
+  at = point_of(std::move(result), ray->direction);
+  at.arc = arc;
+  at.iterations = iterations;
+  at.count = counter_.count(at.state, std::nullopt);
+  if (unstable) at.count.unstable = unstable;
+  add_corner_events(before, at, events);
+  if (!others_.empty() && points_ > 0) events.push_back(one_sided_branch_point(before, at));
+  return true;
+}
+
+// Several rays leave: each of those not taken begins a branch of its own.
+Event Tracer::one_sided_branch_point(const PathPoint& before, const PathPoint& after) const {
+  auto point = std::make_shared<BranchPoint>();
+  point->type = BranchType::one_sided;
+  point->state = after.state;
+  point->along = after.tangent;
+  point->discretisation = options_.tied_contacts;
+  for (const Ray& ray : others_) {
+    const Metric metric(system_.weights(ray.piece), metric_.lambda_scale());
+    point->rays.push_back({.piece = ray.piece, .direction = unit(metric, ray.direction)});
+  }
+  return {.kind = EventKind::branch_point,
+          .state = after.state,
+          .arc = after.arc,
+          .residual = before.residual,
+          .unstable_before = after_.unstable,
+          .unstable_after = after.count.unstable,
+          .branching = std::move(point)};
+}
+
+// A direction with all contacts open, of unit length: how the structure moves.
+Direction Tracer::open_direction(const Direction& direction, const Piece& piece) const {
+  const Piece open(piece.size(), 0);
+  const Metric metric(system_.weights(open), metric_.lambda_scale());
+  return unit(metric, {.dx = system_.transfer(direction.dx, piece, open), .dlambda = direction.dlambda});
+}
+
+// Of the rays that were not taken before: the stable one; of several the one nearest the incoming direction; if none is
+// stable, the one with fewest unstable directions that leaves the old piece (docs/theory.md, section 4).
+std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable) {
+  const Piece open(at.state.piece.size(), 0);
+  const Metric metric(system_.weights(open), metric_.lambda_scale());
+  const State here = system_.with_piece(at.state, open);
+  const Direction incoming = open_direction(at.tangent, at.state.piece);
+  const auto way = [&](const Ray& ray) { return open_direction(ray.direction, ray.piece); };
+
+  const auto known = [&](const Visited& v) { return metric.norm(difference(v.corner, here)) <= same_place; };
+  auto visited = std::find_if(visited_.begin(), visited_.end(), known);
+  if (visited == visited_.end()) visited = visited_.insert(visited_.end(), {.corner = here, .ways = {}});
+  const bool again = !visited->ways.empty();
+  visited->ways.push_back(reversed(incoming));
+  std::erase_if(rays, [&](const Ray& ray) {
+    const Direction direction = way(ray);
+    const auto taken = [&](const Direction& d) { return metric.inner(d, direction) > same_way; };
+    return std::any_of(visited->ways.begin(), visited->ways.end(), taken);
+  });
+  if (rays.empty()) {
+    end_ = again ? BranchEnd{.reason = EndReason::closed_loop, .detail = "the branch came back to a change of contact"}
+                 : BranchEnd{.reason = EndReason::no_ray, .detail = "no equilibrium leaves the change of contact"};
+    return std::nullopt;
+  }
+  struct Rank {
+    bool unstable, continues;  // a continuation of the old piece only where nothing else leaves
+    Index count;
+    double backward;
+    auto operator<=>(const Rank&) const = default;
+  };
+  const auto count_of = [&](const Ray& ray) {
+    Piece strong = strongly_closed(system_, at.state, options_.guard_tolerance);
+    for (std::size_t j = 0; j < strong.size(); ++j)
+      if (ray.loading[j]) strong[j] = 1;
+    return counter_.negative_on(system_.with_piece(at.state, strong));
+  };
+  std::optional<Ray> best;
+  Rank best_rank{};
+  std::size_t chosen = 0;
+  for (Ray& ray : rays) {
+    const std::optional<Index> count = count_of(ray);
+    const Index negative = count.value_or(std::numeric_limits<Index>::max());
+    const bool continues = ray.piece == at.state.piece;
+    const Rank rank{.unstable = negative > 0,
+                    .continues = negative > 0 && continues != options_.stay,
+                    .count = negative,
+                    .backward = -metric.inner(way(ray), incoming)};
+    if (best && !(rank < best_rank)) continue;
+    best_rank = rank;
+    best = ray;
+    chosen = static_cast<std::size_t>(&ray - rays.data());
+    unstable = count;
+  }
+  visited->ways.push_back(way(*best));
+  rays.erase(rays.begin() + static_cast<std::ptrdiff_t>(chosen));
+  others_ = std::move(rays);
+  return best;
+}
+
+void Tracer::add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const {
+  Event event{.state = after.state,
+              .arc = after.arc,
+              .residual = before.residual,
+              .localised = 0.0,
+              .unstable_before = after_.unstable,
+              .unstable_after = after.count.unstable};
+  for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_opens}) {
+    event.kind = kind;
+    event.guards.clear();
+    for (std::size_t j = 0; j < after.state.piece.size(); ++j)
+      if (before.state.piece[j] != after.state.piece[j] &&
+          (after.state.piece[j] != 0) == (kind == EventKind::contact_closes))
+        event.guards.push_back(static_cast<Index>(j));
+    if (!event.guards.empty()) events.push_back(event);
+  }
+  if (points_ == 0) return;
+  const std::vector<int> now = signs_at(after);
+  for (std::size_t i = 0; i < detectors_.size(); ++i) {
+    if (now[i] * signs_[i] >= 0) continue;
+    event.kind = detectors_[i].kind == EventKind::limit_point ? EventKind::contact_limit_point : detectors_[i].kind;
+    event.label = detectors_[i].label;
+    events.push_back(event);
+  }
+}
+
+}  // namespace arcwall
