@@ -40,14 +40,14 @@ BeamReference beam_reference(const Stretch& stretch) {
 
 // From its first node, so that places far from the origin keep their digits.
 ExactBeamReference exact_reference(const Stretch& stretch) {
-  const auto& [member, shape, mesh, k] = stretch;
+  const std::vector<AxisPoint>& nodes = stretch.mesh.shape;
   ExactBeamReference reference{.nodes = {Vec2::Zero()}, .arcs = {0.0}};
   const auto add = [&](const Vec2& position, double fraction) {
-    reference.nodes.push_back(position - mesh.shape[k].position);
-    reference.arcs.push_back(shape.length(stretch.at(0.0), stretch.at(fraction)));
+    reference.nodes.push_back(position - nodes[stretch.k].position);
+    reference.arcs.push_back(stretch.shape.length(stretch.at(0.0), stretch.at(fraction)));
   };
-  if (member.order == 2) add(shape.at(stretch.at(0.5)).position, 0.5);
-  add(mesh.shape[k + 1].position, 1.0);
+  if (stretch.member.order == 2) add(stretch.shape.at(stretch.at(0.5)).position, 0.5);
+  add(nodes[stretch.k + 1].position, 1.0);
   return reference;
 }
 

@@ -157,7 +157,7 @@ TEST(MultiplierContact, AContactIsWeakWhereGapAndForceVanish) {
   Piece piece = open;
   piece[1] = 1;
   state = system.with_piece(state, piece);
-  state.x[system.candidate(0).point().unknowns()[1]] += 0.1;
+  state.x[system.candidate(0).point().unknowns().back()] += 0.1;  // its z
   EXPECT_EQ(system.weak_guards(state, 1e-12).front(), 1);
   state.x[*system.multiplier_index(piece, 1)] = 1.0;
   for (const Index j : system.weak_guards(state, 1e-12)) EXPECT_GT(j, 1);
