@@ -85,7 +85,7 @@ std::optional<Arc> Tracer::begin() {
   if (system_.guard_count() > 0 && !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
     if (!turn_corner(here_, -1, 0.0, arc.events)) return std::nullopt;
   }
-  here_.count = counter_.count(here_.state, std::nullopt);
+  here_.count = counter_.count(here_.state, here_.held);
   signs_ = signs_at(here_);
   step_.restart(std::abs(options_.step.first / here_.tangent.dlambda));
   start_.state = here_.state;
@@ -144,22 +144,23 @@ std::optional<Arc> Tracer::advance(double s) {
   const double length = Segment(metric_, here_, step->to).length();
   PathPoint to = std::move(step->to);
   to.arc = here_.arc + length;
-  const std::optional<Index> held = step->corner || found ? std::nullopt : to.count.unstable;
-  to.count = counter_.count(to.state, held);
+  to.count = counter_.count(to.state, to.held);
 
   Arc arc;
-  if (found) {
-    PathPoint after = beyond;
-    after.count = counter_.count(after.state, std::nullopt);
-    if (found->what != Found::What::landmark) arc.events.push_back(event_of(*found, to, after, length));
-    if (found->what == Found::What::landmark && options_.landmarks[found->which].stops)
-      end_ = {.reason = EndReason::stop, .detail = options_.landmarks[found->which].label};
-  }
   const bool singular =
       found && (found->what == Found::What::branch_point ||
                 (found->what == Found::What::detector && detectors_[found->which].kind == EventKind::limit_point));
+  StabilityCount behind = to.count;  // just after `to`
+  if (found && found->what != Found::What::landmark) {
+    PathPoint after = beyond;
+    after.count = counter_.count(after.state, after.held);
+    arc.events.push_back(event_of(*found, to, after, length));
+    if (singular) behind = after.count;
+  }
+  if (found && found->what == Found::What::landmark && options_.landmarks[found->which].stops)
+    end_ = {.reason = EndReason::stop, .detail = options_.landmarks[found->which].label};
   held_ = singular ? beyond.held : to.held;
-  if (!step->corner) after_ = singular ? counter_.count(beyond.state, beyond.held) : to.count;
+  if (!step->corner) after_ = behind;
   if (!step->corner && !end_) end_where_known(to);
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
 

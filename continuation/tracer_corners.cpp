@@ -40,7 +40,7 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
   at = point_of(std::move(result), ray->direction);
   at.arc = arc;
   at.iterations = iterations;
-  at.count = counter_.count(at.state, std::nullopt);
+  at.count = counter_.count(at.state, at.held);
   if (unstable) at.count.unstable = unstable;
   add_corner_events(before, at, events);
   if (!others_.empty() && points_ > 0) events.push_back(one_sided_branch_point(before, at));

@@ -45,8 +45,8 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
     X = weights.asDiagonal() * X;
     factorization.solve(X);
     orthonormalise(X);
-    // Rayleigh-Ritz: the best eigenpairs in the span of X. The reciprocal problem XᵀMX y = (1/μ) XᵀKX y would not do,
-    // as K is indefinite; XᵀMX is positive definite where X has no pure multipliers.
+    // Rayleigh-Ritz: the best eigenpairs in the span of X, on which M is positive definite: K⁻¹ M leaves no column of
+    // multipliers alone.
     const Matrix KX = K.selfadjointView<Eigen::Lower>() * X;
     const Matrix MX = weights.asDiagonal() * X;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX, X.transpose() * MX);
