@@ -97,7 +97,7 @@ const System& Study::system() const {
 std::optional<State> Study::start(std::string& reason) const {
   State state{.x = Vector::Zero(structure_->size({})),
               .lambda = 0.0,
-              .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->guard_count()) : 0, 0)};
+              .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->contact_count()) : 0, 0)};
   if (!ramp_structure_) return state;
   // The constant loads grow from nothing along a path of their own, contacts included.
   TraceOptions options;
@@ -119,8 +119,6 @@ std::optional<State> Study::start(std::string& reason) const {
   return state;
 }
 
-Index Study::closed_contacts(const State& state) const {
-  return std::count(state.piece.begin(), state.piece.end(), std::uint8_t{1});
-}
+Index Study::closed_contacts(const State& state) const { return state.piece.closed_count(); }
 
 }  // namespace arcwall

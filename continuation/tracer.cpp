@@ -82,7 +82,8 @@ std::optional<Arc> Tracer::begin() {
   }
   here_ = point_of(std::move(start), forward);
   Arc arc;
-  if (system_.guard_count() > 0 && !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
+  if (system_.guard_count(here_.state.piece) > 0 &&
+      !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
     if (!turn_corner(here_, -1, 0.0, arc.events)) return std::nullopt;
   }
   here_.count = counter_.count(here_.state, here_.held);
@@ -180,7 +181,7 @@ std::optional<Arc> Tracer::advance(double s) {
       held_ = to.held;
       after_ = to.count;
     }
-    const Index closed = std::count(to.state.piece.begin(), to.state.piece.end(), std::uint8_t{1});
+    const Index closed = to.state.piece.closed_count();
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
       end_ = {.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
   }
@@ -206,7 +207,7 @@ std::optional<Tracer::Step> Tracer::take(double s) {
 
   Step step{.to = point_of(std::move(result), here_.tangent)};
   if (!trustworthy(step.to, s, step.turn)) return std::nullopt;
-  if (system_.guard_count() == 0) return step;
+  if (system_.guard_count(here_.state.piece) == 0) return step;
   if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)))
     if (!land(step, *crossing)) return std::nullopt;
   return step;

@@ -69,7 +69,7 @@ Event Tracer::one_sided_branch_point(const PathPoint& before, const PathPoint& a
 
 // A direction with all contacts open, of unit length: how the structure moves.
 Direction Tracer::open_direction(const Direction& direction, const Piece& piece) const {
-  const Piece open(piece.size(), 0);
+  const Piece open = piece.all_open();
   const Metric metric(system_.weights(open), metric_.lambda_scale());
   return unit(metric, {.dx = system_.transfer(direction.dx, piece, open), .dlambda = direction.dlambda});
 }
@@ -77,7 +77,7 @@ Direction Tracer::open_direction(const Direction& direction, const Piece& piece)
 // Of the rays that were not taken before: the stable one; of several the one nearest the incoming direction; if none is
 // stable, the one with fewest unstable directions that leaves the old piece (docs/theory.md, section 4).
 std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable) {
-  const Piece open(at.state.piece.size(), 0);
+  const Piece open = at.state.piece.all_open();
   const Metric metric(system_.weights(open), metric_.lambda_scale());
   const State here = system_.with_piece(at.state, open);
   const Direction incoming = open_direction(at.tangent, at.state.piece);
