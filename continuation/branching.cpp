@@ -12,7 +12,8 @@ namespace arcwall {
 
 namespace {
 
-constexpr double noise = 1e-6;  // ratio of two coefficients below which the first is zero
+constexpr double between = 1e-9;  // penetration between contacts, in the scale of guards, that is let pass
+constexpr double noise = 1e-6;    // ratio of two coefficients below which the first is zero
 
 // Values of Lagrange's polynomials on `nodes` at t.
 std::array<double, 4> lagrange(const std::array<double, 4>& nodes, double t) {
@@ -219,7 +220,7 @@ std::optional<BranchPointLocator::Sample> BranchPointLocator::sampled(CorrectorR
 
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
                                    const BranchPoint& point, int sign, double distance, double guard_tolerance) {
-  constexpr int halvings = 20;
+  constexpr int halvings = 12;
   for (int attempt = 0; attempt < halvings; ++attempt, distance *= 0.5) {
     const double offset = sign * distance * metric.inner(point.other, point.mode);
     const PlaneConstraint plane(metric, point.state, point.mode, offset);
@@ -228,7 +229,7 @@ std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, c
     if (!at.converged()) continue;
     at.state.piece = system.settled(at.state);
     if (system.guard_count(at.state.piece) > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;
-    if (!system.admissible(at.state)) continue;
+    if (!system.admissible(at.state, -between)) continue;
     const Direction chord = difference(at.state, point.state);
     if (metric.norm(chord) > 2.0 * distance) continue;
     Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);

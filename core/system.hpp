@@ -31,16 +31,21 @@ struct Linearization {
 /// What lies behind a limit of a piece: another piece that meets it there.
 struct Passage {
   enum class Change {
-    spreads,   ///< a point contact becomes a line: the piece ahead begins where the one behind ends
-    gathers,   ///< a line becomes a point, likewise, but the place is known on the piece ahead alone
-    remeshed,  ///< the same point in other unknowns: no event
+    spreads,      ///< a point contact becomes a line
+    gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
+    remeshed,     ///< the same point in other unknowns
+    family,       ///< a continuum of equilibria with the same load and energy
+    unsupported,  ///< something that is not modelled
   };
   Change change = Change::remeshed;
-  std::vector<Index> contacts{};                 ///< that change, in the piece behind
-  State guess{};                                 ///< on the piece ahead
-  std::shared_ptr<const Observable> quantity{};  ///< grows along the piece ahead; null: where it does, λ decides
-  double value = 0.0;                            ///< of the quantity at the first point of the piece ahead
-  std::optional<std::string> neutral{};          ///< why nothing but a family of equilibria is ahead
+  std::string detail{};           ///< of the last two: what and why
+  std::vector<Index> contacts{};  ///< that change, in the piece behind
+  State guess{};                  ///< on the piece ahead, near the first point there
+  Direction forward{};            ///< there, roughly
+  /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
+  /// through the guess across `forward`.
+  std::shared_ptr<const Observable> quantity{};
+  double value = 0.0;
 };
 
 /// Equilibrium equations F(x, λ) = 0 with unilateral side conditions (guards). Immutable: every function is const and
@@ -117,23 +122,24 @@ class System {
   /// The same point with the unknowns of another piece: forces that are new are zero.
   virtual Vector transfer(const Vector& x, const Piece&, const Piece&) const { return x; }
 
-  /// What lies behind a limit that was reached: limit guards within `tolerance` of zero count as reached together.
-  virtual std::optional<Passage> passage(const State&, Index /*limit*/, double /*tolerance*/) const {
+  /// What lies behind a limit that was reached going `forward`: limits within `tolerance` of zero are reached together.
+  virtual Passage passage(const State&, const Direction& /*forward*/, Index /*limit*/, double /*tolerance*/) const {
+    return {.change = Passage::Change::unsupported, .detail = "this piece has no limits"};
+  }
+
+  /// Whether side conditions that are no guards of this piece exceed `margin`, in the scale of the guards: nothing
+  /// enters an obstacle between the contacts.
+  virtual bool admissible(const State&, double /*margin*/) const { return true; }
+
+  /// The passage (`remeshed`) from a regular point to a piece whose guards see what is below `margin` at `to`, the end
+  /// of a step; empty if no such piece passes through `from`. Asked for where admissible(to, margin) is not so.
+  virtual std::optional<Passage> refined(const State& /*from*/, const Direction& /*forward*/, const State& /*to*/,
+                                         double /*margin*/) const {
     return std::nullopt;
   }
 
-  /// Whether side conditions hold that are no guards of this piece: nothing enters an obstacle between its contacts.
-  virtual bool admissible(const State&) const { return true; }
-
-  /// `from`, a regular point, in the unknowns of a piece whose guards see what is violated at `to`, the end of a step;
-  /// empty if no such piece passes through `from`. Asked for where admissible(to) is not so.
-  virtual std::optional<State> refined(const State& /*from*/, const State& /*to*/) const { return std::nullopt; }
-
   /// The piece whose guards suit a state that was reached along another branch: a flat part that has buckled, say.
   virtual Piece settled(const State& state) const { return state.piece; }
-
-  /// How the structure moves along a direction, in numbers that mean the same on all pieces; for comparisons.
-  virtual Vector motion(const State& /*at*/, const Direction& direction) const { return direction.dx; }
 
   /// Why the equations do not hold at this state although it may solve them (a wall that ends); empty if they do.
   virtual std::optional<std::string> obstruction(const State&) const { return std::nullopt; }
