@@ -28,7 +28,7 @@ enum class LoadKind { proportional, constant };
 struct MemberDescription {
   std::string name{};
   Index from = 0, to = 0;  ///< joints
-  std::unique_ptr<Axis> axis{};
+  std::shared_ptr<const Axis> axis{};
   std::vector<SineDeviation> imperfection{};
   Theory theory = Theory::classic;
   int order = 2;  ///< exact only: 1 or 2, the degree of the shape functions
@@ -53,6 +53,7 @@ struct MemberMesh {
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
 };
 
+class SlidingStructure;
 class StructureBuilder;
 
 /// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
@@ -156,6 +157,12 @@ class StructureBuilder {
   /// The structure; `ramp` makes the constant loads the proportional ones and leaves the others out, so that a path in
   /// λ from 0 to 1 applies them.
   std::unique_ptr<Structure> build(bool ramp = false) const;
+
+  /// The same for meshes with breakpoints that move. Only beams without shear: see can_slide().
+  std::unique_ptr<SlidingStructure> build_sliding(bool ramp = false) const;
+
+  /// Whether all members are of a theory for which build_sliding() is meant.
+  bool can_slide() const;
 
  private:
   struct Load {
