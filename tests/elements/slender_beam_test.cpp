@@ -94,7 +94,16 @@ TEST(StretchReference, IsThatOfTheDeviatedCurve) {
     const StretchReference stretch = stretch_reference(curve, 0.4, 0.7);
     EXPECT_LE((stretch.chord - (curve.at(0.7).position - curve.at(0.4).position)).norm(), 1e-15);
     EXPECT_EQ(stretch.length, curve.length(0.4, 0.7));
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(stretch.angles[k], curve.at(0.4 + 0.1 * double(k)).angle, 1e-14);
+    EXPECT_EQ(stretch.angles[0], curve.at(0.4).angle);
+    EXPECT_EQ(stretch.angles[3], curve.at(0.7).angle);
+    for (std::size_t k : {1, 2}) {
+      double low = 0.4, high = 0.7;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (curve.length(0.4, middle) < double(k) / 3.0 * stretch.length ? low : high) = middle;
+      }
+      EXPECT_NEAR(stretch.angles[k], curve.at(low).angle, 1e-13);
+    }
   }
 }
 
