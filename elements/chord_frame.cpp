@@ -101,7 +101,7 @@ std::array<RestChord, 2> rest_chord_rate(const StretchReference& stretch) {
 // The path from the first end, and a share of what quadrature and the element's own approximations leave open at the
 // second, so that both ends are met:
 //
-//   o(ξ) = p(ξ) + ξ (l e_x − p(1)),   offset = Q(β) o                                                    (2)
+//   o(ξ) = p(ξ) + ξ (l e_x − p(1)),   offset = Q(β) o                                                    (3)
 BeamPlace place_on(const BentAxis& axis, const ChordMotion& at, double angle1, double xi) {
   const Path here = path_to(axis, xi), end = path_to(axis, 1.0);
   const Angle angle = angle_at(axis, xi - 0.5), first = angle_at(axis, -0.5);

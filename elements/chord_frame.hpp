@@ -51,6 +51,38 @@ inline ChordMotion motion_of(const RestChord& rest, const BeamEnds& ends) {
           .d2 = within_half_a_turn(ends.angle2 - direction - rest.slope2)};
 }
 
+// A function of the bend b = t2 − t1 and the skew σ = 3 (t1 + t2) of an element, with its derivatives.
+struct BendTerm {
+  double value, b, s, bb, bs, ss;
+};
+
+// Shortening of the chord of an inextensible element, h/l − 1 = q + q² − Q to the fourth order. The angle against the
+// chord is quadratic along the axis, θ = a + b x + c (x² − 1/12), |x| ≤ ½, with ∫ sin θ = 0, hence
+//
+//   a = b² σ/360 + σ³/22680,   c = σ − 6a,   q = b²/24 + σ²/360,
+//   Q = b⁴/1920 + (11/60480 + 1/10800) b² σ² + (1/362880 + 1/680400) σ⁴                                      (1)
+inline BendTerm shortening(double b, double s) {
+  constexpr double Q1 = 1.0 / 1920.0, Q2 = 11.0 / 60480.0 + 1.0 / 10800.0, Q3 = 1.0 / 362880.0 + 1.0 / 680400.0;
+  constexpr double q_bb = 1.0 / 12.0, q_ss = 1.0 / 180.0;
+  const double q = b * b / 24.0 + s * s / 360.0, q_b = q_bb * b, q_s = q_ss * s, f = 1.0 + 2.0 * q;
+  return {.value = q + q * q - (Q1 * b * b + Q2 * s * s) * b * b - Q3 * s * s * s * s,
+          .b = f * q_b - (4.0 * Q1 * b * b + 2.0 * Q2 * s * s) * b,
+          .s = f * q_s - (2.0 * Q2 * b * b + 4.0 * Q3 * s * s) * s,
+          .bb = f * q_bb + 2.0 * q_b * q_b - 12.0 * Q1 * b * b - 2.0 * Q2 * s * s,
+          .bs = 2.0 * q_b * q_s - 4.0 * Q2 * b * s,
+          .ss = f * q_ss + 2.0 * q_s * q_s - 2.0 * Q2 * b * b - 12.0 * Q3 * s * s};
+}
+
+// c of (1): the part of the curvature that varies along the element.
+inline BendTerm variation(double b, double s) {
+  return {.value = s - b * b * s / 60.0 - s * s * s / 3780.0,
+          .b = -b * s / 30.0,
+          .s = 1.0 - b * b / 60.0 - s * s / 1260.0,
+          .bb = -s / 30.0,
+          .bs = -b / 30.0,
+          .ss = -s / 630.0};
+}
+
 /// First and second derivatives of an energy by l, b and σ.
 struct ChordSlopes {
   double l, b, s;
@@ -62,7 +94,7 @@ struct ChordCurvatures {
 // Gradient and Hessian in the nodal unknowns follow with
 //
 //   ∂l = r,  ∂σ = 3 (e3 + e6) − 6 z/l,  ∂b = e6 − e3,  ∂²l = z zᵀ/l,  ∂²σ = 6 (r zᵀ + z rᵀ)/l²,
-//   r = (−c, −s, 0, c, s, 0),  z = (s, −c, 0, −s, c, 0)  of the chord's direction (c, s)                 (1)
+//   r = (−c, −s, 0, c, s, 0),  z = (s, −c, 0, −s, c, 0)  of the chord's direction (c, s)                 (2)
 struct ChordDirection {
   double r[6], z[6];
 
@@ -78,7 +110,7 @@ inline void nodal_forces(const ChordDirection& chord, double l, const ChordSlope
   f[5] += 3.0 * U.s + U.b;
 }
 
-// K = Σ U_ab ∂a ∂bᵀ + U_l ∂²l + U_σ ∂²σ by (1), sorted by r, z and the two rotations (θ1: 3σ − b, θ2: 3σ + b).
+// K = Σ U_ab ∂a ∂bᵀ + U_l ∂²l + U_σ ∂²σ by (2), sorted by r, z and the two rotations (θ1: 3σ − b, θ2: 3σ + b).
 inline void nodal_stiffness(const ChordDirection& chord, double l, const ChordSlopes& U, const ChordCurvatures& V,
                             double* K) {
   const auto& [r, z] = chord;

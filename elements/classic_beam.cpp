@@ -8,38 +8,6 @@ namespace arcwall {
 
 namespace {
 
-// A function of the bend b = t2 − t1 and the skew σ = 3 (t1 + t2) of an element, with its derivatives.
-struct Shape {
-  double value, b, s, bb, bs, ss;
-};
-
-// Shortening of the chord of an inextensible element, h/l − 1 = q + q² − Q to the fourth order. The angle against the
-// chord is quadratic along the axis, θ = a + b x + c (x² − 1/12), |x| ≤ ½, with ∫ sin θ = 0, hence
-//
-//   a = b² σ/360 + σ³/22680,   c = σ − 6a,   q = b²/24 + σ²/360,
-//   Q = b⁴/1920 + (11/60480 + 1/10800) b² σ² + (1/362880 + 1/680400) σ⁴                                      (4)
-Shape shortening(double b, double s) {
-  constexpr double Q1 = 1.0 / 1920.0, Q2 = 11.0 / 60480.0 + 1.0 / 10800.0, Q3 = 1.0 / 362880.0 + 1.0 / 680400.0;
-  constexpr double q_bb = 1.0 / 12.0, q_ss = 1.0 / 180.0;
-  const double q = b * b / 24.0 + s * s / 360.0, q_b = q_bb * b, q_s = q_ss * s, f = 1.0 + 2.0 * q;
-  return {.value = q + q * q - (Q1 * b * b + Q2 * s * s) * b * b - Q3 * s * s * s * s,
-          .b = f * q_b - (4.0 * Q1 * b * b + 2.0 * Q2 * s * s) * b,
-          .s = f * q_s - (2.0 * Q2 * b * b + 4.0 * Q3 * s * s) * s,
-          .bb = f * q_bb + 2.0 * q_b * q_b - 12.0 * Q1 * b * b - 2.0 * Q2 * s * s,
-          .bs = 2.0 * q_b * q_s - 4.0 * Q2 * b * s,
-          .ss = f * q_ss + 2.0 * q_s * q_s - 2.0 * Q2 * b * b - 12.0 * Q3 * s * s};
-}
-
-// c of (4): the part of the curvature that varies along the element.
-Shape variation(double b, double s) {
-  return {.value = s - b * b * s / 60.0 - s * s * s / 3780.0,
-          .b = -b * s / 30.0,
-          .s = 1.0 - b * b / 60.0 - s * s / 1260.0,
-          .bb = -s / 30.0,
-          .bs = -b / 30.0,
-          .ss = -s / 630.0};
-}
-
 BeamReference beam_reference(const StretchReference& stretch) {
   const RestChord rest = rest_chord(stretch);
   return {.chord = rest.chord, .length = stretch.length, .slope1 = rest.slope1, .slope2 = rest.slope2};
@@ -61,7 +29,7 @@ ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI)
 ClassicBeam::ClassicBeam(const StretchReference& stretch, double EA, double EI)
     : ClassicBeam(beam_reference(stretch), EA, EI) {
   const std::array<RestChord, 2> chords = rest_chord_rate(stretch);
-  const Shape p = shortening(b_, s_), v = variation(b_, s_);
+  const BendTerm p = shortening(b_, s_), v = variation(b_, s_);
   for (std::size_t i = 0; i < 2; ++i) {
     const RestChord& rate = chords[i];
     const double b = rate.slope2 - rate.slope1, s = 3.0 * (rate.slope1 + rate.slope2);
@@ -73,7 +41,7 @@ ClassicBeam::ClassicBeam(const StretchReference& stretch, double EA, double EI)
   }
 }
 
-// With the chord l at angle β, end slopes t_i = θ_i − (β − β₀) + t_i⁰ against it, b, σ and c as in (4):
+// With the chord l at angle β, end slopes t_i = θ_i − (β − β₀) + t_i⁰ against it, b, σ and c as in chord_frame.hpp:
 //
 //   U = ½ EA h ε² + EI/(2h) [(b − b⁰)² + (c − c⁰)²/3] − 4 EI² (σ − σ⁰)² q / (EA h l²)                  (1)
 //   ε = [l (1 + q + q² − Q) − l₀ (1 + q⁰ + …)] / h                                                     (2)
@@ -85,7 +53,7 @@ struct ClassicBeam::Deformation {
   double h, EA;
   double a, N, bending, tilt;  // EA/h, EA ε, EI/h, 4 EI²/(EA h l²)
   double q, q_b, q_s;
-  Shape p, v;
+  BendTerm p, v;
 
   double energy() const {
     return 0.5 * N * N * h / EA + 0.5 * bending * (db * db + dc * dc / 3.0) - tilt * ds * ds * q;
@@ -125,7 +93,7 @@ struct ClassicBeam::Deformation {
 inline ClassicBeam::Deformation ClassicBeam::deform(double length, double stretch, double d1, double d2) const {
   const double l = length, h = length_;
   const double db = d2 - d1, ds = 3.0 * (d1 + d2), b = b_ + db, s = s_ + ds;
-  const Shape p = shortening(b, s), v = variation(b, s);
+  const BendTerm p = shortening(b, s), v = variation(b, s);
   return {.l = l,
           .b = b,
           .s = s,
@@ -172,9 +140,10 @@ void ClassicBeam::respond(const BeamEnds& ends, bool with_rates, BeamResponse& o
   }
 }
 
-// The angle of (4) in another form, with the force (N_c, V) along and across the chord as it follows from the energy:
+// The angle of chord_frame.hpp (1) in another form, with the force (N_c, V) along and across the chord as it follows
+// from the energy:
 //
-//   θ = σ/6 + b x + c (x² − ¼),   c = c(4) + 12 q V/(EA + N_c)
+//   θ = σ/6 + b x + c (x² − ¼),   c = c(1) + 12 q V/(EA + N_c)
 //
 // The second part of c is what the tilt of the chord leaves to bend: ∫(1 + N/EA) sin θ = 0 moves a by −2 q V/(EA +
 // N_c).

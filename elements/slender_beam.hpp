@@ -10,7 +10,7 @@ namespace arcwall {
 /// A stretch of a member's stress-free axis between two material coordinates S1 < S2 (arc length of the axis without
 /// imperfection), with derivatives: index 0 by S1, 1 by S2.
 struct StretchReference {
-  static constexpr int samples = 4;  ///< angles at 0, ⅓, ⅔ and 1 of the stretch
+  static constexpr int samples = 4;  ///< angles at 0, ⅓, ⅔ and 1 of its length
 
   double length = 0.0;                   ///< of the axis between them, imperfection included [length]
   Vec2 chord = Vec2::Zero();             ///< from the first end to the second [length]
@@ -55,7 +55,8 @@ class SlenderBeam {
   /// Energy, force and stiffness; `force_rate` too if asked for.
   virtual void respond(const BeamEnds& ends, bool with_rates, BeamResponse& out) const = 0;
 
-  /// The place at a fraction ξ ∈ [0, 1] of the stretch's material length, consistent with the ends at 0 and 1.
+  /// The place at a fraction ξ ∈ [0, 1] of the stretch's length, consistent with the ends at 0 and 1. It is the
+  /// fraction of S2 − S1 as well where there is no imperfection.
   virtual BeamPlace place(const BeamEnds& ends, double xi) const = 0;
 };
 

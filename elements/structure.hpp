@@ -19,7 +19,7 @@ namespace arcwall {
 /// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there.
 enum class Freedom { x, z, rotation };
 
-enum class Theory { classic, exact, truss };
+enum class Theory { classic, elastica, exact, truss };
 
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
@@ -31,7 +31,7 @@ struct MemberDescription {
   std::shared_ptr<const Axis> axis{};
   std::vector<SineDeviation> imperfection{};
   Theory theory = Theory::classic;
-  int order = 2;  ///< exact only: 1 or 2, the degree of the shape functions
+  int order = 2;  ///< exact: 1 or 2, the degree of the shape functions; elastica: 4 or 6, of convergence
   TrussStrain strain = TrussStrain::green;
   Section section{};
   int elements = 1;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "elements/classic_beam.hpp"
+#include "elements/elastica_beam.hpp"
 #include "tests/elements/element_checks.hpp"
 #include "tests/elements/slender_beam_checks.hpp"
 
@@ -68,7 +69,7 @@ PlaceOrders place_orders(const std::function<std::unique_ptr<SlenderBeam>(const 
                          double EI) {
   const auto axis = straight_axis({0.0, 0.0}, {1.0, 0.0});
   std::vector<double> sizes, positions, angles;
-  for (const double h : {0.4, 0.2, 0.1, 0.05}) {
+  for (const double h : {0.2, 0.1, 0.05, 0.025}) {
     const auto at = [&](double xi) { return elastica(h * (xi - 0.4), EA, EI); };
     const Eigen::Vector4d first = at(0.0), second = at(1.0), inside = at(0.3);
     const auto beam = make(stretch_reference(ImperfectAxis(*axis, {}), 0.3, 0.3 + h));
@@ -81,8 +82,28 @@ PlaceOrders place_orders(const std::function<std::unique_ptr<SlenderBeam>(const 
   return {.position = test::observed_order(sizes, positions), .angle = test::observed_order(sizes, angles)};
 }
 
-std::unique_ptr<SlenderBeam> classic(const StretchReference& stretch) {
-  return std::make_unique<ClassicBeam>(stretch, 200.0, 3.0);
+struct Kind {
+  std::string name;
+  std::function<std::unique_ptr<SlenderBeam>(const StretchReference&)> make;
+};
+
+std::vector<Kind> kinds(double EA, double EI) {
+  const auto elastica = [=](ElasticaOrder order) {
+    return [=](const StretchReference& stretch) { return std::make_unique<ElasticaBeam>(stretch, EA, EI, order); };
+  };
+  return {{"classic", [=](const StretchReference& stretch) { return std::make_unique<ClassicBeam>(stretch, EA, EI); }},
+          {"elastica of order 4", elastica(ElasticaOrder::four)},
+          {"elastica of order 6", elastica(ElasticaOrder::six)}};
+}
+
+// All kinds on all shapes.
+template <class Check>
+void on_all(const Check& check) {
+  for (const Kind& kind : kinds(200.0, 3.0))
+    for (const Shape& shape : shapes()) {
+      SCOPED_TRACE(kind.name + ", " + shape.name);
+      check(kind, shape.curve(), stretch_reference(shape.curve(), 0.4, 1.1));
+    }
 }
 
 }  // namespace
@@ -94,7 +115,16 @@ TEST(StretchReference, IsThatOfTheDeviatedCurve) {
     const StretchReference stretch = stretch_reference(curve, 0.4, 0.7);
     EXPECT_LE((stretch.chord - (curve.at(0.7).position - curve.at(0.4).position)).norm(), 1e-15);
     EXPECT_EQ(stretch.length, curve.length(0.4, 0.7));
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(stretch.angles[k], curve.at(0.4 + 0.1 * double(k)).angle, 1e-14);
+    EXPECT_EQ(stretch.angles[0], curve.at(0.4).angle);
+    EXPECT_EQ(stretch.angles[3], curve.at(0.7).angle);
+    for (std::size_t k : {1, 2}) {
+      double low = 0.4, high = 0.7;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (curve.length(0.4, middle) < double(k) / 3.0 * stretch.length ? low : high) = middle;
+      }
+      EXPECT_NEAR(stretch.angles[k], curve.at(low).angle, 1e-13);
+    }
   }
 }
 
@@ -141,65 +171,58 @@ TEST(StretchReference, ChordsOfShortArcsKeepTheirDigits) {
   EXPECT_NEAR(stretch.chord.norm() / d, 1.0 - bend * bend / 24.0, 1e-15);
 }
 
-TEST(ClassicBeamByPlaces, DerivativesAreConsistent) {
+TEST(SlenderBeams, DerivativesAreConsistent) {
   Numbers numbers(60);
-  for (const Shape& shape : shapes()) {
-    SCOPED_TRACE(shape.name);
-    const StretchReference stretch = stretch_reference(shape.curve(), 0.4, 1.1);
+  on_all([&](const Kind& kind, const ImperfectAxis&, const StretchReference& stretch) {
     for (const double turn : {0.0, 2.0, -7.0})
-      test::expect_response_derivatives(*classic(stretch), test::deformed(stretch, 0.2, turn, numbers));
-  }
+      test::expect_response_derivatives(*kind.make(stretch), test::deformed(stretch, 0.2, turn, numbers));
+  });
 }
 
-TEST(ClassicBeamByPlaces, ForceRatesAreThoseOfTheMaterialPoints) {
+TEST(SlenderBeams, ForceRatesAreThoseOfTheMaterialPoints) {
   Numbers numbers(61);
-  for (const Shape& shape : shapes()) {
-    SCOPED_TRACE(shape.name);
-    const ImperfectAxis curve = shape.curve();
-    const StretchReference stretch = stretch_reference(curve, 0.4, 1.1);
+  on_all([&](const Kind& kind, const ImperfectAxis& curve, const StretchReference& stretch) {
     for (int i = 0; i < 3; ++i)
-      test::expect_force_rates(classic, curve, 0.4, 1.1, test::deformed(stretch, 0.2, 1.0, numbers));
-  }
+      test::expect_force_rates(kind.make, curve, 0.4, 1.1, test::deformed(stretch, 0.2, 1.0, numbers));
+  });
 }
 
-// The element by displacements and the one by places are the same.
-TEST(ClassicBeamByPlaces, AgreesWithTheElementByDisplacements) {
+TEST(SlenderBeams, AgreeWithTheirFormByDisplacements) {
   Numbers numbers(62);
-  for (const Shape& shape : shapes()) {
-    SCOPED_TRACE(shape.name);
-    const StretchReference stretch = stretch_reference(shape.curve(), 0.4, 1.1);
-    const ClassicBeam beam(stretch, 200.0, 3.0);
+  on_all([&](const Kind& kind, const ImperfectAxis&, const StretchReference& stretch) {
+    const auto beam = kind.make(stretch);
     const Vector u = 0.2 * numbers.vector(6);
-    const auto by_displacement = test::evaluated(beam, u);
-    const BeamResponse by_place = test::response(beam, {.chord = stretch.chord + u.segment<2>(3) - u.segment<2>(0),
-                                                        .angle1 = stretch.angles.front() + u[2] + 2.0 * pi,
-                                                        .angle2 = stretch.angles.back() + u[5] - 4.0 * pi});
+    const auto by_displacement = test::evaluated(dynamic_cast<const Element&>(*beam), u);
+    const BeamResponse by_place = test::response(*beam, {.chord = stretch.chord + u.segment<2>(3) - u.segment<2>(0),
+                                                         .angle1 = stretch.angles.front() + u[2] + 2.0 * pi,
+                                                         .angle2 = stretch.angles.back() + u[5] - 4.0 * pi});
     EXPECT_NEAR(by_place.energy, by_displacement.energy, 1e-13 * std::abs(by_displacement.energy));
     const Eigen::Vector4d f(by_displacement.f[3], by_displacement.f[4], by_displacement.f[2], by_displacement.f[5]);
     EXPECT_LE((by_place.force - f).norm(), 1e-12 * f.norm());
     const std::vector<Index> rows{3, 4, 2, 5};
     EXPECT_LE((by_place.stiffness - by_displacement.K(rows, rows)).norm(), 1e-12 * by_place.stiffness.norm());
-  }
+  });
 }
 
-TEST(ClassicBeamByPlaces, PlacesMeetTheEndsAndTheirGradientsAreConsistent) {
+TEST(SlenderBeams, PlacesMeetTheEndsAndTheirGradientsAreConsistent) {
   Numbers numbers(63);
-  for (const Shape& shape : shapes()) {
-    SCOPED_TRACE(shape.name);
-    const StretchReference stretch = stretch_reference(shape.curve(), 0.4, 1.1);
+  on_all([&](const Kind& kind, const ImperfectAxis&, const StretchReference& stretch) {
     for (const double turn : {0.0, 2.0, -7.0})
-      test::expect_place(*classic(stretch), test::deformed(stretch, 0.2, turn, numbers));
-  }
+      test::expect_place(*kind.make(stretch), test::deformed(stretch, 0.2, turn, numbers));
+  });
 }
 
-// Up to terms in (EI κ²/EA)² = 2e-5 that the tilt of the chord leaves out.
-TEST(ClassicBeamByPlaces, PlacesHaveOrderFourAndAnglesOrderThree) {
-  for (const double EA : {1e3, 1e6}) {
-    const auto make = [&](const StretchReference& stretch) { return std::make_unique<ClassicBeam>(stretch, EA, 1.0); };
-    const PlaceOrders orders = place_orders(make, EA, 1.0);
-    EXPECT_NEAR(orders.position, 4.0, 0.2);
-    EXPECT_NEAR(orders.angle, 3.0, 0.2);
-  }
+// A quadratic angle has order 3 and a cubic one order 4, positions one more. The classic beam's are so up to terms in
+// (EI κ²/EA)² = 2e-5 that the tilt of its chord leaves out.
+TEST(SlenderBeams, PlacesInsideConvergeToTheElastica) {
+  for (const double EA : {1e3, 1e6})
+    for (const Kind& kind : kinds(EA, 1.0)) {
+      SCOPED_TRACE(kind.name);
+      const double degree = kind.name == "elastica of order 6" ? 3.0 : 2.0;
+      const PlaceOrders orders = place_orders(kind.make, EA, 1.0);
+      EXPECT_NEAR(orders.position, degree + 2.0, 0.2);
+      EXPECT_NEAR(orders.angle, degree + 1.0, 0.2);
+    }
 }
 
 }  // namespace arcwall

@@ -16,11 +16,13 @@ void fix(StructureBuilder& builder, Index node, bool rotation = false) {
 }
 
 Index straight_member(StructureBuilder& builder, Index from, Index to, const Vec2& a, const Vec2& b,
-                      const Section& section, int elements) {
+                      const Section& section, int elements, const BeamTheory& beam) {
   return builder.add_member({.name = "member",
                              .from = from,
                              .to = to,
                              .axis = straight_axis(a, b),
+                             .theory = beam.theory,
+                             .order = beam.order,
                              .section = section,
                              .elements = elements});
 }
@@ -53,28 +55,29 @@ std::unique_ptr<Structure> Cantilever::structure() const {
   StructureBuilder builder;
   const Vec2 a(0.0, 0.0), b(length, 0.0);
   const Index root = builder.add_joint(a), tip = builder.add_joint(b);
-  straight_member(builder, root, tip, a, b, {.E = 1.0, .A = EA, .I = EI}, elements);
+  straight_member(builder, root, tip, a, b, {.E = 1.0, .A = EA, .I = EI}, elements, beam);
   fix(builder, root, true);
   if (tip_force != 0.0) builder.add_load(builder.freedom(tip, Freedom::z), tip_force, LoadKind::proportional);
   if (tip_moment != 0.0) builder.add_load(builder.shared_rotation(tip).value(), tip_moment, LoadKind::proportional);
   return builder.build();
 }
 
-std::unique_ptr<Structure> lee_frame(int elements) {
+std::unique_ptr<Structure> lee_frame(int elements, const BeamTheory& beam) {
   StructureBuilder builder;
   const Vec2 at[] = {{0.0, 0.0}, {0.0, 120.0}, {24.0, 120.0}, {120.0, 120.0}};
   Index joints[4];
   for (int i = 0; i < 4; ++i) joints[i] = builder.add_joint(at[i]);
   const int count[] = {elements, elements / 5, elements * 4 / 5};
   for (int i = 0; i < 3; ++i)
-    straight_member(builder, joints[i], joints[i + 1], at[i], at[i + 1], {.E = 720.0, .A = 6.0, .I = 2.0}, count[i]);
+    straight_member(builder, joints[i], joints[i + 1], at[i], at[i + 1], {.E = 720.0, .A = 6.0, .I = 2.0}, count[i],
+                    beam);
   fix(builder, joints[0]);
   fix(builder, joints[3]);
   builder.add_load(builder.freedom(joints[2], Freedom::z), -1.0, LoadKind::proportional);
   return builder.build();
 }
 
-std::unique_ptr<Structure> deep_arch(int elements) {
+std::unique_ptr<Structure> deep_arch(int elements, const BeamTheory& beam) {
   StructureBuilder builder;
   constexpr double R = 100.0, half = 107.5 * pi / 180.0;
   const auto on_circle = [](double angle) { return Vec2(R * std::sin(angle), R * std::cos(angle)); };
@@ -86,6 +89,8 @@ std::unique_ptr<Structure> deep_arch(int elements) {
                         .from = joints[i],
                         .to = joints[i + 1],
                         .axis = arc_axis(at[i], on_circle((i - 0.5) * half), at[i + 1]),
+                        .theory = beam.theory,
+                        .order = beam.order,
                         .section = {.E = 1.0, .A = 1e8, .I = 1e6},
                         .elements = elements});
   fix(builder, joints[0]);
@@ -94,14 +99,15 @@ std::unique_ptr<Structure> deep_arch(int elements) {
   return builder.build();
 }
 
-std::unique_ptr<Structure> williams_toggle(int elements) {
+std::unique_ptr<Structure> williams_toggle(int elements, const BeamTheory& beam) {
   StructureBuilder builder;
   constexpr double b = 0.753, h = 0.243;
   const Section section{.E = 1.03e7, .A = b * h, .I = b * h * h * h / 12.0};
   const Vec2 at[] = {{-12.943, 0.0}, {0.0, 0.386}, {12.943, 0.0}};
   Index joints[3];
   for (int i = 0; i < 3; ++i) joints[i] = builder.add_joint(at[i]);
-  for (int i = 0; i < 2; ++i) straight_member(builder, joints[i], joints[i + 1], at[i], at[i + 1], section, elements);
+  for (int i = 0; i < 2; ++i)
+    straight_member(builder, joints[i], joints[i + 1], at[i], at[i + 1], section, elements, beam);
   fix(builder, joints[0], true);
   fix(builder, joints[2], true);
   builder.add_load(builder.freedom(joints[1], Freedom::z), -1.0, LoadKind::proportional);

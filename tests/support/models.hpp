@@ -21,26 +21,33 @@ struct VonMisesTruss {
   std::unique_ptr<Structure> structure() const;
 };
 
+/// Theory and order of the beams of a model.
+struct BeamTheory {
+  Theory theory = Theory::classic;
+  int order = 2;
+};
+
 /// A straight cantilever from (0, 0) to (L, 0), clamped at the left.
 struct Cantilever {
   double EA = 1e4, EI = 1.0, length = 1.0;
   int elements = 8;
   double tip_force = 0.0, tip_moment = 0.0;  ///< times λ; the force acts along z
+  BeamTheory beam{};
 
   std::unique_ptr<Structure> structure() const;
 };
 
 /// Lee's frame (Lee, Manuel & Rossow 1968): column (0,0)-(0,120), beam (0,120)-(120,120), pinned ends, E = 720, A = 6,
 /// I = 2, λ downwards 24 from the corner. `elements` on each of the two; a multiple of 5.
-std::unique_ptr<Structure> lee_frame(int elements);
+std::unique_ptr<Structure> lee_frame(int elements, const BeamTheory& beam = {});
 
 /// Deep circular arch of 215°, R = 100, EA = 1e8, EI = 1e6, hinged left, clamped right, λ downwards at the crown.
 /// `elements` on each half.
-std::unique_ptr<Structure> deep_arch(int elements);
+std::unique_ptr<Structure> deep_arch(int elements, const BeamTheory& beam = {});
 
 /// Williams' toggle: two rigidly joined bars between clamped ends, half span 12.943, rise 0.386, E = 1.03e7, section
 /// 0.753 × 0.243, λ downwards at the apex. `elements` on each bar.
-std::unique_ptr<Structure> williams_toggle(int elements);
+std::unique_ptr<Structure> williams_toggle(int elements, const BeamTheory& beam = {});
 
 /// A vertical observable of the joint at which a model is loaded.
 std::shared_ptr<const Observable> displacement(const Structure& structure, Index node, Freedom which);
