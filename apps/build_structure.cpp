@@ -43,7 +43,7 @@ std::optional<Theory> theory_of(const deck::Member& member, DeckProblems& proble
     case deck::Theory::essenburg:
       return unsupported("essenburg");
     case deck::Theory::elastica:
-      return unsupported("elastica");
+      return Theory::elastica;
   }
   return std::nullopt;
 }
@@ -110,7 +110,7 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
                                   .from = out.places.joints.at(member.from),
                                   .to = out.places.joints.at(member.to),
                                   .theory = *theory,
-                                  .order = member.order.value_or(2),
+                                  .order = member.order.value_or(*theory == Theory::elastica ? 6 : 2),
                                   .strain = strain_of(member.strain),
                                   .section = section_of(deck, member),
                                   .elements = elements.value_or(member.elements),

@@ -95,6 +95,7 @@ class SlidingContact final : public System {
   struct CurvatureGap {
     double value = 0.0, stretch = 1.0;
     Vector dx{}, ds{};
+    double dlambda = 0.0;
   };
   // A place where the gap is least.
   struct Minimum {
@@ -109,7 +110,7 @@ class SlidingContact final : public System {
   double normal_offset(std::size_t obstacle, Index run) const;
   double face_gap(const Touch& touch, const AxisPlace& place) const;
   NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
-  CurvatureGap curvature_gap(const SlidingContactLayout& on, const Vector& x, const Vector& s, std::size_t k) const;
+  CurvatureGap curvature_gap(const State& state, std::size_t k) const;
   double pressure(const State& state, std::size_t k) const;
   template <typename Visit>
   void for_each_force(const State& state, const Visit& visit) const;

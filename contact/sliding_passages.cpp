@@ -92,7 +92,7 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
   };
   switch (bound) {
     case Bound::curvature:
-      return curvature_gap(on, on.x_of(state), s, which).value * scales_.length;
+      return curvature_gap(state, which).value * scales_.length;
     case Bound::length: {
       const Index k = static_cast<Index>(which), run = on.mesh().breakpoint(k).first;
       return (s[k + 1] - s[k] - least_span(run)) / scales_.length;
@@ -106,7 +106,7 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       // (k d/π)², k² = P λ/EI the wave number of a straight part under the thrust P
       const Layout_::Segment& segment = on.segments()[which];
       const Index k = segment.last_point;
-      const double d = s[k] - s[k - 1], stretch = on.mesh().strain(k, on.x_of(state), s).stretch;
+      const double d = s[k] - s[k - 1], stretch = on.mesh().strain(k, on.x_of(state), s, state.lambda).stretch;
       const double EA = body_.axial_stiffness(segment.run), EI = body_.bending_stiffness(segment.run);
       const double waves = EA * (1.0 - stretch) * stretch / EI * d * d / (pi * pi);
       return bound == Bound::half_wave ? 1.0 - waves : waves - shortest_flat * shortest_flat;
@@ -137,9 +137,10 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
   };
   switch (bound) {
     case Bound::curvature: {
-      const CurvatureGap gap = curvature_gap(on, on.x_of(state), s, which);
+      const CurvatureGap gap = curvature_gap(state, which);
       row.dx.head(n) = scales_.length * gap.dx;
       row.dx.tail(s.size()) = scales_.length * gap.ds;
+      row.dlambda = scales_.length * gap.dlambda;
       break;
     }
     case Bound::length:
@@ -156,13 +157,14 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
     case Bound::straight: {
       const Layout_::Segment& segment = on.segments()[which];
       const Index k = segment.last_point;
-      const AxisStrain strain = on.mesh().strain(k, on.x_of(state), s);
+      const AxisStrain strain = on.mesh().strain(k, on.x_of(state), s, state.lambda);
       const double EA = body_.axial_stiffness(segment.run), EI = body_.bending_stiffness(segment.run);
       const double sign = bound == Bound::half_wave ? -1.0 : 1.0, d = s[k] - s[k - 1];
       const double factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
       const double by_stretch = factor * (1.0 - 2.0 * stretch) * d * d;
       row.dx.head(n) = by_stretch * strain.stretch_dx;
       row.dx.tail(s.size()) = by_stretch * strain.stretch_ds;
+      row.dlambda = by_stretch * strain.stretch_dlambda;
       row.dx[first_s + k] += factor * (1.0 - stretch) * stretch * 2.0 * d;
       row.dx[first_s + k - 1] -= factor * (1.0 - stretch) * stretch * 2.0 * d;
       break;
@@ -548,7 +550,7 @@ Piece SlidingContact::settled(const State& state) const {
   bool changed = false;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].behind != Span::flat) continue;
-    const double kappa = curvature_gap(on, on.x_of(state), on.s_of(state), k).value;
+    const double kappa = curvature_gap(state, k).value;
     if (std::abs(kappa) * scales_.length <= bent) continue;
     points[k].behind = Span::free;
     changed = true;
