@@ -189,6 +189,13 @@ double SlidingContact::pressure(const State& state, std::size_t k) const {
   return std::abs(q) > noise ? q : 0.0;
 }
 
+double SlidingContact::wall_curvature(const State& state, std::size_t k) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Touch at = touch(on, k);
+  const AxisPlace place = on.mesh().node(at.run, at.position, on.x_of(state));
+  return bend(*obstacles_[at.obstacle].profile, place.position.x()).curvature;
+}
+
 // --- the equations --------------------------------------------------------------------------------------------------
 
 // visit(touch, where its force stands in x)

@@ -56,7 +56,8 @@ class SlidingContact final : public System {
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
-  Passage passage(const State& state, const Direction& forward, Index limit, double tolerance) const override;
+  std::vector<Passage> passages(const State& state, const Direction& forward, Index limit,
+                                double tolerance) const override;
   bool admissible(const State& state, double margin) const override;
   std::optional<Passage> refined(const State& from, const Direction& forward, const State& to,
                                  double margin) const override;
@@ -112,6 +113,7 @@ class SlidingContact final : public System {
   NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
   CurvatureGap curvature_gap(const State& state, std::size_t k) const;
   double pressure(const State& state, std::size_t k) const;
+  double wall_curvature(const State& state, std::size_t k) const;
   template <typename Visit>
   void for_each_force(const State& state, const Visit& visit) const;
   void lay_out(const State& state, Linearization& out) const;
@@ -125,7 +127,8 @@ class SlidingContact final : public System {
   struct Redrawn;
   State redrawn(const State& state, const Redrawn& by) const;
   Passage remeshed(const State& state, const Direction& forward, const Map& map) const;
-  Passage spread(const State& state, std::size_t k) const;
+  std::vector<Passage> spreads(const State& state, std::size_t k) const;
+  Passage spread(const State& state, std::size_t k, bool flat, bool pressed) const;
   Passage gathered(const State& state, std::size_t k) const;
   Passage without(const State& state, const Direction& forward, std::size_t k) const;
   Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;

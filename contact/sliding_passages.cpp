@@ -281,13 +281,14 @@ Passage SlidingContact::remeshed(const State& state, const Direction& forward, c
   return passage;
 }
 
-Passage SlidingContact::passage(const State& state, const Direction& forward, Index limit, double tolerance) const {
+std::vector<Passage> SlidingContact::passages(const State& state, const Direction& forward, Index limit,
+                                              double tolerance) const {
   const Layout_& on = layout(state.piece);
   const auto contacts = static_cast<Index>(state.piece.size());
   const auto [bound, which] = on.limits()[static_cast<std::size_t>(limit - contacts)];
   switch (bound) {
     case Bound::curvature: {
-      if (!state.piece[which]) return without(state, forward, which);
+      if (!state.piece[which]) return {without(state, forward, which)};
       // All point contacts of an equilibrium become lines together; of several only the sum of lengths is determined.
       Index lines = 0;
       for (std::size_t l = 0; l < on.limits().size(); ++l)
@@ -297,33 +298,33 @@ Passage SlidingContact::passage(const State& state, const Direction& forward, In
       for (const Point& point : on.points())
         if (point.behind == Span::flat) ++lines;
       if (lines > 1)
-        return {.change = Passage::Change::family,
-                .detail = std::to_string(lines) +
-                          " contacts become lines together: only the sum of their lengths is determined, all such "
-                          "equilibria have the energy " +
-                          round_trip(energy(state))};
-      return spread(state, which);
+        return {{.change = Passage::Change::family,
+                 .detail = std::to_string(lines) +
+                           " contacts become lines together: only the sum of their lengths is determined, all such "
+                           "equilibria have the energy " +
+                           round_trip(energy(state))}};
+      return spreads(state, which);
     }
     case Bound::length:
-      return gathered(state, which);
+      return {gathered(state, which)};
     case Bound::coarse:
-      return with_elements(state, forward, which, 2 * on.segments()[which].elements);
+      return {with_elements(state, forward, which, 2 * on.segments()[which].elements)};
     case Bound::fine:
-      return with_elements(state, forward, which, (on.segments()[which].elements + 1) / 2);
+      return {with_elements(state, forward, which, (on.segments()[which].elements + 1) / 2)};
     case Bound::half_wave: {
       const Index run = on.segments()[which].run;
       const double asked = body_.elements_between(run, 0.0, body_.length(run));
-      return with_elements(state, forward, which, std::max(8, static_cast<int>(std::lround(asked))));
+      return {with_elements(state, forward, which, std::max(8, static_cast<int>(std::lround(asked))))};
     }
     case Bound::straight:
-      return with_elements(state, forward, which, 1);
+      return {with_elements(state, forward, which, 1)};
     case Bound::room:
-      return {.change = Passage::Change::unsupported,
-              .detail = "a contact point reached the end of its member, or another wall's contact"};
+      return {{.change = Passage::Change::unsupported,
+               .detail = "a contact point reached the end of its member, or another wall's contact"}};
     case Bound::pressure:
-      return {.change = Passage::Change::unsupported, .detail = "a part that lies on a wall lifts off inside"};
+      return {{.change = Passage::Change::unsupported, .detail = "a part that lies on a wall lifts off inside"}};
   }
-  return {.change = Passage::Change::unsupported};
+  return {};
 }
 
 namespace {
@@ -365,13 +366,20 @@ std::vector<double> point_forces(const SlidingContact& contact, const State& sta
 
 }  // namespace
 
-// The point becomes two, a short way apart, with a part of the body between them that lies on the wall or arches off
-// it.
-Passage SlidingContact::spread(const State& state, std::size_t k) const {
+// Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
+// arches off the wall. At a curved wall the pressure may grow from zero: then only the piece ahead tells.
+std::vector<Passage> SlidingContact::spreads(const State& state, std::size_t k) const {
+  const double q = pressure(state, k);
+  if (q == 0.0 && wall_curvature(state, k) == 0.0) return {spread(state, k, true, false)};
+  return {spread(state, k, false, q >= 0.0), spread(state, k, false, q < 0.0)};
+}
+
+// The point becomes two, a short way apart.
+Passage SlidingContact::spread(const State& state, std::size_t k, bool flat, bool pressed) const {
   const Layout_& on = layout(state.piece);
   const auto [run, position] = on.mesh().breakpoint(static_cast<Index>(k));
-  const double q = pressure(state, k), length = 2.0 * least_span(run);
-  const Span span = q > 0.0 ? Span::pressed : q < 0.0 ? Span::free : Span::flat;
+  const double length = 2.0 * least_span(run);
+  const Span span = flat ? Span::flat : pressed ? Span::pressed : Span::free;
 
   Cut cut = on.mesh().cut();
   const auto first_of_run = static_cast<Index>(
