@@ -118,6 +118,7 @@ class SlidingContact final : public System {
   void for_each_force(const State& state, const Visit& visit) const;
   void lay_out(const State& state, Linearization& out) const;
 
+  Index held_force(const State& state, std::size_t node) const;
   double limit_value(const State& state, std::size_t limit) const;
   Row limit_gradient(const State& state, std::size_t limit) const;
   template <typename Visit>
@@ -128,7 +129,8 @@ class SlidingContact final : public System {
   State redrawn(const State& state, const Redrawn& by) const;
   Passage remeshed(const State& state, const Direction& forward, const Map& map) const;
   std::vector<Passage> spreads(const State& state, std::size_t k) const;
-  Passage spread(const State& state, std::size_t k, bool flat, bool pressed) const;
+  enum class Lying { flat, pressed, off };
+  Passage spread(const State& state, std::size_t k, Lying lying, double length) const;
   Passage gathered(const State& state, std::size_t k) const;
   Passage without(const State& state, const Direction& forward, std::size_t k) const;
   Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;

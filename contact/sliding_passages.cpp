@@ -81,6 +81,11 @@ double SlidingContact::least_span(Index run) const {
   return std::max(0.125 * L / body_.elements_between(run, 0.0, L), 1e-3 * L);
 }
 
+// Where the force of a held node stands in x.
+Index SlidingContact::held_force(const State& state, std::size_t node) const {
+  return layout(state.piece).mesh().unknowns() + state.piece.closed_count() + static_cast<Index>(node);
+}
+
 double SlidingContact::limit_value(const State& state, std::size_t limit) const {
   const Layout_& on = layout(state.piece);
   const Vector s = on.s_of(state);
@@ -113,8 +118,12 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
     }
     case Bound::room:
       return asked() - 0.5;
-    case Bound::pressure:
-      return state.x[on.mesh().unknowns() + state.piece.closed_count() + static_cast<Index>(which)] / scales_.force;
+    case Bound::pressure: {
+      // Force over the length that belongs to the node.
+      const Layout_::Segment& segment = on.segments()[on.held()[which].segment];
+      const double length = (s[segment.last_point] - s[segment.first_point]) / segment.elements;
+      return state.x[held_force(state, which)] * scales_.length / (length * scales_.force);
+    }
   }
   return 1.0;
 }
@@ -172,9 +181,15 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
     case Bound::room:
       by_ends(1.0);
       break;
-    case Bound::pressure:
-      row.dx[n + state.piece.closed_count() + static_cast<Index>(which)] = 1.0 / scales_.force;
+    case Bound::pressure: {
+      const Layout_::Segment& segment = on.segments()[on.held()[which].segment];
+      const double span = s[segment.last_point] - s[segment.first_point], p = state.x[held_force(state, which)];
+      const double per_force = scales_.length * segment.elements / (span * scales_.force);
+      row.dx[held_force(state, which)] = per_force;
+      row.dx[first_s + segment.last_point] = -per_force * p / span;
+      row.dx[first_s + segment.first_point] = per_force * p / span;
       break;
+    }
   }
   return row;
 }
@@ -367,19 +382,27 @@ std::vector<double> point_forces(const SlidingContact& contact, const State& sta
 }  // namespace
 
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
-// arches off the wall. At a curved wall the pressure may grow from zero: then only the piece ahead tells.
+// arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
+// begun longer.
 std::vector<Passage> SlidingContact::spreads(const State& state, std::size_t k) const {
-  const double q = pressure(state, k);
-  if (q == 0.0 && wall_curvature(state, k) == 0.0) return {spread(state, k, true, false)};
-  return {spread(state, k, false, q >= 0.0), spread(state, k, false, q < 0.0)};
+  const Index run = layout(state.piece).mesh().breakpoint(static_cast<Index>(k)).first;
+  const double q = pressure(state, k), length = 2.0 * least_span(run);
+  const bool curved = wall_curvature(state, k) != 0.0;
+  if (q == 0.0 && !curved) return {spread(state, k, Lying::flat, length)};
+  const Passage arches = spread(state, k, Lying::off, length);
+  if (q < 0.0 && !curved) return {arches, spread(state, k, Lying::pressed, length)};
+  std::vector<Passage> passages;
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
+    passages.push_back(spread(state, k, Lying::pressed, factor * length));
+  passages.push_back(arches);
+  return passages;
 }
 
 // The point becomes two, a short way apart.
-Passage SlidingContact::spread(const State& state, std::size_t k, bool flat, bool pressed) const {
+Passage SlidingContact::spread(const State& state, std::size_t k, Lying lying, double length) const {
   const Layout_& on = layout(state.piece);
   const auto [run, position] = on.mesh().breakpoint(static_cast<Index>(k));
-  const double length = 2.0 * least_span(run);
-  const Span span = flat ? Span::flat : pressed ? Span::pressed : Span::free;
+  const Span span = lying == Lying::flat ? Span::flat : lying == Lying::pressed ? Span::pressed : Span::free;
 
   Cut cut = on.mesh().cut();
   const auto first_of_run = static_cast<Index>(
