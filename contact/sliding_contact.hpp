@@ -24,7 +24,7 @@ struct Obstacle {
 class SlidingContactLayout;
 
 /// A body of slender members among obstacles, with contact where it is: the material coordinates s of the contact
-/// points are unknowns, and the mesh moves with them (docs/theory.md, section 5).
+/// points are unknowns, and the mesh moves with them (docs/theory.md, section 8).
 ///
 ///     F(x, s, λ) − Σ p_k ∇g_k − Σ m_k ∇t_k = 0,   −g_k = 0 (closed),   −t_k = 0,   m_k = 0
 ///
