@@ -91,6 +91,11 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   return candidates;
 }
 
+bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b) {
+  return std::all_of(deck.walls.begin(), deck.walls.end(),
+                     [&](const deck::Wall& wall) { return concerns(wall, a) == concerns(wall, b); });
+}
+
 std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
   std::vector<Obstacle> obstacles;
   for (const deck::Wall& wall : deck.walls) {

@@ -13,6 +13,9 @@ namespace arcwall {
 /// each wall that a member penetrates at the start.
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
 
+/// Whether the same walls concern two members.
+bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b);
+
 /// The walls for contact points that slide.
 std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure);
 

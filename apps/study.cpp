@@ -73,7 +73,8 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
                  "the loads that λ multiplies act on supports only: nothing moves", "load a free direction");
   auto candidates = contact_candidates(deck_, *structure_, problems);
   const bool sliding = slides(deck_, model.builder, problems);
-  if (sliding) sliding_structure_ = model.builder.build_sliding();
+  const auto alike = [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); };
+  if (sliding) sliding_structure_ = model.builder.build_sliding(false, alike);
   const Model read_off{.structure = *structure_, .sliding = sliding_structure_.get(), .places = model.places};
   monitors_ = monitor_columns(deck_, read_off, problems);
   options_ = trace_options(deck_, read_off, monitors_, problems);
@@ -106,7 +107,8 @@ void Study::make_sliding(const StructureBuilder& builder, bool ramp, const Conta
   };
   sliding_ = on(*sliding_structure_);
   if (!ramp) return;
-  sliding_ramp_structure_ = builder.build_sliding(true);
+  sliding_ramp_structure_ = builder.build_sliding(
+      true, [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
   sliding_ramp_ = on(*sliding_ramp_structure_);
 }
 

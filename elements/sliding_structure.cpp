@@ -599,7 +599,8 @@ bool StructureBuilder::can_slide() const {
 }
 
 // A member is cut into runs where a load acts inside it; runs that continue each other straight are joined again.
-std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp) const {
+std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
+                                                                  const SlidingStructure::Alike& alike) const {
   auto structure = std::unique_ptr<SlidingStructure>(new SlidingStructure());
   structure->positions_ = positions_;
   structure->first_freedom_ = first_freedom_;
@@ -659,12 +660,12 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp) con
       from = to;
     }
   }
-  structure->join_straight_runs(loaded);
+  structure->join_straight_runs(loaded, alike);
   return structure;
 }
 
 // Runs a and b that meet at a joint where nothing else acts, both straight, perfect and of one section, become one.
-void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded) {
+void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded, const Alike& alike) {
   const auto node_of = [&](const End& end) { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; };
   const auto straight = [](const Run& run) {
     const double L = run.axis->length();
@@ -685,7 +686,7 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded) {
            straight(a) && straight(b) && std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory &&
            a.order == b.order && a.section.E == b.section.E && a.section.A == b.section.A &&
            a.section.I == b.section.I && a.section.height == b.section.height && a.load == b.load &&
-           a.constant_load == b.constant_load;
+           a.constant_load == b.constant_load && (!alike || alike(a.parts.back().member, b.parts.front().member));
   };
   for (bool joined = true; joined;) {
     joined = false;

@@ -20,6 +20,9 @@ class SlidingStructureMesh;
 /// such a joint without notice. Loads inside a member end runs, too.
 class SlidingStructure final : public SlidingBody {
  public:
+  /// Whether two members, by name, may be parts of one run.
+  using Alike = std::function<bool(const std::string&, const std::string&)>;
+
   Index runs() const override { return static_cast<Index>(runs_.size()); }
   double length(Index run) const override { return at(run).length; }
   double half_height(Index run) const override { return 0.5 * at(run).section.height.value_or(0.0); }
@@ -90,7 +93,7 @@ class SlidingStructure final : public SlidingBody {
   };
 
   SlidingStructure() = default;
-  void join_straight_runs(const std::vector<bool>& loaded);
+  void join_straight_runs(const std::vector<bool>& loaded, const Alike& alike);
   const Run& at(Index run) const { return runs_[static_cast<std::size_t>(run)]; }
 
   std::vector<Run> runs_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -158,8 +159,10 @@ class StructureBuilder {
   /// λ from 0 to 1 applies them.
   std::unique_ptr<Structure> build(bool ramp = false) const;
 
-  /// The same for meshes with breakpoints that move. Only beams without shear: see can_slide().
-  std::unique_ptr<SlidingStructure> build_sliding(bool ramp = false) const;
+  /// The same for meshes with breakpoints that move. Only beams without shear: see can_slide(). Members for which
+  /// `alike(a, b)` is false are not joined to one run, however they meet: walls see runs.
+  std::unique_ptr<SlidingStructure> build_sliding(
+      bool ramp = false, const std::function<bool(const std::string&, const std::string&)>& alike = nullptr) const;
 
   /// Whether all members are of a theory for which build_sliding() is meant.
   bool can_slide() const;
