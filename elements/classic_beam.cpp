@@ -43,6 +43,21 @@ Shape variation(double b, double s) {
           .ss = -s / 630.0};
 }
 
+// The factor of the tilt term of (1), q/(l² + 24 q EI/EA), with its derivatives by the chord and by q.
+struct TiltFactor {
+  double value, l, q, ll, lq, qq;
+};
+
+TiltFactor tilt_factor(double l, double q, double flexibility) {
+  const double c = 24.0 * flexibility, D = l * l + c * q;
+  return {.value = q / D,
+          .l = -2.0 * l * q / (D * D),
+          .q = l * l / (D * D),
+          .ll = 2.0 * q * (3.0 * l * l - c * q) / (D * D * D),
+          .lq = 2.0 * l * (c * q - l * l) / (D * D * D),
+          .qq = -2.0 * c * l * l / (D * D * D)};
+}
+
 }  // namespace
 
 ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI)
@@ -58,7 +73,7 @@ ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI)
 
 // With the chord l at angle β, end slopes t_i = θ_i − (β − β₀) + t_i⁰ against it, b, σ and c as in (4):
 //
-//   U = ½ EA h ε² + EI/(2h) [(b − b⁰)² + (c − c⁰)²/3] − 4 EI² (σ − σ⁰)² q / (EA h l²)                  (1)
+//   U = ½ EA h ε² + EI/(2h) [(b − b⁰)² + (c − c⁰)²/3] − 4 EI² (σ − σ⁰)² q / [EA h (l² + 24 q EI/EA)]   (1)
 //   ε = [l (1 + q + q² − Q) − l₀ (1 + q⁰ + …)] / h                                                     (2)
 //
 // The last term of (1) is the tilt of the chord where the stretch varies along the element; without it and the factor
@@ -78,14 +93,15 @@ double ClassicBeam::evaluate(const double* u, double* f, double* K) const {
   const double stretch = (du * (chord_.x() + x) + dw * (chord_.y() + y)) / (l + chord_length_);  // l − l₀
   const double N = EA_ * (stretch * (1.0 + p.value) + chord_length_ * (p.value - shortening_)) / h;
   const double bending = EI_ / h, dc = v.value - c_;
-  const double tilt = 4.0 * EI_ * EI_ / (EA_ * h * l * l);
+  const double tilt = 4.0 * EI_ * EI_ / (EA_ * h);
   const double q = b * b / 24.0 + s * s / 360.0, q_b = b / 12.0, q_s = s / 180.0;
+  const TiltFactor g = tilt_factor(l, q, EI_ / EA_);
 
-  const double U = 0.5 * N * N * h / EA_ + 0.5 * bending * (db * db + dc * dc / 3.0) - tilt * ds * ds * q;
+  const double U = 0.5 * N * N * h / EA_ + 0.5 * bending * (db * db + dc * dc / 3.0) - tilt * ds * ds * g.value;
   if (f == nullptr && K == nullptr) return U;
-  const double U_l = N * (1.0 + p.value) + 2.0 * tilt * ds * ds * q / l;
-  const double U_b = N * l * p.b + bending * (db + dc * v.b / 3.0) - tilt * ds * ds * q_b;
-  const double U_s = N * l * p.s + bending * dc * v.s / 3.0 - tilt * ds * (2.0 * q + ds * q_s);
+  const double U_l = N * (1.0 + p.value) - tilt * ds * ds * g.l;
+  const double U_b = N * l * p.b + bending * (db + dc * v.b / 3.0) - tilt * ds * ds * g.q * q_b;
+  const double U_s = N * l * p.s + bending * dc * v.s / 3.0 - tilt * ds * (2.0 * g.value + ds * g.q * q_s);
 
   const double cosine = x / l, sine = y / l;
   const double r[6] = {-cosine, -sine, 0.0, cosine, sine, 0.0}, z[6] = {sine, -cosine, 0.0, -sine, cosine, 0.0};
@@ -97,15 +113,15 @@ double ClassicBeam::evaluate(const double* u, double* f, double* K) const {
   if (K == nullptr) return U;
 
   const double a = EA_ / h, m = 1.0 + p.value;
-  const double U_ll = a * m * m - 6.0 * tilt * ds * ds * q / (l * l);
-  const double U_lb = (a * l * m + N) * p.b + 2.0 * tilt * ds * ds * q_b / l;
-  const double U_ls = (a * l * m + N) * p.s + 2.0 * tilt * ds * (2.0 * q + ds * q_s) / l;
-  const double U_bb =
-      a * l * l * p.b * p.b + N * l * p.bb + bending * (1.0 + (v.b * v.b + dc * v.bb) / 3.0) - tilt * ds * ds / 12.0;
-  const double U_bs =
-      a * l * l * p.b * p.s + N * l * p.bs + bending * (v.b * v.s + dc * v.bs) / 3.0 - 2.0 * tilt * ds * q_b;
+  const double U_ll = a * m * m - tilt * ds * ds * g.ll;
+  const double U_lb = (a * l * m + N) * p.b - tilt * ds * ds * g.lq * q_b;
+  const double U_ls = (a * l * m + N) * p.s - tilt * ds * (2.0 * g.l + ds * g.lq * q_s);
+  const double U_bb = a * l * l * p.b * p.b + N * l * p.bb + bending * (1.0 + (v.b * v.b + dc * v.bb) / 3.0) -
+                      tilt * ds * ds * (g.qq * q_b * q_b + g.q / 12.0);
+  const double U_bs = a * l * l * p.b * p.s + N * l * p.bs + bending * (v.b * v.s + dc * v.bs) / 3.0 -
+                      tilt * ds * (2.0 * g.q * q_b + ds * g.qq * q_b * q_s);
   const double U_ss = a * l * l * p.s * p.s + N * l * p.ss + bending * (v.s * v.s + dc * v.ss) / 3.0 -
-                      tilt * (2.0 * q + 4.0 * ds * q_s + ds * ds / 180.0);
+                      tilt * (2.0 * g.value + 4.0 * ds * g.q * q_s + ds * ds * (g.qq * q_s * q_s + g.q / 180.0));
 
   // K = Σ U_ab ∂a ∂bᵀ + U_l ∂²l + U_s ∂²σ by (3), sorted by r, z and the two rotations (θ1: 3σ − b, θ2: 3σ + b).
   const double rz = 6.0 * (U_s / l - U_ls) / l, zz = U_l / l + 36.0 * U_ss / (l * l);
