@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcwall {
 
 namespace {
 
 constexpr double same_place = 1e-6;  // two located branch points in the path metric
+constexpr double arriving = 1e-5;    // by so much a branch may end before the branch point that it joins
 constexpr double same_value = 1e-9;  // relative difference of λ and energy between mirror images
 
 bool close(double a, double b, double scale) {
@@ -40,9 +42,11 @@ std::optional<Explorer::Step> Explorer::next() {
     if (auto arc = tracer_->next()) {
       for (const Event& event : arc->events)
         if (event.branching) look_at(event);
+      before_ = std::exchange(last_, arc->to.state);
       return Step{.branch = current_, .arc = std::move(*arc)};
     }
     branches_[static_cast<std::size_t>(current_)].end = tracer_->end();
+    if (tracer_->end()->reason == EndReason::joined) drop_arrived_at(*tracer_->end()->partner);
     tracer_.reset();
   }
 }
@@ -150,6 +154,23 @@ void Explorer::enqueue(const Event& event, const Way& way, bool mirrored) {
                                .depth = here.depth + 1,
                                .sign = sign,
                                .mirrored = mirrored}});
+}
+
+// The branch under way ended at a branch point of this other one: the way off that point by which it came, or whose
+// mirror image it came, is traced already.
+void Explorer::drop_arrived_at(int other) {
+  if (before_.piece != last_.piece) return;
+  const Metric metric(system_.weights(last_.piece), lambda_scale_);
+  const Direction step = difference(last_, before_);
+  std::erase_if(queue_, [&](const Queued& queued) {
+    const State& point = queued.start.state;
+    if (queued.record.parent != other || point.piece != last_.piece || !queued.start.forward) return false;
+    const Direction arrival = difference(point, before_);
+    const double length = metric.norm(arrival);
+    if (length > metric.norm(step) + arriving) return false;  // not in this step
+    const double cosine = metric.inner(arrival, *queued.start.forward) / length;
+    return cosine < -0.5 || (queued.record.mirrored && cosine > 0.5);
+  });
 }
 
 bool Explorer::known(const BranchPoint& point) const {

@@ -74,6 +74,7 @@ class Explorer {
   void enqueue(const Event& event, const Way& way, bool mirrored);
   void enqueue_ray(const Event& event, const BranchPoint::Way& ray);
   bool known(const BranchPoint& point) const;
+  void drop_arrived_at(int other);
 
   const System& system_;
   TraceOptions trace_;
@@ -81,6 +82,7 @@ class Explorer {
   ExploreOptions options_;
   std::unique_ptr<Tracer> tracer_;
   int current_ = 0;
+  State before_, last_;  // the last two points of the branch under way
   double lambda_scale_ = 1.0;
   std::deque<Queued> queue_;
   std::vector<BranchRecord> branches_;

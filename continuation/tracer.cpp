@@ -307,9 +307,11 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
 
 // Whether the step passes a point: it lies beside the chord, and on the path as exactly as such points are located.
 bool Tracer::passes(const PathPoint& to, const State& place) {
+  if (place.piece != to.state.piece) return false;
   const Segment segment(metric_, here_, to);
   const double L = segment.length();
-  if (place.piece != to.state.piece) return false;
+  // A turning point at a pitchfork is located there, a little before or behind it.
+  if (metric_.norm(difference(to.state, place)) <= std::min(passing, 0.25 * L)) return true;
   const Direction offset = difference(place, here_.state);
   const double t = metric_.inner(offset, segment.chord()) / (L * L);
   if (!(t > 0.0 && t <= 1.0 + same_place)) return false;

@@ -13,6 +13,21 @@ BeamReference beam_reference(const StretchReference& stretch) {
   return {.chord = rest.chord, .length = stretch.length, .slope1 = rest.slope1, .slope2 = rest.slope2};
 }
 
+// The factor of the tilt term of (1), q/(l² + 24 q EI/EA), with its derivatives by the chord and by q.
+struct TiltFactor {
+  double value, l, q, ll, lq, qq;
+};
+
+TiltFactor tilt_factor(double l, double q, double flexibility) {
+  const double c = 24.0 * flexibility, D = l * l + c * q;
+  return {.value = q / D,
+          .l = -2.0 * l * q / (D * D),
+          .q = l * l / (D * D),
+          .ll = 2.0 * q * (3.0 * l * l - c * q) / (D * D * D),
+          .lq = 2.0 * l * (c * q - l * l) / (D * D * D),
+          .qq = -2.0 * c * l * l / (D * D * D)};
+}
+
 }  // namespace
 
 ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI)
@@ -43,7 +58,7 @@ ClassicBeam::ClassicBeam(const StretchReference& stretch, double EA, double EI)
 
 // With the chord l at angle β, end slopes t_i = θ_i − (β − β₀) + t_i⁰ against it, b, σ and c as in chord_frame.hpp:
 //
-//   U = ½ EA h ε² + EI/(2h) [(b − b⁰)² + (c − c⁰)²/3] − 4 EI² (σ − σ⁰)² q / (EA h l²)                  (1)
+//   U = ½ EA h ε² + EI/(2h) [(b − b⁰)² + (c − c⁰)²/3] − 4 EI² (σ − σ⁰)² q / [EA h (l² + 24 q EI/EA)]   (1)
 //   ε = [l (1 + q + q² − Q) − l₀ (1 + q⁰ + …)] / h                                                     (2)
 //
 // The last term of (1) is the tilt of the chord where the stretch varies along the element; without it and the factor
@@ -51,31 +66,32 @@ ClassicBeam::ClassicBeam(const StretchReference& stretch, double EA, double EI)
 struct ClassicBeam::Deformation {
   double l, b, s, db, ds, dc;  // db = b − b⁰, …
   double h, EA;
-  double a, N, bending, tilt;  // EA/h, EA ε, EI/h, 4 EI²/(EA h l²)
+  double a, N, bending, tilt;  // EA/h, EA ε, EI/h, 4 EI²/(EA h)
   double q, q_b, q_s;
+  TiltFactor g;
   BendTerm p, v;
 
   double energy() const {
-    return 0.5 * N * N * h / EA + 0.5 * bending * (db * db + dc * dc / 3.0) - tilt * ds * ds * q;
+    return 0.5 * N * N * h / EA + 0.5 * bending * (db * db + dc * dc / 3.0) - tilt * ds * ds * g.value;
   }
 
   ChordSlopes slopes() const {
-    return {.l = N * (1.0 + p.value) + 2.0 * tilt * ds * ds * q / l,
-            .b = N * l * p.b + bending * (db + dc * v.b / 3.0) - tilt * ds * ds * q_b,
-            .s = N * l * p.s + bending * dc * v.s / 3.0 - tilt * ds * (2.0 * q + ds * q_s)};
+    return {.l = N * (1.0 + p.value) - tilt * ds * ds * g.l,
+            .b = N * l * p.b + bending * (db + dc * v.b / 3.0) - tilt * ds * ds * g.q * q_b,
+            .s = N * l * p.s + bending * dc * v.s / 3.0 - tilt * ds * (2.0 * g.value + ds * g.q * q_s)};
   }
 
   ChordCurvatures curvatures() const {
     const double m = 1.0 + p.value;
-    return {
-        .ll = a * m * m - 6.0 * tilt * ds * ds * q / (l * l),
-        .lb = (a * l * m + N) * p.b + 2.0 * tilt * ds * ds * q_b / l,
-        .ls = (a * l * m + N) * p.s + 2.0 * tilt * ds * (2.0 * q + ds * q_s) / l,
-        .bb = a * l * l * p.b * p.b + N * l * p.bb + bending * (1.0 + (v.b * v.b + dc * v.bb) / 3.0) -
-              tilt * ds * ds / 12.0,
-        .bs = a * l * l * p.b * p.s + N * l * p.bs + bending * (v.b * v.s + dc * v.bs) / 3.0 - 2.0 * tilt * ds * q_b,
-        .ss = a * l * l * p.s * p.s + N * l * p.ss + bending * (v.s * v.s + dc * v.ss) / 3.0 -
-              tilt * (2.0 * q + 4.0 * ds * q_s + ds * ds / 180.0)};
+    return {.ll = a * m * m - tilt * ds * ds * g.ll,
+            .lb = (a * l * m + N) * p.b - tilt * ds * ds * g.lq * q_b,
+            .ls = (a * l * m + N) * p.s - tilt * ds * (2.0 * g.l + ds * g.lq * q_s),
+            .bb = a * l * l * p.b * p.b + N * l * p.bb + bending * (1.0 + (v.b * v.b + dc * v.bb) / 3.0) -
+                  tilt * ds * ds * (g.qq * q_b * q_b + g.q / 12.0),
+            .bs = a * l * l * p.b * p.s + N * l * p.bs + bending * (v.b * v.s + dc * v.bs) / 3.0 -
+                  tilt * ds * (2.0 * g.q * q_b + ds * g.qq * q_b * q_s),
+            .ss = a * l * l * p.s * p.s + N * l * p.ss + bending * (v.s * v.s + dc * v.ss) / 3.0 -
+                  tilt * (2.0 * g.value + 4.0 * ds * g.q * q_s + ds * ds * (g.qq * q_s * q_s + g.q / 180.0))};
   }
 
   // Of the slopes, where l, b and σ stay and the stress-free state changes: all of (1) is of order −1 in h, and the
@@ -83,10 +99,11 @@ struct ClassicBeam::Deformation {
   ChordSlopes slope_rate(const Rate& rest) const {
     const ChordSlopes U = slopes();
     const double N_rate = -a * rest.axial, with_h = -rest.length / h;
-    return {
-        .l = with_h * U.l + N_rate * (1.0 + p.value) - 4.0 * tilt * ds * rest.s * q / l,
-        .b = with_h * U.b + N_rate * l * p.b - bending * (rest.b + rest.c * v.b / 3.0) + 2.0 * tilt * ds * rest.s * q_b,
-        .s = with_h * U.s + N_rate * l * p.s - bending * rest.c * v.s / 3.0 + 2.0 * tilt * rest.s * (q + ds * q_s)};
+    return {.l = with_h * U.l + N_rate * (1.0 + p.value) + 2.0 * tilt * ds * rest.s * g.l,
+            .b = with_h * U.b + N_rate * l * p.b - bending * (rest.b + rest.c * v.b / 3.0) +
+                 2.0 * tilt * ds * rest.s * g.q * q_b,
+            .s = with_h * U.s + N_rate * l * p.s - bending * rest.c * v.s / 3.0 +
+                 2.0 * tilt * rest.s * (g.value + ds * g.q * q_s)};
   }
 };
 
@@ -94,6 +111,7 @@ inline ClassicBeam::Deformation ClassicBeam::deform(double length, double stretc
   const double l = length, h = length_;
   const double db = d2 - d1, ds = 3.0 * (d1 + d2), b = b_ + db, s = s_ + ds;
   const BendTerm p = shortening(b, s), v = variation(b, s);
+  const double q = b * b / 24.0 + s * s / 360.0;
   return {.l = l,
           .b = b,
           .s = s,
@@ -105,10 +123,11 @@ inline ClassicBeam::Deformation ClassicBeam::deform(double length, double stretc
           .a = EA_ / h,
           .N = EA_ * (stretch * (1.0 + p.value) + chord_length_ * (p.value - shortening_)) / h,
           .bending = EI_ / h,
-          .tilt = 4.0 * EI_ * EI_ / (EA_ * h * l * l),
-          .q = b * b / 24.0 + s * s / 360.0,
+          .tilt = 4.0 * EI_ * EI_ / (EA_ * h),
+          .q = q,
           .q_b = b / 12.0,
           .q_s = s / 180.0,
+          .g = tilt_factor(l, q, EI_ / EA_),
           .p = p,
           .v = v};
 }

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/functions.hpp"
 #include "tests/support/invariants.hpp"
-#include "tests/support/toys.hpp"
 
 namespace arcwall {
 
@@ -13,24 +13,6 @@ using test::Branch;
 using test::SmoothToy;
 
 State at(double x, double l) { return {.x = test::scalar(x), .lambda = l}; }
-
-// F = x³ − λ x: x = 0, and λ = x² from λ = 0 on.
-SmoothToy pitchfork() {
-  SmoothToy toy;
-  toy.F = [](const Vector& x, double l) { return test::scalar(x[0] * x[0] * x[0] - l * x[0]); };
-  toy.K = [](const Vector& x, double l) { return test::scalar_matrix(3.0 * x[0] * x[0] - l); };
-  toy.F_lambda = [](const Vector& x, double) { return test::scalar(-x[0]); };
-  return toy;
-}
-
-// F = x² − λ x: x = 0 and x = λ.
-SmoothToy transcritical() {
-  SmoothToy toy;
-  toy.F = [](const Vector& x, double l) { return test::scalar(x[0] * x[0] - l * x[0]); };
-  toy.K = [](const Vector& x, double l) { return test::scalar_matrix(2.0 * x[0] - l); };
-  toy.F_lambda = [](const Vector& x, double) { return test::scalar(-x[0]); };
-  return toy;
-}
 
 TraceOptions until_one() {
   TraceOptions options;
@@ -49,7 +31,7 @@ Event branch_point_of(const System& system) {
 }  // namespace
 
 TEST(Branching, APitchforkIsLocatedAndSymmetric) {
-  const SmoothToy system = pitchfork();
+  const SmoothToy system = test::pitchfork();
   const Event event = branch_point_of(system);
   EXPECT_NEAR(event.state.lambda, 0.0, 1e-10);
   EXPECT_EQ(event.unstable_before, 0);
@@ -63,7 +45,7 @@ TEST(Branching, APitchforkIsLocatedAndSymmetric) {
 }
 
 TEST(Branching, ATranscriticalPointIsLocatedAndAsymmetric) {
-  const SmoothToy system = transcritical();
+  const SmoothToy system = test::transcritical();
   const Event event = branch_point_of(system);
   EXPECT_NEAR(event.state.lambda, 0.0, 1e-10);
   ASSERT_NE(event.branching, nullptr);
@@ -73,7 +55,7 @@ TEST(Branching, ATranscriticalPointIsLocatedAndAsymmetric) {
 }
 
 TEST(Branching, SteppingOffLandsOnTheOtherBranchOnEitherSide) {
-  const SmoothToy system = pitchfork();
+  const SmoothToy system = test::pitchfork();
   const Event event = branch_point_of(system);
   ASSERT_NE(event.branching, nullptr);
   const Metric metric(Vector::Ones(1), 1.0);

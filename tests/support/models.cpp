@@ -3,28 +3,36 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/tracer.hpp"
-
 namespace arcwall::test {
 
 namespace {
 
-void fix(StructureBuilder& builder, Index node, bool rotation = false) {
-  builder.fix(builder.freedom(node, Freedom::x));
-  builder.fix(builder.freedom(node, Freedom::z));
-  if (rotation) builder.fix(builder.shared_rotation(node).value());
+void fix(StructureBuilder& builder, Index joint, bool rotation = false) {
+  builder.fix(builder.freedom(joint, Freedom::x));
+  builder.fix(builder.freedom(joint, Freedom::z));
+  if (rotation) builder.fix(builder.shared_rotation(joint).value());
 }
 
-Index straight_member(StructureBuilder& builder, Index from, Index to, const Vec2& a, const Vec2& b,
-                      const Section& section, int elements, const BeamTheory& beam) {
-  return builder.add_member({.name = "member",
-                             .from = from,
-                             .to = to,
-                             .axis = straight_axis(a, b),
-                             .theory = beam.theory,
-                             .order = beam.order,
-                             .section = section,
-                             .elements = elements});
+void push_down(StructureBuilder& builder, Index joint) {
+  builder.add_load(builder.freedom(joint, Freedom::z), -1.0, LoadKind::proportional);
+}
+
+// Joints in a row and the beams between them: member i from joint i to i + 1.
+std::vector<Vec2> add_joints(StructureBuilder& builder, std::vector<Vec2> at) {
+  for (const Vec2& position : at) builder.add_joint(position);
+  return at;
+}
+
+MemberDescription beam_between(Index from, Index to, std::unique_ptr<Axis> axis, const Section& section,
+                               const BeamTheory& theory, int elements) {
+  return {.name = "member " + std::to_string(from),
+          .from = from,
+          .to = to,
+          .axis = std::move(axis),
+          .theory = theory.theory,
+          .order = theory.order,
+          .section = section,
+          .elements = theory.finer * elements};
 }
 
 }  // namespace
@@ -47,55 +55,44 @@ std::unique_ptr<Structure> VonMisesTruss::structure() const {
   fix(builder, left);
   fix(builder, right);
   if (!sways) builder.fix(builder.freedom(apex, Freedom::x));
-  builder.add_load(builder.freedom(apex, Freedom::z), -1.0, LoadKind::proportional);
+  push_down(builder, apex);
   return builder.build();
 }
 
 std::unique_ptr<Structure> Cantilever::structure() const {
   StructureBuilder builder;
-  const Vec2 a(0.0, 0.0), b(length, 0.0);
-  const Index root = builder.add_joint(a), tip = builder.add_joint(b);
-  straight_member(builder, root, tip, a, b, {.E = 1.0, .A = EA, .I = EI}, elements, beam);
-  fix(builder, root, true);
-  if (tip_force != 0.0) builder.add_load(builder.freedom(tip, Freedom::z), tip_force, LoadKind::proportional);
-  if (tip_moment != 0.0) builder.add_load(builder.shared_rotation(tip).value(), tip_moment, LoadKind::proportional);
+  const auto at = add_joints(builder, {{0.0, 0.0}, {length, 0.0}});
+  builder.add_member(beam_between(0, 1, straight_axis(at[0], at[1]), section_of(EA, EI, GA), beam, elements));
+  fix(builder, 0, true);
+  if (tip_force != 0.0) builder.add_load(builder.freedom(1, Freedom::z), tip_force, LoadKind::proportional);
+  if (tip_push != 0.0) builder.add_load(builder.freedom(1, Freedom::x), -tip_push, LoadKind::proportional);
+  if (tip_moment != 0.0) builder.add_load(builder.shared_rotation(1).value(), tip_moment, LoadKind::proportional);
+  return builder.build();
+}
+
+std::unique_ptr<Structure> Column::structure() const {
+  StructureBuilder builder;
+  const auto at = add_joints(builder, {{0.0, 0.0}, {length, 0.0}});
+  builder.add_member(beam_between(0, 1, straight_axis(at[0], at[1]), section_of(EA, EI, GA), beam, elements));
+  fix(builder, 0, clamped);
+  builder.fix(builder.freedom(1, Freedom::z));
+  if (clamped) builder.fix(builder.shared_rotation(1).value());
+  builder.add_load(builder.freedom(1, Freedom::x), -1.0, LoadKind::proportional);
   return builder.build();
 }
 
 std::unique_ptr<Structure> lee_frame(int elements, const BeamTheory& beam) {
   StructureBuilder builder;
-  const Vec2 at[] = {{0.0, 0.0}, {0.0, 120.0}, {24.0, 120.0}, {120.0, 120.0}};
-  Index joints[4];
-  for (int i = 0; i < 4; ++i) joints[i] = builder.add_joint(at[i]);
+  const auto at = add_joints(builder, {{0.0, 0.0}, {0.0, 120.0}, {24.0, 120.0}, {120.0, 120.0}});
+  const Section section{.E = 720.0, .A = 6.0, .I = 2.0, .G = 720.0 / 2.6, .shear_area = 6.0};
   const int count[] = {elements, elements / 5, elements * 4 / 5};
-  for (int i = 0; i < 3; ++i)
-    straight_member(builder, joints[i], joints[i + 1], at[i], at[i + 1], {.E = 720.0, .A = 6.0, .I = 2.0}, count[i],
-                    beam);
-  fix(builder, joints[0]);
-  fix(builder, joints[3]);
-  builder.add_load(builder.freedom(joints[2], Freedom::z), -1.0, LoadKind::proportional);
-  return builder.build();
-}
-
-std::unique_ptr<Structure> deep_arch(int elements, const BeamTheory& beam) {
-  StructureBuilder builder;
-  constexpr double R = 100.0, half = 107.5 * pi / 180.0;
-  const auto on_circle = [](double angle) { return Vec2(R * std::sin(angle), R * std::cos(angle)); };
-  const Vec2 at[] = {on_circle(-half), on_circle(0.0), on_circle(half)};
-  Index joints[3];
-  for (int i = 0; i < 3; ++i) joints[i] = builder.add_joint(at[i]);
-  for (int i = 0; i < 2; ++i)
-    builder.add_member({.name = i == 0 ? "west" : "east",
-                        .from = joints[i],
-                        .to = joints[i + 1],
-                        .axis = arc_axis(at[i], on_circle((i - 0.5) * half), at[i + 1]),
-                        .theory = beam.theory,
-                        .order = beam.order,
-                        .section = {.E = 1.0, .A = 1e8, .I = 1e6},
-                        .elements = elements});
-  fix(builder, joints[0]);
-  fix(builder, joints[2], true);
-  builder.add_load(builder.freedom(joints[1], Freedom::z), -1.0, LoadKind::proportional);
+  for (Index i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    builder.add_member(beam_between(i, i + 1, straight_axis(at[k], at[k + 1]), section, beam, count[k]));
+  }
+  fix(builder, 0);
+  fix(builder, 3);
+  push_down(builder, 2);
   return builder.build();
 }
 
@@ -103,19 +100,125 @@ std::unique_ptr<Structure> williams_toggle(int elements, const BeamTheory& beam)
   StructureBuilder builder;
   constexpr double b = 0.753, h = 0.243;
   const Section section{.E = 1.03e7, .A = b * h, .I = b * h * h * h / 12.0};
-  const Vec2 at[] = {{-12.943, 0.0}, {0.0, 0.386}, {12.943, 0.0}};
-  Index joints[3];
-  for (int i = 0; i < 3; ++i) joints[i] = builder.add_joint(at[i]);
-  for (int i = 0; i < 2; ++i)
-    straight_member(builder, joints[i], joints[i + 1], at[i], at[i + 1], section, elements, beam);
-  fix(builder, joints[0], true);
-  fix(builder, joints[2], true);
-  builder.add_load(builder.freedom(joints[1], Freedom::z), -1.0, LoadKind::proportional);
+  const auto at = add_joints(builder, {{-12.943, 0.0}, {0.0, 0.386}, {12.943, 0.0}});
+  for (const Index i : {0, 1}) {
+    const auto k = static_cast<std::size_t>(i);
+    builder.add_member(beam_between(i, i + 1, straight_axis(at[k], at[k + 1]), section, beam, elements));
+  }
+  fix(builder, 0, true);
+  fix(builder, 2, true);
+  push_down(builder, 1);
   return builder.build();
+}
+
+std::unique_ptr<Structure> RoordaFrame::structure() const {
+  StructureBuilder builder;
+  const auto at = add_joints(builder, {{0.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}});
+  for (const Index i : {0, 1}) {
+    const auto k = static_cast<std::size_t>(i);
+    builder.add_member(beam_between(i, i + 1, straight_axis(at[k], at[k + 1]), section_of(EA, 1.0), beam, elements));
+  }
+  fix(builder, 0);
+  fix(builder, 2);
+  push_down(builder, 1);
+  if (eccentricity != 0.0) builder.add_load(builder.shared_rotation(1).value(), -eccentricity, LoadKind::proportional);
+  return builder.build();
+}
+
+std::unique_ptr<Structure> DiamondFrame::structure() const {
+  StructureBuilder builder;
+  const double c = std::sqrt(0.5);
+  const auto at = add_joints(builder, {{0.0, -c}, {c, 0.0}, {0.0, c}, {-c, 0.0}});
+  for (const Index i : {0, 1, 2, 3}) {
+    const Index next = (i + 1) % 4;
+    auto bar = beam_between(i, next, straight_axis(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(next)]),
+                            section_of(EA, 1.0), beam, elements);
+    bar.hinge_from = i % 2 == 0;
+    bar.hinge_to = next % 2 == 0;
+    builder.add_member(std::move(bar));
+  }
+  fix(builder, 0);
+  builder.fix(builder.freedom(2, Freedom::x));
+  builder.add_load(builder.freedom(2, Freedom::z), 2.0, LoadKind::proportional);
+  return builder.build();
+}
+
+std::unique_ptr<Structure> CircularArch::structure() const {
+  StructureBuilder builder;
+  const auto on_circle = [&](double angle) { return Vec2(radius * std::sin(angle), radius * std::cos(angle)); };
+  const auto at = add_joints(builder, {on_circle(-half_angle), {0.0, radius}, on_circle(half_angle)});
+  for (const Index i : {0, 1}) {
+    const auto k = static_cast<std::size_t>(i);
+    builder.add_member(beam_between(i, i + 1, arc_axis(at[k], on_circle((double(i) - 0.5) * half_angle), at[k + 1]),
+                                    section_of(EA, EI, GA), beam, elements));
+  }
+  fix(builder, 0, clamped_left);
+  fix(builder, 2, clamped_right);
+  push_down(builder, 1);
+  return builder.build();
+}
+
+std::unique_ptr<Structure> deep_arch(int elements, const BeamTheory& beam, double GA) {
+  return CircularArch{.radius = 100.0,
+                      .half_angle = 107.5 * pi / 180.0,
+                      .EA = 1e8,
+                      .EI = 1e6,
+                      .clamped_right = true,
+                      .elements = elements,
+                      .GA = GA,
+                      .beam = beam}
+      .structure();
+}
+
+std::unique_ptr<Structure> pinned_semicircle(int elements, const BeamTheory& beam) {
+  return CircularArch{.radius = 127.0, .EA = 1378.0 * 64.52, .EI = 1378.0 * 41.62, .elements = elements, .beam = beam}
+      .structure();
+}
+
+std::unique_ptr<Structure> shallow_arch(int elements, const BeamTheory& beam) {
+  constexpr double half_chord = 5000.0, rise = 500.0;
+  constexpr double radius = (half_chord * half_chord + rise * rise) / (2.0 * rise);
+  return CircularArch{.radius = radius,
+                      .half_angle = std::asin(half_chord / radius),
+                      .EA = 2e6,
+                      .EI = 2e10,
+                      .elements = elements,
+                      .beam = beam}
+      .structure();
 }
 
 std::shared_ptr<const Observable> displacement(const Structure& structure, Index node, Freedom which) {
   return std::make_shared<FreedomObservable>(structure, structure.freedom(node, which));
+}
+
+std::shared_ptr<const Observable> joint_rotation(const Structure& structure, Index joint) {
+  for (const MemberMesh& mesh : structure.members()) {
+    if (mesh.nodes.front() == joint)
+      return std::make_shared<FreedomObservable>(structure, mesh.rotations.front().value());
+    if (mesh.nodes.back() == joint)
+      return std::make_shared<FreedomObservable>(structure, mesh.rotations.back().value());
+  }
+  return nullptr;
+}
+
+Vec2 displacement_of(const Structure& structure, const State& state, Index node) {
+  return structure.current(state.x, node) - structure.position(node);
+}
+
+Landmark stop_at(const Structure& structure, Index node, Freedom which, double value) {
+  return {.quantity = displacement(structure, node, which), .value = value, .stops = true, .label = "displacement"};
+}
+
+TraceOptions PathModel::options() const {
+  TraceOptions options;
+  options.step.first = first_step;
+  options.landmarks = landmarks;
+  return options;
+}
+
+std::vector<Watch> PathModel::watched() const {
+  if (!watch) return {};
+  return {{.quantity = displacement(*structure, loaded, Freedom::z), .label = "z"}};
 }
 
 ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step)

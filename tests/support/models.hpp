@@ -7,12 +7,15 @@
 #include "contact/multiplier_contact.hpp"
 #include "elements/member_point.hpp"
 #include "elements/structure.hpp"
+#include "tests/support/beam_theories.hpp"
+#include "tests/support/branch.hpp"
 
-/// Models that several suites use; all numbers that matter are arguments or stand in the comments.
+/// Structures that several suites use; all numbers that matter are arguments or stand in the comments. Theories that
+/// are flexible in shear take GA, the others leave it out.
 namespace arcwall::test {
 
-/// Two bars between supports at (∓b, 0) and an apex at (0, h), loaded there by λ downwards. The apex moves in x only
-/// when `sways`.
+/// Two bars between supports at (∓b, 0) and an apex at (0, h), joint 1, loaded there by λ downwards. The apex moves in
+/// x only when `sways`.
 struct VonMisesTruss {
   double EA = 1.0, half_span = 10.0, rise = 1.0;
   TrussStrain strain = TrussStrain::green;
@@ -21,36 +24,106 @@ struct VonMisesTruss {
   std::unique_ptr<Structure> structure() const;
 };
 
-/// Theory and order of the beams of a model.
-struct BeamTheory {
-  Theory theory = Theory::classic;
-  int order = 2;
-};
-
-/// A straight cantilever from (0, 0) to (L, 0), clamped at the left.
+/// A straight cantilever from (0, 0) to (L, 0), clamped at the left; the tip is joint 1.
 struct Cantilever {
   double EA = 1e4, EI = 1.0, length = 1.0;
   int elements = 8;
   double tip_force = 0.0, tip_moment = 0.0;  ///< times λ; the force acts along z
+  double tip_push = 0.0;                     ///< times λ, against x
+  double GA = 0.0;
+  BeamTheory beam{};
+
+  std::unique_ptr<Structure> structure() const;
+};
+
+/// A straight column from (0, 0) to (L, 0), pushed at its right end, joint 1, by λ. The left end is held, the right one
+/// slides along x; both are pinned, or clamped.
+struct Column {
+  double EA = 1000.0, EI = 1.0, length = 1.0;
+  bool clamped = false;
+  int elements = 40;
+  double GA = 0.0;
   BeamTheory beam{};
 
   std::unique_ptr<Structure> structure() const;
 };
 
 /// Lee's frame (Lee, Manuel & Rossow 1968): column (0,0)-(0,120), beam (0,120)-(120,120), pinned ends, E = 720, A = 6,
-/// I = 2, λ downwards 24 from the corner. `elements` on each of the two; a multiple of 5.
+/// I = 2, λ downwards at joint 2, which is 24 from the corner. Shear: ν = 0.3, shear correction 1. `elements` on each
+/// of the two; a multiple of 5.
 std::unique_ptr<Structure> lee_frame(int elements, const BeamTheory& beam = {});
 
-/// Deep circular arch of 215°, R = 100, EA = 1e8, EI = 1e6, hinged left, clamped right, λ downwards at the crown.
-/// `elements` on each half.
-std::unique_ptr<Structure> deep_arch(int elements, const BeamTheory& beam = {});
-
 /// Williams' toggle: two rigidly joined bars between clamped ends, half span 12.943, rise 0.386, E = 1.03e7, section
-/// 0.753 × 0.243, λ downwards at the apex. `elements` on each bar.
+/// 0.753 × 0.243, λ downwards at the apex, joint 1. `elements` on each bar.
 std::unique_ptr<Structure> williams_toggle(int elements, const BeamTheory& beam = {});
 
-/// A vertical observable of the joint at which a model is loaded.
+/// Roorda's frame: column (0,0)-(0,1), beam (0,1)-(1,1), outer ends pinned, rigid corner, joint 1. There λ acts
+/// downwards and a couple −e λ, of a load that stands beside the column. EI = 1. `elements` on each of the two.
+struct RoordaFrame {
+  double EA = 1e6, eccentricity = 0.0;
+  int elements = 20;
+  BeamTheory beam{};
+
+  std::unique_ptr<Structure> structure() const;
+};
+
+/// A square of four bars of length 1 on its corner, hinged at the bottom, joint 0, and at the top, joint 2, rigid at
+/// the sides, joints 1 and 3. The bottom is held, the top moves along z under 2 λ upwards. EI = 1. `elements` on each
+/// bar.
+struct DiamondFrame {
+  double EA = 1000.0;
+  int elements = 16;
+  BeamTheory beam{};
+
+  std::unique_ptr<Structure> structure() const;
+};
+
+/// A circular arch about the origin from −half_angle to half_angle against the vertical, loaded by λ downwards at its
+/// crown, joint 1. `elements` on each half.
+struct CircularArch {
+  double radius = 1.0, half_angle = pi / 2.0;
+  double EA = 1e6, EI = 1.0;
+  bool clamped_left = false, clamped_right = false;
+  int elements = 16;
+  double GA = 0.0;
+  BeamTheory beam{};
+
+  std::unique_ptr<Structure> structure() const;
+};
+
+/// Deep circular arch of 215°, R = 100, EA = 1e8, EI = 1e6, hinged left, clamped right (DaDeppo & Schmidt 1975).
+std::unique_ptr<Structure> deep_arch(int elements, const BeamTheory& beam = {}, double GA = 0.0);
+
+/// Pinned semicircle, R = 127, EA = 1378·64.52, EI = 1378·41.62.
+std::unique_ptr<Structure> pinned_semicircle(int elements, const BeamTheory& beam = {});
+
+/// Pinned, chord 10000, rise 500, EA = 2e6, EI = 2e10 (after Clarke & Hancock 1990).
+std::unique_ptr<Structure> shallow_arch(int elements, const BeamTheory& beam = {});
+
+/// A freedom of a joint as an observable.
 std::shared_ptr<const Observable> displacement(const Structure& structure, Index node, Freedom which);
+
+/// The rotation that the rigidly joined members at a joint share.
+std::shared_ptr<const Observable> joint_rotation(const Structure& structure, Index joint);
+
+/// Where a joint has gone.
+Vec2 displacement_of(const Structure& structure, const State& state, Index node);
+
+/// A structure and how far its path is followed.
+struct PathModel {
+  std::string name{};
+  std::unique_ptr<Structure> structure{};
+  Index loaded = 1;
+  double first_step = 0.02;
+  std::vector<Landmark> landmarks{};
+  bool watch = false;  ///< turning points of the loaded joint's z are events
+
+  TraceOptions options() const;
+  std::vector<Watch> watched() const;
+};
+
+/// A bound of a joint's displacement that ends the branch.
+Landmark stop_at(const Structure& structure, Index node, Freedom which, double value);
 
 /// A wall that all nodes of member 0 are tested against, on the face that looks at it or on the axis.
 struct TestWall {
