@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/test_function.hpp"
+
 namespace arcwall {
 
 // Newton on the closed system. The states that satisfy the linearised equilibrium are a line,
@@ -75,13 +77,16 @@ bool Corrector::find_line(const Metric& metric, const Direction& along) {
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {
   result.status = look(result.state);
   if (result.status != CorrectorStatus::converged) return result;
-  if (!find_line(metric, along)) {
+  Matrix columns = tracker_.right_hand_sides(metric.weights());
+  Direction tangent;
+  if (!solver_.tangent(metric.row(along), tangent, columns)) {
     result.status = CorrectorStatus::singular;
     return result;
   }
-  result.tangent = line_.tangent;
-  if (const auto inertia = solver_.inertia())
-    result.negative = inertia->negative - system_.multiplier_count(result.state.piece);
+  result.tangent = unit(metric, std::move(tangent));
+  if (columns.cols() > 0) result.nearest = tracker_.advance(metric.weights(), columns);
+  if (const auto negative = negative_by_pivots(solver_.inner(), metric.weights(), result.nearest))
+    result.negative = *negative - system_.multiplier_count(result.state.piece);
   const double load = metric.dual_norm(now_.F_lambda) * std::max(std::abs(result.state.lambda), load_floor_);
   result.residual = metric.dual_norm(now_.F) / std::max(load, 1e-300);
   return result;

@@ -1,5 +1,7 @@
 #include "continuation/stability.hpp"
 
+#include "core/test_function.hpp"
+
 namespace arcwall {
 
 Piece strongly_closed(const System& system, const State& state, double force_tolerance) {
@@ -28,8 +30,17 @@ std::optional<Index> StabilityCounter::negative_on(const State& state) {
   system_.linearize(state, now_);
   const Index multipliers = system_.multiplier_count(state.piece);
   ldlt_.set_multiplier_count(multipliers);
-  if (ldlt_.factorize(now_.K) != FactorStatus::ok) return std::nullopt;
-  return ldlt_.inertia()->negative - multipliers;
+  const Vector weights = system_.weights(state.piece);
+  NearNull nearest;
+  const FactorStatus status = ldlt_.factorize(now_.K);
+  if (status == FactorStatus::not_finite) return std::nullopt;
+  if (status == FactorStatus::ok) {
+    Matrix columns = tracker_.right_hand_sides(weights);
+    ldlt_.solve(columns);
+    nearest = tracker_.advance(weights, columns);
+  }
+  const auto negative = negative_count(ldlt_, now_.K, weights, multipliers, nearest);
+  return negative ? std::optional(*negative - multipliers) : std::nullopt;
 }
 
 }  // namespace arcwall

@@ -81,6 +81,7 @@ std::optional<Arc> Tracer::begin() {
     return std::nullopt;
   }
   here_ = point_of(std::move(start), forward);
+  decide_count(here_);
   Arc arc;
   if (system_.guard_count() > 0 && !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
     if (!turn_corner(here_, -1, 0.0, arc.events)) return std::nullopt;
@@ -206,9 +207,10 @@ std::optional<Tracer::Step> Tracer::take(double s) {
 
   Step step{.to = point_of(std::move(result), here_.tangent)};
   if (!trustworthy(step.to, s, step.turn)) return std::nullopt;
-  if (system_.guard_count() == 0) return step;
-  if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)))
-    if (!land(step, *crossing)) return std::nullopt;
+  if (system_.guard_count() > 0)
+    if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)))
+      if (!land(step, *crossing)) return std::nullopt;
+  decide_count(step.to);
   return step;
 }
 
@@ -281,6 +283,11 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
   point.guards = system_.guards(point.state);
   point.guard_rates = system_.guard_rates(point.state, point.tangent);
   return point;
+}
+
+// The count of negative eigenvalues where the pivots do not tell it.
+void Tracer::decide_count(PathPoint& point) {
+  if (!point.held) point.held = point.count.unstable = counter_.negative_on(point.state);
 }
 
 // Whether the step passes a point: it lies beside the chord, and on the path as exactly as such points are located.

@@ -12,7 +12,7 @@ constexpr double good_residual = 1e-10;
 constexpr int max_refinements = 3;
 
 // Improves X so that K X = B; false if it cannot be made good.
-bool refine(const SparseMatrix& K, const Ldlt& ldlt, const Matrix& B, Matrix& X) {
+bool refine(const SparseMatrix& K, const Ldlt& ldlt, const Matrix& B, Eigen::Ref<Matrix> X) {
   for (int round = 0; round <= max_refinements; ++round) {
     Matrix R = B;
     R.noalias() -= K.selfadjointView<Eigen::Lower>() * X;
@@ -36,29 +36,43 @@ FactorStatus BorderedSolver::factorize(const Linearization& equations, Index mul
 
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const Linearization& now = *equations_;
-  if (regular_) {
-    columns_.resize(now.F.size(), 2);
-    columns_.col(0) = -now.F;
-    columns_.col(1) = -now.F_lambda;
-    ldlt_.solve(columns_);
-    bool good = columns_.allFinite();
-    if (good && ldlt_.pivot_ratio() < suspicious_pivot) {
-      Matrix B(now.F.size(), 2);
-      B << -now.F, -now.F_lambda;
-      good = refine(now.K, ldlt_, B, columns_);
-    }
-    if (good) {
-      out.particular.dx = columns_.col(0);
-      out.particular.dlambda = 0.0;
-      out.tangent.dx = columns_.col(1);
-      out.tangent.dlambda = 1.0;
-      return true;
-    }
+  columns_.resize(now.F.size(), 2);
+  columns_.col(0) = -now.F;
+  columns_.col(1) = -now.F_lambda;
+  if (solve_inner(columns_, 2)) {
+    out.particular = {.dx = columns_.col(0), .dlambda = 0.0};
+    out.tangent = {.dx = columns_.col(1), .dlambda = 1.0};
+    return true;
   }
   if (!factorize_whole(border)) return false;
   out.particular = solve_whole(-now.F, 0.0);
   out.tangent = solve_whole(Vector::Zero(now.F.size()), 1.0);
   return out.particular.dx.allFinite() && out.tangent.dx.allFinite();
+}
+
+bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& others) {
+  const Linearization& now = *equations_;
+  columns_.resize(now.F.size(), 1 + others.cols());
+  columns_.col(0) = -now.F_lambda;
+  columns_.rightCols(others.cols()) = others;
+  if (solve_inner(columns_, 1)) {
+    out = {.dx = columns_.col(0), .dlambda = 1.0};
+    others = columns_.rightCols(others.cols());
+    return true;
+  }
+  others.resize(now.F.size(), 0);
+  if (!factorize_whole(border)) return false;
+  out = solve_whole(Vector::Zero(now.F.size()), 1.0);
+  return out.dx.allFinite();
+}
+
+// X := K⁻¹ X; false if K is singular, or so nearly that the first `checked` columns cannot be made good.
+bool BorderedSolver::solve_inner(Matrix& X, Index checked) const {
+  if (!regular_) return false;
+  const bool suspicious = ldlt_.pivot_ratio() < suspicious_pivot;
+  const Matrix B = suspicious ? X.leftCols(checked) : Matrix();
+  ldlt_.solve(X);
+  return X.allFinite() && (!suspicious || refine(equations_->K, ldlt_, B, X.leftCols(checked)));
 }
 
 std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& f, double g) {

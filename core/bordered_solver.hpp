@@ -30,18 +30,20 @@ class BorderedSolver {
   /// False if the bordered matrix is singular too.
   bool line(const Row& border, EquilibriumLine& out);
 
+  /// The tangent of the line alone, not normalised, and `others` := K⁻¹ others by the way, unchecked; no column is left
+  /// of them where K is singular. False if the bordered matrix is singular too.
+  bool tangent(const Row& border, Direction& out, Matrix& others);
+
   /// Solution of the bordered system for one right-hand side (f, g), with column F_λ; empty if it is singular.
   std::optional<Direction> solve(const Row& border, const Vector& f, double g);
 
-  /// The factorization of K alone; only after `ok`.
-  const Factorization& inner() const { return ldlt_; }
-
-  /// Signs of the pivots of K; empty if K is singular to working precision.
-  std::optional<Inertia> inertia() const { return ldlt_.inertia(); }
+  /// The factorization of K alone.
+  const Ldlt& inner() const { return ldlt_; }
 
   bool inner_is_regular() const { return regular_; }
 
  private:
+  bool solve_inner(Matrix& X, Index checked) const;
   bool factorize_whole(const Row& border);
   Direction solve_whole(const Vector& f, double g) const;
 
