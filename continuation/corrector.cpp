@@ -6,6 +6,8 @@
 
 #include "continuation/stability.hpp"
 
+#include "core/test_function.hpp"
+
 namespace arcwall {
 
 // Newton on the closed system. The states that satisfy the linearised equilibrium are a line,
@@ -88,12 +90,22 @@ bool Corrector::find_line(const Metric& metric, const Direction& along) {
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {
   result.status = look(result.state);
   if (result.status != CorrectorStatus::converged) return result;
-  if (!find_line(metric, along)) {
+  // Pairs near zero are followed where there is no border.
+  Matrix columns(now_.F.size(), 0);
+  if (now_.B.cols() == 0) columns = tracker_.right_hand_sides(metric.weights());
+  Direction tangent;
+  if (!solver_.tangent(metric.row(along), tangent, columns)) {
     result.status = CorrectorStatus::singular;
     return result;
   }
-  result.tangent = line_.tangent;
-  result.negative = negative_eigenvalues(system_, result.state, solver_);
+  result.tangent = unit(metric, std::move(tangent));
+  if (now_.B.cols() > 0) {
+    result.negative = negative_eigenvalues(system_, result.state, solver_);
+  } else {
+    if (columns.cols() > 0) result.nearest = tracker_.advance(metric.weights(), columns);
+    if (const auto negative = negative_by_pivots(solver_.inner(), metric.weights(), result.nearest))
+      result.negative = *negative - system_.multiplier_count(result.state.piece);
+  }
   const double load = metric.dual_norm(now_.F_lambda) * std::max(std::abs(result.state.lambda), load_floor_);
   result.residual = metric.dual_norm(now_.F) / std::max(load, 1e-300);
   return result;

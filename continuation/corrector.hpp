@@ -24,7 +24,9 @@ struct CorrectorResult {
   CorrectorStatus status = CorrectorStatus::too_many_iterations;
   State state{};                    ///< the last iterate, also when not converged
   Direction tangent{};              ///< unit tangent there, of either orientation; only when converged
-  std::optional<Index> negative{};  ///< eigenvalues of K below zero with all closed contacts held; empty: not certain
+  std::optional<Index> negative{};  ///< eigenvalues of K below zero with all closed contacts held; empty: the pivots do
+                                    ///< not tell, StabilityCounter::negative_on may
+  NearNull nearest{};               ///< estimates of the eigenpairs nearest zero, at most two; none where K is singular
   int iterations = 0;
   double residual = 0.0;  ///< ‖F‖ over the load's norm at max(|λ|, load_floor) [-]
 
@@ -53,6 +55,9 @@ class Corrector {
   /// Tangent and signs at a state that is already on the path.
   CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);
 
+  /// From where the eigenpairs nearest zero are followed, instead of the point reached last.
+  void track_from(const NearNull& nearest) { tracker_.start_from(nearest.vectors); }
+
  private:
   CorrectorStatus look(const State& state);
   bool find_line(const Metric& metric, const Direction& along);
@@ -64,6 +69,7 @@ class Corrector {
   Linearization now_;
   BorderedSolver solver_;
   EquilibriumLine line_;
+  NearNullTracker tracker_;
 };
 
 }  // namespace arcwall

@@ -37,6 +37,7 @@ class Metric {
   }
   double dual_norm(const Vector& dx) const { return std::sqrt(dual_squared(dx)); }
 
+  const Vector& weights() const { return weights_; }
   double lambda_scale() const { return lambda_scale_; }
 
  private:

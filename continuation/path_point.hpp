@@ -13,9 +13,10 @@ namespace arcwall {
 /// A converged point of a path.
 struct PathPoint {
   State state{};
-  Direction tangent{};          ///< of unit length, forward along the path
-  double arc = 0.0;             ///< arc length from the branch's first point [path metric]
-  std::optional<Index> held{};  ///< negative eigenvalues with all closed contacts held; empty: not certain
+  Direction tangent{};  ///< of unit length, forward along the path
+  double arc = 0.0;     ///< arc length from the branch's first point [path metric]
+  std::optional<Index>
+      held{};  ///< negative eigenvalues with all closed contacts held; empty: one is zero within round-off
   StabilityCount count{};
   int iterations = 0;     ///< of the step that led here
   double residual = 0.0;  ///< relative

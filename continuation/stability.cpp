@@ -3,12 +3,14 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/test_function.hpp"
+
 namespace arcwall {
 
 // With the border's unknowns y held, n₋ is that of K. Let go against springs c their own stiffness, the inverse of the
 // sub-matrix of −K⁻¹, decides: n₋ = n₋(K held) + n₋(S + diag c), S = −(K⁻¹)_yy (Haynsworth 1968).
 std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver) {
-  const auto inertia = solver.inertia();
+  const auto inertia = solver.inner().inertia();
   if (!inertia) return std::nullopt;
   const Index held = inertia->negative - system.multiplier_count(state.piece);
   if (system.border_width(state.piece) == 0) return held;
@@ -48,8 +50,20 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
   system_.linearize(state, now_);
-  if (solver_.factorize(now_, system_.multiplier_count(state.piece)) != FactorStatus::ok) return std::nullopt;
-  return negative_eigenvalues(system_, state, solver_);
+  const Index multipliers = system_.multiplier_count(state.piece);
+  const FactorStatus status = solver_.factorize(now_, multipliers);
+  if (system_.border_width(state.piece) > 0)
+    return status == FactorStatus::ok ? negative_eigenvalues(system_, state, solver_) : std::nullopt;
+  if (status == FactorStatus::not_finite) return std::nullopt;
+  const Vector weights = system_.weights(state.piece);
+  NearNull nearest;
+  if (status == FactorStatus::ok) {
+    Matrix columns = tracker_.right_hand_sides(weights);
+    solver_.inner().solve(columns);
+    nearest = tracker_.advance(weights, columns);
+  }
+  const auto negative = negative_count(solver_.inner(), now_.K, weights, multipliers, nearest);
+  return negative ? std::optional(*negative - multipliers) : std::nullopt;
 }
 
 }  // namespace arcwall

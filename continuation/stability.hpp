@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/bordered_solver.hpp"
+#include "core/near_null.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {
@@ -13,7 +14,7 @@ enum class Stability { stable, unstable, undecided };
 /// Negative eigenvalues of K on {v : G_S v = 0}, S the contacts that are closed with a force above the tolerance, and
 /// what follows from it. Contacts without force hold nothing (Selke & Kikuchi's snap would be hidden if they did).
 struct StabilityCount {
-  std::optional<Index> unstable{};  ///< empty: K is singular to working precision
+  std::optional<Index> unstable{};  ///< empty: K is singular within round-off
   Stability stability = Stability::undecided;
 };
 
@@ -38,6 +39,7 @@ class StabilityCounter {
   double force_tolerance_;
   Linearization now_;
   BorderedSolver solver_;
+  NearNullTracker tracker_;
 };
 
 /// The piece on which only the contacts that carry more than the tolerance are closed.

@@ -85,6 +85,7 @@ std::optional<Arc> Tracer::begin() {
     return std::nullopt;
   }
   here_ = point_of(std::move(start), forward);
+  decide_count(here_);
   Arc arc;
   if (system_.guard_count(here_.state.piece) > 0 &&
       !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
@@ -231,6 +232,7 @@ std::optional<Tracer::Step> Tracer::take(double s) {
     refine(step.to.state, margin);
     if (refined_ || !step.corner || !system_.admissible(step.to.state, -between)) return std::nullopt;
   }
+  decide_count(step.to);
   return step;
 }
 
@@ -303,6 +305,11 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
   point.guards = system_.guards(point.state);
   point.guard_rates = system_.guard_rates(point.state, point.tangent);
   return point;
+}
+
+// The count of negative eigenvalues where the pivots do not tell it.
+void Tracer::decide_count(PathPoint& point) {
+  if (!point.held) point.held = point.count.unstable = counter_.negative_on(point.state);
 }
 
 // Whether the step passes a point: it lies beside the chord, and on the path as exactly as such points are located.

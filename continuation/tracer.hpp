@@ -154,6 +154,7 @@ class Tracer {
   void add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const;
 
   PathPoint point_of(CorrectorResult result, const Direction& forward) const;
+  void decide_count(PathPoint& point);
   std::vector<int> signs_at(const PathPoint& point) const;
   bool passes(const PathPoint& to, const State& place);
   void end_where_known(const PathPoint& to);

@@ -39,6 +39,7 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
   const double arc = at.arc;
   const int iterations = at.iterations;
   at = point_of(std::move(result), ray->direction);
+  decide_count(at);
   at.arc = arc;
   at.iterations = iterations;
   at.count = counter_.count(at.state, at.held);

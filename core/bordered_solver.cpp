@@ -73,7 +73,7 @@ Matrix BorderedSolver::inverse_at_border() const {
 }
 
 // Improves the solution of J X = B; false if it cannot be made good.
-bool BorderedSolver::refine(const Matrix& B, Matrix& X) const {
+bool BorderedSolver::refine(const Matrix& B, Eigen::Ref<Matrix> X) const {
   for (int round = 0; round <= max_refinements; ++round) {
     Matrix R = B - product(*equations_, X);
     if (!R.allFinite()) return false;
@@ -86,28 +86,42 @@ bool BorderedSolver::refine(const Matrix& B, Matrix& X) const {
 
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const Linearization& now = *equations_;
-  if (regular_) {
-    columns_.resize(now.F.size(), 2);
-    columns_.col(0) = -now.F;
-    columns_.col(1) = -now.F_lambda;
-    bool good = solve_inner(columns_);
-    if (good && (now.B.cols() > 0 || ldlt_.pivot_ratio() < suspicious_pivot)) {
-      Matrix B(now.F.size(), 2);
-      B << -now.F, -now.F_lambda;
-      good = refine(B, columns_);
-    }
-    if (good) {
-      out.particular.dx = columns_.col(0);
-      out.particular.dlambda = 0.0;
-      out.tangent.dx = columns_.col(1);
-      out.tangent.dlambda = 1.0;
-      return true;
-    }
+  columns_.resize(now.F.size(), 2);
+  columns_.col(0) = -now.F;
+  columns_.col(1) = -now.F_lambda;
+  if (solve_checked(columns_, 2)) {
+    out.particular = {.dx = columns_.col(0), .dlambda = 0.0};
+    out.tangent = {.dx = columns_.col(1), .dlambda = 1.0};
+    return true;
   }
   if (!factorize_whole(border)) return false;
   out.particular = solve_whole(-now.F, 0.0);
   out.tangent = solve_whole(Vector::Zero(now.F.size()), 1.0);
   return out.particular.dx.allFinite() && out.tangent.dx.allFinite();
+}
+
+bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& others) {
+  const Linearization& now = *equations_;
+  columns_.resize(now.F.size(), 1 + others.cols());
+  columns_.col(0) = -now.F_lambda;
+  columns_.rightCols(others.cols()) = others;
+  if (solve_checked(columns_, 1)) {
+    out = {.dx = columns_.col(0), .dlambda = 1.0};
+    others = columns_.rightCols(others.cols());
+    return true;
+  }
+  others.resize(now.F.size(), 0);
+  if (!factorize_whole(border)) return false;
+  out = solve_whole(Vector::Zero(now.F.size()), 1.0);
+  return out.dx.allFinite();
+}
+
+// X := J⁻¹ X; false if J is singular, or so nearly that the first `checked` columns cannot be made good.
+bool BorderedSolver::solve_checked(Matrix& X, Index checked) const {
+  if (!regular_) return false;
+  const bool suspicious = equations_->B.cols() > 0 || ldlt_.pivot_ratio() < suspicious_pivot;
+  const Matrix B = suspicious ? X.leftCols(checked) : Matrix();
+  return solve_inner(X) && (!suspicious || refine(B, X.leftCols(checked)));
 }
 
 std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& f, double g) {

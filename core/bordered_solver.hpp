@@ -34,6 +34,10 @@ class BorderedSolver {
   /// False if the bordered matrix is singular too.
   bool line(const Row& border, EquilibriumLine& out);
 
+  /// The tangent of the line alone, not normalised, and `others` := K⁻¹ others by the way, unchecked; no column is left
+  /// of them where K is singular. False if the bordered matrix is singular too.
+  bool tangent(const Row& border, Direction& out, Matrix& others);
+
   /// Solution of the bordered system for one right-hand side (f, g), with column F_λ; empty if it is singular.
   std::optional<Direction> solve(const Row& border, const Vector& f, double g);
 
@@ -43,17 +47,15 @@ class BorderedSolver {
   /// Sub-matrix of K⁻¹ at the unknowns that the border asks to be zero (Linearization::zero).
   Matrix inverse_at_border() const;
 
-  /// The factorization of K alone; only after `ok`.
-  const Factorization& inner() const { return ldlt_; }
-
-  /// Signs of the pivots of K; empty if K is singular to working precision.
-  std::optional<Inertia> inertia() const { return ldlt_.inertia(); }
+  /// The factorization of K alone.
+  const Ldlt& inner() const { return ldlt_; }
 
   bool inner_is_regular() const { return regular_; }
 
  private:
   bool eliminate_border();
-  bool refine(const Matrix& X, Matrix& solution) const;
+  bool refine(const Matrix& B, Eigen::Ref<Matrix> X) const;
+  bool solve_checked(Matrix& X, Index checked) const;
   bool factorize_whole(const Row& border);
   Direction solve_whole(const Vector& f, double g) const;
 

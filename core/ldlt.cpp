@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace arcwall {
@@ -184,6 +185,7 @@ FactorStatus Ldlt::factorize(const SparseMatrix& A) {
 void Ldlt::solve(Eigen::Ref<Matrix> X) const {
   Implementation& self = *implementation_;
   assert(self.usable);
+  if (X.cols() == 0) return;
   cholmod_dense b = view(X);
   cholmod_l_solve2(CHOLMOD_A, self.factor, &b, nullptr, &self.solution, nullptr, &self.workspace_y, &self.workspace_e,
                    &self.common);
@@ -199,6 +201,26 @@ std::optional<Inertia> Ldlt::inertia() const {
 double Ldlt::pivot_ratio() const {
   const Implementation& self = *implementation_;
   return self.usable ? self.least_pivot / self.greatest_pivot : 0.0;
+}
+
+// Wilkinson: K + E = L D Lᵀ with |E| ≤ γ |L| |D| |L|ᵀ. Without pivoting L may grow; |K| alone would not show it.
+double Ldlt::roundoff(const Vector& v) const {
+  const Implementation& self = *implementation_;
+  assert(self.usable && v.size() == static_cast<Index>(self.factor->n));
+  const auto* start = static_cast<const SuiteSparse_long*>(self.factor->p);
+  const auto* count = static_cast<const SuiteSparse_long*>(self.factor->nz);
+  const auto* row = static_cast<const SuiteSparse_long*>(self.factor->i);
+  const auto* value = static_cast<const double*>(self.factor->x);
+  const Eigen::Map<const Eigen::Matrix<SuiteSparse_long, Eigen::Dynamic, 1>> order(
+      static_cast<const SuiteSparse_long*>(self.factor->Perm), v.size());
+  const Vector u = v(order).cwiseAbs();
+  double sum = 0.0;
+  for (Index j = 0; j < v.size(); ++j) {
+    double z = u[j];  // (|L|ᵀ |v|)_j
+    for (Index k = start[j] + 1; k < start[j] + count[j]; ++k) z += std::abs(value[k]) * u[row[k]];
+    sum += std::abs(value[start[j]]) * z * z;
+  }
+  return std::numeric_limits<double>::epsilon() * sum;
 }
 
 }  // namespace arcwall

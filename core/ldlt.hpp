@@ -28,6 +28,10 @@ class Ldlt final : public Factorization {
   /// Least |pivot| over greatest; small near singularity. 0 if not factorized.
   double pivot_ratio() const;
 
+  /// vᵀ E v at most, up to a small factor, of the error E of this factorization: ε |v|ᵀ |L| |D| |L|ᵀ |v|. With v the
+  /// eigenvector nearest zero: eigenvalues that are no greater may have either sign.
+  double roundoff(const Vector& v) const;
+
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;

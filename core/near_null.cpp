@@ -33,11 +33,16 @@ void orthonormalise(Matrix& X) {
 
 }  // namespace
 
+Index pair_count(const Vector& weights) {
+  const Index weighted = (weights.array() > 0.0).count();
+  return std::max<Index>(0, 2 * weighted - weights.size());
+}
+
 NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
                    double relative_tolerance) {
-  const Index n = K.rows(), free = (weights.array() > 0.0).count();
-  count = std::min(count, free);
-  const Index block = std::min(free, count + 3);  // guard vectors speed the last wanted pair up
+  const Index n = K.rows(), pairs = pair_count(weights);
+  count = std::min(count, pairs);
+  const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
   if (block == 0) return {};
   Matrix X = start_block(n, block);
   Vector values = Vector::Constant(block, infinity);
@@ -64,6 +69,52 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
     if (change <= relative_tolerance * scale) break;
   }
   return {.values = values.head(count), .vectors = X.leftCols(count)};
+}
+
+Matrix NearNullTracker::right_hand_sides(const Vector& weights) {
+  const Index n = weights.size(), block = std::min<Index>(3, pair_count(weights));
+  const Index kept = std::max<Index>(0, std::min(X_.cols(), block - 1));
+  if (start_.rows() != n || start_.cols() != block) start_ = start_block(n, block);
+  // Contact forces, which come and go at the end, have no weight and need no start.
+  const Index common = std::min(X_.rows(), n);
+  Matrix X = start_;
+  X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
+  X.bottomLeftCorner(n - common, kept).setZero();
+  Matrix WX(n, block);
+  for (Index j = 0; j < block; ++j) {
+    for (Index i = 0; i < j; ++i) X.col(j) -= WX.col(i).dot(X.col(j)) * X.col(i);
+    WX.col(j) = weights.cwiseProduct(X.col(j));
+    const double norm = std::sqrt(WX.col(j).dot(X.col(j)));
+    const double scale = norm > 0.0 ? 1.0 / norm : 0.0;
+    X.col(j) *= scale;
+    WX.col(j) *= scale;
+  }
+  X_ = std::move(X);
+  return WX;
+}
+
+// On the span of X, W-orthonormal, K⁻¹ is A = Xᵀ W K⁻¹ W X. Its greatest eigenvalues θ in magnitude belong to pairs
+// near zero, and never to a mixture of far ones, as the least of Xᵀ K X may. y = K⁻¹ W X c has the Rayleigh quotient
+// θ/(yᵀ W y).
+NearNull NearNullTracker::advance(const Vector& weights, const Matrix& Y) {
+  const Index block = X_.cols();
+  if (block == 0 || !Y.allFinite()) return {};
+  const Matrix A = X_.transpose() * (weights.asDiagonal() * Y);
+  const Eigen::SelfAdjointEigenSolver<Matrix> ritz(0.5 * (A + A.transpose()));
+  std::vector<Index> order(static_cast<std::size_t>(block));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]); });
+  order.resize(static_cast<std::size_t>(std::min<Index>(2, block)));
+  X_ = Y * ritz.eigenvectors()(Eigen::all, order);
+  NearNull pairs{.values = Vector(X_.cols()), .vectors = {}};
+  for (Index j = 0; j < X_.cols(); ++j) {
+    const double squared = (weights.array() * X_.col(j).array().square()).sum();
+    pairs.values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
+    X_.col(j) /= std::sqrt(squared);
+  }
+  pairs.vectors = X_;
+  return pairs;
 }
 
 }  // namespace arcwall

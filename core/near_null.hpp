@@ -10,10 +10,32 @@ struct NearNull {
   Matrix vectors{};  ///< columns, φᵀ M φ = 1
 };
 
-/// `count` eigenpairs (fewer if M has fewer entries above zero) by inverse subspace iteration with Rayleigh-Ritz
+/// How many eigenvalues K φ = μ M φ has: each unknown without weight is a multiplier, which holds one that has weight.
+Index pair_count(const Vector& weights);
+
+/// `count` eigenpairs (fewer if there are no more) by inverse subspace iteration with Rayleigh-Ritz
 /// projection. The factorization is that of `lower_triangle`; a tiny shift of it will do, where the matrix itself is
 /// singular. With multipliers of weight zero these are the eigenvalues of K on the space the constraints leave free.
 NearNull near_null(const Factorization& factorization, const SparseMatrix& lower_triangle, const Vector& weights,
                    Index count, double relative_tolerance = 1e-10);
+
+/// The pairs nearest zero, followed from matrix to matrix by one step of inverse iteration each. Near singularity one
+/// step is enough; elsewhere the values are upper bounds in magnitude that get better on the way. A vector without
+/// symmetry is solved for along, so that no mode can come near unseen.
+class NearNullTracker {
+ public:
+  /// Goes on from these vectors; their number of rows may be that of another piece.
+  void start_from(const Matrix& vectors) { X_ = vectors; }
+
+  /// Right-hand sides W X, whose solutions with K `advance` wants; few columns, none if W has no entry above zero.
+  Matrix right_hand_sides(const Vector& weights);
+
+  /// `solutions`: K⁻¹ W X. Gives the pairs, at most two.
+  NearNull advance(const Vector& weights, const Matrix& solutions);
+
+ private:
+  Matrix X_;  // W-orthonormal between right_hand_sides and advance
+  Matrix start_;
+};
 
 }  // namespace arcwall

@@ -49,6 +49,23 @@ TEST(Stability, WhatIsUnstableWithAllContactsHeldIsUnstable) {
   EXPECT_EQ(count.stability, Stability::unstable);
 }
 
+// Two stiffnesses of 1 coupled so that the difference of their ends has stiffness k: far below 10⁻⁹ the sign is right.
+TEST(Stability, CountsAreRightNextToSingularity) {
+  for (const double k : {1e-9, 1e-12, 1e-14})
+    for (const double sign : {1.0, -1.0}) {
+      test::LinearContactToy toy;
+      const double a = 0.5 * (1.0 + sign * k), b = 0.5 * (1.0 - sign * k);
+      toy.A = Matrix{{a, b, 0.0}, {b, a, 0.0}, {0.0, 0.0, -3.0}};
+      toy.f = Vector::Ones(3);
+      toy.G = Matrix{{0.0, 0.0, 1.0}};
+      toy.gap0 = Vector::Zero(1);
+      StabilityCounter counter(toy, 1e-12);
+      const Index unstable = sign < 0.0 ? 1 : 0;
+      EXPECT_EQ(counter.negative_on({.x = Vector::Zero(4), .lambda = 0.0, .piece = {1}}), unstable) << sign * k;
+      EXPECT_EQ(counter.negative_on({.x = Vector::Zero(3), .lambda = 0.0, .piece = {0}}), unstable + 1) << sign * k;
+    }
+}
+
 TEST(Stability, ASingularStiffnessHasNoCount) {
   const test::SmoothToy toy = test::fold();
   StabilityCounter counter(toy, 1e-12);

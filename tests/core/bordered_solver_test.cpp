@@ -80,7 +80,7 @@ TEST(BorderedSolver, AnExactlySingularKStillHasALine) {
   BorderedSolver solver;
   EXPECT_EQ(solver.factorize(now, 0), FactorStatus::singular);
   EXPECT_FALSE(solver.inner_is_regular());
-  EXPECT_FALSE(solver.inertia().has_value());
+  EXPECT_FALSE(solver.inner().inertia().has_value());
   EquilibriumLine line;
   ASSERT_TRUE(solver.line({.dx = Vector::Unit(2, 1), .dlambda = 0.0}, line));
   EXPECT_NEAR(line.tangent.dlambda, 0.0, 1e-15);
@@ -113,8 +113,8 @@ TEST(BorderedSolver, WorksOnSaddlePoints) {
   const Linearization now = equations(K, numbers.vector(n + m), F_lambda);
   BorderedSolver solver;
   ASSERT_EQ(solver.factorize(now, m), FactorStatus::ok);
-  ASSERT_TRUE(solver.inertia().has_value());
-  EXPECT_EQ(solver.inertia()->negative, m);
+  ASSERT_TRUE(solver.inner().inertia().has_value());
+  EXPECT_EQ(solver.inner().inertia()->negative, m);
   EquilibriumLine line;
   ASSERT_TRUE(solver.line({.dx = Vector::Zero(n + m), .dlambda = 1.0}, line));
   expect_line(now, line);

@@ -168,6 +168,18 @@ TEST(Ldlt, PivotRatioOfADiagonalMatrixIsLeastOverGreatest) {
   EXPECT_DOUBLE_EQ(ldlt.pivot_ratio(), 0.25);
 }
 
+// L D Lᵀ is K to within the bound: seen as what K x differs by after solving with the factors, x = vector v.
+TEST(Ldlt, RoundoffGrowsWithTheFactors) {
+  // [δ 1; 1 0] = L D Lᵀ with L = [1 0; 1/δ 1], D = (δ, −1/δ): |L| |D| |L|ᵀ = [δ 1; 1 2/δ].
+  const double delta = std::ldexp(1.0, -20), epsilon = std::numeric_limits<double>::epsilon();
+  Ldlt ldlt;
+  ASSERT_EQ(ldlt.factorize(lower_triangle(Matrix{{delta, 1.0}, {1.0, 0.0}}, -1.0)), FactorStatus::ok);
+  const double with_first = ldlt.roundoff(Vector{{1.0, 0.0}}), with_second = ldlt.roundoff(Vector{{0.0, 1.0}});
+  EXPECT_DOUBLE_EQ(with_first + with_second, epsilon * (delta + 2.0 / delta));
+  EXPECT_DOUBLE_EQ(std::min(with_first, with_second), epsilon * delta);
+  EXPECT_DOUBLE_EQ(ldlt.roundoff(Vector{{1.0, -1.0}}), epsilon * (delta + 2.0 + 2.0 / delta));
+}
+
 TEST(Ldlt, CanBeMoved) {
   const Matrix A = 2.0 * Matrix::Identity(3, 3);
   Ldlt first;

@@ -93,6 +93,52 @@ TEST(NearNull, MultipliersOfWeightZeroLeaveTheSpaceThatTheyHold) {
   EXPECT_NEAR(found.vectors.row(half).norm(), 0.0, 1e-9);
 }
 
+// One step each while d approaches the critical 2 cos(π/(n+1)): where singularity is near, so are the estimates.
+TEST(NearNull, TheTrackerFollowsTheNearestPairsOfAChangingMatrix) {
+  constexpr Index n = 30;
+  const double critical = 2.0 * std::cos(pi / double(n + 1));
+  NearNullTracker tracker;
+  Ldlt ldlt;
+  NearNull found;
+  for (const double distance : {0.3, 0.1, 0.03, 0.01, 0.001, 1e-6}) {
+    const double d = critical + distance;
+    ASSERT_EQ(ldlt.factorize(test::lower_triangle(chain(n, d))), FactorStatus::ok);
+    Matrix columns = tracker.right_hand_sides(Vector::Ones(n));
+    ldlt.solve(columns);
+    found = tracker.advance(Vector::Ones(n), columns);
+    ASSERT_EQ(found.values.size(), 2);
+    const std::vector<double> exact = chain_values(n, d);
+    // A Rayleigh quotient of a definite matrix is no less than the least eigenvalue.
+    EXPECT_GE(found.values[0], exact[0] * (1.0 - 1e-12));
+    EXPECT_LE(found.values[0], 2.0 * exact[0]);
+  }
+  EXPECT_NEAR(found.values[0], 1e-6, 1e-13);
+}
+
+// A start along the first mode and its like alone would never see the second of a symmetric chain.
+TEST(NearNull, TheTrackerSeesAModeThatItsStartDoesNotHave) {
+  constexpr Index n = 30;
+  const double second = 2.0 * std::cos(2.0 * pi / double(n + 1));
+  const Vector symmetric =
+      Vector::LinSpaced(n, 1.0, double(n)).unaryExpr([](double k) { return std::sin(k * pi / double(n + 1)); });
+  NearNullTracker tracker;
+  tracker.start_from(symmetric);
+  Ldlt ldlt;
+  ASSERT_EQ(ldlt.factorize(test::lower_triangle(chain(n, second + 1e-6))), FactorStatus::ok);
+  Matrix columns = tracker.right_hand_sides(Vector::Ones(n));
+  ldlt.solve(columns);
+  EXPECT_NEAR(tracker.advance(Vector::Ones(n), columns).values[0], 1e-6, 1e-10);
+}
+
+TEST(NearNull, WithAsManyMultipliersAsUnknownsThereAreNoPairs) {
+  Vector weights = Vector::Ones(2);
+  weights[1] = 0.0;
+  EXPECT_EQ(pair_count(weights), 0);
+  NearNullTracker tracker;
+  EXPECT_EQ(tracker.right_hand_sides(weights).cols(), 0);
+  EXPECT_EQ(tracker.advance(weights, Matrix(2, 0)).values.size(), 0);
+}
+
 TEST(NearNull, ASmallMatrixHasNoMorePairsThanRows) {
   const SparseMatrix K = test::lower_triangle(Vector(Vector::LinSpaced(2, 3.0, 5.0)).asDiagonal());
   Ldlt ldlt;
