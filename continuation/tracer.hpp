@@ -116,9 +116,10 @@ class Tracer {
   struct Step {
     PathPoint to;
     bool corner = false;
-    Index guard = -1;    // landed on
-    double turn = 0.0;   // of the tangent [rad]
-    double slack = 0.0;  // by how much other guards are violated at the corner: they belong to it
+    Index guard = -1;     // landed on
+    double turn = 0.0;    // of the tangent [rad]
+    double slack = 0.0;   // by how much other guards are violated at the corner: they belong to it
+    bool family = false;  // whether a continuum of equilibria lies behind the corner
   };
 
   std::optional<Arc> begin();
@@ -135,6 +136,7 @@ class Tracer {
   };
   std::optional<GuardCrossing> first_crossing(const Segment& segment) const;
   bool land(Step& step, GuardCrossing crossing);
+  bool leads_to_family(const Step& step) const;
 
   bool several_singular_points(const Segment& segment) const;
   std::optional<PathPoint> locate_branch_point(const PathPoint& to);
