@@ -35,8 +35,8 @@ Vector of(const std::vector<double>& values) {
 }
 
 Piece piece_of(const SlidingModel& model, const Layouts& on) {
-  const auto layout = std::make_shared<SlidingContactLayout>(
-      model.structure(), model.structure().mesh({on.elements}), on.points, of(on.s));
+  const auto layout = std::make_shared<SlidingContactLayout>(model.structure(), model.structure().mesh({on.elements}),
+                                                             on.points, of(on.s));
   const std::size_t tied = model.system().open_piece().size();
   Piece piece(on.points.size() + tied, 0, layout);
   for (std::size_t k = 0; k < on.closed.size(); ++k) piece[k] = on.closed[k];
@@ -114,8 +114,8 @@ std::vector<test::TestWall> two_of(const std::vector<test::TestWall>& walls, std
 
 }  // namespace
 
-// Central differences of step 1e-7: round-off 1e-9; truncation falls with the square of the step, to 1e-8 where elements
-// are short, and to 1e-6 in the thrust of short elements (steps of 1e-6 give 100 times as much).
+// Central differences of step 1e-7: round-off 1e-9; truncation falls with the square of the step, to 1e-8 where
+// elements are short, and to 1e-6 in the thrust of short elements (steps of 1e-6 give 100 times as much).
 TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
   Numbers numbers(70);
   for (const bool on_axis : {false, true}) {
@@ -125,7 +125,8 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
         const SlidingModel model(wavy_beam(reversed), two_of(walls, kind), 0.1);
         for (const Layouts& on : layouts()) {
           SCOPED_TRACE(on.name + ", wall " + std::to_string(kind) + (reversed ? ", reversed" : ""));
-          const auto report = check_derivatives(model.system(), random_state(model, piece_of(model, on), numbers), 1e-7);
+          const auto report =
+              check_derivatives(model.system(), random_state(model, piece_of(model, on), numbers), 1e-7);
           EXPECT_LE(report.K, 2e-8);
           EXPECT_LE(report.F_lambda, 2e-8);
           EXPECT_EQ(report.consistency, 0.0);
@@ -208,8 +209,8 @@ TEST(SlidingContact, GuardsAreGapsAndForcesInTheirScales) {
   EXPECT_DOUBLE_EQ(guards[1], system.force(state, 1) / system.scales().force);
 }
 
-// Places where nodes sit are nodes; between them values and rates are those of the element's own interpolation. Rates by
-// s are differences of step 2e-6 of arc lengths that are sure to 1e-13.
+// Places where nodes sit are nodes; between them values and rates are those of the element's own interpolation. Rates
+// by s are differences of step 2e-6 of arc lengths that are sure to 1e-13.
 TEST(SlidingContact, PlacesMoveWithTheMeshConsistently) {
   Numbers numbers(75);
   using Component = MemberObservable::Component;

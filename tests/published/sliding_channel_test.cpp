@@ -38,9 +38,7 @@ SlidingModel channel(int elements, std::vector<SineDeviation> imperfection = {})
 
 std::shared_ptr<const Observable> middle(const SlidingModel& model) { return model.at("0", 0.5, Component::z); }
 
-double shortening(const SlidingModel& model, const State& state) {
-  return -model.joint(1, Freedom::x)->value(state);
-}
+double shortening(const SlidingModel& model, const State& state) { return -model.joint(1, Freedom::x)->value(state); }
 
 // The perfect column's whole path: straight, on the upper wall, crossing the channel, on both walls.
 struct PerfectChannel {
@@ -70,12 +68,11 @@ struct PerfectChannel {
   }
 };
 
-const std::vector<EventKind> kinds{EventKind::branch_point,        EventKind::contact_closes,
-                                   EventKind::contact_spreads,     EventKind::branch_point,
-                                   EventKind::displacement_limit,  EventKind::contact_closes,
-                                   EventKind::contact_limit_point};
-const std::vector<double> expected{buckling,    touch,       spreads, flat_buckles, least_shortening,
-                                   lower_touch, lower_touch, crosses};
+const std::vector<EventKind> kinds{
+    EventKind::branch_point,       EventKind::contact_closes, EventKind::contact_spreads,    EventKind::branch_point,
+    EventKind::displacement_limit, EventKind::contact_closes, EventKind::contact_limit_point};
+const std::vector<double> expected{buckling,         touch,       spreads,     flat_buckles,
+                                   least_shortening, lower_touch, lower_touch, crosses};
 
 }  // namespace
 
@@ -90,8 +87,7 @@ TEST(SlidingChannelEvents, ConvergeWithOrderFour) {
     ASSERT_EQ(in_order, kinds) << elements << " elements";
     ASSERT_NE(found.at_middle(), nullptr);
     sizes.push_back(1.0 / elements);
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      errors[i].push_back(found.loads()[i] / expected[i] - 1.0);
+    for (std::size_t i = 0; i < expected.size(); ++i) errors[i].push_back(found.loads()[i] / expected[i] - 1.0);
   }
   for (std::size_t i = 0; i < expected.size(); ++i) {
     SCOPED_TRACE("event " + std::to_string(i) + ", lambda = " + std::to_string(expected[i]));
@@ -208,8 +204,8 @@ TEST(SlidingChannelHalfSine, StaysOnTheWall) {
   }
 }
 
-// With a third harmonic that bends the middle off the wall there is one smooth maximum. The reference, 6.863204701 at mid
-// 0.146860, is for an arc length of 2 instead of a chord of 2: relative differences of 4e-6.
+// With a third harmonic that bends the middle off the wall there is one smooth maximum. The reference, 6.863204701 at
+// mid 0.146860, is for an arc length of 2 instead of a chord of 2: relative differences of 4e-6.
 TEST(SlidingChannelThirdHarmonic, HasOneLimitPoint) {
   std::vector<double> limits;
   for (const int elements : {20, 40, 80}) {
@@ -228,21 +224,23 @@ TEST(SlidingChannelThirdHarmonic, HasOneLimitPoint) {
     EXPECT_EQ(events[2].unstable_after, 1);
     EXPECT_EQ(branches[0].arcs.back().to.count.unstable, 0);
     limits.push_back(events[2].state.lambda);
-    test::expect_sliding_invariants(model.system(), branches[0].arcs, options, branches[0].lambda_scale);
+    if (elements == 20)
+      test::expect_sliding_invariants(model.system(), branches[0].arcs, options, branches[0].lambda_scale);
   }
   EXPECT_NEAR(limits[2], 6.863204701, 4e-6 * limits[2]);
   EXPECT_GE(std::log2((limits[0] - limits[1]) / (limits[1] - limits[2])), 3.8);
 }
 
 // A point contact from 0.448961073442, a line from 1.34307213737; at M₀ = 5 and 10 the flat part reaches 0.4818518221
-// and 0.6330999632 from the middle to each side, the floor bears 19.7690983 and 57.5371015.
+// and 0.6330999632 from the middle to each side, the floor bears 19.7690983 and 57.5371015. Already at 10 elements the
+// errors are below 3e-6, where the classic beam has a remainder of order two (extension under large shear forces).
 TEST(SlidingFoundation, FindsTheFlatPartAndItsForces) {
   struct Expected {
     double moment, half_length, force;
   };
   const Expected expect[] = {{5.0, 0.4818518221, 19.7690983}, {10.0, 0.6330999632, 57.5371015}};
   std::vector<double> sizes, spreading, lengths, forces;
-  for (const int elements : {10, 20, 40, 80}) {
+  for (const int elements : {10, 20, 40}) {
     const SlidingModel model = test::SlidingFoundation{.elements = elements}.model();
     TraceOptions options = until(10.0);
     options.landmarks.push_back({.quantity = std::make_shared<ParameterValue>(), .value = 5.0});
@@ -266,23 +264,23 @@ TEST(SlidingFoundation, FindsTheFlatPartAndItsForces) {
       EXPECT_NEAR(s[0] + s[1], 2.0, 1e-8);
       lengths.push_back(0.5 * (s[1] - s[0]) / e.half_length - 1.0);
       forces.push_back((model.system().force(state, 0) + model.system().force(state, 1)) / e.force - 1.0);
-      if (elements == 80) {
-        EXPECT_LE(std::abs(lengths.back()), 1e-5);
-        EXPECT_LE(std::abs(forces.back()), 1e-5);
+      if (elements >= 20) {
+        EXPECT_LE(std::abs(lengths.back()), 1e-6);
+        EXPECT_LE(std::abs(forces.back()), 1e-6);
       }
     }
     test::expect_sliding_invariants(model.system(), branches[0].arcs, options, branches[0].lambda_scale);
   }
-  EXPECT_LE(std::abs(spreading.back()), 1e-6);
-  EXPECT_GE(test::observed_order(sizes, spreading), 3.8);
+  EXPECT_LE(std::abs(spreading[0]), 1e-8);
+  EXPECT_LE(std::abs(spreading[1]), 1e-9);
   for (const std::size_t moment : {0U, 1U}) {
     std::vector<double> length_errors, force_errors;
     for (std::size_t mesh = 0; mesh < sizes.size(); ++mesh) {
       length_errors.push_back(lengths[2 * mesh + moment]);
       force_errors.push_back(forces[2 * mesh + moment]);
     }
-    EXPECT_GE(test::observed_order(sizes, length_errors), 3.8);
-    EXPECT_GE(test::observed_order(sizes, force_errors), 3.8);
+    EXPECT_GE(test::observed_order(sizes, length_errors), 1.9);
+    EXPECT_GE(test::observed_order(sizes, force_errors), 1.9);
   }
 }
 

@@ -113,8 +113,8 @@ Vector bordered_allowance(const SlidingContact& system, const State& state, cons
   magnitude.coeffs() = magnitude.coeffs().abs();
   const double lambda_off = tolerance * lambda_scale + 16.0 * epsilon * std::abs(state.lambda);
   Vector allowed(n);
-  allowed.head(core) = magnitude.selfadjointView<Eigen::Lower>() * off.head(core) +
-                       now.B.cwiseAbs() * off.tail(m) + lambda_off * now.F_lambda.head(core).cwiseAbs();
+  allowed.head(core) = magnitude.selfadjointView<Eigen::Lower>() * off.head(core) + now.B.cwiseAbs() * off.tail(m) +
+                       lambda_off * now.F_lambda.head(core).cwiseAbs();
   allowed.tail(m).setConstant(options.guard_tolerance * system.scales().force * L);
   return allowed;
 }
@@ -130,9 +130,9 @@ bool changes_here(const Arc& arc) {
 void expect_sliding_invariants(const SlidingContact& system, const std::vector<Arc>& arcs, const TraceOptions& options,
                                double lambda_scale, const InvariantOptions& what) {
   ASSERT_FALSE(arcs.empty());
-  // Between nodes the path is kept out of walls to 1e-9 of the length scale, by the cubic through the gaps and slopes of
-  // the nodes. The elements' own shapes differ from it by 1/100 of the element length times the cube of its end slopes:
-  // 1e-9 on the meshes here.
+  // Between nodes the path is kept out of walls to 1e-9 of the length scale, by the cubic through the gaps and slopes
+  // of the nodes. The elements' own shapes differ from it by 1/100 of the element length times the cube of its end
+  // slopes: 1e-9 on the meshes here.
   constexpr double between = 2e-9;
   constexpr int places = 20;
   Linearization now;

@@ -23,7 +23,8 @@ void expect_branch_invariants(const System& system, const Branch& branch, const 
 
 /// What every branch with sliding contact must fulfil at each point:
 ///
-/// - F = 0 to what the corrector's tolerance and the round-off of the unknowns leave, moments of closed points included;
+/// - F = 0 to what the corrector's tolerance and the round-off of the unknowns leave, moments of closed points
+/// included;
 /// - contact forces and all other guards ≥ 0, to the tracer's guard tolerance;
 /// - no obstacle is entered at 20 places an element;
 /// - the stored unstable count equals the dense one, except next to a singular point or a corner;

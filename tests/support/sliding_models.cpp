@@ -28,14 +28,14 @@ std::shared_ptr<const Observable> SlidingModel::at(const std::string& member, do
 }
 
 std::shared_ptr<const Observable> SlidingModel::joint(Index node, Freedom which) const {
-  return std::make_shared<JointObservable>(*structure_, structure_->freedom(node, which), JointObservable::What::motion);
+  return std::make_shared<JointObservable>(*structure_, structure_->freedom(node, which),
+                                           JointObservable::What::motion);
 }
 
 SlidingModel SlidingChannel::model() const {
   StructureBuilder builder;
   const double h = 0.1 * cm;
-  const Section section{
-      .E = 2.1e4 * kN / (cm * cm), .A = h * h, .I = h * h * h * h / 12.0, .height = h};
+  const Section section{.E = 2.1e4 * kN / (cm * cm), .A = h * h, .I = h * h * h * h / 12.0, .height = h};
   const Index left = builder.add_joint({0.0, 0.0}), right = builder.add_joint({2.0 * cm, 0.0});
   Index from = left;
   Vec2 start(0.0, 0.0);

@@ -33,8 +33,8 @@ class SlidingModel {
   std::unique_ptr<SlidingContact> contact_;
 };
 
-/// The channel of Selke & Kikuchi's second example [kN, cm]: a column of length 2 and square section 0.1 (EA = 210, EI =
-/// 0.175) on the x-axis between walls, λ pushes its right end, node 1, to the left. Members are called "0", "1" ….
+/// The channel of Selke & Kikuchi's second example [kN, cm]: a column of length 2 and square section 0.1 (EA = 210, EI
+/// = 0.175) on the x-axis between walls, λ pushes its right end, node 1, to the left. Members are called "0", "1" ….
 struct SlidingChannel {
   /// A piece of the column: to where it reaches, and its elements.
   struct Member {
@@ -42,7 +42,7 @@ struct SlidingChannel {
     int elements;
   };
   std::vector<Member> members{{2.0, 20}};
-  std::vector<SineDeviation> imperfection{};  ///< of the first member
+  std::vector<SineDeviation> imperfection{};         ///< of the first member
   std::optional<double> upper = 0.15, lower = 0.15;  ///< gaps at rest, at x = 0
   double slope = 0.0;                                ///< of both walls
   bool clamped = false;
@@ -54,8 +54,8 @@ struct SlidingChannel {
   SlidingModel model() const;
 };
 
-/// Selke & Kikuchi's first example [kN, cm]: a beam of length 2 and square section 0.2 (EI = 2.8, EA = 840), its supports
-/// sliding apart, bent by end moments λ onto a floor 0.08 below its lower face.
+/// Selke & Kikuchi's first example [kN, cm]: a beam of length 2 and square section 0.2 (EI = 2.8, EA = 840), its
+/// supports sliding apart, bent by end moments λ onto a floor 0.08 below its lower face.
 struct SlidingFoundation {
   int elements = 40;
 
