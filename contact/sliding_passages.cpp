@@ -17,6 +17,7 @@ using Point = SlidingContactLayout::Point;
 namespace {
 
 constexpr double shortest_flat = 0.8;  // of a half wave, below which a flat part has one element
+constexpr double flatness = 0.5;       // curvature of an open point over its gap, both scaled, below which it is let go
 
 // s of the point behind `k` less that of k.
 class SpanLength final : public Observable {
@@ -91,8 +92,12 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
     return body_.elements_between(segment.run, from, to);
   };
   switch (bound) {
-    case Bound::curvature:
-      return curvature_gap(on, on.x_of(state), s, which).value * scales_.length;
+    case Bound::curvature: {
+      const double bend = curvature_gap(on, on.x_of(state), s, which).value * scales_.length;
+      if (state.piece[which]) return bend;
+      const Touch at = touch(on, which);
+      return bend - flatness * face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state))) / scales_.length;
+    }
     case Bound::length: {
       const Index k = static_cast<Index>(which), run = on.mesh().breakpoint(k).first;
       return (s[k + 1] - s[k] - least_span(run)) / scales_.length;
@@ -140,6 +145,12 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       const CurvatureGap gap = curvature_gap(on, on.x_of(state), s, which);
       row.dx.head(n) = scales_.length * gap.dx;
       row.dx.tail(s.size()) = scales_.length * gap.ds;
+      if (state.piece[which]) break;
+      const Touch at = touch(on, which);
+      const Eigen::Vector3d by_gap = flatness / scales_.length * node_gap(at, on.x_of(state), on).gap_gradient;
+      const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+      for (std::size_t i = 0; i < 3; ++i)
+        if (unknowns[i] >= 0) row.dx[unknowns[i]] -= by_gap[static_cast<Index>(i)];
       break;
     }
     case Bound::length:
@@ -434,7 +445,8 @@ Passage SlidingContact::gathered(const State& state, std::size_t k) const {
   return passage;
 }
 
-// The extremum that an open point followed is about to vanish.
+// The least gap that an open point followed is about to vanish, or has become shallow for its distance: before the body
+// is straight it must be let go, as nothing would say where it is.
 Passage SlidingContact::without(const State& state, const Direction& forward, std::size_t k) const {
   const Layout_& on = layout(state.piece);
   const Index run = on.mesh().breakpoint(static_cast<Index>(k)).first;
@@ -530,7 +542,7 @@ std::optional<Passage> SlidingContact::refined(const State& from, const Directio
   std::vector<Point> points = on.points();
   insert_at(points, k, Point{.obstacle = start->obstacle});
   const auto ahead = std::make_shared<Layout_>(body_, body_.mesh(cut), points, inserted(s, k, start->at.s));
-  return remeshed(from, forward, [&](const State& state) {
+  Passage passage = remeshed(from, forward, [&](const State& state) {
     Redrawn by{.layout = ahead, .s = inserted(on.s_of(state), k, start->at.s)};
     by.closed = closed_points(state, on.points().size());
     insert_at(by.closed, k, std::uint8_t{0});
@@ -538,6 +550,11 @@ std::optional<Passage> SlidingContact::refined(const State& from, const Directio
     insert_at(by.forces, k, 0.0);
     return redrawn(state, by);
   });
+  const auto& limits = ahead->limits();
+  for (std::size_t l = 0; l < limits.size(); ++l)
+    if (limits[l].bound == Bound::curvature && limits[l].which == k && limit_value(passage.guess, l) <= 0.0)
+      return std::nullopt;  // too shallow yet
+  return passage;
 }
 
 // A flat part that is bent is none.
