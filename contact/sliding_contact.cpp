@@ -140,13 +140,14 @@ SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const Vecto
 
 // ± (κ − λ κ̂): κ the body's curvature and λ its stretch by stress-free length, κ̂ the curvature of the curve at the
 // face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
-SlidingContact::CurvatureGap SlidingContact::curvature_gap(const SlidingContactLayout& on, const Vector& x,
-                                                           const Vector& s, std::size_t k) const {
+SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, std::size_t k) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Vector x = on.x_of(state), s = on.s_of(state);
   const Touch at = touch(on, k);
   const AxisPlace place = on.mesh().node(at.run, at.position, x);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0, offset = travel * at.offset;
   const double side = sign_of(obstacles_[at.obstacle].side);
-  const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), x, s);
+  const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), x, s, state.lambda);
   const Bend wall = bend(*obstacles_[at.obstacle].profile, (place.position + offset * normal(place.angle)).x());
   const double shrink = 1.0 / (1.0 + at.offset * wall.curvature);
   const double parallel = wall.curvature * shrink, parallel_x = wall.curvature_x * shrink * shrink;
@@ -154,13 +155,15 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const SlidingContactL
   CurvatureGap out{.value = side * (travel * strain.curvature - strain.stretch * parallel), .stretch = strain.stretch};
   out.dx = side * (travel * strain.curvature_dx - parallel * strain.stretch_dx);
   out.ds = side * (travel * strain.curvature_ds - parallel * strain.stretch_ds);
+  out.dlambda = side * (travel * strain.curvature_dlambda - parallel * strain.stretch_dlambda);
   const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
   out.dx[unknowns[0]] -= side * strain.stretch * parallel_x;
   out.dx[unknowns[2]] += side * strain.stretch * parallel_x * offset * std::cos(place.angle);
   return out;
 }
 
-// Force per length that would hold the body on the wall at point k: ± [EI (κ̂″ − κ₀″) + P κ̂]. Its sign says whether the
+// Force per length that would hold the body on the wall at point k: ± [EI (κ̂″ − κ₀″) + P κ̂ − q·n], q the load along
+// the body. Its sign says whether the
 // body lies on the wall there, its vanishing that it does so by itself.
 double SlidingContact::pressure(const State& state, std::size_t k) const {
   const SlidingContactLayout& on = layout(state.piece);
@@ -177,11 +180,20 @@ double SlidingContact::pressure(const State& state, std::size_t k) const {
     return profile.covers(x_there) ? bend(profile, x_there).curvature : 0.0;
   };
   const double EI = body_.bending_stiffness(at.run), EA = body_.axial_stiffness(at.run);
-  const double thrust = -EA * (on.mesh().strain(static_cast<Index>(k), x, s).stretch - 1.0);
+  const double thrust = -EA * (on.mesh().strain(static_cast<Index>(k), x, s, state.lambda).stretch - 1.0);
+  const Vec2 up = travel * normal(place.angle);
   const double q =
-      sign_of(obstacles_[at.obstacle].side) * (EI * (second(wall) - travel * natural) + thrust * wall(0.0));
+      sign_of(obstacles_[at.obstacle].side) *
+      (EI * (second(wall) - travel * natural) + thrust * wall(0.0) - body_.load(at.run, state.lambda).dot(up));
   const double noise = 1e-7 * EI / (L * L * L);
   return std::abs(q) > noise ? q : 0.0;
+}
+
+double SlidingContact::wall_curvature(const State& state, std::size_t k) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Touch at = touch(on, k);
+  const AxisPlace place = on.mesh().node(at.run, at.position, on.x_of(state));
+  return bend(*obstacles_[at.obstacle].profile, place.position.x()).curvature;
 }
 
 // --- the equations --------------------------------------------------------------------------------------------------
@@ -307,13 +319,12 @@ double SlidingContact::energy(const State& state) const {
 // g″ = λ (κ − λ κ̂) the spring on the tilt is p λ / (κ − λ κ̂). Where the body lies on the wall, the tilt is held.
 Vector SlidingContact::border_springs(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Vector x = on.x_of(state), s = on.s_of(state);
-  Vector springs = Vector::Zero(s.size());
-  for (Index k = 0; k < s.size(); ++k) {
+  Vector springs = Vector::Zero(border_width(state.piece));
+  for (Index k = 0; k < springs.size(); ++k) {
     const auto point = static_cast<std::size_t>(k);
     if (on.lies_beside(point)) springs[k] = infinity;
     if (on.lies_beside(point) || !state.piece[point]) continue;
-    const CurvatureGap gap = curvature_gap(on, x, s, point);
+    const CurvatureGap gap = curvature_gap(state, point);
     constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
     const double p = std::max(0.0, state.x[*multiplier_index(state.piece, k)]);
     springs[k] = gap.value * scales_.length > touching ? p * gap.stretch / gap.value : infinity;

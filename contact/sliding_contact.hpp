@@ -56,7 +56,8 @@ class SlidingContact final : public System {
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
-  Passage passage(const State& state, const Direction& forward, Index limit, double tolerance) const override;
+  std::vector<Passage> passages(const State& state, const Direction& forward, Index limit,
+                                double tolerance) const override;
   bool admissible(const State& state, double margin) const override;
   std::optional<Passage> refined(const State& from, const Direction& forward, const State& to,
                                  double margin) const override;
@@ -95,6 +96,7 @@ class SlidingContact final : public System {
   struct CurvatureGap {
     double value = 0.0, stretch = 1.0;
     Vector dx{}, ds{};
+    double dlambda = 0.0;
   };
   // A place where the gap is least.
   struct Minimum {
@@ -109,12 +111,14 @@ class SlidingContact final : public System {
   double normal_offset(std::size_t obstacle, Index run) const;
   double face_gap(const Touch& touch, const AxisPlace& place) const;
   NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
-  CurvatureGap curvature_gap(const SlidingContactLayout& on, const Vector& x, const Vector& s, std::size_t k) const;
+  CurvatureGap curvature_gap(const State& state, std::size_t k) const;
   double pressure(const State& state, std::size_t k) const;
+  double wall_curvature(const State& state, std::size_t k) const;
   template <typename Visit>
   void for_each_force(const State& state, const Visit& visit) const;
   void lay_out(const State& state, Linearization& out) const;
 
+  Index held_force(const State& state, std::size_t node) const;
   double limit_value(const State& state, std::size_t limit) const;
   Row limit_gradient(const State& state, std::size_t limit) const;
   template <typename Visit>
@@ -124,10 +128,13 @@ class SlidingContact final : public System {
   struct Redrawn;
   State redrawn(const State& state, const Redrawn& by) const;
   Passage remeshed(const State& state, const Direction& forward, const Map& map) const;
-  Passage spread(const State& state, std::size_t k) const;
+  std::vector<Passage> spreads(const State& state, std::size_t k) const;
+  enum class Lying { flat, pressed, off };
+  Passage spread(const State& state, std::size_t k, Lying lying, double length) const;
   Passage gathered(const State& state, std::size_t k) const;
   Passage without(const State& state, const Direction& forward, std::size_t k) const;
   Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;
+  Index straightened_ends(const State& state, std::size_t k) const;
   double least_span(Index run) const;
 
   const SlidingBody& body_;

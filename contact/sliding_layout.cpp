@@ -19,8 +19,10 @@ SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_
                            .span = span});
       if (span == Span::pressed)
         for (Index node = position + 1; node < position + elements[i]; ++node)
-          held_.push_back(
-              {.run = run, .position = node, .obstacle = points_[static_cast<std::size_t>(point - 1)].obstacle});
+          held_.push_back({.run = run,
+                           .position = node,
+                           .obstacle = points_[static_cast<std::size_t>(point - 1)].obstacle,
+                           .segment = segments_.size() - 1});
       position += elements[i];
       if (!last) ++point;
     }

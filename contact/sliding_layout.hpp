@@ -24,10 +24,10 @@ class SlidingContactLayout final : public SlidingLayout {
     Span behind = Span::free;
   };
 
-  /// A node inside a pressed part.
+  /// A node inside a pressed part, which is a segment.
   struct Held {
     Index run, position;
-    std::size_t obstacle;
+    std::size_t obstacle, segment;
   };
 
   /// A stretch between breakpoints; −1: the end of the run.

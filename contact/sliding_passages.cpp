@@ -82,6 +82,11 @@ double SlidingContact::least_span(Index run) const {
   return std::max(0.125 * L / body_.elements_between(run, 0.0, L), 1e-3 * L);
 }
 
+// Where the force of a held node stands in x.
+Index SlidingContact::held_force(const State& state, std::size_t node) const {
+  return layout(state.piece).mesh().unknowns() + state.piece.closed_count() + static_cast<Index>(node);
+}
+
 double SlidingContact::limit_value(const State& state, std::size_t limit) const {
   const Layout_& on = layout(state.piece);
   const Vector s = on.s_of(state);
@@ -93,7 +98,7 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
   };
   switch (bound) {
     case Bound::curvature: {
-      const double bend = curvature_gap(on, on.x_of(state), s, which).value * scales_.length;
+      const double bend = curvature_gap(state, which).value * scales_.length;
       if (state.piece[which]) return bend;
       const Touch at = touch(on, which);
       return bend - flatness * face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state))) / scales_.length;
@@ -111,15 +116,19 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       // (k d/π)², k² = P λ/EI the wave number of a straight part under the thrust P
       const Layout_::Segment& segment = on.segments()[which];
       const Index k = segment.last_point;
-      const double d = s[k] - s[k - 1], stretch = on.mesh().strain(k, on.x_of(state), s).stretch;
+      const double d = s[k] - s[k - 1], stretch = on.mesh().strain(k, on.x_of(state), s, state.lambda).stretch;
       const double EA = body_.axial_stiffness(segment.run), EI = body_.bending_stiffness(segment.run);
       const double waves = EA * (1.0 - stretch) * stretch / EI * d * d / (pi * pi);
       return bound == Bound::half_wave ? 1.0 - waves : waves - shortest_flat * shortest_flat;
     }
     case Bound::room:
       return asked() - 0.5;
-    case Bound::pressure:
-      return state.x[on.mesh().unknowns() + state.piece.closed_count() + static_cast<Index>(which)] / scales_.force;
+    case Bound::pressure: {
+      // Force over the length that belongs to the node.
+      const Layout_::Segment& segment = on.segments()[on.held()[which].segment];
+      const double length = (s[segment.last_point] - s[segment.first_point]) / segment.elements;
+      return state.x[held_force(state, which)] * scales_.length / (length * scales_.force);
+    }
   }
   return 1.0;
 }
@@ -142,9 +151,10 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
   };
   switch (bound) {
     case Bound::curvature: {
-      const CurvatureGap gap = curvature_gap(on, on.x_of(state), s, which);
+      const CurvatureGap gap = curvature_gap(state, which);
       row.dx.head(n) = scales_.length * gap.dx;
       row.dx.tail(s.size()) = scales_.length * gap.ds;
+      row.dlambda = scales_.length * gap.dlambda;
       if (state.piece[which]) break;
       const Touch at = touch(on, which);
       const Eigen::Vector3d by_gap = flatness / scales_.length * node_gap(at, on.x_of(state), on).gap_gradient;
@@ -167,13 +177,14 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
     case Bound::straight: {
       const Layout_::Segment& segment = on.segments()[which];
       const Index k = segment.last_point;
-      const AxisStrain strain = on.mesh().strain(k, on.x_of(state), s);
+      const AxisStrain strain = on.mesh().strain(k, on.x_of(state), s, state.lambda);
       const double EA = body_.axial_stiffness(segment.run), EI = body_.bending_stiffness(segment.run);
       const double sign = bound == Bound::half_wave ? -1.0 : 1.0, d = s[k] - s[k - 1];
       const double factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
       const double by_stretch = factor * (1.0 - 2.0 * stretch) * d * d;
       row.dx.head(n) = by_stretch * strain.stretch_dx;
       row.dx.tail(s.size()) = by_stretch * strain.stretch_ds;
+      row.dlambda = by_stretch * strain.stretch_dlambda;
       row.dx[first_s + k] += factor * (1.0 - stretch) * stretch * 2.0 * d;
       row.dx[first_s + k - 1] -= factor * (1.0 - stretch) * stretch * 2.0 * d;
       break;
@@ -181,9 +192,15 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
     case Bound::room:
       by_ends(1.0);
       break;
-    case Bound::pressure:
-      row.dx[n + state.piece.closed_count() + static_cast<Index>(which)] = 1.0 / scales_.force;
+    case Bound::pressure: {
+      const Layout_::Segment& segment = on.segments()[on.held()[which].segment];
+      const double span = s[segment.last_point] - s[segment.first_point], p = state.x[held_force(state, which)];
+      const double per_force = scales_.length * segment.elements / (span * scales_.force);
+      row.dx[held_force(state, which)] = per_force;
+      row.dx[first_s + segment.last_point] = -per_force * p / span;
+      row.dx[first_s + segment.first_point] = per_force * p / span;
       break;
+    }
   }
   return row;
 }
@@ -290,13 +307,43 @@ Passage SlidingContact::remeshed(const State& state, const Direction& forward, c
   return passage;
 }
 
-Passage SlidingContact::passage(const State& state, const Direction& forward, Index limit, double tolerance) const {
+// Clamped ends of point k's run, parallel to its wall, at which the body loses its curvature with the point: like
+// contacts (the first integral of the elastica), and then straight parts begin to grow there.
+Index SlidingContact::straightened_ends(const State& state, std::size_t k) const {
+  constexpr double parallel = 1e-9, straight = 0.1;  // [rad]; of the greatest curvature in the run
+  const Layout_& on = layout(state.piece);
+  const SlidingMesh& mesh = on.mesh();
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  const Touch at = touch(on, k);
+  const AxisPlace place = mesh.node(at.run, at.position, x);
+  const Index last = mesh.nodes(at.run) - 1;
+  double greatest = 0.0;
+  for (Index e = 0; e < last; ++e) {
+    const double h = mesh.coordinate(at.run, e + 1, s) - mesh.coordinate(at.run, e, s);
+    greatest = std::max(greatest, std::abs(mesh.node(at.run, e + 1, x).angle - mesh.node(at.run, e, x).angle) / h);
+  }
+  Index count = 0;
+  for (const bool end : {false, true}) {
+    const Index node = end ? last : 0, e = end ? last - 1 : 0;
+    const NodeUnknowns unknowns = mesh.node_unknowns(at.run, node);
+    if (unknowns[1] >= 0 || unknowns[2] >= 0) continue;
+    const auto angle = [&](double t) { return mesh.inside(at.run, e, end ? 1.0 - t : t, x, s).angle; };
+    if (std::abs(angle(0.0) - place.angle) > parallel) continue;
+    const double h = mesh.coordinate(at.run, e + 1, s) - mesh.coordinate(at.run, e, s);
+    const double curvature = (4.0 * angle(0.5) - 3.0 * angle(0.0) - angle(1.0)) / h;
+    if (std::abs(curvature) <= straight * greatest) ++count;
+  }
+  return count;
+}
+
+std::vector<Passage> SlidingContact::passages(const State& state, const Direction& forward, Index limit,
+                                              double tolerance) const {
   const Layout_& on = layout(state.piece);
   const auto contacts = static_cast<Index>(state.piece.size());
   const auto [bound, which] = on.limits()[static_cast<std::size_t>(limit - contacts)];
   switch (bound) {
     case Bound::curvature: {
-      if (!state.piece[which]) return without(state, forward, which);
+      if (!state.piece[which]) return {without(state, forward, which)};
       // All point contacts of an equilibrium become lines together; of several only the sum of lengths is determined.
       Index lines = 0;
       for (std::size_t l = 0; l < on.limits().size(); ++l)
@@ -305,34 +352,36 @@ Passage SlidingContact::passage(const State& state, const Direction& forward, In
           ++lines;
       for (const Point& point : on.points())
         if (point.behind == Span::flat) ++lines;
-      if (lines > 1)
-        return {.change = Passage::Change::family,
-                .detail = std::to_string(lines) +
-                          " contacts become lines together: only the sum of their lengths is determined, all such "
-                          "equilibria have the energy " +
-                          round_trip(energy(state))};
-      return spread(state, which);
+      const Index ends = straightened_ends(state, which);
+      if (lines + ends > 1)
+        return {{.change = Passage::Change::family,
+                 .detail = std::to_string(lines) +
+                           (ends > 0 ? " contacts and " + std::to_string(ends) + " clamped ends" : " contacts") +
+                           " become lines together: only the sum of their lengths is determined, all such "
+                           "equilibria have the energy " +
+                           round_trip(energy(state))}};
+      return spreads(state, which);
     }
     case Bound::length:
-      return gathered(state, which);
+      return {gathered(state, which)};
     case Bound::coarse:
-      return with_elements(state, forward, which, 2 * on.segments()[which].elements);
+      return {with_elements(state, forward, which, 2 * on.segments()[which].elements)};
     case Bound::fine:
-      return with_elements(state, forward, which, (on.segments()[which].elements + 1) / 2);
+      return {with_elements(state, forward, which, (on.segments()[which].elements + 1) / 2)};
     case Bound::half_wave: {
       const Index run = on.segments()[which].run;
       const double asked = body_.elements_between(run, 0.0, body_.length(run));
-      return with_elements(state, forward, which, std::max(8, static_cast<int>(std::lround(asked))));
+      return {with_elements(state, forward, which, std::max(8, static_cast<int>(std::lround(asked))))};
     }
     case Bound::straight:
-      return with_elements(state, forward, which, 1);
+      return {with_elements(state, forward, which, 1)};
     case Bound::room:
-      return {.change = Passage::Change::unsupported,
-              .detail = "a contact point reached the end of its member, or another wall's contact"};
+      return {{.change = Passage::Change::unsupported,
+               .detail = "a contact point reached the end of its member, or another wall's contact"}};
     case Bound::pressure:
-      return {.change = Passage::Change::unsupported, .detail = "a part that lies on a wall lifts off inside"};
+      return {{.change = Passage::Change::unsupported, .detail = "a part that lies on a wall lifts off inside"}};
   }
-  return {.change = Passage::Change::unsupported};
+  return {};
 }
 
 namespace {
@@ -374,13 +423,28 @@ std::vector<double> point_forces(const SlidingContact& contact, const State& sta
 
 }  // namespace
 
-// The point becomes two, a short way apart, with a part of the body between them that lies on the wall or arches off
-// it.
-Passage SlidingContact::spread(const State& state, std::size_t k) const {
+// Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
+// arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
+// begun longer.
+std::vector<Passage> SlidingContact::spreads(const State& state, std::size_t k) const {
+  const Index run = layout(state.piece).mesh().breakpoint(static_cast<Index>(k)).first;
+  const double q = pressure(state, k), length = 2.0 * least_span(run);
+  const bool curved = wall_curvature(state, k) != 0.0;
+  if (q == 0.0 && !curved) return {spread(state, k, Lying::flat, length)};
+  const Passage arches = spread(state, k, Lying::off, length);
+  if (q < 0.0 && !curved) return {arches, spread(state, k, Lying::pressed, length)};
+  std::vector<Passage> passages;
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
+    passages.push_back(spread(state, k, Lying::pressed, factor * length));
+  passages.push_back(arches);
+  return passages;
+}
+
+// The point becomes two, a short way apart.
+Passage SlidingContact::spread(const State& state, std::size_t k, Lying lying, double length) const {
   const Layout_& on = layout(state.piece);
   const auto [run, position] = on.mesh().breakpoint(static_cast<Index>(k));
-  const double q = pressure(state, k), length = 2.0 * least_span(run);
-  const Span span = q > 0.0 ? Span::pressed : q < 0.0 ? Span::free : Span::flat;
+  const Span span = lying == Lying::flat ? Span::flat : lying == Lying::pressed ? Span::pressed : Span::free;
 
   Cut cut = on.mesh().cut();
   const auto first_of_run = static_cast<Index>(
@@ -565,7 +629,7 @@ Piece SlidingContact::settled(const State& state) const {
   bool changed = false;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].behind != Span::flat) continue;
-    const double kappa = curvature_gap(on, on.x_of(state), on.s_of(state), k).value;
+    const double kappa = curvature_gap(state, k).value;
     if (std::abs(kappa) * scales_.length <= bent) continue;
     points[k].behind = Span::free;
     changed = true;

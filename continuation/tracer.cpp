@@ -289,7 +289,8 @@ bool Tracer::leads_to_family(const Step& step) const {
   const PathPoint& at = step.to;
   if (step.guard < static_cast<Index>(at.state.piece.size()) || step.slack > singular) return false;
   const double tolerance = std::max(options_.guard_tolerance, 2.0 * step.slack);
-  return system_.passage(at.state, at.tangent, step.guard, tolerance).change == Passage::Change::family;
+  const auto ahead = system_.passages(at.state, at.tangent, step.guard, tolerance);
+  return !ahead.empty() && ahead.front().change == Passage::Change::family;
 }
 
 std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, double t) {

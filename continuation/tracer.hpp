@@ -147,6 +147,7 @@ class Tracer {
 
   bool turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events);
   bool pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events);
+  bool pass_shifted_limit(PathPoint& at, std::vector<Event>& events);
   std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from);
   void refine(const State& violated, double margin);
   void add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const;

@@ -8,6 +8,7 @@ namespace arcwall {
 
 namespace {
 
+constexpr double between = 1e-9;  // penetration between contacts, in the scale of guards, that is let pass
 constexpr int max_standing = 50;
 constexpr double same_place = 1e-8;      // in the path metric
 constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
@@ -51,13 +52,18 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
 // the last point of the piece behind. False, and the branch ends, where nothing can be followed.
 bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events) {
   const double tolerance = std::max(options_.guard_tolerance, 2.0 * slack);
-  const Passage passage = system_.passage(at.state, at.tangent, limit, tolerance);
-  if (passage.change == Passage::Change::family || passage.change == Passage::Change::unsupported) {
-    const bool family = passage.change == Passage::Change::family;
-    end_ = {.reason = family ? EndReason::family : EndReason::unsupported, .detail = passage.detail};
-    return false;
+  std::optional<PathPoint> after;
+  Passage passage;
+  for (Passage& candidate : system_.passages(at.state, at.tangent, limit, tolerance)) {
+    passage = std::move(candidate);
+    if (passage.change == Passage::Change::family || passage.change == Passage::Change::unsupported) {
+      const bool family = passage.change == Passage::Change::family;
+      end_ = {.reason = family ? EndReason::family : EndReason::unsupported, .detail = passage.detail};
+      return false;
+    }
+    after = enter(passage, at);
+    if (after) break;
   }
-  auto after = enter(passage, at);
   if (!after) {
     end_ = {.reason = EndReason::singular, .detail = "behind a change of contact"};
     return false;
@@ -71,7 +77,7 @@ bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Ev
   if (passage.change == Passage::Change::remeshed) {
     add_turns(*after, event, events);
     at = std::move(*after);
-    return true;
+    return pass_shifted_limit(at, events);
   }
   const bool spreads = passage.change == Passage::Change::spreads;
   event.kind = spreads ? EventKind::contact_spreads : EventKind::contact_gathers;
@@ -93,9 +99,24 @@ bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Ev
   return true;
 }
 
+// Limits that are reached together are passed one after the other, and those behind the first may have been shifted
+// past their zero by the new mesh.
+bool Tracer::pass_shifted_limit(PathPoint& at, std::vector<Event>& events) {
+  const auto contacts = static_cast<Index>(at.state.piece.size());
+  if (at.guards.size() == contacts) return true;
+  Index limit = 0;
+  if (at.guards.tail(at.guards.size() - contacts).minCoeff(&limit) >= -options_.guard_tolerance) return true;
+  if (++standing_ > max_standing) {
+    end_ = {.reason = EndReason::no_ray, .detail = "the mesh keeps changing at one point; try a finer one"};
+    return false;
+  }
+  return pass_limit(at, contacts + limit, 0.0, events);
+}
+
 // The first point on the piece ahead, with its metric.
 std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& from) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
+  constexpr double slack = 1e-6;    // of guards that were near zero on the piece behind, too
   const Metric metric(system_.weights(passage.guess.piece), metric_.lambda_scale());
   const bool oriented = metric.norm(passage.forward) > 0.0;
   const Direction along =
@@ -109,7 +130,8 @@ std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& 
         corrector_.correct(passage.guess, PlaneConstraint(metric, passage.guess, along, 0.0), metric, along, distance);
   }
   last_failure_ = result.status;
-  if (!result.converged()) return std::nullopt;
+  if (!result.converged() || !system_.admissible(result.state, -between)) return std::nullopt;
+  if (system_.guards(result.state).minCoeff() < -slack) return std::nullopt;
   if (passage.quantity && apply(passage.quantity->gradient(result.state), result.tangent) < 0.0)
     result.tangent = reversed(std::move(result.tangent));
   const Direction forward = passage.quantity ? result.tangent : along;

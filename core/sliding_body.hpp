@@ -30,6 +30,7 @@ struct AxisStrain {
   double stretch = 1.0;    ///< d deformed arc length / d stress-free arc length
   Vector curvature_dx{}, curvature_ds{};
   Vector stretch_dx{}, stretch_ds{};
+  double curvature_dlambda = 0.0, stretch_dlambda = 0.0;  ///< of loads along the element
 };
 
 /// Unknowns of a node in x: x and z of its position, and its rotation; −1 where a support holds it.
@@ -70,7 +71,7 @@ class SlidingMesh {
   virtual std::pair<Index, Index> breakpoint(Index k) const = 0;
 
   /// Just before breakpoint k.
-  virtual AxisStrain strain(Index k, const Vector& x, const Vector& s) const = 0;
+  virtual AxisStrain strain(Index k, const Vector& x, const Vector& s, double lambda) const = 0;
 
   /// Any place, by interpolation consistent with the elements.
   virtual AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
@@ -117,6 +118,9 @@ class SlidingBody {
 
   virtual double bending_stiffness(Index run) const = 0;  ///< EI [force·length²]
   virtual double axial_stiffness(Index run) const = 0;    ///< EA [force]
+
+  /// Load along a run [force per stress-free length].
+  virtual Vec2 load(Index run, double lambda) const = 0;
 
   /// Whether a support holds the end of a run in z.
   virtual bool end_is_held(Index run, bool last) const = 0;

@@ -122,9 +122,11 @@ class System {
   /// The same point with the unknowns of another piece: forces that are new are zero.
   virtual Vector transfer(const Vector& x, const Piece&, const Piece&) const { return x; }
 
-  /// What lies behind a limit that was reached going `forward`: limits within `tolerance` of zero are reached together.
-  virtual Passage passage(const State&, const Direction& /*forward*/, Index /*limit*/, double /*tolerance*/) const {
-    return {.change = Passage::Change::unsupported, .detail = "this piece has no limits"};
+  /// What may lie behind a limit that was reached going `forward`, the likeliest first: the first that leads to a point
+  /// whose guards hold is taken. Limits within `tolerance` of zero are reached together.
+  virtual std::vector<Passage> passages(const State&, const Direction& /*forward*/, Index /*limit*/,
+                                        double /*tolerance*/) const {
+    return {};
   }
 
   /// Whether side conditions that are no guards of this piece exceed `margin`, in the scale of the guards: nothing

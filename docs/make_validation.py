@@ -120,6 +120,12 @@ def cases() -> list:
             Quantity("load at the second displacement limit", load("displacement-limit", 1), -0.438048021661, CHECKED),
             Quantity("second limit load", load("limit-point", 1), -0.941443155560, CHECKED),
         ]),
+        Case("Lee's frame, elastica of order 6", "examples/lee.toml",
+             meshes({"column": 1, "short": 0.2, "long": 0.8}, [5, 10, 20]), [
+            Quantity("first limit load", load("limit-point"), 1.855672753757, CHECKED),
+            Quantity("way there", monitor("down", "limit-point"), 48.735137245104, CHECKED),
+            Quantity("second limit load", load("limit-point", 1), -0.941443155560, CHECKED),
+        ], always=tuple(f"member.{name}.theory='elastica'" for name in ("column", "short", "long"))),
         Case("Deep arch of 215°, hinged and clamped", "examples/arch.toml",
              meshes({"west": 1, "east": 1}, [8, 16, 32, 64]), [
             Quantity("first limit load", load("limit-point"), 897.294947593916, CHECKED),
@@ -204,8 +210,8 @@ HEAD = """# Validation
 What the program finds against values that do not come from it, at several meshes. The page is written by
 `docs/make_validation.py` from runs of `trace-path`; the decks are in `examples/` and `docs/validation/`. `order` is the exponent
 of the element length in the error, from the two finest meshes above round-off: 4 for smooth paths and first touches of
-classic beams, initially curved ones included. Where node contact has to place a touchdown between two nodes it is 1, or the
-error is irregular ([theory.md](theory.md), section 7).
+classic beams, initially curved ones included, and 6 for beams of theory `elastica`. Where node contact has to place a
+touchdown between two nodes it is 1, or the error is irregular ([theory.md](theory.md), section 7).
 
 References called *shooting* are solutions of the boundary value problem of the extensible elastica (a plane beam without shear
 flexibility, stretch 1 + N/EA, dead loads) that were computed independently of this program and are converged in all digits

@@ -12,7 +12,7 @@ namespace arcwall {
 enum class ElasticaOrder { four, six };
 
 /// Extensible elastica by a mixed element: the angle along the axis and a constant force vector, from which the axial
-/// force follows; what of them the ends do not determine is eliminated inside (docs/theory.md, section 2.2).
+/// force follows; what of them the ends do not determine is eliminated inside (docs/theory.md, section 2.5).
 ///
 /// Unknowns as in ClassicBeam. Where the inner Newton iteration finds no state (bends far above those of a sensible
 /// mesh), energy and derivatives are NaN.

@@ -7,6 +7,8 @@
 
 #include "core/assembly.hpp"
 #include "elements/classic_beam.hpp"
+#include "elements/distributed_load.hpp"
+#include "elements/elastica_beam.hpp"
 
 namespace arcwall {
 
@@ -38,7 +40,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   NodeUnknowns node_unknowns(Index run, Index position) const override;
   AxisPlace node(Index run, Index position, const Vector& x) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
-  AxisStrain strain(Index k, const Vector& x, const Vector& s) const override;
+  AxisStrain strain(Index k, const Vector& x, const Vector& s, double lambda) const override;
   AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
   PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
   AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const override;
@@ -46,7 +48,6 @@ class SlidingStructureMesh final : public SlidingMesh {
 
   Index unknown(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
 
-  /// Calls visit(element's unknowns, its response to x, whether its ends are fixed …); see reaction().
   SlidingStructure::Reaction reaction(const Vector& x, const Vector& s, double lambda, Index freedom) const;
 
  private:
@@ -82,11 +83,22 @@ class SlidingStructureMesh final : public SlidingMesh {
   StretchReference reference(Index run, Index position, const Vector& s) const;
   Index element_at(const MaterialPoint& point, const Vector& s) const;
 
-  // visit(run, position, element) with the beam of each element, by value.
+  using Six = StretchLoad::Vector6;
+  using SixBySix = StretchLoad::Matrix6;
+  // Of an element and the load along it, in x1, z1, angle1, x2, z2, angle2.
+  struct Response {
+    double energy = 0.0;
+    Six force{}, force_lambda = Six::Zero();
+    SixBySix stiffness{};
+    std::array<Six, 2> force_rate{};
+  };
+  Response respond(Index run, Index position, const Vector& x, const Vector& s, double lambda, bool with_rates) const;
+
+  // visit(beam) with the beam of an element, by value.
   template <typename Visit>
   void with_beam(Index run, Index position, const Vector& s, const Visit& visit) const;
   template <typename Visit>
-  void for_each_rate(Index run, Index position, const BeamResponse& response, const Visit& visit) const;
+  void for_each_rate(Index run, Index position, const Response& response, const Visit& visit) const;
 
   const SlidingStructure& structure_;
   Cut cut_;
@@ -106,16 +118,14 @@ double box_diagonal(const std::vector<Vec2>& points) {
   return box.diagonal().norm();
 }
 
-// ∂(chord, angle1, angle2)/∂(x1, z1, angle1, x2, z2, angle2)
-using Six = Eigen::Matrix<double, 6, 1>;
-
-Six spread(const Eigen::Vector4d& q) {
-  Six f;
+// By ∂(chord, angle1, angle2)/∂(x1, z1, angle1, x2, z2, angle2).
+StretchLoad::Vector6 spread(const Eigen::Vector4d& q) {
+  StretchLoad::Vector6 f;
   f << -q[0], -q[1], q[2], q[0], q[1], q[3];
   return f;
 }
 
-Eigen::Matrix<double, 6, 6> spread(const Eigen::Matrix4d& Q) {
+StretchLoad::Matrix6 spread(const Eigen::Matrix4d& Q) {
   Eigen::Matrix<double, 4, 6> T = Eigen::Matrix<double, 4, 6>::Zero();
   T(0, 0) = T(1, 1) = -1.0;
   T(0, 3) = T(1, 4) = T(2, 2) = T(3, 5) = 1.0;
@@ -252,18 +262,47 @@ void SlidingStructureMesh::with_beam(Index run, Index position, const Vector& s,
   const SlidingStructure::Run& described = structure_.at(run);
   const StretchReference stretch = reference(run, position, s);
   const double EA = described.section.EA(), EI = described.section.EI();
-  visit(ClassicBeam(stretch, EA, EI));
+  if (described.theory == Theory::elastica) {
+    visit(ElasticaBeam(stretch, EA, EI, described.order == 6 ? ElasticaOrder::six : ElasticaOrder::four));
+  } else {
+    visit(ClassicBeam(stretch, EA, EI));
+  }
 }
 
-// visit(k, weight, which end) for each breakpoint that moves an end of the element.
+SlidingStructureMesh::Response SlidingStructureMesh::respond(Index run, Index position, const Vector& x,
+                                                             const Vector& s, double lambda, bool with_rates) const {
+  const SlidingStructure::Run& described = structure_.at(run);
+  const Ends at = ends(run, position, x);
+  BeamResponse beam_response;
+  with_beam(run, position, s, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
+  Response out{.energy = beam_response.energy,
+               .force = spread(beam_response.force),
+               .stiffness = spread(beam_response.stiffness),
+               .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
+  if (described.load.isZero() && described.constant_load.isZero()) return out;
+  const StretchReference stretch = reference(run, position, s);
+  const auto add = [&](const Vec2& load, double factor) {
+    const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
+    out.energy += factor * response.energy;
+    out.force += factor * response.force;
+    out.stiffness += factor * response.stiffness;
+    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
+    return response.force;
+  };
+  out.force_lambda = add(described.load, lambda);
+  add(described.constant_load, 1.0);
+  return out;
+}
+
+// visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
 template <typename Visit>
-void SlidingStructureMesh::for_each_rate(Index run, Index position, const BeamResponse& response,
+void SlidingStructureMesh::for_each_rate(Index run, Index position, const Response& response,
                                          const Visit& visit) const {
   for (std::size_t end = 0; end < 2; ++end) {
     const Coordinate& place = mesh_of(run).nodes[static_cast<std::size_t>(position) + end];
     for (std::size_t j = 0; j < 2; ++j)
       if (place.breakpoint[j] != held && place.weight[j] != 0.0)
-        visit(place.breakpoint[j], place.weight[j], response.force_rate[end]);
+        visit(place.breakpoint[j], Six(place.weight[j] * response.force_rate[end]));
   }
 }
 
@@ -272,11 +311,9 @@ void SlidingStructureMesh::residual(const Vector& x, const Vector& s, double lam
   for (Index i = 0; i < F.size(); ++i)
     if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
       F[i] = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
-  BeamResponse response;
   for (Index r = 0; r < structure_.runs(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) {
-      with_beam(r, e, s, [&](const auto& beam) { beam.respond(ends(r, e, x).between(), false, response); });
-      const Six f = spread(response.force);
+      const Six f = respond(r, e, x, s, lambda, false).force;
       const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
       for (std::size_t i = 0; i < 6; ++i)
         if (to[i] != held) F[to[i]] += f[static_cast<Index>(i)];
@@ -295,33 +332,28 @@ void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double la
       out.F_lambda[i] = -structure_.load_[freedom];
       out.F[i] = lambda * out.F_lambda[i] - structure_.constant_load_[freedom];
     }
-  BeamResponse response;
   for (Index r = 0; r < structure_.runs(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) {
-      with_beam(r, e, s, [&](const auto& beam) { beam.respond(ends(r, e, x).between(), m > 0, response); });
+      const Response response = respond(r, e, x, s, lambda, m > 0);
       const Index block = mesh_of(r).first_element + e;
       const auto to = assembly_.unknowns(block);
-      const Six f = spread(response.force);
-      for (std::size_t i = 0; i < 6; ++i)
-        if (to[i] != held) out.F[to[i]] += f[static_cast<Index>(i)];
-      const Eigen::Matrix<double, 6, 6> K = spread(response.stiffness);
-      assembly_.add(block, K.data(), 1.0, out.K.valuePtr());
-      for_each_rate(r, e, response, [&](Index k, double weight, const Eigen::Vector4d& rate) {
-        const Six column = weight * spread(rate);
+      for (std::size_t i = 0; i < 6; ++i) {
+        if (to[i] == held) continue;
+        out.F[to[i]] += response.force[static_cast<Index>(i)];
+        out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
+      }
+      assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
+      for_each_rate(r, e, response, [&](Index k, const Six& rate) {
         for (std::size_t i = 0; i < 6; ++i)
-          if (to[i] != held) out.B(to[i], k) += column[static_cast<Index>(i)];
+          if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];
       });
     }
 }
 
 double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lambda) const {
   double energy = 0.0;
-  BeamResponse response;
   for (Index r = 0; r < structure_.runs(); ++r)
-    for (Index e = 0; e < mesh_of(r).elements; ++e) {
-      with_beam(r, e, s, [&](const auto& beam) { beam.respond(ends(r, e, x).between(), false, response); });
-      energy += response.energy;
-    }
+    for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, x, s, lambda, false).energy;
   for (Index i = 0; i < unknowns(); ++i)
     if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
       energy -= (lambda * structure_.load_[freedom] + structure_.constant_load_[freedom]) *
@@ -329,41 +361,39 @@ double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lam
   return energy;
 }
 
-// The element before the breakpoint: its end moment M and the force along the axis N there.
+// The element before the breakpoint: its end moment M, loads included, and the force along the axis N there.
 //
 //   curvature = κ₀ + M/EI,   stretch = 1 + N/EA,   N = f·t
-AxisStrain SlidingStructureMesh::strain(Index k, const Vector& x, const Vector& s) const {
+AxisStrain SlidingStructureMesh::strain(Index k, const Vector& x, const Vector& s, double lambda) const {
   const auto [run, position] = breakpoint(k);
   const Index e = position - 1, n = unknowns(), m = breakpoints();
   const SlidingStructure::Run& described = structure_.at(run);
   const double EA = described.section.EA(), EI = described.section.EI();
-  BeamResponse response;
-  const Ends at = ends(run, e, x);
-  with_beam(run, e, s, [&](const auto& beam) { beam.respond(at.between(), true, response); });
-  const Vec2 t = tangent(at.angle2);
-  AxisStrain strain;
+  const Response response = respond(run, e, x, s, lambda, true);
+  const Vec2 t = tangent(node(run, position, x).angle);
   const double S = coordinate(run, position, s), step = 1e-5 * described.length;
   const auto natural = [&](double place) { return structure_.natural_curvature({.run = run, .s = place}); };
-  strain.curvature = natural(S) + response.force[3] / EI;
-  strain.stretch = 1.0 + response.force.head<2>().dot(t) / EA;
+  const auto force = response.force.segment<2>(3);
+  AxisStrain strain{.curvature = natural(S) + response.force[5] / EI, .stretch = 1.0 + force.dot(t) / EA};
 
-  Eigen::Vector4d curvature_dq = response.stiffness.col(3) / EI;
-  Eigen::Vector4d stretch_dq = response.stiffness.leftCols<2>() * t / EA;
-  stretch_dq[3] += response.force.head<2>().dot(perp(t)) / EA;
+  const Six curvature_dx = response.stiffness.col(5) / EI;
+  Six stretch_dx = response.stiffness.middleCols<2>(3) * t / EA;
+  stretch_dx[5] += force.dot(perp(t)) / EA;
   strain.curvature_dx = strain.stretch_dx = Vector::Zero(n);
   strain.curvature_ds = strain.stretch_ds = Vector::Zero(m);
   const auto to = assembly_.unknowns(mesh_of(run).first_element + e);
-  const Six c = spread(curvature_dq), l = spread(stretch_dq);
   for (std::size_t i = 0; i < 6; ++i)
     if (to[i] != held) {
-      strain.curvature_dx[to[i]] += c[static_cast<Index>(i)];
-      strain.stretch_dx[to[i]] += l[static_cast<Index>(i)];
+      strain.curvature_dx[to[i]] += curvature_dx[static_cast<Index>(i)];
+      strain.stretch_dx[to[i]] += stretch_dx[static_cast<Index>(i)];
     }
-  for_each_rate(run, e, response, [&](Index j, double weight, const Eigen::Vector4d& rate) {
-    strain.curvature_ds[j] += weight * rate[3] / EI;
-    strain.stretch_ds[j] += weight * rate.head<2>().dot(t) / EA;
+  for_each_rate(run, e, response, [&](Index j, const Six& rate) {
+    strain.curvature_ds[j] += rate[5] / EI;
+    strain.stretch_ds[j] += rate.segment<2>(3).dot(t) / EA;
   });
   strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
+  strain.curvature_dlambda = response.force_lambda[5] / EI;
+  strain.stretch_dlambda = response.force_lambda.segment<2>(3).dot(t) / EA;
   return strain;
 }
 
@@ -408,7 +438,7 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
   with_beam(point.run, e, s, [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
     for (int row = 0; row < 3; ++row) {
-      Six d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
+      StretchLoad::Vector6 d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
       if (row < 2) d[row] += 1.0;
       for (std::size_t i = 0; i < 6; ++i)
         if (to[i] != held) gradient.dx(row, to[i]) += d[static_cast<Index>(i)];
@@ -453,7 +483,6 @@ SlidingStructure::Reaction SlidingStructureMesh::reaction(const Vector& x, const
   if (unknown(freedom) != held) return reaction;
   reaction.value = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
   reaction.dlambda = -structure_.load_[freedom];
-  BeamResponse response;
   for (Index r = 0; r < structure_.runs(); ++r)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& freedoms = structure_.at(r).ends[end].freedom;
@@ -461,15 +490,13 @@ SlidingStructure::Reaction SlidingStructureMesh::reaction(const Vector& x, const
       if (here == freedoms.end()) continue;
       const Index row = (end == 0 ? 0 : 3) + static_cast<Index>(here - freedoms.begin());
       const Index e = end == 0 ? 0 : mesh_of(r).elements - 1;
-      with_beam(r, e, s, [&](const auto& beam) { beam.respond(ends(r, e, x).between(), true, response); });
-      reaction.value += spread(response.force)[row];
+      const Response response = respond(r, e, x, s, lambda, true);
+      reaction.value += response.force[row];
+      reaction.dlambda += response.force_lambda[row];
       const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
-      const Eigen::Matrix<double, 6, 6> K = spread(response.stiffness);
       for (std::size_t i = 0; i < 6; ++i)
-        if (to[i] != held) reaction.dx[to[i]] += K(row, static_cast<Index>(i));
-      for_each_rate(r, e, response, [&](Index k, double weight, const Eigen::Vector4d& rate) {
-        reaction.ds[k] += weight * spread(rate)[row];
-      });
+        if (to[i] != held) reaction.dx[to[i]] += response.stiffness(row, static_cast<Index>(i));
+      for_each_rate(r, e, response, [&](Index k, const Six& rate) { reaction.ds[k] += rate[row]; });
     }
   return reaction;
 }
@@ -566,8 +593,9 @@ SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, c
 }
 
 bool StructureBuilder::can_slide() const {
-  return std::all_of(descriptions_.begin(), descriptions_.end(),
-                     [](const MemberDescription& member) { return member.theory == Theory::classic; });
+  return std::all_of(descriptions_.begin(), descriptions_.end(), [](const MemberDescription& member) {
+    return member.theory == Theory::classic || member.theory == Theory::elastica;
+  });
 }
 
 // A member is cut into runs where a load acts inside it; runs that continue each other straight are joined again.

@@ -27,6 +27,7 @@ class SlidingStructure final : public SlidingBody {
   double natural_curvature(const MaterialPoint& point) const override;
   double bending_stiffness(Index run) const override { return at(run).section.EI(); }
   double axial_stiffness(Index run) const override { return at(run).section.EA(); }
+  Vec2 load(Index run, double lambda) const override { return lambda * at(run).load + at(run).constant_load; }
   bool end_is_held(Index run, bool last) const override {
     return held_[static_cast<std::size_t>(at(run).ends[last ? 1 : 0].freedom[1])];
   }

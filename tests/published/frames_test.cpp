@@ -50,8 +50,8 @@ void expect_points(const Model& model, const test::Branch& branch, const std::ve
   }
 }
 
-Model lee(int elements) {
-  auto structure = test::lee_frame(elements);
+Model lee(int elements, const test::BeamTheory& beam = {}) {
+  auto structure = test::lee_frame(elements, beam);
   const auto w = test::displacement(*structure, 2, Freedom::z);
   return {.structure = std::move(structure),
           .loaded = 2,
@@ -93,6 +93,23 @@ TEST(LeesFrame, LimitPointsAndSnapBacksAreThoseOfTheElastica) {
   EXPECT_EQ(limits.at(0).unstable_after, 1);
   EXPECT_EQ(limits.at(1).unstable_after, 0);
   expect_branch_invariants(*model.structure, branch, options);
+}
+
+// Half of the elements, and a thousandth of the differences for order 6.
+TEST(LeesFrame, ElasticaBeamsGiveTheSamePoints) {
+  struct Case {
+    int order;
+    double in_lambda, in_displacement;
+  };
+  for (const Case& c : {Case{.order = 4, .in_lambda = 2e-5, .in_displacement = 2e-4},
+                        Case{.order = 6, .in_lambda = 5e-9, .in_displacement = 5e-8}}) {
+    SCOPED_TRACE(c.order);
+    const Model model = lee(20, {.theory = Theory::elastica, .order = c.order});
+    TraceOptions options;
+    const test::Branch branch = traced(model, options);
+    expect_points(model, branch, lee_points, c.in_lambda, c.in_displacement);
+    expect_branch_invariants(*model.structure, branch, options);
+  }
 }
 
 TEST(DeepArch, LimitPointsAndSnapBacksAreThoseOfTheElastica) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace arcwall::test {
 
@@ -69,7 +70,7 @@ SlidingModel SlidingChannel::model() const {
 
 SlidingModel SlidingFoundation::model() const {
   StructureBuilder builder;
-  const Vec2 a(0.0, 0.0), b(2.0, 0.0);
+  const Vec2 a(0.0, 0.0), b(2.0 * std::cos(turned), 2.0 * std::sin(turned));
   const Index left = builder.add_joint(a), right = builder.add_joint(b);
   builder.add_member({.name = "beam",
                       .from = left,
@@ -78,10 +79,15 @@ SlidingModel SlidingFoundation::model() const {
                       .section = {.E = 2.1e4, .A = 0.04, .I = 0.2 * 0.008 / 12.0, .height = 0.2},
                       .elements = elements});
   builder.fix(builder.freedom(left, Freedom::x));
+  if (fixed) builder.fix(builder.freedom(right, Freedom::x));
   for (const Index end : {left, right}) builder.fix(builder.freedom(end, Freedom::z));
   builder.add_load(builder.shared_rotation(left).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(right).value(), 1.0, LoadKind::proportional);
-  return {builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-0.18)}}, 0.1};
+  return {builder,
+          {{.name = "floor",
+            .side = Side::below,
+            .profile = line_profile(-0.18 / std::cos(turned), std::tan(turned))}},
+          0.1};
 }
 
 std::vector<ExploredBranch> follow(const System& system, const State& start, const TraceOptions& options,

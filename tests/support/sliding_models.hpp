@@ -58,6 +58,8 @@ struct SlidingChannel {
 /// supports sliding apart, bent by end moments λ onto a floor 0.08 below its lower face.
 struct SlidingFoundation {
   int elements = 40;
+  bool fixed = false;   ///< both supports in both directions; else the right one slides along x
+  double turned = 0.0;  ///< of beam and floor together [rad]
 
   SlidingModel model() const;
 };

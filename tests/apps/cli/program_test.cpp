@@ -133,6 +133,26 @@ TEST_F(ProgramTest, CheckSummarisesTheDeck) {
   expect_in("left: truss, 1 element", outcome.out);
 }
 
+// Lee's frame with 10 elements a member: the first limit load of the elastica, 1.855672753757 by shooting, to 4e-8.
+TEST_F(ProgramTest, TheoryElasticaIsRunWithOrderSixUnlessTheDeckSaysFour) {
+  const std::string members[] = {"column", "short", "long"};
+  const int elements[] = {10, 2, 8};
+  std::string values;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string member = " --set member." + members[i];
+    values += member + ".theory='\"elastica\"'" + member + ".elements=" + std::to_string(elements[i]);
+  }
+  ASSERT_EQ(run("examples lee --out lee.toml").status, 0);
+  ASSERT_EQ(run("lee.toml --quiet --out six" + values).status, 0);
+  ASSERT_EQ(run("lee.toml --quiet --out four --set member.column.order=4" + values).status, 0);
+
+  const auto first_limit = [&](const char* folder) {
+    return Json::parse(content(work() / folder / "events.json"))["events"][1]["lambda"].get<double>();
+  };
+  EXPECT_NEAR(first_limit("six"), 1.855672753757, 5e-8);
+  EXPECT_GT(std::abs(first_limit("four") - 1.855672753757), 1e-6);
+}
+
 TEST_F(ProgramTest, CheckNamesTheFirstGapOfAWall) {
   ASSERT_EQ(run("examples foundation --out foundation.toml").status, 0);
   const Outcome outcome = run("check foundation.toml");
