@@ -355,11 +355,12 @@ std::vector<Passage> SlidingContact::passages(const State& state, const Directio
       const Index ends = straightened_ends(state, which);
       if (lines + ends > 1)
         return {{.change = Passage::Change::family,
-                 .detail = std::to_string(lines) +
-                           (ends > 0 ? " contacts and " + std::to_string(ends) + " clamped ends" : " contacts") +
-                           " become lines together: only the sum of their lengths is determined, all such "
-                           "equilibria have the energy " +
-                           round_trip(energy(state))}};
+                 .detail =
+                     std::to_string(lines) + (lines > 1 ? " contacts" : " contact") +
+                     (ends > 0 ? " and " + std::to_string(ends) + (ends > 1 ? " clamped ends" : " clamped end") : "") +
+                     " become lines together: only the sum of their lengths is determined, all such "
+                     "equilibria have the energy " +
+                     round_trip(energy(state))}};
       return spreads(state, which);
     }
     case Bound::length:

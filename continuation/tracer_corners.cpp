@@ -131,7 +131,8 @@ std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& 
   }
   last_failure_ = result.status;
   if (!result.converged() || !system_.admissible(result.state, -between)) return std::nullopt;
-  if (system_.guards(result.state).minCoeff() < -slack) return std::nullopt;
+  if (passage.change != Passage::Change::remeshed && (system_.guards(result.state).array() < -slack).any())
+    return std::nullopt;
   if (passage.quantity && apply(passage.quantity->gradient(result.state), result.tangent) < 0.0)
     result.tangent = reversed(std::move(result.tangent));
   const Direction forward = passage.quantity ? result.tangent : along;

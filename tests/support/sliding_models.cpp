@@ -84,9 +84,7 @@ SlidingModel SlidingFoundation::model() const {
   builder.add_load(builder.shared_rotation(left).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(right).value(), 1.0, LoadKind::proportional);
   return {builder,
-          {{.name = "floor",
-            .side = Side::below,
-            .profile = line_profile(-0.18 / std::cos(turned), std::tan(turned))}},
+          {{.name = "floor", .side = Side::below, .profile = line_profile(-0.18 / std::cos(turned), std::tan(turned))}},
           0.1};
 }
 
