@@ -247,10 +247,12 @@ bool Tracer::trustworthy(const PathPoint& to, double s, double& turn) const {
 std::optional<Tracer::GuardCrossing> Tracer::first_crossing(const Segment& segment) const {
   const PathPoint &from = segment.from(), &to = segment.to();
   const double L = segment.length(), tolerance = options_.guard_tolerance;
+  // Branch points are interpolated: guards that are zero there (a flat part buckles off its wall) are known no better.
+  const double unsure = points_ == 1 && start_.forward ? passing : tolerance;
   std::optional<GuardCrossing> first;
   for (Index j = 0; j < to.guards.size(); ++j) {
     const double v0 = from.guards[j], r0 = from.guard_rates[j], v1 = to.guards[j], r1 = to.guard_rates[j];
-    const bool touches = std::abs(v0) <= tolerance;
+    const bool touches = v0 <= tolerance && v0 >= -unsure;
     if (v1 >= -tolerance && least_cubic_value(touches ? 0.0 : v0, r0 * L, v1, r1 * L) >= -tolerance) continue;
     const double t = segment.first_zero(v0, r0, v1, r1, tolerance).value_or(0.0);
     if (!first || t < first->t) first = GuardCrossing{.guard = j, .t = t};
