@@ -134,6 +134,7 @@ class SlidingContact final : public System {
   Passage gathered(const State& state, std::size_t k) const;
   Passage without(const State& state, const Direction& forward, std::size_t k) const;
   Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;
+  Index straightened_ends(const State& state, std::size_t k) const;
   double least_span(Index run) const;
 
   const SlidingBody& body_;

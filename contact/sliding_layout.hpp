@@ -39,7 +39,7 @@ class SlidingContactLayout final : public SlidingLayout {
 
   /// What bounds a piece besides gaps and forces.
   enum class Bound {
-    curvature,  ///< of point `which`: a point contact becomes a line, or a least gap vanishes
+    curvature,  ///< of point `which`: a point contact becomes a line, or a least gap is shallow
     length,     ///< of the span behind point `which`: a line becomes a point
     coarse,     ///< of segment `which`: more elements are needed
     fine,       ///< fewer

@@ -17,6 +17,7 @@ using Point = SlidingContactLayout::Point;
 namespace {
 
 constexpr double shortest_flat = 0.8;  // of a half wave, below which a flat part has one element
+constexpr double flatness = 0.5;       // curvature of an open point over its gap, both scaled, below which it is let go
 
 // s of the point behind `k` less that of k.
 class SpanLength final : public Observable {
@@ -96,8 +97,12 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
     return body_.elements_between(segment.run, from, to);
   };
   switch (bound) {
-    case Bound::curvature:
-      return curvature_gap(state, which).value * scales_.length;
+    case Bound::curvature: {
+      const double bend = curvature_gap(state, which).value * scales_.length;
+      if (state.piece[which]) return bend;
+      const Touch at = touch(on, which);
+      return bend - flatness * face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state))) / scales_.length;
+    }
     case Bound::length: {
       const Index k = static_cast<Index>(which), run = on.mesh().breakpoint(k).first;
       return (s[k + 1] - s[k] - least_span(run)) / scales_.length;
@@ -150,6 +155,12 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       row.dx.head(n) = scales_.length * gap.dx;
       row.dx.tail(s.size()) = scales_.length * gap.ds;
       row.dlambda = scales_.length * gap.dlambda;
+      if (state.piece[which]) break;
+      const Touch at = touch(on, which);
+      const Eigen::Vector3d by_gap = flatness / scales_.length * node_gap(at, on.x_of(state), on).gap_gradient;
+      const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+      for (std::size_t i = 0; i < 3; ++i)
+        if (unknowns[i] >= 0) row.dx[unknowns[i]] -= by_gap[static_cast<Index>(i)];
       break;
     }
     case Bound::length:
@@ -296,6 +307,35 @@ Passage SlidingContact::remeshed(const State& state, const Direction& forward, c
   return passage;
 }
 
+// Clamped ends of point k's run, parallel to its wall, at which the body loses its curvature with the point: like
+// contacts (the first integral of the elastica), and then straight parts begin to grow there.
+Index SlidingContact::straightened_ends(const State& state, std::size_t k) const {
+  constexpr double parallel = 1e-9, straight = 0.1;  // [rad]; of the greatest curvature in the run
+  const Layout_& on = layout(state.piece);
+  const SlidingMesh& mesh = on.mesh();
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  const Touch at = touch(on, k);
+  const AxisPlace place = mesh.node(at.run, at.position, x);
+  const Index last = mesh.nodes(at.run) - 1;
+  double greatest = 0.0;
+  for (Index e = 0; e < last; ++e) {
+    const double h = mesh.coordinate(at.run, e + 1, s) - mesh.coordinate(at.run, e, s);
+    greatest = std::max(greatest, std::abs(mesh.node(at.run, e + 1, x).angle - mesh.node(at.run, e, x).angle) / h);
+  }
+  Index count = 0;
+  for (const bool end : {false, true}) {
+    const Index node = end ? last : 0, e = end ? last - 1 : 0;
+    const NodeUnknowns unknowns = mesh.node_unknowns(at.run, node);
+    if (unknowns[1] >= 0 || unknowns[2] >= 0) continue;
+    const auto angle = [&](double t) { return mesh.inside(at.run, e, end ? 1.0 - t : t, x, s).angle; };
+    if (std::abs(angle(0.0) - place.angle) > parallel) continue;
+    const double h = mesh.coordinate(at.run, e + 1, s) - mesh.coordinate(at.run, e, s);
+    const double curvature = (4.0 * angle(0.5) - 3.0 * angle(0.0) - angle(1.0)) / h;
+    if (std::abs(curvature) <= straight * greatest) ++count;
+  }
+  return count;
+}
+
 std::vector<Passage> SlidingContact::passages(const State& state, const Direction& forward, Index limit,
                                               double tolerance) const {
   const Layout_& on = layout(state.piece);
@@ -312,12 +352,15 @@ std::vector<Passage> SlidingContact::passages(const State& state, const Directio
           ++lines;
       for (const Point& point : on.points())
         if (point.behind == Span::flat) ++lines;
-      if (lines > 1)
+      const Index ends = straightened_ends(state, which);
+      if (lines + ends > 1)
         return {{.change = Passage::Change::family,
-                 .detail = std::to_string(lines) +
-                           " contacts become lines together: only the sum of their lengths is determined, all such "
-                           "equilibria have the energy " +
-                           round_trip(energy(state))}};
+                 .detail =
+                     std::to_string(lines) + (lines > 1 ? " contacts" : " contact") +
+                     (ends > 0 ? " and " + std::to_string(ends) + (ends > 1 ? " clamped ends" : " clamped end") : "") +
+                     " become lines together: only the sum of their lengths is determined, all such "
+                     "equilibria have the energy " +
+                     round_trip(energy(state))}};
       return spreads(state, which);
     }
     case Bound::length:
@@ -467,7 +510,8 @@ Passage SlidingContact::gathered(const State& state, std::size_t k) const {
   return passage;
 }
 
-// The extremum that an open point followed is about to vanish.
+// The least gap that an open point followed is about to vanish, or has become shallow for its distance: before the body
+// is straight it must be let go, as nothing would say where it is.
 Passage SlidingContact::without(const State& state, const Direction& forward, std::size_t k) const {
   const Layout_& on = layout(state.piece);
   const Index run = on.mesh().breakpoint(static_cast<Index>(k)).first;
@@ -563,7 +607,7 @@ std::optional<Passage> SlidingContact::refined(const State& from, const Directio
   std::vector<Point> points = on.points();
   insert_at(points, k, Point{.obstacle = start->obstacle});
   const auto ahead = std::make_shared<Layout_>(body_, body_.mesh(cut), points, inserted(s, k, start->at.s));
-  return remeshed(from, forward, [&](const State& state) {
+  Passage passage = remeshed(from, forward, [&](const State& state) {
     Redrawn by{.layout = ahead, .s = inserted(on.s_of(state), k, start->at.s)};
     by.closed = closed_points(state, on.points().size());
     insert_at(by.closed, k, std::uint8_t{0});
@@ -571,6 +615,11 @@ std::optional<Passage> SlidingContact::refined(const State& from, const Directio
     insert_at(by.forces, k, 0.0);
     return redrawn(state, by);
   });
+  const auto& limits = ahead->limits();
+  for (std::size_t l = 0; l < limits.size(); ++l)
+    if (limits[l].bound == Bound::curvature && limits[l].which == k && limit_value(passage.guess, l) <= 0.0)
+      return std::nullopt;  // too shallow yet
+  return passage;
 }
 
 // A flat part that is bent is none.

@@ -132,6 +132,7 @@ std::optional<Arc> Tracer::begin_at_branch_point() {
 std::optional<Arc> Tracer::advance(double s) {
   auto step = take(s);
   if (!step) return std::nullopt;
+  if (step->family) step->to.held = std::nullopt;
   const PathPoint beyond = step->to;
   const Segment whole(metric_, here_, beyond);
   if (options_.events != EventSearch::none && (hides_two_zeros(whole) || several_singular_points(whole)))
@@ -152,7 +153,7 @@ std::optional<Arc> Tracer::advance(double s) {
   const double length = Segment(metric_, here_, step->to).length();
   PathPoint to = std::move(step->to);
   to.arc = here_.arc + length;
-  to.count = counter_.count(to.state, to.held);
+  to.count = step->family ? StabilityCount{.unstable = after_.unstable} : counter_.count(to.state, to.held);
 
   Arc arc;
   const bool singular =
@@ -248,10 +249,12 @@ bool Tracer::trustworthy(const PathPoint& to, double s, double& turn) const {
 std::optional<Tracer::GuardCrossing> Tracer::first_crossing(const Segment& segment) const {
   const PathPoint &from = segment.from(), &to = segment.to();
   const double L = segment.length(), tolerance = options_.guard_tolerance;
+  // Branch points are interpolated: guards that are zero there (a flat part buckles off its wall) are known no better.
+  const double unsure = points_ == 1 && start_.forward ? passing : tolerance;
   std::optional<GuardCrossing> first;
   for (Index j = 0; j < to.guards.size(); ++j) {
     const double v0 = from.guards[j], r0 = from.guard_rates[j], v1 = to.guards[j], r1 = to.guard_rates[j];
-    const bool touches = std::abs(v0) <= tolerance;
+    const bool touches = v0 <= tolerance && v0 >= -unsure;
     if (v1 >= -tolerance && least_cubic_value(touches ? 0.0 : v0, r0 * L, v1, r1 * L) >= -tolerance) continue;
     const double t = segment.first_zero(v0, r0, v1, r1, tolerance).value_or(0.0);
     if (!first || t < first->t) first = GuardCrossing{.guard = j, .t = t};
@@ -272,7 +275,8 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
     step.guard = crossing.guard;
     step.to = std::move(*at);
     step.slack = std::max(0.0, -step.to.guards.minCoeff());
-    if (step.slack <= options_.guard_tolerance) return true;
+    step.family = leads_to_family(step);
+    if (step.slack <= options_.guard_tolerance || step.family) return true;
     if (step.slack <= together * options_.guard_tolerance && (!nearly || step.slack < nearly->slack)) nearly = step;
     const auto before = first_crossing(Segment(metric_, here_, step.to));
     if (!before || (nearly && landing >= 3)) break;
@@ -280,6 +284,17 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
   }
   if (nearly) step = std::move(*nearly);
   return step.corner && step.slack <= together * options_.guard_tolerance;
+}
+
+// Where a continuum of equilibria lies ahead, the equations are singular at the corner: guards that should vanish
+// together miss each other by more than elsewhere, and eigenvalues that should be zero have no sure sign.
+bool Tracer::leads_to_family(const Step& step) const {
+  constexpr double singular = 1e-6;  // in the scale of guards
+  const PathPoint& at = step.to;
+  if (step.guard < static_cast<Index>(at.state.piece.size()) || step.slack > singular) return false;
+  const double tolerance = std::max(options_.guard_tolerance, 2.0 * step.slack);
+  const auto ahead = system_.passages(at.state, at.tangent, step.guard, tolerance);
+  return !ahead.empty() && ahead.front().change == Passage::Change::family;
 }
 
 std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, double t) {

@@ -116,9 +116,10 @@ class Tracer {
   struct Step {
     PathPoint to;
     bool corner = false;
-    Index guard = -1;    // landed on
-    double turn = 0.0;   // of the tangent [rad]
-    double slack = 0.0;  // by how much other guards are violated at the corner: they belong to it
+    Index guard = -1;     // landed on
+    double turn = 0.0;    // of the tangent [rad]
+    double slack = 0.0;   // by how much other guards are violated at the corner: they belong to it
+    bool family = false;  // whether a continuum of equilibria lies behind the corner
   };
 
   std::optional<Arc> begin();
@@ -135,6 +136,7 @@ class Tracer {
   };
   std::optional<GuardCrossing> first_crossing(const Segment& segment) const;
   bool land(Step& step, GuardCrossing crossing);
+  bool leads_to_family(const Step& step) const;
 
   bool several_singular_points(const Segment& segment) const;
   std::optional<PathPoint> locate_branch_point(const PathPoint& to);
@@ -145,6 +147,7 @@ class Tracer {
 
   bool turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events);
   bool pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events);
+  bool pass_shifted_limit(PathPoint& at, std::vector<Event>& events);
   std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from);
   void refine(const State& violated, double margin);
   void add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const;

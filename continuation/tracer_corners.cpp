@@ -78,7 +78,7 @@ bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Ev
   if (passage.change == Passage::Change::remeshed) {
     add_turns(*after, event, events);
     at = std::move(*after);
-    return true;
+    return pass_shifted_limit(at, events);
   }
   const bool spreads = passage.change == Passage::Change::spreads;
   event.kind = spreads ? EventKind::contact_spreads : EventKind::contact_gathers;
@@ -100,6 +100,20 @@ bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Ev
   return true;
 }
 
+// Limits that are reached together are passed one after the other, and those behind the first may have been shifted
+// past their zero by the new mesh.
+bool Tracer::pass_shifted_limit(PathPoint& at, std::vector<Event>& events) {
+  const auto contacts = static_cast<Index>(at.state.piece.size());
+  if (at.guards.size() == contacts) return true;
+  Index limit = 0;
+  if (at.guards.tail(at.guards.size() - contacts).minCoeff(&limit) >= -options_.guard_tolerance) return true;
+  if (++standing_ > max_standing) {
+    end_ = {.reason = EndReason::no_ray, .detail = "the mesh keeps changing at one point; try a finer one"};
+    return false;
+  }
+  return pass_limit(at, contacts + limit, 0.0, events);
+}
+
 // The first point on the piece ahead, with its metric.
 std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& from) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
@@ -118,7 +132,8 @@ std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& 
   }
   last_failure_ = result.status;
   if (!result.converged() || !system_.admissible(result.state, -between)) return std::nullopt;
-  if (system_.guards(result.state).minCoeff() < -slack) return std::nullopt;
+  if (passage.change != Passage::Change::remeshed && (system_.guards(result.state).array() < -slack).any())
+    return std::nullopt;
   if (passage.quantity && apply(passage.quantity->gradient(result.state), result.tangent) < 0.0)
     result.tangent = reversed(std::move(result.tangent));
   const Direction forward = passage.quantity ? result.tangent : along;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace arcwall::test {
@@ -23,16 +24,16 @@ SparseMatrix lower_triangle(const Matrix& A, double drop) {
   return sparse;
 }
 
-std::optional<Index> dense_unstable_count(const System& system, const State& state) {
-  Linearization now;
-  system.linearize(state, now);
-  const Matrix whole = full(now.K);
-  const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
-  const Vector scale = whole.diagonal().head(n).cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+namespace {
+
+// Negative eigenvalues of the symmetric K on {v : G v = 0}.
+std::optional<Index> negative_on_null_space(const Matrix& stiffness, const Matrix& rows) {
+  const Index n = stiffness.rows(), m = rows.rows();
+  const Vector scale = stiffness.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   if (m >= n) return 0;
-  Matrix K = scale.asDiagonal() * whole.topLeftCorner(n, n) * scale.asDiagonal();
+  Matrix K = scale.asDiagonal() * stiffness * scale.asDiagonal();
   if (m > 0) {
-    Matrix G = whole.bottomLeftCorner(m, n) * scale.asDiagonal();
+    Matrix G = rows * scale.asDiagonal();
     G.rowwise().normalize();
     const Eigen::ColPivHouseholderQR<Matrix> qr(G.transpose());
     EXPECT_EQ(qr.rank(), m) << "the gradients of the closed gaps depend on each other";
@@ -45,6 +46,38 @@ std::optional<Index> dense_unstable_count(const System& system, const State& sta
   const double unsure = 32.0 * double(n) * std::numeric_limits<double>::epsilon();
   if ((values.array().abs() < unsure).any()) return std::nullopt;
   return (values.array() < 0.0).count();
+}
+
+}  // namespace
+
+std::optional<Index> dense_unstable_count(const System& system, const State& state) {
+  Linearization now;
+  system.linearize(state, now);
+  const Matrix whole = full(now.K);
+  const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
+  return negative_on_null_space(whole.topLeftCorner(n, n), whole.bottomLeftCorner(m, n));
+}
+
+std::optional<Index> dense_unstable_count(const SlidingContact& system, const State& state, double tolerance) {
+  Linearization now;
+  system.linearize(state, now);
+  const Matrix whole = full(now.K);
+  const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
+  const Vector springs = system.border_springs(state);
+  Matrix K = whole.topLeftCorner(n, n);
+  std::vector<Index> held;
+  for (Index row = n; row < n + state.piece.closed_count(); ++row)
+    if (state.x[row] > tolerance * system.scales().force) held.push_back(row);
+  for (Index row = n + state.piece.closed_count(); row < whole.rows() - springs.size(); ++row) held.push_back(row);
+  for (Index k = 0; k < springs.size(); ++k) {
+    const Index row = whole.rows() - springs.size() + k;
+    if (std::isfinite(springs[k])) {
+      K += springs[k] * whole.row(row).head(n).transpose() * whole.row(row).head(n);
+    } else {
+      held.push_back(row);
+    }
+  }
+  return negative_on_null_space(K, whole(held, Eigen::seqN(0, n)));
 }
 
 State solved_at(const System& system, State state, double lambda, int steps) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <random>
 
+#include "contact/sliding_contact.hpp"
 #include "core/system.hpp"
 
 namespace arcwall::test {
@@ -38,6 +39,10 @@ class Numbers {
 /// diagonal, a basis of the null space from a rank-revealing QR. Empty if an eigenvalue is too near zero to have a sure
 /// sign.
 std::optional<Index> dense_unstable_count(const System& system, const State& state);
+
+/// The same with contact points that slide: those closed under a force above `tolerance` (in the scale of the guards)
+/// hold the body, each with its spring on the tangency, or with the tangency held.
+std::optional<Index> dense_unstable_count(const SlidingContact& system, const State& state, double tolerance);
 
 /// F = 0 at the given λ by Newton's method with dense matrices, `steps` equal increments from the state's λ. Fails the
 /// test if it does not converge.

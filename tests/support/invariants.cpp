@@ -98,7 +98,71 @@ void expect_changes(const Event& event, const Piece& before, const Piece& after)
   }
 }
 
+// As above with a border: s is sought to the same relative accuracy as positions, moments vanish to round-off.
+Vector bordered_allowance(const SlidingContact& system, const State& state, const Linearization& now,
+                          const TraceOptions& options, double lambda_scale) {
+  const Vector weights = system.weights(state.piece);
+  const double tolerance = 4.0 * options.corrector.tolerance, L = system.scales().length;
+  const Index n = state.x.size(), m = system.border_width(state.piece), core = n - m;
+  Vector off(n);
+  for (Index i = 0; i < n; ++i) {
+    const double left = weights[i] > 0.0 ? tolerance / std::sqrt(weights[i]) : i >= core ? tolerance * L : 0.0;
+    off[i] = left + 16.0 * epsilon * std::abs(state.x[i]);
+  }
+  SparseMatrix magnitude = now.K;
+  magnitude.coeffs() = magnitude.coeffs().abs();
+  const double lambda_off = tolerance * lambda_scale + 16.0 * epsilon * std::abs(state.lambda);
+  Vector allowed(n);
+  allowed.head(core) = magnitude.selfadjointView<Eigen::Lower>() * off.head(core) + now.B.cwiseAbs() * off.tail(m) +
+                       lambda_off * now.F_lambda.head(core).cwiseAbs();
+  allowed.tail(m).setConstant(options.guard_tolerance * system.scales().force * L);
+  return allowed;
+}
+
+bool changes_here(const Arc& arc) {
+  return std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) {
+    return event.kind != EventKind::start && event.kind != EventKind::displacement_limit;
+  });
+}
+
 }  // namespace
+
+void expect_sliding_invariants(const SlidingContact& system, const std::vector<Arc>& arcs, const TraceOptions& options,
+                               double lambda_scale, const InvariantOptions& what) {
+  ASSERT_FALSE(arcs.empty());
+  // Between nodes the path is kept out of walls to 1e-9 of the length scale, by the cubic through the gaps and slopes
+  // of the nodes. The elements' own shapes differ from it by 1/100 of the element length times the cube of its end
+  // slopes: 1e-9 on the meshes here.
+  constexpr double between = 2e-9;
+  constexpr int places = 20;
+  Linearization now;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const State& state = arcs[i].to.state;
+    SCOPED_TRACE("point " + std::to_string(i) + ", lambda = " + std::to_string(state.lambda));
+    ASSERT_EQ(state.x.size(), system.size(state.piece));
+    now = {};
+    system.linearize(state, now);
+    const Vector allowed = bordered_allowance(system, state, now, options, lambda_scale);
+    Index worst = 0;
+    const double excess = (now.F.cwiseAbs() - allowed).maxCoeff(&worst);
+    EXPECT_LE(excess, 0.0) << "unknown " << worst << ": |F| = " << std::abs(now.F[worst]) << ", allowed "
+                           << allowed[worst];
+    Index lowest = 0;
+    if (system.guard_count(state.piece) > 0) {
+      const double least = system.guards(state).minCoeff(&lowest);
+      EXPECT_GE(least, -4.0 * options.guard_tolerance) << "guard " << lowest << " of " << state.piece.size();
+    }
+    EXPECT_GE(system.least_gap(state, places), -between * system.scales().length);
+    if (i % static_cast<std::size_t>(what.recount_every) == 0 && arcs[i].to.count.unstable && !changes_here(arcs[i]))
+      if (const auto dense = dense_unstable_count(system, state, options.guard_tolerance)) {
+        EXPECT_EQ(*arcs[i].to.count.unstable, *dense);
+      }
+    if (i > 0) {
+      EXPECT_GE(arcs[i].to.arc, arcs[i - 1].to.arc);
+    }
+    if (::testing::Test::HasFailure()) return;  // the first violation says enough
+  }
+}
 
 void expect_branch_invariants(const System& system, const Branch& branch, const TraceOptions& options,
                               const InvariantOptions& what) {

@@ -1,0 +1,248 @@
+#include "contact/sliding_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/sliding_layout.hpp"
+#include "core/derivative_check.hpp"
+#include "tests/contact/contact_models.hpp"
+#include "tests/support/dense.hpp"
+#include "tests/support/sliding_models.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using test::Numbers;
+using test::SlidingChannel;
+using test::SlidingModel;
+using Point = SlidingContactLayout::Point;
+using Span = SlidingContactLayout::Span;
+
+// A mesh of one run with its points, at their places, and which of them are closed.
+struct Layouts {
+  std::string name;
+  std::vector<int> elements;
+  std::vector<Point> points;
+  std::vector<double> s;
+  std::vector<std::uint8_t> closed;
+};
+
+Vector of(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
+}
+
+Piece piece_of(const SlidingModel& model, const Layouts& on) {
+  const auto layout = std::make_shared<SlidingContactLayout>(model.structure(), model.structure().mesh({on.elements}),
+                                                             on.points, of(on.s));
+  const std::size_t tied = model.system().open_piece().size();
+  Piece piece(on.points.size() + tied, 0, layout);
+  for (std::size_t k = 0; k < on.closed.size(); ++k) piece[k] = on.closed[k];
+  return piece;
+}
+
+// Off its rest by a twentieth of the shortest element, loaded, with forces and no moments: those vanish at every
+// equilibrium, and where walls are curved K leaves out their second derivatives.
+State random_state(const SlidingModel& model, const Piece& piece, Numbers& numbers) {
+  const SlidingContact& system = model.system();
+  State state{.x = Vector::Zero(system.size(piece)), .lambda = 1.0 + numbers(), .piece = piece};
+  const auto& layout = static_cast<const SlidingContactLayout&>(*piece.layout());
+  const SlidingMesh& mesh = layout.mesh();
+  const Index n = mesh.unknowns(), m = mesh.breakpoints();
+  Vector s(m);
+  for (std::size_t k = 0; k < layout.points().size(); ++k)
+    s[static_cast<Index>(k)] = 0.3 + 0.35 * double(k) + 0.05 * numbers();
+  double shortest = infinity;
+  for (Index node = 1; node < mesh.nodes(0); ++node)
+    shortest = std::min(shortest, mesh.coordinate(0, node, s) - mesh.coordinate(0, node - 1, s));
+  state.x.head(n) = model.structure().rest(mesh, s) + 0.05 * shortest * numbers.vector(n);
+  for (Index j = n; j < n + piece.closed_count() + static_cast<Index>(layout.held().size()); ++j)
+    state.x[j] = 1.0 + numbers();
+  state.x.tail(m) = s;
+  return state;
+}
+
+// Two walls, nought above and one below.
+const std::vector<Layouts>& layouts() {
+  static const std::vector<Layouts> all{
+      {"no point", {6}, {}, {}, {}},
+      {"an open point", {2, 3}, {{.obstacle = 0}}, {0.3}, {0}},
+      {"a closed point", {3, 4}, {{.obstacle = 0}}, {0.3}, {1}},
+      {"points on both walls", {3, 3, 2}, {{.obstacle = 0}, {.obstacle = 1}}, {0.3, 0.65}, {1, 1}},
+      {"one of two closed", {3, 3, 2}, {{.obstacle = 1}, {.obstacle = 0}}, {0.3, 0.65}, {0, 1}},
+      {"two on one wall", {2, 3, 2}, {{.obstacle = 1}, {.obstacle = 1}}, {0.3, 0.65}, {1, 1}},
+      {"a short flat part", {3, 1, 3}, {{.obstacle = 0, .behind = Span::flat}, {.obstacle = 0}}, {0.3, 0.65}, {1, 1}},
+      {"a long flat part", {3, 8, 3}, {{.obstacle = 0, .behind = Span::flat}, {.obstacle = 0}}, {0.3, 0.65}, {1, 1}},
+      {"a pressed part", {2, 4, 2}, {{.obstacle = 1, .behind = Span::pressed}, {.obstacle = 1}}, {0.3, 0.65}, {1, 1}},
+      {"a point behind a flat part",
+       {2, 1, 3, 2},
+       {{.obstacle = 0, .behind = Span::flat}, {.obstacle = 0}, {.obstacle = 1}},
+       {0.3, 0.65, 1.0},
+       {1, 1, 1}},
+      {"more elements than asked for", {8, 24}, {{.obstacle = 0}}, {0.3}, {1}},
+  };
+  return all;
+}
+
+// A beam of height 0.2 from (0, 0) to (2, 0.1), curved and wavy, clamped and loaded at both ends.
+StructureBuilder wavy_beam(bool reversed) {
+  StructureBuilder builder;
+  const Vec2 a(0.0, 0.0), b(2.0, 0.1);
+  builder.add_joint(reversed ? b : a);
+  builder.add_joint(reversed ? a : b);
+  builder.add_member({.name = "beam",
+                      .from = 0,
+                      .to = 1,
+                      .axis = reversed ? arc_axis(b, {1.0, 0.2}, a) : arc_axis(a, {1.0, 0.2}, b),
+                      .imperfection = {{.amplitude = 0.02, .waves = 2}},
+                      .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
+                      .elements = 7});
+  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.shared_rotation(0).value());
+  builder.add_load(builder.freedom(1, Freedom::x), -2.0, LoadKind::proportional);
+  builder.add_load(builder.freedom(1, Freedom::z), 1.0, LoadKind::constant);
+  builder.add_load(*builder.shared_rotation(1), 0.3, LoadKind::proportional);
+  return builder;
+}
+
+std::vector<test::TestWall> two_of(const std::vector<test::TestWall>& walls, std::size_t kind) {
+  return {walls[kind], walls[kind + walls.size() / 2]};
+}
+
+}  // namespace
+
+// Central differences of step 1e-7: round-off 1e-9; truncation falls with the square of the step, to 1e-8 where
+// elements are short, and to 1e-6 in the thrust of short elements (steps of 1e-6 give 100 times as much).
+TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
+  Numbers numbers(70);
+  for (const bool on_axis : {false, true}) {
+    const auto walls = test::all_walls(on_axis);
+    for (std::size_t kind = 0; kind < walls.size() / 2; ++kind)
+      for (const bool reversed : {false, true}) {
+        const SlidingModel model(wavy_beam(reversed), two_of(walls, kind), 0.1);
+        for (const Layouts& on : layouts()) {
+          SCOPED_TRACE(on.name + ", wall " + std::to_string(kind) + (reversed ? ", reversed" : ""));
+          const auto report =
+              check_derivatives(model.system(), random_state(model, piece_of(model, on), numbers), 1e-7);
+          EXPECT_LE(report.K, 2e-8);
+          EXPECT_LE(report.F_lambda, 2e-8);
+          EXPECT_EQ(report.consistency, 0.0);
+          EXPECT_LE(report.energy, 1e-6);
+          EXPECT_LE(report.guard_gradient, 2e-6);
+        }
+      }
+  }
+}
+
+TEST(SlidingContact, OneLinearizationServesChangingLayouts) {
+  Numbers numbers(71);
+  const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 2), 0.1);
+  Linearization reused;
+  for (const std::size_t i : {0U, 2U, 2U, 3U, 4U, 8U, 7U, 0U}) {
+    const State state = random_state(model, piece_of(model, layouts()[i]), numbers);
+    model.system().linearize(state, reused);
+    Linearization fresh;
+    model.system().linearize(state, fresh);
+    EXPECT_EQ(reused.F, fresh.F);
+    EXPECT_EQ(reused.F_lambda, fresh.F_lambda);
+    EXPECT_EQ(reused.B, fresh.B);
+    EXPECT_EQ(reused.zero, fresh.zero);
+    EXPECT_EQ(Matrix(reused.K), Matrix(fresh.K));
+  }
+}
+
+TEST(SlidingContact, UnitForcesAreTheResponseToAForceOfOne) {
+  Numbers numbers(72);
+  const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 3), 0.1);
+  const SlidingContact& system = model.system();
+  const State open = random_state(model, piece_of(model, layouts()[4]), numbers);
+  for (const Index j : {Index{0}, open.piece.size() > 2 ? Index{2} : Index{0}}) {
+    Piece closed = open.piece;
+    closed[static_cast<std::size_t>(j)] = 1;
+    State pushed = system.with_piece(open, closed);
+    pushed.x[*system.multiplier_index(closed, j)] = system.multiplier_scale();
+    Vector with(pushed.x.size());
+    system.residual(pushed, with);
+    Vector without(open.x.size());
+    system.residual(open, without);
+    const Vector response = system.unit_force(open, j);
+    const Index n = mesh_of(open).unknowns();
+    EXPECT_LE((without.head(n) - with.head(n) - response.head(n)).norm(), 1e-12 * response.norm());
+    EXPECT_EQ(response.tail(response.size() - n).norm(), 0.0);
+  }
+}
+
+TEST(SlidingContact, TransferKeepsThePointAndTheForcesThatStay) {
+  Numbers numbers(73);
+  const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 0), 0.1);
+  const SlidingContact& system = model.system();
+  Layouts on = layouts()[3];
+  const Piece from = piece_of(model, on);
+  const State state = random_state(model, from, numbers);
+  Piece to = from;
+  to[0] = 0;
+  to[2] = 1;  // the free end
+  const State moved = system.with_piece(state, to);
+  EXPECT_EQ(moved.x.size(), system.size(to));
+  EXPECT_EQ(system.force(moved, 0), 0.0);
+  EXPECT_EQ(system.force(moved, 1), system.force(state, 1));
+  EXPECT_EQ(system.force(moved, 2), 0.0);
+  const Index n = mesh_of(state).unknowns();
+  EXPECT_EQ(Vector(moved.x.head(n)), Vector(state.x.head(n)));
+  EXPECT_EQ(Vector(moved.x.tail(4)), Vector(state.x.tail(4)));
+  EXPECT_EQ(system.with_piece(state, from).x, state.x);
+}
+
+TEST(SlidingContact, GuardsAreGapsAndForcesInTheirScales) {
+  Numbers numbers(74);
+  const SlidingModel model = SlidingChannel{}.model();
+  const SlidingContact& system = model.system();
+  const State state = random_state(model, piece_of(model, layouts()[4]), numbers);
+  const Vector guards = system.guards(state);
+  ASSERT_EQ(guards.size(), system.guard_count(state.piece));
+  // Point 0 is open below the column, point 1 closed above it: gaps of faces 0.05 off the axis to walls at ±0.2.
+  const AxisPlace at = mesh_of(state).node(0, mesh_of(state).breakpoint(0).second, state.x);
+  EXPECT_NEAR(guards[0], (at.position.y() - 0.05 * std::cos(at.angle) + 0.2) / system.scales().length, 1e-14);
+  EXPECT_DOUBLE_EQ(guards[1], system.force(state, 1) / system.scales().force);
+}
+
+// Places where nodes sit are nodes; between them values and rates are those of the element's own interpolation. Rates
+// by s are differences of step 2e-6 of arc lengths that are sure to 1e-13.
+TEST(SlidingContact, PlacesMoveWithTheMeshConsistently) {
+  Numbers numbers(75);
+  using Component = MemberObservable::Component;
+  const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 0), 0.1);
+  for (const std::size_t i : {2U, 3U, 7U}) {
+    const State state = random_state(model, piece_of(model, layouts()[i]), numbers);
+    for (const Component component :
+         {Component::x, Component::z, Component::rotation, Component::face_above_z, Component::face_below_z})
+      for (const double fraction : {0.013, 0.27, 0.5, 0.77, 0.93})
+        EXPECT_LE(check_gradient(*model.at("beam", fraction, component), state), 1e-6)
+            << fraction << ", component " << static_cast<int>(component);
+    const SlidingMesh& mesh = mesh_of(state);
+    const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
+    for (Index node = 0; node < mesh.nodes(0); ++node) {
+      const AxisPlace there = mesh.node(0, node, x);
+      const AxisPlace same = mesh.place({.run = 0, .s = mesh.coordinate(0, node, s)}, x, s);
+      EXPECT_LE((there.position - same.position).norm(), 1e-13);
+      EXPECT_NEAR(there.angle, same.angle, 1e-12);
+    }
+  }
+}
+
+TEST(SlidingContact, JointsAndReactionsMoveConsistently) {
+  Numbers numbers(76);
+  const SlidingModel model(wavy_beam(false), two_of(test::all_walls(false), 0), 0.1);
+  const State state = random_state(model, piece_of(model, layouts()[3]), numbers);
+  for (const Freedom which : {Freedom::x, Freedom::z}) {
+    EXPECT_LE(check_gradient(*model.joint(1, which), state), 1e-9);
+    const JointObservable reaction(model.structure(), model.structure().freedom(0, which),
+                                   JointObservable::What::reaction);
+    EXPECT_LE(check_gradient(reaction, state), 1e-7);
+  }
+}
+
+}  // namespace arcwall

@@ -1,0 +1,287 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tests/support/branch.hpp"
+#include "tests/support/dense.hpp"
+#include "tests/support/invariants.hpp"
+#include "tests/support/sliding_models.hpp"
+
+// Selke & Kikuchi's two examples with contact points that slide along the body: the classic beam then converges with
+// order four to the extensible elastica, contact forces being point forces. Expected values are those of the extensible
+// elastica between its contacts, by shooting and by quadrature of its first integral, which agree in all digits given.
+namespace arcwall {
+
+namespace {
+
+using test::ExploredBranch;
+using test::SlidingChannel;
+using test::SlidingModel;
+using Component = MemberObservable::Component;
+
+constexpr double buckling = 0.432686705811, touch = 0.435739888353, spreads = 1.726295916538,
+                 flat_buckles = 7.003081493782, least_shortening = 6.214791656, crosses = 4.905879279,
+                 lower_touch = 4.253608535128, lines = 14.8210269646;
+
+TraceOptions until(double lambda) {
+  TraceOptions options;
+  options.step.first = 0.05;
+  options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(lambda)};
+  return options;
+}
+
+SlidingModel channel(int elements, std::vector<SineDeviation> imperfection = {}) {
+  return SlidingChannel{.members = {{2.0, elements}}, .imperfection = std::move(imperfection)}.model();
+}
+
+std::shared_ptr<const Observable> middle(const SlidingModel& model) { return model.at("0", 0.5, Component::z); }
+
+double shortening(const SlidingModel& model, const State& state) { return -model.joint(1, Freedom::x)->value(state); }
+
+// The perfect column's whole path: straight, on the upper wall, crossing the channel, on both walls.
+struct PerfectChannel {
+  SlidingModel model;
+  TraceOptions options;
+  std::vector<ExploredBranch> branches;
+
+  explicit PerfectChannel(int elements, double to = 10.0) : model(channel(elements)), options(until(to)) {
+    options.landmarks.push_back({.quantity = middle(model), .value = 0.0});
+    branches = test::follow(model.system(), model.system().rest(), options, {middle(model)},
+                            {{.quantity = model.joint(1, Freedom::x), .label = "shortening"}});
+  }
+
+  // λ of every event that has an expected value, in order.
+  std::vector<double> loads() const {
+    std::vector<double> found;
+    for (const Event& event : test::events_of(branches)) found.push_back(event.state.lambda);
+    found.push_back(at_middle()->state.lambda);
+    return found;
+  }
+
+  // The point at which the middle crosses the channel's axis.
+  const PathPoint* at_middle() const {
+    for (const Arc& arc : branches.back().arcs)
+      if (std::abs(middle(model)->value(arc.to.state)) < 1e-12) return &arc.to;
+    return nullptr;
+  }
+};
+
+const std::vector<EventKind> kinds{
+    EventKind::branch_point,       EventKind::contact_closes, EventKind::contact_spreads,    EventKind::branch_point,
+    EventKind::displacement_limit, EventKind::contact_closes, EventKind::contact_limit_point};
+const std::vector<double> expected{buckling,         touch,       spreads,     flat_buckles,
+                                   least_shortening, lower_touch, lower_touch, crosses};
+
+}  // namespace
+
+TEST(SlidingChannelEvents, ConvergeWithOrderFour) {
+  const std::vector<int> meshes{10, 20, 40, 80};
+  std::vector<double> sizes;
+  std::map<std::size_t, std::vector<double>> errors;
+  for (const int elements : meshes) {
+    const PerfectChannel found(elements);
+    std::vector<EventKind> in_order;
+    for (const Event& event : test::events_of(found.branches)) in_order.push_back(event.kind);
+    ASSERT_EQ(in_order, kinds) << elements << " elements";
+    ASSERT_NE(found.at_middle(), nullptr);
+    sizes.push_back(1.0 / elements);
+    for (std::size_t i = 0; i < expected.size(); ++i) errors[i].push_back(found.loads()[i] / expected[i] - 1.0);
+  }
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    SCOPED_TRACE("event " + std::to_string(i) + ", lambda = " + std::to_string(expected[i]));
+    EXPECT_GE(test::observed_order(sizes, errors[i]), 3.8);
+    EXPECT_LE(std::abs(errors[i].back()), 1e-7);
+  }
+}
+
+TEST(SlidingChannelEvents, HaveTheShapesOfTheElastica) {
+  const PerfectChannel found(80);
+  const auto events = test::events_of(found.branches);
+  const auto expect = [&](std::size_t i, double mid, double shorter) {
+    EXPECT_NEAR(middle(found.model)->value(events[i].state), mid, 1e-6) << "event " << i;
+    EXPECT_NEAR(shortening(found.model, events[i].state), shorter, 1e-6) << "event " << i;
+  };
+  expect(0, 0.0, 0.004120825769);
+  expect(1, 0.15, 0.032153206553);
+  expect(2, 0.15, 0.051044717737);
+  expect(3, 0.15, 0.142961858290);
+  expect(4, 0.110490974, 0.136360582166);
+  expect(5, -0.15, 0.313645142120);
+  // Between the touch and the flat part's buckling the middle stays on the wall; there the flat part is 1.0102276 long
+  // and each of its ends pushes with 2.3860594.
+  const SlidingContact& system = found.model.system();
+  const State& flat = events[3].state;
+  const Vector s = flat.x.tail(mesh_of(flat).breakpoints());
+  ASSERT_EQ(s.size(), 2);
+  EXPECT_NEAR(s[1] - s[0], 1.010227594814, 1e-6);
+  EXPECT_NEAR(s[0] + s[1], 2.0, 1e-8);
+  for (const Index end : {0, 1}) EXPECT_NEAR(system.force(flat, end), 2.386059449746, 1e-6);
+}
+
+// Theory of the second variation: 0 on the stable arcs, 1 on the bulged arc that the flat part's buckling leads to.
+TEST(SlidingChannelEvents, CountUnstableDirections) {
+  const PerfectChannel found(20);
+  ASSERT_EQ(found.branches.size(), 3U);
+  EXPECT_EQ(test::events_of(found.branches)[0].branching->type, BranchType::symmetric);
+  EXPECT_TRUE(found.branches[1].record.mirrored);
+  const Event& buckles = test::events_of(found.branches)[3];
+  EXPECT_EQ(buckles.branching->type, BranchType::one_sided);
+  EXPECT_EQ(buckles.branching->multiplicity, 1);
+  bool lower = false;
+  for (std::size_t b = 0; b < found.branches.size(); ++b) {
+    const auto& arcs = found.branches[b].arcs;
+    EXPECT_EQ(found.branches[b].record.end->reason, b == 2 ? EndReason::stop : EndReason::branched);
+    for (std::size_t i = 1; i < arcs.size(); ++i) {
+      if (b < 2 && i + 1 == arcs.size()) continue;  // singular
+      const PathPoint& to = arcs[i].to;
+      lower = lower || middle(found.model)->value(to.state) < -0.1499;
+      EXPECT_EQ(to.count.unstable, b == 2 && !lower ? 1 : 0) << "branch " << b << ", lambda = " << to.state.lambda;
+    }
+  }
+  EXPECT_TRUE(lower);
+}
+
+// Every arc between events is monotone in λ: no teeth.
+TEST(SlidingChannelEvents, LeaveTheLoadMonotoneBetweenThem) {
+  for (const int elements : {10, 20, 40, 80}) {
+    const PerfectChannel found(elements);
+    for (std::size_t b = 0; b < found.branches.size(); ++b) {
+      double sign = b == 2 ? -1.0 : 1.0;  // the bulged arc falls, up to the lower wall
+      const auto& arcs = found.branches[b].arcs;
+      for (std::size_t i = 1; i < arcs.size(); ++i) {
+        const double rise = arcs[i].to.state.lambda - arcs[i - 1].to.state.lambda;
+        EXPECT_GT(sign * rise, 0.0) << elements << " elements, lambda = " << arcs[i].to.state.lambda;
+        for (const Event& event : arcs[i].events)
+          if (event.kind == EventKind::contact_limit_point) sign = -sign;
+      }
+    }
+  }
+}
+
+TEST(SlidingChannelEvents, KeepTheInvariants) {
+  const PerfectChannel found(20);
+  for (const ExploredBranch& branch : found.branches)
+    test::expect_sliding_invariants(found.model.system(), branch.arcs, found.options, branch.lambda_scale);
+}
+
+// Beyond 14.821 the three contacts are lines, of whose lengths only the sum is determined.
+TEST(SlidingChannelEvents, EndInAFamilyOfThreeLines) {
+  std::vector<double> ends;
+  for (const int elements : {20, 40, 80}) {
+    const PerfectChannel found(elements, 20.0);
+    EXPECT_EQ(found.branches.back().record.end->reason, EndReason::family);
+    const auto events = test::events_of(found.branches);
+    std::vector<EventKind> in_order;
+    for (const Event& event : events) in_order.push_back(event.kind);
+    EXPECT_EQ(in_order, kinds) << elements << " elements";
+    ends.push_back(found.branches.back().arcs.back().to.state.lambda / lines - 1.0);
+  }
+  EXPECT_LE(std::abs(ends[2]), 1e-6);
+  EXPECT_GE(test::observed_order({4.0, 2.0, 1.0}, ends), 3.8);
+}
+
+// A half sine of 0.00176 presses the flat part onto the wall: it never buckles. Touch: 0.430656908534.
+TEST(SlidingChannelHalfSine, StaysOnTheWall) {
+  std::vector<double> at_ten;
+  for (const int elements : {20, 40}) {
+    const SlidingModel model = channel(elements, {{.amplitude = 0.00176}});
+    const TraceOptions options = until(10.0);
+    const auto branches = test::follow(model.system(), model.system().rest(), options);
+    ASSERT_EQ(branches.size(), 1U);
+    EXPECT_EQ(branches[0].record.end->reason, EndReason::stop);
+    const auto events = test::events_of(branches);
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].kind, EventKind::contact_closes);
+    EXPECT_NEAR(events[0].state.lambda, 0.430656908534, 2e-6 * std::pow(20.0 / elements, 4));
+    EXPECT_EQ(events[1].kind, EventKind::contact_spreads);
+    for (const Arc& arc : branches[0].arcs) EXPECT_EQ(arc.to.count.unstable, 0) << arc.to.state.lambda;
+    const State& last = branches[0].arcs.back().to.state;
+    EXPECT_NEAR(last.lambda, 10.0, 1e-12);
+    EXPECT_NEAR(middle(model)->value(last), 0.15, 1e-9);
+    test::expect_sliding_invariants(model.system(), branches[0].arcs, options, branches[0].lambda_scale);
+  }
+}
+
+// With a third harmonic that bends the middle off the wall there is one smooth maximum. The reference, 6.863204701 at
+// mid 0.146860, is for an arc length of 2 instead of a chord of 2: relative differences of 4e-6.
+TEST(SlidingChannelThirdHarmonic, HasOneLimitPoint) {
+  std::vector<double> limits;
+  for (const int elements : {20, 40, 80}) {
+    const SlidingModel model = channel(elements, test::snapping_imperfection());
+    const TraceOptions options = until(10.0);
+    const auto branches = test::follow(model.system(), model.system().rest(), options);
+    ASSERT_EQ(branches.size(), 1U);
+    EXPECT_EQ(branches[0].record.end->reason, EndReason::stop);
+    std::vector<EventKind> in_order;
+    const auto events = test::events_of(branches);
+    for (const Event& event : events) in_order.push_back(event.kind);
+    ASSERT_EQ(in_order, (std::vector{EventKind::contact_closes, EventKind::contact_spreads, EventKind::limit_point,
+                                     EventKind::contact_closes, EventKind::contact_limit_point}));
+    EXPECT_NEAR(middle(model)->value(events[2].state), 0.146860, 1e-5);
+    EXPECT_EQ(events[2].unstable_before, 0);
+    EXPECT_EQ(events[2].unstable_after, 1);
+    EXPECT_EQ(branches[0].arcs.back().to.count.unstable, 0);
+    limits.push_back(events[2].state.lambda);
+    if (elements == 20)
+      test::expect_sliding_invariants(model.system(), branches[0].arcs, options, branches[0].lambda_scale);
+  }
+  EXPECT_NEAR(limits[2], 6.863204701, 4e-6 * limits[2]);
+  EXPECT_GE(std::log2((limits[0] - limits[1]) / (limits[1] - limits[2])), 3.8);
+}
+
+// A point contact from 0.448961073442, a line from 1.34307213737; at M₀ = 5 and 10 the flat part reaches 0.4818518221
+// and 0.6330999632 from the middle to each side, the floor bears 19.7690983 and 57.5371015. Already at 10 elements the
+// errors are below 3e-6, where the classic beam has a remainder of order two (extension under large shear forces).
+TEST(SlidingFoundation, FindsTheFlatPartAndItsForces) {
+  struct Expected {
+    double moment, half_length, force;
+  };
+  const Expected expect[] = {{5.0, 0.4818518221, 19.7690983}, {10.0, 0.6330999632, 57.5371015}};
+  std::vector<double> sizes, spreading, lengths, forces;
+  for (const int elements : {10, 20, 40}) {
+    const SlidingModel model = test::SlidingFoundation{.elements = elements}.model();
+    TraceOptions options = until(10.0);
+    options.landmarks.push_back({.quantity = std::make_shared<ParameterValue>(), .value = 5.0});
+    const auto branches = test::follow(model.system(), model.system().rest(), options);
+    ASSERT_EQ(branches.size(), 1U);
+    const auto events = test::events_of(branches);
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].kind, EventKind::contact_closes);
+    EXPECT_NEAR(events[0].state.lambda, 0.448961073442, 1e-9);  // circles are exact to the fourth order in slopes
+    EXPECT_EQ(events[1].kind, EventKind::contact_spreads);
+    sizes.push_back(1.0 / elements);
+    spreading.push_back(events[1].state.lambda / 1.34307213737 - 1.0);
+    for (const Expected& e : expect) {
+      const auto& arcs = branches[0].arcs;
+      const auto at = std::find_if(arcs.begin(), arcs.end(),
+                                   [&](const Arc& arc) { return std::abs(arc.to.state.lambda - e.moment) < 1e-11; });
+      ASSERT_NE(at, arcs.end());
+      const State& state = at->to.state;
+      const Vector s = state.x.tail(mesh_of(state).breakpoints());
+      ASSERT_EQ(s.size(), 2);
+      EXPECT_NEAR(s[0] + s[1], 2.0, 1e-8);
+      lengths.push_back(0.5 * (s[1] - s[0]) / e.half_length - 1.0);
+      forces.push_back((model.system().force(state, 0) + model.system().force(state, 1)) / e.force - 1.0);
+      if (elements >= 20) {
+        EXPECT_LE(std::abs(lengths.back()), 1e-6);
+        EXPECT_LE(std::abs(forces.back()), 1e-6);
+      }
+    }
+    test::expect_sliding_invariants(model.system(), branches[0].arcs, options, branches[0].lambda_scale);
+  }
+  EXPECT_LE(std::abs(spreading[0]), 1e-8);
+  EXPECT_LE(std::abs(spreading[1]), 1e-9);
+  for (const std::size_t moment : {0U, 1U}) {
+    std::vector<double> length_errors, force_errors;
+    for (std::size_t mesh = 0; mesh < sizes.size(); ++mesh) {
+      length_errors.push_back(lengths[2 * mesh + moment]);
+      force_errors.push_back(forces[2 * mesh + moment]);
+    }
+    EXPECT_GE(test::observed_order(sizes, length_errors), 1.9);
+    EXPECT_GE(test::observed_order(sizes, force_errors), 1.9);
+  }
+}
+
+}  // namespace arcwall

@@ -1,0 +1,226 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tests/support/branch.hpp"
+#include "tests/support/dense.hpp"
+#include "tests/support/invariants.hpp"
+#include "tests/support/sliding_models.hpp"
+
+// Contact points that slide, away from the symmetric column on one mesh: joints on their way, loads and walls that push
+// them aside, unlike gaps, other units, steps and directions. References are the limits of two meshes (Richardson), the
+// order four being asserted on a third.
+namespace arcwall {
+
+namespace {
+
+using test::ExploredBranch;
+using test::SlidingChannel;
+using test::SlidingModel;
+using Component = MemberObservable::Component;
+
+struct Path {
+  SlidingModel model;
+  TraceOptions options;
+  std::vector<ExploredBranch> branches;
+
+  std::vector<Event> events() const { return test::events_of(branches); }
+  EndReason end() const { return branches.back().record.end->reason; }
+};
+
+// With a step of the model's own, or scaled.
+Path path_of(SlidingModel model, double to, double step = 0.05, double scale = 1.0) {
+  TraceOptions options;
+  options.step.first = step * scale;
+  options.step.max *= scale;
+  options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(to)};
+  const auto up = model.at("0", 0.5, Component::z);
+  auto branches = test::follow(model.system(), model.system().rest(), options, {up});
+  return {.model = std::move(model), .options = options, .branches = std::move(branches)};
+}
+
+Path path_of(const SlidingChannel& channel, double to = 10.0, double scale = 1.0) {
+  return path_of(channel.model(), to, 0.05, scale);
+}
+
+std::vector<SlidingChannel::Member> one(int elements) { return {{2.0, elements}}; }
+
+// The same kinds in the same order at the same λ.
+void expect_same(const Path& found, const Path& expected, double relative) {
+  const auto a = found.events(), b = expected.events();
+  EXPECT_EQ(found.end(), expected.end());
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].kind, b[i].kind) << "event " << i;
+    EXPECT_NEAR(a[i].state.lambda, b[i].state.lambda, relative * std::abs(b[i].state.lambda)) << "event " << i;
+  }
+}
+
+// Without the corner before a family, where guards that vanish together miss each other by 1e-6.
+void expect_invariants(const Path& path) {
+  for (const ExploredBranch& branch : path.branches) {
+    auto arcs = branch.arcs;
+    if (branch.record.end->reason == EndReason::family) arcs.pop_back();
+    test::expect_sliding_invariants(path.model.system(), arcs, path.options, branch.lambda_scale, {.recount_every = 3});
+  }
+}
+
+// Events of these kinds on three meshes, each half as coarse as the one before, whose loads converge with order four;
+// returns the limits.
+std::vector<double> limits(const std::array<Path, 3>& meshes, const std::vector<EventKind>& kinds) {
+  std::vector<double> found;
+  for (const Path& path : meshes) {
+    std::vector<EventKind> in_order;
+    for (const Event& event : path.events()) in_order.push_back(event.kind);
+    EXPECT_EQ(in_order, kinds);
+    if (in_order != kinds) return found;
+    expect_invariants(path);
+  }
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const auto load = [&](std::size_t mesh) { return meshes[mesh].events()[i].state.lambda; };
+    EXPECT_NEAR(std::log2((load(0) - load(1)) / (load(1) - load(2))), 4.0, 0.4) << "event " << i;
+    found.push_back(test::richardson(load(1), load(2)));
+  }
+  return found;
+}
+
+constexpr auto touches = EventKind::contact_closes, spreads = EventKind::contact_spreads,
+               branches = EventKind::branch_point, limit = EventKind::limit_point,
+               corner = EventKind::contact_limit_point;
+
+}  // namespace
+
+// Contact points pass joints at which nothing acts without notice: the middle lies 0.1 right of one.
+TEST(SlidingContactPath, DoesNotSeeJoints) {
+  expect_same(path_of(SlidingChannel{.members = {{0.9, 9}, {2.0, 11}}}), path_of(SlidingChannel{}), 1e-9);
+}
+
+TEST(SlidingContactPath, DoesNotDependOnTheDirectionOfTravel) {
+  expect_same(path_of(SlidingChannel{.members = {{0.9, 9}, {2.0, 11}}, .reversed = true}), path_of(SlidingChannel{}),
+              1e-9);
+}
+
+TEST(SlidingContactPath, DoesNotDependOnUnits) {
+  const Path in_cm = path_of(SlidingChannel{}), in_m = path_of(SlidingChannel{.cm = 0.01, .kN = 1000.0});
+  expect_same(in_m, in_cm, 1e-9);
+}
+
+TEST(SlidingContactPath, DoesNotDependOnSteps) {
+  const Path expected = path_of(SlidingChannel{});
+  for (const double scale : {0.25, 4.0}) {
+    SCOPED_TRACE(scale);
+    expect_same(path_of(SlidingChannel{}, 10.0, scale), expected, 1e-8);
+  }
+}
+
+// Beam and floor turned together by 3°, both ends fixed: nothing else has a direction.
+TEST(SlidingContactPath, DoesNotDependOnTheFrame) {
+  const double angle = 3.0 * pi / 180.0;
+  const auto path = [](double turned) {
+    return path_of(test::SlidingFoundation{.elements = 20, .fixed = true, .turned = turned}.model(), 20.0);
+  };
+  const Path level = path(0.0), inclined = path(angle);
+  ASSERT_EQ(level.events().size(), 2U);
+  expect_same(inclined, level, 1e-9);
+  const State &a = level.branches[0].arcs.back().to.state, &b = inclined.branches[0].arcs.back().to.state;
+  EXPECT_NEAR(level.model.system().force(a, 0), inclined.model.system().force(b, 0),
+              1e-8 * level.model.system().force(a, 0));
+}
+
+// The perfect column of the channel, its lower gap smaller by 1/150: the touch below comes before the forces above
+// vanish. 4.27705 and 14.9393 lie a little above the loads of equal gaps, 4.25361 and 14.82103.
+TEST(SlidingContactPath, MeetsTheNearerWallBeforeTheFartherOneIsLeft) {
+  const auto path = [](int elements) { return path_of(SlidingChannel{.members = one(elements), .lower = 0.14}, 20.0); };
+  const std::array meshes{path(20), path(40), path(80)};
+  const auto found = limits(meshes, {branches, touches, spreads, branches, touches, corner});
+  ASSERT_EQ(found.size(), 6U);
+  EXPECT_NEAR(found[3], 7.003081493782, 1e-7 * 7.0);  // extensible elastica: the lower wall has no say yet
+  EXPECT_NEAR(found[4], 4.2770537, 1e-6);
+  const auto ends = [&](std::size_t mesh) {
+    EXPECT_EQ(meshes[mesh].end(), EndReason::family);
+    return meshes[mesh].branches.back().arcs.back().to.state.lambda;
+  };
+  EXPECT_NEAR(std::log2((ends(0) - ends(1)) / (ends(1) - ends(2))), 4.0, 0.4);
+}
+
+// A wall at 0.2 below is not met: where the bulged arc meets the free third mode (4.253608535, all forces zero) the
+// path goes on along that mode, back to the straight column at its third buckling load, P (1 − P/EA) = 9 π² EI/L².
+TEST(SlidingContactPath, LeavesTheUpperWallWhereTheLowerOneIsTooFar) {
+  const Path path = path_of(SlidingChannel{.members = one(40), .lower = 0.2});
+  const auto events = path.events();
+  ASSERT_GE(events.size(), 6U);
+  EXPECT_EQ(events[4].kind, EventKind::contact_opens);
+  EXPECT_EQ(events[4].guards.size(), 2U);
+  EXPECT_NEAR(events[4].state.lambda, 4.253608535, 4e-6);
+  const double third = 105.0 * (1.0 - std::sqrt(1.0 - 4.0 * 9.0 * pi * pi * 0.175 / 4.0 / 210.0));
+  double least = 10.0;
+  for (const Arc& arc : path.branches.back().arcs) least = std::min(least, arc.to.state.lambda);
+  EXPECT_NEAR(least, third, 1e-5);
+}
+
+// Clamped ends straighten with the contact (equal moments wherever the column is parallel to its axis): from there on
+// only the sum of the straight parts is determined.
+TEST(SlidingContactPath, EndsInAFamilyBetweenClampedEnds) {
+  const auto path = [](int elements) { return path_of(SlidingChannel{.members = one(elements), .clamped = true}); };
+  const std::array meshes{path(20), path(40), path(80)};
+  const auto found = limits(meshes, {branches, touches});
+  ASSERT_EQ(found.size(), 2U);
+  // P (1 − P/EA) = 4 π² EI/L²
+  EXPECT_NEAR(found[0], 105.0 * (1.0 - std::sqrt(1.0 - 4.0 * pi * pi * 0.175 / 210.0)), 1e-8);
+  const auto end = [&](std::size_t mesh) {
+    EXPECT_EQ(meshes[mesh].end(), EndReason::family);
+    return meshes[mesh].branches.back().arcs.back().to.state.lambda;
+  };
+  EXPECT_NEAR(std::log2((end(0) - end(1)) / (end(1) - end(2))), 4.0, 0.4);
+}
+
+// The line branch between walls 0.6 apart from the axis ends in a load maximum, where each outer arc alone loses its
+// stability. P a²/EI = 2.7532 for inextensible arcs, 1.3383; extension takes a hundredth off.
+TEST(SlidingContactPath, TurnsAtTheLoadMaximumOfItsOuterArcs) {
+  std::vector<double> maxima;
+  for (const int elements : {20, 40, 80}) {
+    const Path path = path_of(SlidingChannel{.members = one(elements), .upper = 0.6, .lower = 0.6}, 1.3275);
+    maxima.push_back(test::event_of(path.branches, limit).state.lambda);
+    EXPECT_EQ(path.branches.back().arcs.back().to.count.unstable, 1);  // far behind, at 1.3275 again
+    expect_invariants(path);
+  }
+  EXPECT_NEAR(std::log2((maxima[0] - maxima[1]) / (maxima[1] - maxima[2])), 4.0, 0.4);
+  EXPECT_NEAR(maxima[2], 2.753158818307 * 0.175 / 0.36, 0.015 * maxima[2]);
+}
+
+// Walls that both rise by 3°, the column level between them.
+TEST(SlidingContactPath, FindsItsEventsBetweenInclinedWalls) {
+  const auto path = [](int elements) {
+    return path_of(SlidingChannel{.members = one(elements), .slope = std::tan(3.0 * pi / 180.0)}, 8.0);
+  };
+  const std::array meshes{path(20), path(40), path(80)};
+  for (const Path& p : meshes) EXPECT_EQ(p.end(), EndReason::stop);
+  limits(meshes, {branches, touches, spreads, branches, touches, corner});
+}
+
+// A load that acts 0.02 off the axis at the left end bends the column before it buckles: it touches aside the middle,
+// slides on, and its flat part buckles off the wall unsymmetrically.
+TEST(SlidingContactPath, SlidesOffTheMiddle) {
+  const auto path = [](int elements) { return path_of(SlidingChannel{.members = one(elements), .end_moment = -0.02}); };
+  const std::array meshes{path(20), path(40), path(80)};
+  const auto found = limits(meshes, {touches, spreads, branches, touches, corner});
+  ASSERT_EQ(found.size(), 5U);
+  const auto place = [&](std::size_t mesh, std::size_t event) {
+    const State& state = meshes[mesh].events()[event].state;
+    return state.x[state.x.size() - 1];
+  };
+  EXPECT_NEAR(place(2, 0), 0.9860, 1e-3);
+  EXPECT_NEAR(place(2, 1), 0.9434, 1e-3);
+  for (const std::size_t event : {0U, 1U})
+    EXPECT_NEAR(std::log2((place(0, event) - place(1, event)) / (place(1, event) - place(2, event))), 4.0, 0.4);
+}
+
+// From 0.9860 to 0.9434 the contact point passes a joint at 0.96.
+TEST(SlidingContactPath, CrossesAJoint) {
+  expect_same(path_of(SlidingChannel{.members = {{0.96, 48}, {2.0, 52}}, .end_moment = -0.02}),
+              path_of(SlidingChannel{.members = one(100), .end_moment = -0.02}), 1e-8);
+}
+
+}  // namespace arcwall
