@@ -91,4 +91,24 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   return candidates;
 }
 
+bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b) {
+  return std::all_of(deck.walls.begin(), deck.walls.end(),
+                     [&](const deck::Wall& wall) { return concerns(wall, a) == concerns(wall, b); });
+}
+
+std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
+  std::vector<Obstacle> obstacles;
+  for (const deck::Wall& wall : deck.walls) {
+    const Side side = wall.side == deck::Side::above ? Side::above : Side::below;
+    Obstacle obstacle{.name = wall.name,
+                      .profile = make_profile(wall, side),
+                      .side = side,
+                      .on_face = wall.acts_on == deck::ActsOn::face};
+    for (Index run = 0; run < structure.runs(); ++run)
+      obstacle.runs.push_back(concerns(wall, structure.label({.run = run, .s = 0.0}).first) ? 1 : 0);
+    obstacles.push_back(std::move(obstacle));
+  }
+  return obstacles;
+}
+
 }  // namespace arcwall

@@ -4,11 +4,19 @@
 
 #include "apps/build_structure.hpp"
 #include "contact/multiplier_contact.hpp"
+#include "contact/sliding_contact.hpp"
+#include "elements/sliding_structure.hpp"
 
 namespace arcwall {
 
 /// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
 /// each wall that a member penetrates at the start.
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
+
+/// Whether the same walls concern two members.
+bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b);
+
+/// The walls for contact points that slide.
+std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure);
 
 }  // namespace arcwall

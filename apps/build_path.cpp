@@ -90,18 +90,23 @@ std::vector<End> ends_at(const Structure& structure, Index joint) {
   return ends;
 }
 
+std::shared_ptr<const Observable> reaction(const Model& model, Index freedom) {
+  if (model.sliding != nullptr)
+    return std::make_shared<JointObservable>(*model.sliding, freedom, JointObservable::What::reaction);
+  return std::make_shared<ReactionObservable>(model.structure, freedom);
+}
+
 // What a place's component is read from; null if the place has no such component.
-std::shared_ptr<const Observable> observable(const Structure& structure, const Places& places, const deck::Place& place,
-                                             deck::Component component) {
-  const Places::Node node = places.find(place, structure.members());
+std::shared_ptr<const Observable> observable(const Model& model, const deck::Place& place, deck::Component component) {
+  const Structure& structure = model.structure;
+  const Places::Node node = model.places.find(place, structure.members());
   std::vector<End> at = ends_at(structure, node.node);
   if (node.member != nullptr) at.assign(1, End{.mesh = node.member, .position = node.position});
   if (const auto freedom = reaction_freedom(component)) {
-    if (*freedom != Freedom::rotation)
-      return std::make_shared<ReactionObservable>(structure, structure.freedom(node.node, *freedom));
+    if (*freedom != Freedom::rotation) return reaction(model, structure.freedom(node.node, *freedom));
     for (const End& end : at)
       if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
-        return std::make_shared<ReactionObservable>(structure, *rotation);
+        return reaction(model, *rotation);
     return nullptr;
   }
   const auto wanted = member_component(component);
@@ -112,8 +117,13 @@ std::shared_ptr<const Observable> observable(const Structure& structure, const P
     const auto rotation = end.mesh->rotations[end.position];
     if ((turns && !rotation) || (face && !end.mesh->height)) continue;
     // Members that meet at an angle agree on the rotation of their joint, not on the slopes of their imperfections.
-    if (*wanted == Component::rotation && at.size() > 1)
-      return std::make_shared<FreedomObservable>(structure, *rotation);
+    const bool joint = *wanted == Component::rotation && at.size() > 1;
+    if (model.sliding != nullptr) {
+      if (joint) return std::make_shared<JointObservable>(*model.sliding, *rotation, JointObservable::What::motion);
+      const MaterialPoint point = model.sliding->find(end.mesh->name, end.mesh->fraction(end.position));
+      return std::make_shared<PlaceObservable>(*model.sliding, point, *wanted);
+    }
+    if (joint) return std::make_shared<FreedomObservable>(structure, *rotation);
     return std::make_shared<MemberObservable>(structure, *end.mesh, end.position, *wanted);
   }
   return nullptr;
@@ -157,12 +167,11 @@ EventSearch event_search(deck::Events events) {
 
 }  // namespace
 
-std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Structure& structure, const Places& places,
-                                           DeckProblems& problems) {
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Model& model, DeckProblems& problems) {
   std::vector<MonitorColumn> columns;
   for (const deck::Monitor& monitor : deck.monitors) {
-    auto quantity = monitor.at.fraction || places.joints.contains(monitor.at.name)
-                        ? observable(structure, places, monitor.at, monitor.component)
+    auto quantity = monitor.at.fraction || model.places.joints.contains(monitor.at.name)
+                        ? observable(model, monitor.at, monitor.component)
                         : nullptr;
     if (!quantity) {
       problems.add(monitor.position, "monitor.component",
@@ -179,8 +188,8 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Structu
   return columns;
 }
 
-TraceOptions trace_options(const deck::Deck& deck, const Structure& structure, const Places& places,
-                           const std::vector<MonitorColumn>& monitors, DeckProblems& problems) {
+TraceOptions trace_options(const deck::Deck& deck, const Model& model, const std::vector<MonitorColumn>& monitors,
+                           DeckProblems& problems) {
   const deck::Path& path = deck.path;
   TraceOptions options;
   options.method = path_method(path, problems);
@@ -191,7 +200,7 @@ TraceOptions trace_options(const deck::Deck& deck, const Structure& structure, c
   options.max_points = path.max_points;
   options.stay = path.branches != deck::Branches::follow;
   if (path.control) {
-    options.control = observable(structure, places, path.control->at, path.control->component);
+    options.control = observable(model, path.control->at, path.control->component);
     if (!options.control)
       problems.add(path.control->at.position, "path.control",
                    "\"" + to_text(path.control->at) + "\" cannot be controlled so",

@@ -7,12 +7,18 @@
 
 namespace arcwall {
 
+/// What monitors are read off.
+struct Model {
+  const Structure& structure;
+  const SlidingStructure* sliding;  ///< if the states are those of contact that slides; else null
+  const Places& places;
+};
+
 /// The deck's monitors as columns. Adds a problem for a component that its place does not have.
-std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Structure& structure, const Places& places,
-                                           DeckProblems& problems);
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Model& model, DeckProblems& problems);
 
 /// How the deck's path is followed.
-TraceOptions trace_options(const deck::Deck& deck, const Structure& structure, const Places& places,
-                           const std::vector<MonitorColumn>& monitors, DeckProblems& problems);
+TraceOptions trace_options(const deck::Deck& deck, const Model& model, const std::vector<MonitorColumn>& monitors,
+                           DeckProblems& problems);
 
 }  // namespace arcwall

@@ -27,23 +27,20 @@ std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, co
 }
 
 std::optional<Theory> theory_of(const deck::Member& member, DeckProblems& problems) {
-  const auto unsupported = [&](const char* name) {
-    problems.add(member.position, "member." + member.name + ".theory",
-                 fmt::format("theory \"{}\" is not part of this version", name),
-                 "use \"classic\", \"exact\" or \"truss\"");
-    return std::nullopt;
-  };
   switch (member.theory) {
     case deck::Theory::classic:
       return Theory::classic;
+    case deck::Theory::elastica:
+      return Theory::elastica;
     case deck::Theory::exact:
       return Theory::exact;
     case deck::Theory::truss:
       return Theory::truss;
     case deck::Theory::essenburg:
-      return unsupported("essenburg");
-    case deck::Theory::elastica:
-      return unsupported("elastica");
+      problems.add(member.position, "member." + member.name + ".theory",
+                   "theory \"essenburg\" is not part of this version",
+                   "use \"classic\", \"elastica\", \"exact\" or \"truss\"");
+      return std::nullopt;
   }
   return std::nullopt;
 }
@@ -118,6 +115,8 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
                                   .hinge_to = member.hinge_to};
     description.axis =
         make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
+    // A classic element moves without strain where one of the elastica does, and takes any bend of its axis.
+    if (elements && *theory == Theory::elastica) description.theory = Theory::classic;
     if (elements && *theory == Theory::exact)
       description.section = balanced(description.section, description.axis->length());
     for (const deck::Imperfection& wave : member.imperfections)

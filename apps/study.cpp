@@ -43,8 +43,18 @@ void check_contact_method(const deck::Deck& deck, DeckProblems& problems) {
   if (deck.walls.empty()) return;
   if (deck.contact.method != deck::ContactMethod::multiplier)
     problems.add({}, "contact.method", "only method \"multiplier\" is part of this version", "use \"multiplier\"");
+}
+
+// Sliding where contact forces are point forces, unless the deck wants otherwise.
+bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblems& problems) {
+  if (deck.walls.empty() || deck.contact.points == deck::ContactPoints::nodes) return false;
+  if (builder.can_slide()) return true;
   if (deck.contact.points == deck::ContactPoints::sliding)
-    problems.add({}, "contact.points", "points = \"sliding\" is not part of this version", "use \"nodes\"");
+    problems.add({}, "contact.points",
+                 "points = \"sliding\" needs members whose contact forces are point forces: theory \"classic\" or "
+                 "\"elastica\" throughout",
+                 "use \"nodes\"");
+  return false;
 }
 
 }  // namespace
@@ -62,8 +72,12 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
     problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
                  "the loads that λ multiplies act on supports only: nothing moves", "load a free direction");
   auto candidates = contact_candidates(deck_, *structure_, problems);
-  monitors_ = monitor_columns(deck_, *structure_, model.places, problems);
-  options_ = trace_options(deck_, *structure_, model.places, monitors_, problems);
+  const bool sliding = slides(deck_, model.builder, problems);
+  const auto alike = [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); };
+  if (sliding) sliding_structure_ = model.builder.build_sliding(false, alike);
+  const Model read_off{.structure = *structure_, .sliding = sliding_structure_.get(), .places = model.places};
+  monitors_ = monitor_columns(deck_, read_off, problems);
+  options_ = trace_options(deck_, read_off, monitors_, problems);
   problems.raise();
 
   const auto constant = [](const deck::Load& load) { return load.constant; };
@@ -75,10 +89,7 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
     if (ramp)
       ramp_contact_ = std::make_unique<MultiplierContact>(
           *ramp_structure_, contact_candidates(deck_, *ramp_structure_, problems), scales);
-    if (!deck_.contact.points)
-      warnings_.push_back(
-          "contact is tied to the nodes of the mesh in this version (contact.points = \"nodes\"): small "
-          "teeth of the path and the load of a snap depend on the mesh");
+    if (sliding) make_sliding(model.builder, ramp, scales);
   }
   for (const std::string& name : deck_.path.watch)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
@@ -86,10 +97,23 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   explore_.depth = deck_.path.depth;
   for (const MonitorColumn& monitor : monitors_) explore_.preference.push_back(monitor.raw);
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
-  options_.tied_contacts = contact_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
+  options_.tied_contacts =
+      contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
+}
+
+void Study::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
+  const auto on = [&](const SlidingStructure& structure) {
+    return std::make_unique<SlidingContact>(structure, obstacles(deck_, structure), scales);
+  };
+  sliding_ = on(*sliding_structure_);
+  if (!ramp) return;
+  sliding_ramp_structure_ = builder.build_sliding(
+      true, [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
+  sliding_ramp_ = on(*sliding_ramp_structure_);
 }
 
 const System& Study::system() const {
+  if (sliding_) return *sliding_;
   if (contact_) return *contact_;
   return *structure_;
 }
@@ -97,7 +121,8 @@ const System& Study::system() const {
 std::optional<State> Study::start(std::string& reason) const {
   State state{.x = Vector::Zero(structure_->size({})),
               .lambda = 0.0,
-              .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->guard_count()) : 0, 0)};
+              .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->contact_count()) : 0, 0)};
+  if (sliding_) state = sliding_->rest();
   if (!ramp_structure_) return state;
   // The constant loads grow from nothing along a path of their own, contacts included.
   TraceOptions options;
@@ -108,6 +133,10 @@ std::optional<State> Study::start(std::string& reason) const {
       {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
   const System* ramp = ramp_structure_.get();
   if (ramp_contact_) ramp = ramp_contact_.get();
+  if (sliding_ramp_) {
+    ramp = sliding_ramp_.get();
+    state = sliding_ramp_->rest();
+  }
   Tracer tracer(*ramp, state, options);
   while (const auto arc = tracer.next()) state = arc->to.state;
   if (!tracer.end() || tracer.end()->reason != EndReason::stop) {
@@ -119,8 +148,12 @@ std::optional<State> Study::start(std::string& reason) const {
   return state;
 }
 
-Index Study::closed_contacts(const State& state) const {
-  return std::count(state.piece.begin(), state.piece.end(), std::uint8_t{1});
+Study::ContactPlace Study::contact_place(const State& state, Index j) const {
+  if (sliding_) return {.label = sliding_->label(state, j), .x = sliding_->place(state, j).x()};
+  const Candidate& candidate = contact_->candidate(j);
+  return {.label = candidate.label(), .x = candidate.point().position(state.x).x()};
 }
+
+Index Study::closed_contacts(const State& state) const { return state.piece.closed_count(); }
 
 }  // namespace arcwall

@@ -6,8 +6,9 @@
 
 #include "apps/deck/deck.hpp"
 #include "contact/multiplier_contact.hpp"
+#include "contact/sliding_contact.hpp"
 #include "continuation/explorer.hpp"
-#include "elements/structure.hpp"
+#include "elements/sliding_structure.hpp"
 
 namespace arcwall {
 
@@ -29,11 +30,21 @@ class Study {
   const deck::Deck& deck() const { return deck_; }
   const Structure& structure() const { return *structure_; }
 
-  /// Null if the deck has no walls.
+  /// The nodes of the deck's mesh among the walls; null if the deck has no walls.
   const MultiplierContact* contact() const { return contact_.get(); }
 
-  /// The structure with its contacts.
+  /// Contact points that slide; null where contact is tied to nodes.
+  const SlidingContact* sliding() const { return sliding_.get(); }
+
+  /// What is traced: the structure with its contacts.
   const System& system() const;
+
+  /// Where contact j of a state's piece is.
+  struct ContactPlace {
+    ContactLabel label{};
+    double x = 0.0;  ///< present [length]
+  };
+  ContactPlace contact_place(const State& state, Index j) const;
 
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
   const TraceOptions& options() const { return options_; }
@@ -51,9 +62,13 @@ class Study {
   Index closed_contacts(const State& state) const;
 
  private:
+  void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
+
   deck::Deck deck_;
   std::unique_ptr<Structure> structure_, ramp_structure_;
   std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
+  std::unique_ptr<SlidingStructure> sliding_structure_, sliding_ramp_structure_;
+  std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;
   std::vector<MonitorColumn> monitors_;
   TraceOptions options_;
   std::vector<Watch> watched_;

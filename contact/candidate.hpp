@@ -22,9 +22,7 @@ struct Gap {
   PointKinematics::LocalSquare hessian{};
 };
 
-/// A body point and an obstacle that it must not enter. The gap is evaluated where the point is:
-///
-///     g = ±(z − ψ(x)) / √(1 + ψ′(x)²)                                       + below, − above the structure
+/// A body point and an obstacle that it must not enter. The gap is that of surface_gap(), where the point is.
 class Candidate {
  public:
   Candidate(std::unique_ptr<TrackedPoint> point, std::shared_ptr<const Profile> wall, Side side, ContactLabel label)

@@ -30,9 +30,7 @@ double& entry(SparseMatrix& A, Index row, Index column) {
 
 }  // namespace
 
-Index MultiplierContact::multiplier_count(const Piece& piece) const {
-  return std::count_if(piece.begin(), piece.end(), [](std::uint8_t closed) { return closed != 0; });
-}
+Index MultiplierContact::multiplier_count(const Piece& piece) const { return piece.closed_count(); }
 
 void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const {
   const State inner = inner_state(state);
@@ -112,7 +110,7 @@ Vector MultiplierContact::weights(const Piece& piece) const {
 }
 
 Vector MultiplierContact::guards(const State& state) const {
-  Vector guards(guard_count());
+  Vector guards(contact_count());
   Index k = inner_.size({});
   for (Index j = 0; j < guards.size(); ++j)
     guards[j] = state.piece[static_cast<std::size_t>(j)] ? state.x[k++] / scales_.force : open_guard(j, state.x);
@@ -139,7 +137,7 @@ Row MultiplierContact::guard_gradient(const State& state, Index j) const {
 }
 
 Vector MultiplierContact::guard_rates(const State& state, const Direction& direction) const {
-  Vector rates(guard_count());
+  Vector rates(contact_count());
   Index k = inner_.size({});
   for (Index j = 0; j < rates.size(); ++j)
     rates[j] = state.piece[static_cast<std::size_t>(j)] ? direction.dx[k++] / scales_.force

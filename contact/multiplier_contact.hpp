@@ -31,7 +31,8 @@ class MultiplierContact final : public System {
   Vector weights(const Piece& piece) const override;
   Index multiplier_count(const Piece& piece) const override;
 
-  Index guard_count() const override { return static_cast<Index>(candidates_.size()); }
+  Piece open_piece() const override { return Piece(candidates_.size(), 0); }
+  Index contact_count() const { return static_cast<Index>(candidates_.size()); }
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   Vector guard_rates(const State& state, const Direction& direction) const override;

@@ -64,6 +64,23 @@ class SplineProfile final : public Profile {
 
 }  // namespace
 
+// g = ± d c with d = z − ψ, c = (1 + ψ′²)^(−½):  c′ = −ψ′ψ″ c³,  c″ = −(ψ″² + ψ′ψ‴) c³ + 3 (ψ′ψ″)² c⁵
+//
+//   g_x = ±(d c′ − ψ′ c),  g_z = ± c,  g_xx = ±(d c″ − 2 ψ′ c′ − ψ″ c),  g_xz = ± c′
+SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point) {
+  const Height psi = profile.at(point.x());
+  const double sign = side == Side::below ? 1.0 : -1.0;
+  const double c = 1.0 / std::sqrt(1.0 + psi.first * psi.first), c3 = c * c * c, bend = psi.first * psi.second;
+  const double c1 = -bend * c3;
+  const double c2 = -(psi.second * psi.second + psi.first * psi.third) * c3 + 3.0 * bend * bend * c3 * c * c;
+  const double d = point.y() - psi.value;
+  return {.value = sign * d * c,
+          .x = sign * (d * c1 - psi.first * c),
+          .z = sign * c,
+          .xx = sign * (d * c2 - 2.0 * psi.first * c1 - psi.second * c),
+          .xz = sign * c1};
+}
+
 std::unique_ptr<Profile> flat_profile(double z) { return std::make_unique<LineProfile>(z, 0.0); }
 std::unique_ptr<Profile> line_profile(double z, double slope) { return std::make_unique<LineProfile>(z, slope); }
 std::unique_ptr<Profile> parabola_profile(const Vec2& apex, double curvature) {

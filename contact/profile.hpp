@@ -30,6 +30,16 @@ class Profile {
   virtual bool covers(double) const { return true; }
 };
 
+/// Gap between a point and a surface, with its derivatives by the point's x and z (∂²g/∂z² = 0):
+///
+///     g = ±(z − ψ(x)) / √(1 + ψ′(x)²)                                       + below, − above the structure
+struct SurfaceGap {
+  double value, x, z, xx, xz;
+};
+
+/// Only where the profile covers the point.
+SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point);
+
 std::unique_ptr<Profile> flat_profile(double z);
 std::unique_ptr<Profile> line_profile(double z, double slope);                  ///< z + slope·x
 std::unique_ptr<Profile> parabola_profile(const Vec2& apex, double curvature);  ///< z = apex + ½ curvature (x − apex)²

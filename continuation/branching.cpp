@@ -12,7 +12,8 @@ namespace arcwall {
 
 namespace {
 
-constexpr double noise = 1e-6;  // ratio of two coefficients below which the first is zero
+constexpr double between = 1e-9;  // penetration between contacts, in the scale of guards, that is let pass
+constexpr double noise = 1e-6;    // ratio of two coefficients below which the first is zero
 
 // Values of Lagrange's polynomials on `nodes` at t.
 std::array<double, 4> lagrange(const std::array<double, 4>& nodes, double t) {
@@ -25,20 +26,22 @@ std::array<double, 4> lagrange(const std::array<double, 4>& nodes, double t) {
   return value;
 }
 
-// φᵀ (K(x + h d) − K(x − h d)) φ / 2h: how fast the eigenvalue changes along a direction, and the round-off of that.
+// ψᵀ (J(x + h d) − J(x − h d)) φ / 2h, ψ and φ the left and right null vectors of J = ∂F/∂x: how fast the eigenvalue
+// changes along a direction, and the round-off of that.
 struct Rate {
   double value = 0.0, roundoff = 0.0;
 };
 
-Rate eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& mode) {
+Rate eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
+                     const Vector& mode) {
   constexpr double h = 1e-3;  // [path metric]
   Linearization now;
   Rate rate;
   for (const double sign : {1.0, -1.0}) {
     system.linearize(moved(state, d, sign * h), now);
-    rate.value += sign * mode.dot(now.K.selfadjointView<Eigen::Lower>() * mode) / (2.0 * h);
+    rate.value += sign * left.dot(product(now, mode).col(0)) / (2.0 * h);
   }
-  const Vector size = mode.cwiseAbs();
+  const Vector size = left.head(now.K.cols()).cwiseAbs();
   rate.roundoff = 10.0 * std::numeric_limits<double>::epsilon() *
                   size.dot(now.K.cwiseAbs().selfadjointView<Eigen::Lower>() * size) / h;
   return rate;
@@ -86,7 +89,11 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
   out.along = point.tangent;
   out.multiplicity = multiplicity;
   if (!modes || modes->vectors.cols() < multiplicity) return point;
-  Vector mode = modes->vectors.col(0);
+  Vector left = Vector::Zero(weights.size());
+  left.head(modes->vectors.rows()) = modes->vectors.col(0);
+  const auto right = corrector_.right_null(left);
+  if (!right) return point;
+  Vector mode = *right;
   Index largest = 0;
   mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
   if (mode[largest] < 0.0) mode = -mode;  // the mode's largest component is positive
@@ -94,8 +101,8 @@ std::optional<PathPoint> BranchPointLocator::locate(const Segment& segment, cons
 
   // Algebraic branching equation a α² + 2 b α β = 0 for tangents α φ + β t, t the tangent we came along:
   //   α = 0 (the old branch) or α : β = −2 b : a.
-  const Rate a = eigenvalue_rate(system_, point.state, out.mode, mode);
-  const Rate b = eigenvalue_rate(system_, point.state, out.along, mode);
+  const Rate a = eigenvalue_rate(system_, point.state, out.mode, left, mode);
+  const Rate b = eigenvalue_rate(system_, point.state, out.along, left, mode);
   const bool symmetric = std::abs(a.value) <= std::max(noise * std::abs(b.value), a.roundoff);
   out.type = symmetric ? BranchType::symmetric : BranchType::asymmetric;
   Direction other = out.mode;
@@ -213,14 +220,16 @@ std::optional<BranchPointLocator::Sample> BranchPointLocator::sampled(CorrectorR
 
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
                                    const BranchPoint& point, int sign, double distance, double guard_tolerance) {
-  constexpr int halvings = 20;
+  constexpr int halvings = 12;
   for (int attempt = 0; attempt < halvings; ++attempt, distance *= 0.5) {
     const double offset = sign * distance * metric.inner(point.other, point.mode);
     const PlaneConstraint plane(metric, point.state, point.mode, offset);
     CorrectorResult at =
         corrector.correct(moved(point.state, point.other, sign * distance), plane, metric, point.other, distance);
     if (!at.converged()) continue;
-    if (system.guard_count() > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;
+    at.state.piece = system.settled(at.state);
+    if (system.guard_count(at.state.piece) > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;
+    if (!system.admissible(at.state, -between)) continue;
     const Direction chord = difference(at.state, point.state);
     if (metric.norm(chord) > 2.0 * distance) continue;
     Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/ldlt.hpp"
+#include "core/bordered_solver.hpp"
 
 namespace arcwall {
 
@@ -33,14 +33,13 @@ std::optional<RateProblem> reduce(const System& system, const State& corner, con
   problem.open = system.with_piece(corner, piece);
   Linearization now;
   system.linearize(problem.open, now);
-  Ldlt ldlt;
-  ldlt.set_multiplier_count(system.multiplier_count(piece));
-  if (ldlt.factorize(now.K) != FactorStatus::ok) return std::nullopt;
+  BorderedSolver solver;
+  if (solver.factorize(now, system.multiplier_count(piece)) != FactorStatus::ok) return std::nullopt;
   const auto w = static_cast<Index>(weak.size());
   Matrix X(now.F.size(), 1 + w);
   X.col(0) = -now.F_lambda;
   for (Index i = 0; i < w; ++i) X.col(1 + i) = system.unit_force(problem.open, weak[static_cast<std::size_t>(i)]);
-  ldlt.solve(X);
+  if (!solver.solve_inner(X)) return std::nullopt;
   problem.free_rate = X.col(0);
   problem.response = X.rightCols(w);
   problem.a.resize(w);
@@ -164,7 +163,7 @@ std::vector<Ray> ray_of(const System& system, const State& corner, const std::ve
 
   Ray ray;
   ray.piece = corner.piece;
-  ray.loading.assign(corner.piece.size(), 0);
+  ray.loading = Piece(corner.piece.size(), 0);
   for (Index i = 0; i < p.size(); ++i) {
     const auto j = static_cast<std::size_t>(weak[static_cast<std::size_t>(i)]);
     if (p[i] > p_zero) ray.piece[j] = ray.loading[j] = 1;
@@ -181,7 +180,7 @@ std::vector<Ray> ray_of(const System& system, const State& corner, const std::ve
 // Whether two rays move the structure alike; contact forces follow from that.
 bool same(const System& system, const Ray& a, const Ray& b, double tolerance) {
   const Vector weights = system.weights(a.piece);
-  const Index n = a.direction.dx.size() - system.multiplier_count(a.piece);
+  const Index n = a.direction.dx.size() - system.multiplier_count(a.piece) - system.border_width(a.piece);
   const auto x = [n](const Ray& ray) { return ray.direction.dx.head(n).array(); };
   const auto w = weights.head(n).array();
   const double aa = (w * x(a).square()).sum(), bb = (w * x(b).square()).sum(), ab = (w * x(a) * x(b)).sum();

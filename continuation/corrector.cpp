@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "continuation/stability.hpp"
 
 namespace arcwall {
 
@@ -51,7 +54,17 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
 
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count) const {
   if (!solver_.inner_is_regular()) return std::nullopt;
-  return arcwall::near_null(solver_.inner(), now_.K, weights, count);
+  return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count);
+}
+
+//   [ J   ψ ] [φ]   [0]
+//   [ ψᵀ  0 ] [0] = [1]
+std::optional<Vector> Corrector::right_null(const Vector& left) {
+  if (now_.B.cols() == 0) return left;
+  const Vector F_lambda = std::exchange(now_.F_lambda, left);
+  const auto null = solver_.solve({.dx = left, .dlambda = 0.0}, Vector::Zero(left.size()), 1.0);
+  now_.F_lambda = F_lambda;
+  return null ? std::optional(null->dx) : std::nullopt;
 }
 
 // Evaluates and factorizes at a state; `converged` means that both could be done.
@@ -80,8 +93,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
     return result;
   }
   result.tangent = line_.tangent;
-  if (const auto inertia = solver_.inertia())
-    result.negative = inertia->negative - system_.multiplier_count(result.state.piece);
+  result.negative = negative_eigenvalues(system_, result.state, solver_);
   const double load = metric.dual_norm(now_.F_lambda) * std::max(std::abs(result.state.lambda), load_floor_);
   result.residual = metric.dual_norm(now_.F) / std::max(load, 1e-300);
   return result;

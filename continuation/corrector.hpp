@@ -46,6 +46,10 @@ class Corrector {
   /// Eigenpairs nearest zero of K at the state reached last; empty where K is singular to working precision.
   std::optional<NearNull> near_null(const Vector& weights, Index count) const;
 
+  /// The right null vector of ∂F/∂x that goes with a left one, where both exist nearly: the same unless there is a
+  /// border. At the state reached last.
+  std::optional<Vector> right_null(const Vector& left);
+
   /// Tangent and signs at a state that is already on the path.
   CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);
 

@@ -21,6 +21,7 @@ bool close(double a, double b, double scale) {
 Explorer::Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched,
                    ExploreOptions options)
     : system_(system), trace_(std::move(trace)), watched_(std::move(watched)), options_(std::move(options)) {
+  trace_.every_ray = trace_.every_ray || options_.policy == BranchPolicy::all;
   queue_.push_back({.start = {.state = std::move(start)}, .record = {}});
 }
 
@@ -62,9 +63,9 @@ void Explorer::look_at(const Event& event) {
   known_.push_back({.state = point.state, .branch = current_});
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
-  if (point.type != BranchType::one_sided && point.mode.dx.size() == 0) return;
+  if (point.rays.empty() && point.mode.dx.size() == 0) return;
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
-  if (point.type == BranchType::one_sided) {
+  if (!point.rays.empty()) {
     if (options_.policy == BranchPolicy::all)
       for (const BranchPoint::Way& ray : point.rays) enqueue_ray(event, ray);
     return;  // the tracer has taken the ray that `follow` wants
@@ -77,8 +78,8 @@ void Explorer::look_at(const Event& event) {
   const bool mirrored = mirror_images(ways);
   const int preferred = preferred_sign(point, ways);
   if (options_.policy == BranchPolicy::all) {
-    enqueue(event, mirrored ? preferred : 1, mirrored);
-    if (!mirrored) enqueue(event, -1, false);
+    for (const Way& way : ways)
+      if (!mirrored || way.sign == preferred) enqueue(event, way, mirrored);
     return;
   }
   // follow: the way with fewest unstable directions; of equals the preferred side
@@ -87,7 +88,7 @@ void Explorer::look_at(const Event& event) {
   };
   const Way& best =
       *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) { return rank(a) < rank(b); });
-  enqueue(event, best.sign, mirrored);
+  enqueue(event, best, mirrored);
   const auto next = static_cast<int>(branches_.size());
   tracer_->stop(
       {.reason = EndReason::branched, .detail = "goes on as branch " + std::to_string(next), .partner = next});
@@ -136,9 +137,11 @@ void Explorer::enqueue_ray(const Event& event, const BranchPoint::Way& ray) {
       {.start = std::move(start), .record = {.parent = current_, .origin = event.branching, .depth = here.depth + 1}});
 }
 
-void Explorer::enqueue(const Event& event, int sign, bool mirrored) {
+void Explorer::enqueue(const Event& event, const Way& way, bool mirrored) {
   const BranchPoint& point = *event.branching;
+  const int sign = way.sign;
   BranchStart start{.state = point.state, .lambda_scale = lambda_scale_};
+  start.state.piece = way.step.state.piece;
   start.forward = sign > 0 ? point.other : reversed(point.other);
   start.mode = sign > 0 ? point.mode : reversed(point.mode);
   if (event.unstable_before && event.unstable_after)

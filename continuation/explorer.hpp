@@ -71,7 +71,7 @@ class Explorer {
   std::vector<Way> ways_off(const BranchPoint& point);
   bool mirror_images(const std::vector<Way>& ways) const;
   int preferred_sign(const BranchPoint& point, const std::vector<Way>& ways) const;
-  void enqueue(const Event& event, int sign, bool mirrored);
+  void enqueue(const Event& event, const Way& way, bool mirrored);
   void enqueue_ray(const Event& event, const BranchPoint::Way& ray);
   bool known(const BranchPoint& point) const;
   void drop_arrived_at(int other);

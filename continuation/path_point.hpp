@@ -28,6 +28,8 @@ enum class EventKind {
   end,
   contact_closes,
   contact_opens,
+  contact_spreads,  ///< a point contact becomes a line
+  contact_gathers,  ///< a line becomes a point contact
   limit_point,
   contact_limit_point,
   displacement_limit,
@@ -89,6 +91,8 @@ enum class EndReason {
   no_ray,           ///< no equilibrium leaves a corner
   turning_control,  ///< the controlled quantity turns
   wall_end,         ///< a contact reached the end of its wall
+  family,           ///< a continuum of equilibria with one load and energy lies ahead
+  unsupported,      ///< something lies ahead that is not modelled
 };
 
 /// How a branch ended.

@@ -1,6 +1,28 @@
 #include "continuation/stability.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 namespace arcwall {
+
+// With the border's unknowns y held, n₋ is that of K. Let go against springs c their own stiffness, the inverse of the
+// sub-matrix of −K⁻¹, decides: n₋ = n₋(K held) + n₋(S + diag c), S = −(K⁻¹)_yy (Haynsworth 1968).
+std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver) {
+  const auto inertia = solver.inertia();
+  if (!inertia) return std::nullopt;
+  const Index held = inertia->negative - system.multiplier_count(state.piece);
+  if (system.border_width(state.piece) == 0) return held;
+  const Vector springs = system.border_springs(state);
+  std::vector<Index> free;
+  for (Index k = 0; k < springs.size(); ++k)
+    if (std::isfinite(springs[k])) free.push_back(k);
+  if (free.empty()) return held;
+  Matrix S = -solver.inverse_at_border()(free, free);
+  S.diagonal() += springs(free);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(S, Eigen::EigenvaluesOnly);
+  if (eigen.info() != Eigen::Success) return std::nullopt;
+  return held + (eigen.eigenvalues().array() < 0.0).count();
+}
 
 Piece strongly_closed(const System& system, const State& state, double force_tolerance) {
   Piece piece = state.piece;
@@ -26,10 +48,8 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
   system_.linearize(state, now_);
-  const Index multipliers = system_.multiplier_count(state.piece);
-  ldlt_.set_multiplier_count(multipliers);
-  if (ldlt_.factorize(now_.K) != FactorStatus::ok) return std::nullopt;
-  return ldlt_.inertia()->negative - multipliers;
+  if (solver_.factorize(now_, system_.multiplier_count(state.piece)) != FactorStatus::ok) return std::nullopt;
+  return negative_eigenvalues(system_, state, solver_);
 }
 
 }  // namespace arcwall

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/ldlt.hpp"
+#include "core/bordered_solver.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {
@@ -16,6 +16,10 @@ struct StabilityCount {
   std::optional<Index> unstable{};  ///< empty: K is singular to working precision
   Stability stability = Stability::undecided;
 };
+
+/// Negative eigenvalues of K with all contacts of the state's piece held, `solver` holding the factorization at the
+/// state; what a border holds gives way by System::border_springs. Empty where K is singular.
+std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver);
 
 /// Counts, with its own factorization; keeps workspaces from call to call.
 class StabilityCounter {
@@ -33,7 +37,7 @@ class StabilityCounter {
   const System& system_;
   double force_tolerance_;
   Linearization now_;
-  Ldlt ldlt_;
+  BorderedSolver solver_;
 };
 
 /// The piece on which only the contacts that carry more than the tolerance are closed.

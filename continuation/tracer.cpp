@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/root_find.hpp"
 
@@ -9,10 +10,12 @@ namespace arcwall {
 
 namespace {
 
-constexpr int max_landings = 100;    // guards that turn out to come before the one landed on
-constexpr double together = 1e3;     // guard tolerances within which guards that are landed on in turn are one corner
-constexpr double same_place = 1e-8;  // in the path metric
-constexpr double passing = 1e-5;     // likewise, of points on a path near which it is singular
+constexpr int max_landings = 100;     // guards that turn out to come before the one landed on
+constexpr double together = 1e3;      // guard tolerances within which guards that are landed on in turn are one corner
+constexpr double same_place = 1e-8;   // in the path metric
+constexpr double between = 1e-9;      // penetration between contacts, in the scale of guards, that is let pass
+constexpr double near_corner = 1e-4;  // likewise, gaps between contacts that are followed before a corner is left
+constexpr double passing = 1e-5;      // likewise, of points on a path near which it is singular
 
 double angle_between(const Metric& metric, const Direction& a, const Direction& b) {
   const double cosine = metric.inner(a, b) / (metric.norm(a) * metric.norm(b));
@@ -52,6 +55,7 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
 }
 
 std::optional<Arc> Tracer::next() {
+  if (ahead_) return std::exchange(ahead_, std::nullopt);
   if (end_) return std::nullopt;
   if (points_ == 0) return start_.forward ? begin_at_branch_point() : begin();
   if (points_ >= options_.max_points) {
@@ -62,7 +66,7 @@ std::optional<Arc> Tracer::next() {
     const double s = step_.length();
     if (auto arc = advance(s)) return arc;
     if (end_) return std::nullopt;
-    step_.failed(s);
+    if (!std::exchange(refined_, false)) step_.failed(s);
   }
   give_up();
   return std::nullopt;
@@ -82,7 +86,8 @@ std::optional<Arc> Tracer::begin() {
   }
   here_ = point_of(std::move(start), forward);
   Arc arc;
-  if (system_.guard_count() > 0 && !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
+  if (system_.guard_count(here_.state.piece) > 0 &&
+      !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
     if (!turn_corner(here_, -1, 0.0, arc.events)) return std::nullopt;
   }
   here_.count = counter_.count(here_.state, here_.held);
@@ -134,6 +139,8 @@ std::optional<Arc> Tracer::advance(double s) {
   std::optional<Found> found;
   if (options_.events != EventSearch::none || !options_.landmarks.empty()) {
     while (auto next = earliest(Segment(metric_, here_, step->to), found)) {
+      constexpr double same = 1e-9;  // what was located lies at the end itself
+      if (found && next->t >= 1.0 - same) break;
       auto at = locate(*next, step->to);
       if (!at) return std::nullopt;
       step->to = std::move(*at);
@@ -157,8 +164,7 @@ std::optional<Arc> Tracer::advance(double s) {
     arc.events.push_back(event_of(*found, to, after, length));
     if (singular) behind = after.count;
   }
-  if (found && found->what == Found::What::landmark && options_.landmarks[found->which].stops)
-    end_ = {.reason = EndReason::stop, .detail = options_.landmarks[found->which].label};
+  if (found && found->what == Found::What::landmark) stop_at(options_.landmarks[found->which], to);
   held_ = singular ? beyond.held : to.held;
   if (!step->corner) after_ = behind;
   if (!step->corner && !end_) end_where_known(to);
@@ -173,21 +179,32 @@ std::optional<Arc> Tracer::advance(double s) {
   if (step->corner && !end_) {
     standing_ = length <= options_.guard_tolerance ? standing_ + 1 : 0;
     const PathPoint before = to;
-    if (turn_corner(to, step->guard, step->slack, arc.events)) {
+    const bool limit = step->guard >= static_cast<Index>(to.state.piece.size());
+    if (limit ? pass_limit(to, step->guard, step->slack, arc.events)
+              : turn_corner(to, step->guard, step->slack, arc.events)) {
       const std::vector<int> turned = signs_at(to);
       for (std::size_t i = 0; i < turned.size(); ++i)
         if (turned[i] != 0) signs_[i] = turned[i];
       held_ = to.held;
       after_ = to.count;
+    } else if (ahead_) {
+      signs_ = signs_at(ahead_->to);
     }
-    const Index closed = std::count(to.state.piece.begin(), to.state.piece.end(), std::uint8_t{1});
+    const Index closed = to.state.piece.closed_count();
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
       end_ = {.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
   }
-  here_ = std::move(to);
-  ++points_;
-  arc.to = here_;
+  here_ = ahead_ ? ahead_->to : to;
+  points_ += ahead_ ? 2 : 1;
+  arc.to = std::move(to);
   return arc;
+}
+
+// A landmark was landed on: the branch ends if it, or another of the same quantity and value, is a bound.
+void Tracer::stop_at(const Landmark& landed, const PathPoint& to) {
+  for (const Landmark& mark : options_.landmarks)
+    if (mark.stops && mark.value == landed.value && mark.quantity->value(to.state) == landed.quantity->value(to.state))
+      end_ = {.reason = EndReason::stop, .detail = mark.label};
 }
 
 std::optional<Tracer::Step> Tracer::take(double s) {
@@ -206,9 +223,14 @@ std::optional<Tracer::Step> Tracer::take(double s) {
 
   Step step{.to = point_of(std::move(result), here_.tangent)};
   if (!trustworthy(step.to, s, step.turn)) return std::nullopt;
-  if (system_.guard_count() == 0) return step;
   if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)))
     if (!land(step, *crossing)) return std::nullopt;
+  // What vanishes with the guard that was landed on belongs to the corner.
+  const double margin = step.corner ? near_corner : -between;
+  if (!system_.admissible(step.to.state, margin)) {
+    refine(step.to.state, margin);
+    if (refined_ || !step.corner || !system_.admissible(step.to.state, -between)) return std::nullopt;
+  }
   return step;
 }
 

@@ -46,7 +46,8 @@ struct TraceOptions {
   double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it weak
   double localisation = 1e-12;     ///< bracket of an event as a part of its step
   int max_points = 5000;
-  bool stay = false;  ///< at a corner that only unstable rays leave: keep the old contacts where one does
+  bool every_ray = false;  ///< report a corner that several rays leave also where one alone of them is stable
+  bool stay = false;       ///< at a corner that only unstable rays leave: keep the old contacts where one does
 };
 
 /// λ′ of the unit tangent, scaled to [−1, 1]: its zeros are limit points.
@@ -124,6 +125,7 @@ class Tracer {
   std::optional<Arc> begin_at_branch_point();
   std::optional<Arc> advance(double s);
   std::optional<Step> take(double s);
+  void stop_at(const Landmark& landed, const PathPoint& to);
   bool trustworthy(const PathPoint& to, double s, double& turn) const;
   bool hides_two_zeros(const Segment& segment) const;
 
@@ -142,6 +144,10 @@ class Tracer {
   Event event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, double length) const;
 
   bool turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events);
+  bool pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events);
+  std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from);
+  void refine(const State& violated, double margin);
+  void add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const;
   std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);
   Event one_sided_branch_point(const PathPoint& before, const PathPoint& after) const;
   Direction open_direction(const Direction& direction, const Piece& piece) const;
@@ -173,10 +179,12 @@ class Tracer {
     std::vector<Direction> ways;
   };
   std::vector<Visited> visited_;
-  std::vector<Ray> others_;  // rays of the last corner that were not taken
+  std::optional<Arc> ahead_;  // the first point of a piece, behind a corner that was just passed
+  std::vector<Ray> others_;   // rays of the last corner that were not taken
   std::optional<BranchEnd> end_;
   CorrectorStatus last_failure_ = CorrectorStatus::converged;
   std::optional<std::string> obstruction_;
+  bool refined_ = false;  // the last attempt ended with a finer description of its start
   int points_ = 0;
   int standing_ = 0;  // corners in a row at one place
 };

@@ -8,6 +8,7 @@ namespace arcwall {
 
 namespace {
 
+constexpr double between = 1e-9;  // penetration between contacts, in the scale of guards, that is let pass
 constexpr int max_standing = 50;
 constexpr double same_place = 1e-8;      // in the path metric
 constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
@@ -47,6 +48,101 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
   return true;
 }
 
+// Passes from one piece to another at a limit; `at` becomes a point of the piece ahead, or `ahead_` does and `at` stays
+// the last point of the piece behind. False, and the branch ends, where nothing can be followed.
+bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events) {
+  const double tolerance = std::max(options_.guard_tolerance, 2.0 * slack);
+  std::optional<PathPoint> after;
+  Passage passage;
+  for (Passage& candidate : system_.passages(at.state, at.tangent, limit, tolerance)) {
+    passage = std::move(candidate);
+    if (passage.change == Passage::Change::family || passage.change == Passage::Change::unsupported) {
+      const bool family = passage.change == Passage::Change::family;
+      end_ = {.reason = family ? EndReason::family : EndReason::unsupported, .detail = passage.detail};
+      return false;
+    }
+    after = enter(passage, at);
+    if (after) break;
+  }
+  if (!after) {
+    end_ = {.reason = EndReason::singular, .detail = "behind a change of contact"};
+    return false;
+  }
+  Event event{.state = at.state,
+              .arc = at.arc,
+              .residual = at.residual,
+              .unstable_before = after_.unstable,
+              .unstable_after = after->count.unstable,
+              .guards = passage.contacts};
+  if (passage.change == Passage::Change::remeshed) {
+    add_turns(*after, event, events);
+    at = std::move(*after);
+    return true;
+  }
+  const bool spreads = passage.change == Passage::Change::spreads;
+  event.kind = spreads ? EventKind::contact_spreads : EventKind::contact_gathers;
+  if (!spreads) {
+    event.state = after->state;
+    event.residual = after->residual;
+    event.guards.resize(1);
+  }
+  events.push_back(event);
+  event.guards.clear();
+  add_turns(*after, event, events);
+  if (spreads) {
+    held_ = after->held;
+    after_ = after->count;
+    ahead_ = Arc{.to = std::move(*after), .events = {}};
+    return false;
+  }
+  at = std::move(*after);
+  return true;
+}
+
+// The first point on the piece ahead, with its metric.
+std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& from) {
+  constexpr double distance = 0.1;  // a generous guess [path metric]
+  constexpr double slack = 1e-6;    // of guards that were near zero on the piece behind, too
+  const Metric metric(system_.weights(passage.guess.piece), metric_.lambda_scale());
+  const bool oriented = metric.norm(passage.forward) > 0.0;
+  const Direction along =
+      oriented ? passage.forward : Direction{.dx = Vector::Zero(passage.guess.x.size()), .dlambda = 1.0};
+  CorrectorResult result;
+  if (passage.quantity) {
+    result =
+        corrector_.correct(passage.guess, ValueConstraint(*passage.quantity, passage.value), metric, along, distance);
+  } else {
+    result =
+        corrector_.correct(passage.guess, PlaneConstraint(metric, passage.guess, along, 0.0), metric, along, distance);
+  }
+  last_failure_ = result.status;
+  if (!result.converged() || !system_.admissible(result.state, -between)) return std::nullopt;
+  if (system_.guards(result.state).minCoeff() < -slack) return std::nullopt;
+  if (passage.quantity && apply(passage.quantity->gradient(result.state), result.tangent) < 0.0)
+    result.tangent = reversed(std::move(result.tangent));
+  const Direction forward = passage.quantity ? result.tangent : along;
+  metric_ = metric;
+  PathPoint to = point_of(std::move(result), forward);
+  to.arc = from.arc + (passage.change == Passage::Change::spreads
+                           ? std::abs(to.state.lambda - from.state.lambda) / metric_.lambda_scale()
+                           : 0.0);
+  to.count = counter_.count(to.state, to.held);
+  return to;
+}
+
+// The step's start in the unknowns of a piece whose guards see what the step's end violates; the step is tried again.
+void Tracer::refine(const State& violated, double margin) {
+  const auto passage = system_.refined(here_.state, here_.tangent, violated, margin);
+  if (!passage) return;
+  auto here = enter(*passage, here_);
+  if (!here) return;
+  here->arc = here_.arc;
+  here_ = std::move(*here);
+  held_ = here_.held;
+  after_ = here_.count;
+  refined_ = true;
+}
+
 // Several rays leave: each of those not taken begins a branch of its own.
 Event Tracer::one_sided_branch_point(const PathPoint& before, const PathPoint& after) const {
   auto point = std::make_shared<BranchPoint>();
@@ -69,7 +165,7 @@ Event Tracer::one_sided_branch_point(const PathPoint& before, const PathPoint& a
 
 // A direction with all contacts open, of unit length: how the structure moves.
 Direction Tracer::open_direction(const Direction& direction, const Piece& piece) const {
-  const Piece open(piece.size(), 0);
+  const Piece open = piece.all_open();
   const Metric metric(system_.weights(open), metric_.lambda_scale());
   return unit(metric, {.dx = system_.transfer(direction.dx, piece, open), .dlambda = direction.dlambda});
 }
@@ -77,13 +173,15 @@ Direction Tracer::open_direction(const Direction& direction, const Piece& piece)
 // Of the rays that were not taken before: the stable one; of several the one nearest the incoming direction; if none is
 // stable, the one with fewest unstable directions that leaves the old piece (docs/theory.md, section 4).
 std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable) {
-  const Piece open(at.state.piece.size(), 0);
+  const Piece open = at.state.piece.all_open();
   const Metric metric(system_.weights(open), metric_.lambda_scale());
   const State here = system_.with_piece(at.state, open);
   const Direction incoming = open_direction(at.tangent, at.state.piece);
   const auto way = [&](const Ray& ray) { return open_direction(ray.direction, ray.piece); };
 
-  const auto known = [&](const Visited& v) { return metric.norm(difference(v.corner, here)) <= same_place; };
+  const auto known = [&](const Visited& v) {
+    return v.corner.piece == here.piece && metric.norm(difference(v.corner, here)) <= same_place;
+  };
   auto visited = std::find_if(visited_.begin(), visited_.end(), known);
   if (visited == visited_.end()) visited = visited_.insert(visited_.end(), {.corner = here, .ways = {}});
   const bool again = !visited->ways.empty();
@@ -112,11 +210,13 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
   };
   std::optional<Ray> best;
   Rank best_rank{};
+  int stable = 0;
   std::size_t chosen = 0;
   for (Ray& ray : rays) {
     const std::optional<Index> count = count_of(ray);
     const Index negative = count.value_or(std::numeric_limits<Index>::max());
     const bool continues = ray.piece == at.state.piece;
+    stable += negative == 0;
     const Rank rank{.unstable = negative > 0,
                     .continues = negative > 0 && continues != options_.stay,
                     .count = negative,
@@ -129,6 +229,7 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
   }
   visited->ways.push_back(way(*best));
   rays.erase(rays.begin() + static_cast<std::ptrdiff_t>(chosen));
+  if (stable == 1 && !options_.every_ray) rays.clear();  // the path had no choice
   others_ = std::move(rays);
   return best;
 }
@@ -149,7 +250,11 @@ void Tracer::add_corner_events(const PathPoint& before, const PathPoint& after, 
         event.guards.push_back(static_cast<Index>(j));
     if (!event.guards.empty()) events.push_back(event);
   }
-  if (points_ == 0) return;
+  if (points_ > 0) add_turns(after, event, events);
+}
+
+// λ or a monitor turns at a corner.
+void Tracer::add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const {
   const std::vector<int> now = signs_at(after);
   for (std::size_t i = 0; i < detectors_.size(); ++i) {
     if (now[i] * signs_[i] >= 0) continue;

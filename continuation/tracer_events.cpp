@@ -122,6 +122,15 @@ std::optional<PathPoint> Tracer::locate_branch_point(const PathPoint& to) {
   result.tangent = at->tangent;
   result.iterations = at->iterations;
   branching->discretisation = options_.tied_contacts && system_.multiplier_count(to.state.piece) > 0;
+  if (system_.multiplier_count(to.state.piece) > 0 && branching->type == BranchType::asymmetric &&
+      branching->mode.dx.size() > 0) {
+    // A contact may forbid one side.
+    const auto open = [&](int sign) {
+      return step_off(system_, corrector_, metric_, *branching, sign, start_.distance, options_.guard_tolerance)
+          .has_value();
+    };
+    if (open(1) != open(-1)) branching->type = BranchType::one_sided;
+  }
   located_ = std::move(branching);
   return point_of(std::move(result), here_.tangent);
 }

@@ -11,27 +11,77 @@ constexpr double suspicious_pivot = 1e-13;
 constexpr double good_residual = 1e-10;
 constexpr int max_refinements = 3;
 
-// Improves X so that K X = B; false if it cannot be made good.
-bool refine(const SparseMatrix& K, const Ldlt& ldlt, const Matrix& B, Matrix& X) {
-  for (int round = 0; round <= max_refinements; ++round) {
-    Matrix R = B;
-    R.noalias() -= K.selfadjointView<Eigen::Lower>() * X;
-    if (!R.allFinite()) return false;
-    if (R.norm() <= good_residual * B.norm()) return true;
-    ldlt.solve(R);
-    X += R;
-  }
-  return false;
-}
-
 }  // namespace
+
+Matrix product(const Linearization& equations, const Matrix& X) {
+  const Index n = equations.K.cols(), m = equations.B.cols();
+  Matrix Y(n + m, X.cols());
+  Y.topRows(n).noalias() = equations.K.selfadjointView<Eigen::Lower>() * X.topRows(n);
+  if (m > 0) {
+    Y.topRows(n).noalias() += equations.B * X.bottomRows(m);
+    for (Index k = 0; k < m; ++k) Y.row(n + k) = X.row(equations.zero[static_cast<std::size_t>(k)]);
+  }
+  return Y;
+}
 
 FactorStatus BorderedSolver::factorize(const Linearization& equations, Index multipliers) {
   equations_ = &equations;
   ldlt_.set_multiplier_count(multipliers);
   const FactorStatus status = ldlt_.factorize(equations.K);
-  regular_ = status == FactorStatus::ok;
+  regular_ = status == FactorStatus::ok && eliminate_border();
   return status;
+}
+
+// K⁻¹ B and the small matrix that is left for the border's unknowns.
+bool BorderedSolver::eliminate_border() {
+  const Linearization& now = *equations_;
+  const Index m = now.B.cols();
+  if (m == 0) return true;
+  border_ = now.B;
+  ldlt_.solve(border_);
+  Matrix small(m, m);
+  for (Index k = 0; k < m; ++k) small.row(k) = border_.row(now.zero[static_cast<std::size_t>(k)]);
+  slides_.compute(small);
+  return border_.allFinite() && slides_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
+}
+
+//   y = K⁻¹ f,  (Eᵀ K⁻¹ B) δs = Eᵀ y − g,  δx = y − K⁻¹ B δs
+bool BorderedSolver::solve_inner(Matrix& X) const {
+  const Linearization& now = *equations_;
+  const Index n = now.K.cols(), m = now.B.cols();
+  if (m == 0) {
+    ldlt_.solve(X);
+    return X.allFinite();
+  }
+  Matrix Y = X.topRows(n), s(m, X.cols());
+  ldlt_.solve(Y);
+  for (Index k = 0; k < m; ++k) s.row(k) = Y.row(now.zero[static_cast<std::size_t>(k)]) - X.row(n + k);
+  s = slides_.solve(s).eval();
+  Y.noalias() -= border_ * s;
+  X.topRows(n) = Y;
+  X.bottomRows(m) = s;
+  return X.allFinite();
+}
+
+Matrix BorderedSolver::inverse_at_border() const {
+  const auto m = static_cast<Index>(equations_->zero.size());
+  Matrix units = Matrix::Zero(equations_->K.cols(), m), inverse(m, m);
+  for (Index k = 0; k < m; ++k) units(equations_->zero[static_cast<std::size_t>(k)], k) = 1.0;
+  ldlt_.solve(units);
+  for (Index k = 0; k < m; ++k) inverse.row(k) = units.row(equations_->zero[static_cast<std::size_t>(k)]);
+  return inverse;
+}
+
+// Improves the solution of J X = B; false if it cannot be made good.
+bool BorderedSolver::refine(const Matrix& B, Matrix& X) const {
+  for (int round = 0; round <= max_refinements; ++round) {
+    Matrix R = B - product(*equations_, X);
+    if (!R.allFinite()) return false;
+    if (R.norm() <= good_residual * B.norm()) return true;
+    if (!solve_inner(R)) return false;
+    X += R;
+  }
+  return false;
 }
 
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
@@ -40,12 +90,11 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
     columns_.resize(now.F.size(), 2);
     columns_.col(0) = -now.F;
     columns_.col(1) = -now.F_lambda;
-    ldlt_.solve(columns_);
-    bool good = columns_.allFinite();
-    if (good && ldlt_.pivot_ratio() < suspicious_pivot) {
+    bool good = solve_inner(columns_);
+    if (good && (now.B.cols() > 0 || ldlt_.pivot_ratio() < suspicious_pivot)) {
       Matrix B(now.F.size(), 2);
       B << -now.F, -now.F_lambda;
-      good = refine(now.K, ldlt_, B, columns_);
+      good = refine(B, columns_);
     }
     if (good) {
       out.particular.dx = columns_.col(0);
@@ -66,14 +115,13 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
   if (regular_) {
     Matrix X(f.size(), 2);
     X << f, now.F_lambda;
-    ldlt_.solve(X);
-    // δλ = (g − cᵀ K⁻¹ f) / (d − cᵀ K⁻¹ F_λ),  δx = K⁻¹ f − δλ K⁻¹ F_λ
+    const bool solved = solve_inner(X);
+    // δλ = (g − cᵀ J⁻¹ f) / (d − cᵀ J⁻¹ F_λ),  δx = J⁻¹ f − δλ J⁻¹ F_λ
     const double dlambda = (g - border.dx.dot(X.col(0))) / (border.dlambda - border.dx.dot(X.col(1)));
     Direction solution{.dx = X.col(0) - dlambda * X.col(1), .dlambda = dlambda};
-    Vector r = f - now.F_lambda * dlambda;
-    r.noalias() -= now.K.selfadjointView<Eigen::Lower>() * solution.dx;
+    const Vector r = f - now.F_lambda * dlambda - product(now, solution.dx);
     const double scale = f.norm() + std::abs(dlambda) * now.F_lambda.norm();
-    if (solution.dx.allFinite() && r.norm() <= good_residual * scale) return solution;
+    if (solved && solution.dx.allFinite() && r.norm() <= good_residual * scale) return solution;
   }
   if (!factorize_whole(border)) return std::nullopt;
   Direction solution = solve_whole(f, g);
@@ -83,20 +131,27 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
 
 bool BorderedSolver::factorize_whole(const Row& border) {
   const Linearization& now = *equations_;
-  const Index n = now.K.cols();
+  const Index n = now.K.cols(), m = now.B.cols(), last = n + m;
   std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(static_cast<std::size_t>(2 * now.K.nonZeros() + 2 * n + 1));
+  entries.reserve(static_cast<std::size_t>(2 * now.K.nonZeros() + (2 + m) * n + 1));
+  const auto add = [&](Index row, Index column, double value) {
+    if (value != 0.0) entries.emplace_back(row, column, value);
+  };
   for (Index column = 0; column < n; ++column)
     for (SparseMatrix::InnerIterator entry(now.K, column); entry; ++entry) {
-      entries.emplace_back(entry.row(), column, entry.value());
-      if (entry.row() != column) entries.emplace_back(column, entry.row(), entry.value());
+      add(entry.row(), column, entry.value());
+      if (entry.row() != column) add(column, entry.row(), entry.value());
     }
-  for (Index i = 0; i < n; ++i) {
-    if (now.F_lambda[i] != 0.0) entries.emplace_back(i, n, now.F_lambda[i]);
-    if (border.dx[i] != 0.0) entries.emplace_back(n, i, border.dx[i]);
+  for (Index k = 0; k < m; ++k) {
+    for (Index i = 0; i < n; ++i) add(i, n + k, now.B(i, k));
+    add(n + k, now.zero[static_cast<std::size_t>(k)], 1.0);
   }
-  entries.emplace_back(n, n, border.dlambda);
-  SparseMatrix whole(n + 1, n + 1);
+  for (Index i = 0; i < last; ++i) {
+    add(i, last, now.F_lambda[i]);
+    add(last, i, border.dx[i]);
+  }
+  add(last, last, border.dlambda);
+  SparseMatrix whole(last + 1, last + 1);
   whole.setFromTriplets(entries.begin(), entries.end());
   whole.makeCompressed();
   return lu_.factorize(whole) == FactorStatus::ok;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <optional>
 
 #include "core/ldlt.hpp"
@@ -14,10 +15,13 @@ struct EquilibriumLine {
   Direction tangent{};  ///< not normalised
 };
 
-/// Solves with K and with K bordered by F_λ and a row, by block elimination with one LDLᵀ factorization:
+/// ∂F/∂x times the columns of X.
+Matrix product(const Linearization& equations, const Matrix& X);
+
+/// Solves with J = ∂F/∂x and with J bordered by F_λ and a row, by block elimination with one LDLᵀ factorization of K:
 ///
-///     [ K   F_λ ] [δx]   [f]
-///     [ cᵀ   d  ] [δλ] = [g]
+///     [ J   F_λ ] [δx]   [f]            [ K   B ]
+///     [ cᵀ   d  ] [δλ] = [g],       J = [ Eᵀ  0 ]
 ///
 /// Where K is singular (limit points, branch points) the elimination loses digits: the result is checked, refined, and
 /// at worst taken from the LU factorization of the whole.
@@ -33,6 +37,12 @@ class BorderedSolver {
   /// Solution of the bordered system for one right-hand side (f, g), with column F_λ; empty if it is singular.
   std::optional<Direction> solve(const Row& border, const Vector& f, double g);
 
+  /// J⁻¹ X in place; false where J is singular to working precision.
+  bool solve_inner(Matrix& X) const;
+
+  /// Sub-matrix of K⁻¹ at the unknowns that the border asks to be zero (Linearization::zero).
+  Matrix inverse_at_border() const;
+
   /// The factorization of K alone; only after `ok`.
   const Factorization& inner() const { return ldlt_; }
 
@@ -42,6 +52,8 @@ class BorderedSolver {
   bool inner_is_regular() const { return regular_; }
 
  private:
+  bool eliminate_border();
+  bool refine(const Matrix& X, Matrix& solution) const;
   bool factorize_whole(const Row& border);
   Direction solve_whole(const Vector& f, double g) const;
 
@@ -49,7 +61,9 @@ class BorderedSolver {
   Ldlt ldlt_;
   Lu lu_;
   bool regular_ = false;
-  Matrix columns_;  // workspace: K⁻¹ [−F, −F_λ]
+  Matrix columns_;                      // workspace: J⁻¹ [−F, −F_λ]
+  Matrix border_;                       // K⁻¹ B
+  Eigen::PartialPivLU<Matrix> slides_;  // of Eᵀ K⁻¹ B
 };
 
 }  // namespace arcwall

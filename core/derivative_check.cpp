@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bordered_solver.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -35,16 +37,15 @@ DerivativeReport check_derivatives(const System& system, const State& state, dou
   };
   const auto energy = [&](const State& s) { return system.energy(s); };
   const auto guards = [&](const State& s) { return system.guards(s); };
-  const SparseMatrix both_triangles = now.K.selfadjointView<Eigen::Lower>();
-  const Matrix K(both_triangles);
   const Index n = state.x.size();
+  const Matrix K = product(now, Matrix::Identity(n, n));
   const double K_scale = K.cwiseAbs().maxCoeff();
 
   DerivativeReport report;
   const Vector F = residual(state);
   report.consistency = relative((F - now.F).norm(), F.norm() + K_scale * 1e-12);
-  Matrix guard_rows(system.guard_count(), n + 1);
-  for (Index j = 0; j < system.guard_count(); ++j) {
+  Matrix guard_rows(system.guard_count(state.piece), n + 1);
+  for (Index j = 0; j < system.guard_count(state.piece); ++j) {
     const Row row = system.guard_gradient(state, j);
     guard_rows.row(j).head(n) = row.dx.transpose();
     guard_rows(j, n) = row.dlambda;
@@ -57,7 +58,7 @@ DerivativeReport check_derivatives(const System& system, const State& state, dou
       const double slope = central_difference(energy, state, i, step);
       report.energy = std::max(report.energy, relative(std::abs(slope - F[i]), F.norm() + K_scale * step));
     }
-    if (system.guard_count() == 0) continue;
+    if (system.guard_count(state.piece) == 0) continue;
     const Vector slopes = central_difference(guards, state, i, step);
     for (Index j = 0; j < slopes.size(); ++j)
       report.guard_gradient = std::max(report.guard_gradient, relative(std::abs(slopes[j] - guard_rows(j, i)),

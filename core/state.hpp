@@ -1,14 +1,54 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/types.hpp"
 
 namespace arcwall {
 
-/// Which contacts are closed: per guard 0 (open) or 1 (closed). The equations are smooth on one piece.
-using Piece = std::vector<std::uint8_t>;
+/// What the unknowns of a system mean where that changes along a path: a mesh whose nodes move, say. Immutable; only
+/// the system that made it looks inside.
+class Layout {
+ public:
+  virtual ~Layout() = default;
+};
+
+/// Which contacts are closed, per contact 0 (open) or 1 (closed), and what the unknowns mean. The equations are smooth
+/// on one piece.
+class Piece {
+ public:
+  Piece() = default;
+  Piece(std::initializer_list<std::uint8_t> closed) : closed_(closed) {}
+  Piece(std::size_t contacts, std::uint8_t closed, std::shared_ptr<const Layout> layout = nullptr)
+      : closed_(contacts, closed), layout_(std::move(layout)) {}
+
+  std::size_t size() const { return closed_.size(); }
+  bool empty() const { return closed_.empty(); }
+  std::uint8_t operator[](std::size_t contact) const { return closed_[contact]; }
+  std::uint8_t& operator[](std::size_t contact) { return closed_[contact]; }
+  auto begin() const { return closed_.begin(); }
+  auto end() const { return closed_.end(); }
+
+  /// Null where the unknowns always mean the same.
+  const std::shared_ptr<const Layout>& layout() const { return layout_; }
+
+  /// The same layout with no contact closed.
+  Piece all_open() const { return {size(), 0, layout_}; }
+
+  /// Number of closed contacts.
+  Index closed_count() const { return std::count(begin(), end(), std::uint8_t{1}); }
+
+  bool operator==(const Piece&) const = default;
+
+ private:
+  std::vector<std::uint8_t> closed_;
+  std::shared_ptr<const Layout> layout_;
+};
 
 /// All that varies along a path.
 struct State {

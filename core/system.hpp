@@ -5,18 +5,47 @@
 #include <string>
 #include <vector>
 
+#include "core/observable.hpp"
 #include "core/state.hpp"
 
 namespace arcwall {
 
 /// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the piece stays
 /// the same, the pattern of K does, and only values are written.
+///
+/// ∂F/∂x is symmetric but for a border of a few unknowns s that stand last in x, with as many last equations, which ask
+/// other unknowns y_k (moments that must vanish) to be zero:
+///
+///     ∂F/∂x = [ K   B ]      Eᵀ: one 1 in each row, at the unknown y_k
+///             [ Eᵀ  0 ]
 struct Linearization {
   Vector F{};                              ///< residual, internal minus external
-  SparseMatrix K{};                        ///< ∂F/∂x, symmetric: the lower triangle alone is stored
+  SparseMatrix K{};                        ///< the symmetric part: its lower triangle alone is stored
+  Matrix B{};                              ///< columns of the border; none for most systems
+  std::vector<Index> zero{};               ///< y_k: unknowns that the last equations ask to be zero, one a column of B
   Vector F_lambda{};                       ///< ∂F/∂λ
   std::optional<Piece> pattern_of{};       ///< the piece whose pattern K has; empty: not laid out yet
   std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
+};
+
+/// What lies behind a limit of a piece: another piece that meets it there.
+struct Passage {
+  enum class Change {
+    spreads,      ///< a point contact becomes a line
+    gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
+    remeshed,     ///< the same point in other unknowns
+    family,       ///< a continuum of equilibria with the same load and energy
+    unsupported,  ///< something that is not modelled
+  };
+  Change change = Change::remeshed;
+  std::string detail{};           ///< of the last two: what and why
+  std::vector<Index> contacts{};  ///< that change, in the piece behind
+  State guess{};                  ///< on the piece ahead, near the first point there
+  Direction forward{};            ///< there, roughly
+  /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
+  /// through the guess across `forward`.
+  std::shared_ptr<const Observable> quantity{};
+  double value = 0.0;
 };
 
 /// Equilibrium equations F(x, λ) = 0 with unilateral side conditions (guards). Immutable: every function is const and
@@ -42,12 +71,24 @@ class System {
   /// Weights of the squared norm of x in the path metric: Σ w_i x_i² is dimensionless; 0 for multipliers.
   virtual Vector weights(const Piece& piece) const { return Vector::Ones(size(piece)) / double(size(piece)); }
 
-  /// How many unknowns at the end of x are contact forces.
+  /// No contact closed, unknowns as a path from rest begins with.
+  virtual Piece open_piece() const { return {}; }
+
+  /// How many unknowns at the end of those of K are contact forces and moments.
   virtual Index multiplier_count(const Piece&) const { return 0; }
+
+  /// How many unknowns stand behind those of K: columns of Linearization::B.
+  virtual Index border_width(const Piece&) const { return 0; }
+
+  /// Where a border holds what in truth gives way: the springs on the y_k with which K has the eigenvalues that
+  /// stability is counted by; infinite where it is truly held. Linearization::zero says which.
+  virtual Vector border_springs(const State& state) const { return Vector::Zero(border_width(state.piece)); }
 
   // --- guards: side conditions that say how far a piece reaches -------------------------------------------------
 
-  virtual Index guard_count() const { return 0; }
+  /// Guards of a piece: one a contact, as many as the piece has entries, then those that bound the piece otherwise
+  /// (its limits: see passage()).
+  virtual Index guard_count(const Piece& piece) const { return static_cast<Index>(piece.size()); }
 
   /// Scaled to order 1 and ≥ 0 on this piece: the gap of an open contact, the force of a closed one. A guard that
   /// cannot be reached is large.
@@ -60,12 +101,12 @@ class System {
 
   /// Derivatives of all guards along a direction.
   virtual Vector guard_rates(const State& state, const Direction& direction) const {
-    Vector rates(guard_count());
+    Vector rates(guard_count(state.piece));
     for (Index j = 0; j < rates.size(); ++j) rates[j] = apply(guard_gradient(state, j), direction);
     return rates;
   }
 
-  /// Guards whose gap and force both vanish within `tolerance` (in the scale of guards()).
+  /// Contacts whose gap and force both vanish within `tolerance` (in the scale of guards()).
   virtual std::vector<Index> weak_guards(const State&, double /*tolerance*/) const { return {}; }
 
   /// −∂F/∂p_j, the unit response of contact j, for a state on a piece where j is open; scaled so that it belongs to a
@@ -80,6 +121,27 @@ class System {
 
   /// The same point with the unknowns of another piece: forces that are new are zero.
   virtual Vector transfer(const Vector& x, const Piece&, const Piece&) const { return x; }
+
+  /// What may lie behind a limit that was reached going `forward`, the likeliest first: the first that leads to a point
+  /// whose guards hold is taken. Limits within `tolerance` of zero are reached together.
+  virtual std::vector<Passage> passages(const State&, const Direction& /*forward*/, Index /*limit*/,
+                                        double /*tolerance*/) const {
+    return {};
+  }
+
+  /// Whether side conditions that are no guards of this piece exceed `margin`, in the scale of the guards: nothing
+  /// enters an obstacle between the contacts.
+  virtual bool admissible(const State&, double /*margin*/) const { return true; }
+
+  /// The passage (`remeshed`) from a regular point to a piece whose guards see what is below `margin` at `to`, the end
+  /// of a step; empty if no such piece passes through `from`. Asked for where admissible(to, margin) is not so.
+  virtual std::optional<Passage> refined(const State& /*from*/, const Direction& /*forward*/, const State& /*to*/,
+                                         double /*margin*/) const {
+    return std::nullopt;
+  }
+
+  /// The piece whose guards suit a state that was reached along another branch: a flat part that has buckled, say.
+  virtual Piece settled(const State& state) const { return state.piece; }
 
   /// Why the equations do not hold at this state although it may solve them (a wall that ends); empty if they do.
   virtual std::optional<std::string> obstruction(const State&) const { return std::nullopt; }

@@ -21,8 +21,9 @@ class StraightAxis final : public Axis {
   double length() const override { return length_; }
   AxisPoint at(double s) const override {
     const double t = s / length_;
-    return {.position = (1.0 - t) * from_ + t * to_, .angle = angle_of(to_ - from_), .curvature = 0.0};
+    return {.position = (1.0 - t) * from_ + t * to_, .angle = angle_of(to_ - from_)};
   }
+  Vec2 chord(double from, double to) const override { return (to - from) / length_ * (to_ - from_); }
 
  private:
   Vec2 from_, to_;
@@ -50,6 +51,10 @@ class ArcAxis final : public Axis {
             .angle = polar + sense_ * 0.5 * pi,
             .curvature = sense_ / radius_};
   }
+  Vec2 chord(double from, double to) const override {
+    const double middle = start_ + sense_ * 0.5 * (from + to) / radius_;
+    return 2.0 * radius_ * sense_ * std::sin(0.5 * (to - from) / radius_) * Vec2(-std::sin(middle), std::cos(middle));
+  }
 
  private:
   Vec2 centre_{};
@@ -62,22 +67,26 @@ class ParametricAxis : public Axis {
  public:
   double length() const override { return lengths_.back(); }
 
+  // κ = r′ × r″/v³, v = |r′|, and dκ/ds = (r′ × r‴/v³ − 3 κ r′·r″/v²)/v.
   AxisPoint at(double s) const override {
     const double t = parameter(s);
     const Derivatives r = curve(t);
-    const double speed = r.first.norm();
+    const double speed = r.first.norm(), cube = speed * speed * speed;
+    const double curvature = cross(r.first, r.second) / cube;
     const auto k = interval(s);
     // The tangent's angle, continued from the knot before (turns between knots stay below half a turn).
     const Vec2 tangent_before = curve(knots_[k]).first;
     const double turn = std::atan2(cross(tangent_before, r.first), tangent_before.dot(r.first));
     return {.position = r.value,
             .angle = angles_[k] + turn,
-            .curvature = cross(r.first, r.second) / (speed * speed * speed)};
+            .curvature = curvature,
+            .curvature_rate =
+                (cross(r.first, r.third) / cube - 3.0 * curvature * r.first.dot(r.second) / (speed * speed)) / speed};
   }
 
  protected:
   struct Derivatives {
-    Vec2 value, first, second;
+    Vec2 value, first, second, third;
   };
   virtual Derivatives curve(double t) const = 0;
 
@@ -134,7 +143,8 @@ class SineAxis final : public ParametricAxis {
     const double a = wave_number_ * t;
     return {.value = (1.0 - t) * from_ + t * (from_ + chord_) + rise_ * std::sin(a) * normal_,
             .first = chord_ + rise_ * wave_number_ * std::cos(a) * normal_,
-            .second = -rise_ * wave_number_ * wave_number_ * std::sin(a) * normal_};
+            .second = -rise_ * wave_number_ * wave_number_ * std::sin(a) * normal_,
+            .third = -rise_ * wave_number_ * wave_number_ * wave_number_ * std::cos(a) * normal_};
   }
 
  private:
@@ -169,7 +179,7 @@ class SplineAxis final : public ParametricAxis {
  protected:
   Derivatives curve(double t) const override {
     const auto x = x_.at(t), z = z_.at(t);
-    return {.value = {x[0], z[0]}, .first = {x[1], z[1]}, .second = {x[2], z[2]}};
+    return {.value = {x[0], z[0]}, .first = {x[1], z[1]}, .second = {x[2], z[2]}, .third = {x[3], z[3]}};
   }
 
  private:
@@ -193,24 +203,42 @@ std::unique_ptr<Axis> sine_axis(const Vec2& from, const Vec2& to, double rise, i
 std::unique_ptr<Axis> spline_axis(const std::vector<Vec2>& points) { return std::make_unique<SplineAxis>(points); }
 
 ImperfectAxis::Deviation ImperfectAxis::deviation(double s) const {
-  Deviation y{.value = 0.0, .slope = 0.0};
+  Deviation y{.value = 0.0, .slope = 0.0, .second = 0.0};
   const double L = axis_.length();
   for (const SineDeviation& wave : deviations_) {
     const double k = wave.waves * pi / L;
-    y.value += wave.amplitude * std::sin(k * s);
+    const double sine = std::sin(k * s);
+    y.value += wave.amplitude * sine;
     y.slope += wave.amplitude * k * std::cos(k * s);
+    y.second -= wave.amplitude * k * k * sine;
   }
   return y;
 }
 
-// r = r_axis + y n:  r′ = (1 − κ y) t + y′ n
-AxisPoint ImperfectAxis::at(double s) const {
-  AxisPoint point = axis_.at(s);
+// r = r_axis + y n:  r′ = a t + y′ n,  a = 1 − κ y,  and the angle turns by κ + (a y″ − y′ a′)/(a² + y′²).
+DeviatedPoint ImperfectAxis::along(double s) const {
+  const AxisPoint axis = axis_.at(s);
+  DeviatedPoint point{.position = axis.position, .angle = axis.angle, .turning = axis.curvature};
   if (deviations_.empty()) return point;
   const Deviation y = deviation(s);
-  point.position += y.value * Vec2(-std::sin(point.angle), std::cos(point.angle));
-  point.angle += std::atan2(y.slope, 1.0 - point.curvature * y.value);
+  const double a = 1.0 - axis.curvature * y.value;
+  const double a_rate = -axis.curvature_rate * y.value - axis.curvature * y.slope;
+  point.deviation = y.value * Vec2(-std::sin(axis.angle), std::cos(axis.angle));
+  point.position += point.deviation;
+  point.angle += std::atan2(y.slope, a);
+  point.speed = std::hypot(a, y.slope);
+  point.turning += (a * y.second - y.slope * a_rate) / (a * a + y.slope * y.slope);
   return point;
+}
+
+AxisPoint ImperfectAxis::at(double s) const {
+  const DeviatedPoint point = along(s);
+  return {.position = point.position, .angle = point.angle};
+}
+
+Vec2 ImperfectAxis::chord(double from, double to) const {
+  const Vec2 chord = axis_.chord(from, to);
+  return deviations_.empty() ? chord : Vec2(chord + along(to).deviation - along(from).deviation);
 }
 
 double ImperfectAxis::length(double from, double to) const {

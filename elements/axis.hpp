@@ -10,8 +10,9 @@ namespace arcwall {
 /// A point of a plane curve that is measured by its arc length.
 struct AxisPoint {
   Vec2 position{};
-  double angle = 0.0;      ///< of the tangent, continuous along the curve [rad]
-  double curvature = 0.0;  ///< d angle / d arc length [1/length]
+  double angle = 0.0;           ///< of the tangent, continuous along the curve [rad]
+  double curvature = 0.0;       ///< d angle / d arc length [1/length]
+  double curvature_rate = 0.0;  ///< d curvature / d arc length [1/length²]
 };
 
 /// The stress-free axis of a member, without imperfection.
@@ -22,6 +23,9 @@ class Axis {
 
   /// At arc length s from the start, 0 ≤ s ≤ length().
   virtual AxisPoint at(double s) const = 0;
+
+  /// at(to).position − at(from).position, to the digits of to − from where the curve's formula allows it.
+  virtual Vec2 chord(double from, double to) const { return at(to).position - at(from).position; }
 };
 
 std::unique_ptr<Axis> straight_axis(const Vec2& from, const Vec2& to);
@@ -41,6 +45,15 @@ struct SineDeviation {
   int waves = 1;           ///< half waves over the axis' arc length
 };
 
+/// A point of a curve that deviates from an axis, and how it moves with the arc length s of that axis.
+struct DeviatedPoint {
+  Vec2 position{};
+  Vec2 deviation{};      ///< from the axis [length]
+  double angle = 0.0;    ///< of the tangent, continuous [rad]
+  double speed = 1.0;    ///< arc length of the curve per s
+  double turning = 0.0;  ///< d angle / ds [1/length]
+};
+
 /// An axis with its imperfections: the stress-free shape of the member.
 class ImperfectAxis {
  public:
@@ -48,15 +61,21 @@ class ImperfectAxis {
   ImperfectAxis(const Axis& axis, std::vector<SineDeviation> deviations)
       : axis_(axis), deviations_(std::move(deviations)) {}
 
-  /// Position and angle of the deviated curve at arc length s of the axis (its curvature is not filled in).
+  /// The deviated curve at arc length s of the axis.
+  DeviatedPoint along(double s) const;
+
+  /// Its position and angle alone: the curvatures are not filled in.
   AxisPoint at(double s) const;
+
+  /// From one such point to another.
+  Vec2 chord(double from, double to) const;
 
   /// Arc length of the deviated curve between two such points.
   double length(double from, double to) const;
 
  private:
   struct Deviation {
-    double value, slope;
+    double value, slope, second;
   };
   Deviation deviation(double s) const;
 

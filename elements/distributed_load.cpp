@@ -36,6 +36,25 @@ double BeamDistributedLoad::evaluate(const double* u, double* f, double* K) cons
   return -h * (mean + across * bend - across_0 * bend_0);
 }
 
+// With q⊥ = (q_z, −q_x): q·Δr⊥ = q⊥·Δr.
+StretchLoad::Response StretchLoad::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
+  const double h = length_, bend = (angle1 - angle2) / 12.0;
+  const Vec2 turned(load_.y(), -load_.x());
+  const double across = turned.dot(r2 - r1);
+  Response out{.energy = -h * (0.5 * load_.dot(r1 + r2) + across * bend)};
+  out.force << -h * (0.5 * load_ - bend * turned), -h * across / 12.0, -h * (0.5 * load_ + bend * turned),
+      h * across / 12.0;
+  const Vec2 coupling = h / 12.0 * turned;
+  for (const Index rotation : {2, 5})
+    for (const Index end : {0, 3}) {
+      const double sign = (rotation == 2) == (end == 0) ? 1.0 : -1.0;
+      out.stiffness.block<2, 1>(end, rotation) = sign * coupling;
+      out.stiffness.block<1, 2>(rotation, end) = sign * coupling.transpose();
+    }
+  for (std::size_t i = 0; i < 2; ++i) out.force_rate[i] = length_rate_[i] / h * out.force;
+  return out;
+}
+
 double TrussDistributedLoad::evaluate(const double* u, double* f, double* K) const {
   if (f != nullptr) {
     f[0] = f[2] = -0.5 * resultant_.x();

@@ -2,6 +2,7 @@
 
 #include "elements/classic_beam.hpp"
 #include "elements/element.hpp"
+#include "elements/slender_beam.hpp"
 
 namespace arcwall {
 
@@ -21,6 +22,31 @@ class BeamDistributedLoad final : public Element {
  private:
   BeamReference reference_;
   Vec2 load_;  // [force/length]
+};
+
+/// The same on a stretch between points that may slide, by where its ends are: r are places and φ the angles of the
+/// axis' tangent, of which only the difference counts.
+class StretchLoad {
+ public:
+  StretchLoad(const StretchReference& stretch, const Vec2& load)
+      : length_(stretch.length), length_rate_(stretch.length_rate), load_(load) {}
+
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+  /// Derivatives are by (r1, φ1, r2, φ2).
+  struct Response {
+    double energy = 0.0;
+    Vector6 force = Vector6::Zero();
+    Matrix6 stiffness = Matrix6::Zero();
+    std::array<Vector6, 2> force_rate{Vector6::Zero(), Vector6::Zero()};  ///< ∂force/∂S1, ∂force/∂S2
+  };
+  Response respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const;
+
+ private:
+  double length_;
+  std::array<double, 2> length_rate_;
+  Vec2 load_;
 };
 
 /// The same for a bar: half of the load at each end. Unknowns as in Truss.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,7 +20,7 @@ namespace arcwall {
 /// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there.
 enum class Freedom { x, z, rotation };
 
-enum class Theory { classic, exact, truss };
+enum class Theory { classic, elastica, exact, truss };
 
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
@@ -28,10 +29,10 @@ enum class LoadKind { proportional, constant };
 struct MemberDescription {
   std::string name{};
   Index from = 0, to = 0;  ///< joints
-  std::unique_ptr<Axis> axis{};
+  std::shared_ptr<const Axis> axis{};
   std::vector<SineDeviation> imperfection{};
   Theory theory = Theory::classic;
-  int order = 2;  ///< exact only: 1 or 2, the degree of the shape functions
+  int order = 2;  ///< exact: 1 or 2, the degree of the shape functions; elastica: 4 or 6, of convergence
   TrussStrain strain = TrussStrain::green;
   Section section{};
   int elements = 1;
@@ -53,6 +54,7 @@ struct MemberMesh {
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
 };
 
+class SlidingStructure;
 class StructureBuilder;
 
 /// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
@@ -156,6 +158,14 @@ class StructureBuilder {
   /// The structure; `ramp` makes the constant loads the proportional ones and leaves the others out, so that a path in
   /// λ from 0 to 1 applies them.
   std::unique_ptr<Structure> build(bool ramp = false) const;
+
+  /// The same for meshes with breakpoints that move. Only beams without shear: see can_slide(). Members for which
+  /// `alike(a, b)` is false are not joined to one run, however they meet: walls see runs.
+  std::unique_ptr<SlidingStructure> build_sliding(
+      bool ramp = false, const std::function<bool(const std::string&, const std::string&)>& alike = nullptr) const;
+
+  /// Whether all members are of a theory for which build_sliding() is meant.
+  bool can_slide() const;
 
  private:
   struct Load {

@@ -7,6 +7,7 @@
 #include "core/near_null.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
+#include "elements/elastica_beam.hpp"
 #include "elements/exact_beam.hpp"
 #include "elements/structure.hpp"
 
@@ -38,6 +39,13 @@ BeamReference beam_reference(const Stretch& stretch) {
           .slope2 = against_chord(second.angle)};
 }
 
+// Between the nodes as they are: joints may differ from the axis' ends by its round-off.
+StretchReference slender_reference(const Stretch& stretch) {
+  StretchReference reference = stretch_reference(stretch.shape, stretch.at(0.0), stretch.at(1.0));
+  reference.chord = stretch.mesh.shape[stretch.k + 1].position - stretch.mesh.shape[stretch.k].position;
+  return reference;
+}
+
 // From its first node, so that places far from the origin keep their digits.
 ExactBeamReference exact_reference(const Stretch& stretch) {
   const std::vector<AxisPoint>& nodes = stretch.mesh.shape;
@@ -56,6 +64,9 @@ std::unique_ptr<Element> make_element(const Stretch& stretch) {
   switch (stretch.member.theory) {
     case Theory::classic:
       return std::make_unique<ClassicBeam>(beam_reference(stretch), section.EA(), section.EI());
+    case Theory::elastica:
+      return std::make_unique<ElasticaBeam>(slender_reference(stretch), section.EA(), section.EI(),
+                                            stretch.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four);
     case Theory::exact:
       return std::make_unique<ExactBeam>(
           exact_reference(stretch), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
@@ -68,6 +79,7 @@ std::unique_ptr<Element> make_element(const Stretch& stretch) {
 std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
   switch (stretch.member.theory) {
     case Theory::classic:
+    case Theory::elastica:
       return std::make_unique<BeamDistributedLoad>(beam_reference(stretch), load);
     case Theory::exact:
       return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), load);
@@ -112,6 +124,7 @@ Index StructureBuilder::end_rotation(Index joint, bool hinged) {
 Index StructureBuilder::add_member(MemberDescription member) {
   assert(member.elements >= 1 && member.axis != nullptr);
   assert(member.theory != Theory::exact || ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0));
+  assert(member.theory != Theory::elastica || member.order == 4 || member.order == 6);
   const ImperfectAxis shape(*member.axis, member.imperfection);
   const bool rotates = member.theory != Theory::truss;
   const bool has_middle_nodes = member.theory == Theory::exact && member.order == 2;

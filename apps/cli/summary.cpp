@@ -51,7 +51,7 @@ std::string first_gap(const Study& study, const deck::Wall& wall) {
   Index count = 0;
   const Candidate* nearest_one = nullptr;
   double least = infinity;
-  for (Index j = 0; j < contact.guard_count(); ++j) {
+  for (Index j = 0; j < contact.contact_count(); ++j) {
     const Candidate& candidate = contact.candidate(j);
     if (candidate.label().wall != wall.name) continue;
     ++count;

@@ -11,6 +11,8 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::end,
                                  EventKind::contact_closes,
                                  EventKind::contact_opens,
+                                 EventKind::contact_spreads,
+                                 EventKind::contact_gathers,
                                  EventKind::limit_point,
                                  EventKind::contact_limit_point,
                                  EventKind::displacement_limit,
@@ -20,7 +22,7 @@ constexpr std::array event_kinds{EventKind::start,
 constexpr std::array end_reasons{
     EndReason::stop,     EndReason::closed_loop,     EndReason::joined,   EndReason::branched, EndReason::max_points,
     EndReason::max_time, EndReason::interrupted,     EndReason::min_step, EndReason::singular, EndReason::not_finite,
-    EndReason::no_ray,   EndReason::turning_control, EndReason::wall_end};
+    EndReason::no_ray,   EndReason::turning_control, EndReason::wall_end, EndReason::family,   EndReason::unsupported};
 
 template <class List>
 std::optional<typename List::value_type> with_text(const List& list, std::string_view text) {
@@ -42,6 +44,10 @@ std::string_view to_text(EventKind kind) {
       return "contact-closes";
     case EventKind::contact_opens:
       return "contact-opens";
+    case EventKind::contact_spreads:
+      return "contact-spreads";
+    case EventKind::contact_gathers:
+      return "contact-gathers";
     case EventKind::limit_point:
       return "limit-point";
     case EventKind::contact_limit_point:
@@ -85,6 +91,10 @@ std::string_view to_text(EndReason reason) {
       return "turning_control";
     case EndReason::wall_end:
       return "wall_end";
+    case EndReason::family:
+      return "family";
+    case EndReason::unsupported:
+      return "unsupported";
   }
   assert(false);
   return {};
@@ -124,6 +134,8 @@ bool changes_contact(EventKind kind) {
   switch (kind) {
     case EventKind::contact_closes:
     case EventKind::contact_opens:
+    case EventKind::contact_spreads:
+    case EventKind::contact_gathers:
       return true;
     case EventKind::start:
     case EventKind::end:
@@ -166,6 +178,10 @@ std::string_view explanation(EndReason reason) {
       return "the controlled quantity turns back";
     case EndReason::wall_end:
       return "a contact reached the end of its wall";
+    case EndReason::family:
+      return "a continuum of equilibria lies ahead";
+    case EndReason::unsupported:
+      return "something lies ahead that is not modelled";
   }
   assert(false);
   return {};

@@ -98,10 +98,10 @@ RecordEvent Recorder::recorded(const Event& event) const {
     record.discretisation = event.branching->discretisation;
     record.mode = mode_rates(study_.monitors(), *event.branching);
   }
-  if (study_.contact() == nullptr || !changes_contact(event.kind)) return record;
+  if (!changes_contact(event.kind)) return record;
   for (const Index j : event.guards) {
-    const Candidate& candidate = study_.contact()->candidate(j);
-    record.contacts.push_back({.label = candidate.label(), .x = candidate.point().position(event.state.x).x()});
+    const auto [label, x] = study_.contact_place(event.state, j);
+    record.contacts.push_back({.label = label, .x = x});
   }
   return record;
 }

@@ -22,7 +22,7 @@ Json model(const Study& study) {
   const MultiplierContact* contact = study.contact();
   return {{"nodes", study.structure().node_count()},
           {"unknowns", study.structure().size({})},
-          {"contact_candidates", contact == nullptr ? Index{0} : contact->guard_count()}};
+          {"contact_candidates", contact == nullptr ? Index{0} : contact->contact_count()}};
 }
 
 Json counts(const Record& record) {

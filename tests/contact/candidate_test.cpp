@@ -54,9 +54,9 @@ TEST(Candidate, GradientAndHessianAreThoseOfTheGap) {
   test::Numbers numbers(50);
   for (const bool on_axis : {false, true}) {
     const test::ContactModel model(test::contact_beam(), test::all_walls(on_axis), 0.1);
-    ASSERT_GE(model.system().guard_count(), 40);
+    ASSERT_GE(model.system().contact_count(), 40);
     const Vector x = 0.2 * numbers.vector(model.structure().size({}));
-    for (Index j = 0; j < model.system().guard_count(); ++j) {
+    for (Index j = 0; j < model.system().contact_count(); ++j) {
       const Candidate& candidate = model.system().candidate(j);
       ASSERT_TRUE(candidate.faces_wall(x));
       Gap at;

@@ -33,7 +33,7 @@ TEST(MultiplierContact, DerivativesAreConsistentWhicheverContactsAreClosed) {
     const ContactModel model(test::contact_beam(), test::all_walls(on_axis), 0.1);
     for (const Index stride : {0, 1, 2, 3, 7}) {
       SCOPED_TRACE(stride);
-      const Piece piece = closed_every(model.system().guard_count(), stride);
+      const Piece piece = closed_every(model.system().contact_count(), stride);
       EXPECT_LE(check_derivatives(model.system(), random_state(model.system(), piece, numbers)).worst(), 1e-7);
     }
   }
@@ -44,7 +44,7 @@ TEST(MultiplierContact, OneLinearizationServesChangingPieces) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
   Linearization reused;
   for (const Index stride : {0, 3, 3, 2, 0, 7}) {
-    const State state = random_state(model.system(), closed_every(model.system().guard_count(), stride), numbers);
+    const State state = random_state(model.system(), closed_every(model.system().contact_count(), stride), numbers);
     model.system().linearize(state, reused);
     Linearization fresh;
     model.system().linearize(state, fresh);
@@ -59,7 +59,7 @@ TEST(MultiplierContact, AClosedContactPushesAgainstItsGapsGradient) {
                            {{.name = "floor", .side = Side::below, .profile = flat_profile(-1.0)}}, 0.1);
   const MultiplierContact& system = model.system();
   Numbers numbers(62);
-  Piece piece(static_cast<std::size_t>(system.guard_count()), 0);
+  Piece piece(static_cast<std::size_t>(system.contact_count()), 0);
   piece[2] = 1;
   State state = random_state(system, piece, numbers);
   const Index k = *system.multiplier_index(piece, 2);
@@ -85,7 +85,7 @@ TEST(MultiplierContact, GuardsAreGapsAndForcesInTheirScales) {
   EXPECT_EQ(system.scales().force, 3.0);
   EXPECT_EQ(system.multiplier_scale(), 3.0);
   Numbers numbers(63);
-  const Piece piece = closed_every(system.guard_count(), 4);
+  const Piece piece = closed_every(system.contact_count(), 4);
   const State state = random_state(system, piece, numbers);
   const Vector guards = system.guards(state);
   for (Index j = 0; j < guards.size(); ++j)
@@ -98,7 +98,7 @@ TEST(MultiplierContact, GuardRatesAreGradientsAppliedToADirection) {
   const ContactModel model(test::contact_beam(), test::all_walls(true), 0.1);
   const MultiplierContact& system = model.system();
   Numbers numbers(64);
-  const State state = random_state(system, closed_every(system.guard_count(), 3), numbers);
+  const State state = random_state(system, closed_every(system.contact_count(), 3), numbers);
   const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
   const Vector rates = system.guard_rates(state, direction);
   for (Index j = 0; j < rates.size(); ++j)
@@ -109,7 +109,7 @@ TEST(MultiplierContact, TransferKeepsThePointAndTheForcesThatStay) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
   const MultiplierContact& system = model.system();
   Numbers numbers(65);
-  const Piece from = closed_every(system.guard_count(), 2), to = closed_every(system.guard_count(), 3);
+  const Piece from = closed_every(system.contact_count(), 2), to = closed_every(system.contact_count(), 3);
   const State state = random_state(system, from, numbers);
   const State moved = system.with_piece(state, to);
   EXPECT_EQ(moved.piece, to);
@@ -117,7 +117,7 @@ TEST(MultiplierContact, TransferKeepsThePointAndTheForcesThatStay) {
   EXPECT_EQ(moved.x.size(), system.size(to));
   const Index n = system.size({});
   EXPECT_EQ(Vector(moved.x.head(n)), Vector(state.x.head(n)));
-  for (Index j = 0; j < system.guard_count(); ++j) {
+  for (Index j = 0; j < system.contact_count(); ++j) {
     const bool stays = from[static_cast<std::size_t>(j)] && to[static_cast<std::size_t>(j)];
     EXPECT_EQ(system.force(moved, j), stays ? system.force(state, j) : 0.0);
   }
@@ -126,7 +126,7 @@ TEST(MultiplierContact, TransferKeepsThePointAndTheForcesThatStay) {
 
 TEST(MultiplierContact, MultipliersHaveNoWeightInTheMetric) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.1);
-  const Piece piece = closed_every(model.system().guard_count(), 5);
+  const Piece piece = closed_every(model.system().contact_count(), 5);
   const Vector weights = model.system().weights(piece);
   const Index m = model.system().multiplier_count(piece);
   EXPECT_GT(m, 0);
@@ -149,9 +149,9 @@ TEST(MultiplierContact, AContactIsWeakWhereGapAndForceVanish) {
   builder.add_load(builder.freedom(1, Freedom::z), -1.0, LoadKind::proportional);
   const ContactModel model(builder.build(), {floor}, 0.1);
   const MultiplierContact& system = model.system();
-  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
   State state{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
-  EXPECT_EQ(static_cast<Index>(system.weak_guards(state, 1e-12).size()), system.guard_count());
+  EXPECT_EQ(static_cast<Index>(system.weak_guards(state, 1e-12).size()), system.contact_count());
 
   // Lifted at one node, pressed at another: neither is weak.
   Piece piece = open;
@@ -167,9 +167,9 @@ TEST(MultiplierContact, UnitForceIsWhatAUnitOfTheForceGuardDoesToTheResidual) {
   const ContactModel model(test::contact_beam(), test::all_walls(false), 0.3);
   const MultiplierContact& system = model.system();
   Numbers numbers(66);
-  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
   const State state = random_state(system, open, numbers);
-  for (const Index j : {Index{0}, Index{5}, system.guard_count() - 1}) {
+  for (const Index j : {Index{0}, Index{5}, system.contact_count() - 1}) {
     Piece piece = open;
     piece[static_cast<std::size_t>(j)] = 1;
     State closed = system.with_piece(state, piece);
@@ -187,15 +187,15 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
       test::contact_beam(),
       {{.name = "short", .side = Side::above, .profile = spline_profile({-1.0, 0.0, 1.2}, {1, 1, 1})}}, 0.1);
   const MultiplierContact& system = model.system();
-  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
   const State rest{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
   EXPECT_FALSE(system.obstruction(rest).has_value()) << "open contacts may face nothing";
   // The last node stands beside the wall: its guard is large and does not move.
-  const Index last = system.guard_count() - 1;
+  const Index last = system.contact_count() - 1;
   EXPECT_FALSE(system.candidate(last).faces_wall(rest.x));
   EXPECT_GE(system.guards(rest)[last], 0.5);
   EXPECT_EQ(system.guard_gradient(rest, last).dx.norm(), 0.0);
-  for (Index j = 0; j < system.guard_count(); ++j) {
+  for (Index j = 0; j < system.contact_count(); ++j) {
     Piece piece = open;
     piece[static_cast<std::size_t>(j)] = 1;
     EXPECT_EQ(system.obstruction(system.with_piece(rest, piece)).has_value(), !system.candidate(j).faces_wall(rest.x));

@@ -12,7 +12,7 @@ namespace {
 
 using test::LinearContactToy;
 
-Piece open_piece(const LinearContactToy& toy) { return Piece(static_cast<std::size_t>(toy.guard_count()), 0); }
+Piece open_piece(const LinearContactToy& toy) { return Piece(static_cast<std::size_t>(toy.contact_count()), 0); }
 
 State origin(const LinearContactToy& toy) {
   return {.x = Vector::Zero(toy.A.rows()), .lambda = 0.0, .piece = open_piece(toy)};
@@ -20,7 +20,7 @@ State origin(const LinearContactToy& toy) {
 
 std::vector<Index> all(const LinearContactToy& toy) {
   std::vector<Index> weak;
-  for (Index j = 0; j < toy.guard_count(); ++j) weak.push_back(j);
+  for (Index j = 0; j < toy.contact_count(); ++j) weak.push_back(j);
   return weak;
 }
 

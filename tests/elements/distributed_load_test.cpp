@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "elements/axis.hpp"
 #include "tests/elements/element_checks.hpp"
 
 namespace arcwall {
@@ -54,6 +55,47 @@ TEST(BeamDistributedLoad, OnAStraightBeamEquivalentForcesAreThoseOfTheTextbook) 
 
 TEST(BeamDistributedLoad, DoesNoWorkAtRest) {
   EXPECT_EQ(test::evaluated(BeamDistributedLoad(curved(), load), Vector::Zero(6)).energy, 0.0);
+}
+
+TEST(StretchLoad, DerivativesAreConsistent) {
+  constexpr double step = 1e-6;
+  test::Numbers numbers(29);
+  const auto arc = arc_axis({0.0, 0.0}, {1.0, 0.3}, {2.0, 0.0});
+  const ImperfectAxis shape(*arc, {{.amplitude = 0.05, .waves = 2}});
+  const auto at = [&](const Vector& q, double from, double to) {
+    return StretchLoad(stretch_reference(shape, from, to), load).respond(q.head<2>(), q[2], q.segment<2>(3), q[5]);
+  };
+  const Vector q = numbers.vector(6);
+  const auto here = at(q, 0.5, 0.9);
+  EXPECT_EQ(here.stiffness, here.stiffness.transpose());
+  for (Index i = 0; i < 6; ++i) {
+    Vector above = q, below = q;
+    above[i] += step;
+    below[i] -= step;
+    const auto a = at(above, 0.5, 0.9), b = at(below, 0.5, 0.9);
+    EXPECT_NEAR((a.energy - b.energy) / (2.0 * step), here.force[i], 1e-9);
+    EXPECT_LE(((a.force - b.force) / (2.0 * step) - here.stiffness.col(i)).norm(), 1e-9);
+  }
+  const auto rate = [&](double by1, double by2) {
+    return ((at(q, 0.5 + by1, 0.9 + by2).force - at(q, 0.5 - by1, 0.9 - by2).force) / (2.0 * step)).eval();
+  };
+  EXPECT_LE((here.force_rate[0] - rate(step, 0.0)).norm(), 1e-9);
+  EXPECT_LE((here.force_rate[1] - rate(0.0, step)).norm(), 1e-9);
+}
+
+TEST(StretchLoad, ActsAsTheLoadByDisplacements) {
+  test::Numbers numbers(30);
+  const auto axis = straight_axis({1.0, 2.0}, {4.0, 6.0});
+  const StretchReference stretch = stretch_reference(ImperfectAxis(*axis, {}), 1.0, 3.0);
+  const BeamDistributedLoad by_displacement({.chord = stretch.chord, .length = 2.0, .slope1 = 0.0, .slope2 = 0.0},
+                                            load);
+  const Vector u = numbers.vector(6);
+  const Vec2 r1(1.6, 2.8);
+  const auto by_place = StretchLoad(stretch, load)
+                            .respond(r1 + u.head<2>(), u[2] + 1.0, r1 + stretch.chord + u.segment<2>(3), u[5] + 1.0);
+  const auto expected = test::evaluated(by_displacement, u);
+  EXPECT_LE((by_place.force - expected.f).norm(), 1e-14);
+  EXPECT_LE((by_place.stiffness - expected.K).norm(), 1e-14);
 }
 
 TEST(TrussDistributedLoad, HalfOfItActsAtEachEnd) {

@@ -83,6 +83,8 @@ TEST(FindMechanism, AStructureThatIsHeldNowhereMoves) {
 TEST(FindMechanism, SoundModelsHaveNone) {
   EXPECT_FALSE(find_mechanism(*test::lee_frame(5)).has_value());
   EXPECT_FALSE(find_mechanism(*test::deep_arch(1)).has_value());
+  for (const int order : {4, 6})
+    EXPECT_FALSE(find_mechanism(*test::lee_frame(5, {.theory = Theory::elastica, .order = order})).has_value());
   EXPECT_FALSE(find_mechanism(*test::williams_toggle(1)).has_value());
   EXPECT_FALSE(find_mechanism(*test::VonMisesTruss{}.structure()).has_value());
   EXPECT_FALSE(find_mechanism(*test::Cantilever{.elements = 1, .tip_force = 1.0}.structure()).has_value());

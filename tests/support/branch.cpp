@@ -9,7 +9,7 @@
 namespace arcwall::test {
 
 State rest(const System& system) {
-  const Piece open(static_cast<std::size_t>(system.guard_count()), 0);
+  const Piece open = system.open_piece();
   return {.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
 }
 

@@ -124,7 +124,8 @@ struct LinearContactToy : System {
     return w;
   }
 
-  Index guard_count() const override { return G.rows(); }
+  Piece open_piece() const override { return Piece(static_cast<std::size_t>(G.rows()), 0); }
+  Index contact_count() const { return G.rows(); }
   Vector guards(const State& s) const override {
     Vector values(G.rows());
     for (Index j = 0; j < values.size(); ++j) {

@@ -133,6 +133,26 @@ TEST_F(ProgramTest, CheckSummarisesTheDeck) {
   expect_in("left: truss, 1 element", outcome.out);
 }
 
+// Lee's frame with 10 elements a member: the first limit load of the elastica, 1.855672753757 by shooting, to 4e-8.
+TEST_F(ProgramTest, TheoryElasticaIsRunWithOrderSixUnlessTheDeckSaysFour) {
+  const std::string members[] = {"column", "short", "long"};
+  const int elements[] = {10, 2, 8};
+  std::string values;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string member = " --set member." + members[i];
+    values += member + ".theory='\"elastica\"'" + member + ".elements=" + std::to_string(elements[i]);
+  }
+  ASSERT_EQ(run("examples lee --out lee.toml").status, 0);
+  ASSERT_EQ(run("lee.toml --quiet --out six" + values).status, 0);
+  ASSERT_EQ(run("lee.toml --quiet --out four --set member.column.order=4" + values).status, 0);
+
+  const auto first_limit = [&](const char* folder) {
+    return Json::parse(content(work() / folder / "events.json"))["events"][1]["lambda"].get<double>();
+  };
+  EXPECT_NEAR(first_limit("six"), 1.855672753757, 5e-8);
+  EXPECT_GT(std::abs(first_limit("four") - 1.855672753757), 1e-6);
+}
+
 TEST_F(ProgramTest, CheckNamesTheFirstGapOfAWall) {
   ASSERT_EQ(run("examples foundation --out foundation.toml").status, 0);
   const Outcome outcome = run("check foundation.toml");
@@ -288,7 +308,7 @@ TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
 TEST_F(ProgramTest, ExamplesAreListedAndRight) {
   const Outcome list = run("examples");
   ASSERT_EQ(list.status, 0);
-  for (const char* name : {"arch", "cantilever", "channel", "foundation", "lee", "truss"}) {
+  for (const char* name : {"arch", "cantilever", "channel", "cylinder", "foundation", "lee", "truss"}) {
     expect_in(std::string("\n") + name + " ", list.out);
     ASSERT_EQ(shell("\"$PROGRAM\" examples " + std::string(name) + " >deck.toml").status, 0);
     EXPECT_EQ(run("deck.toml --quiet --out " + std::string(name)).status, 0) << name;

@@ -68,7 +68,7 @@ Arc arc_at(const Study& study, double w, double arc, std::vector<EventKind> kind
   const Index top = study.structure().members()[0].nodes.back();
   result.to.state.x[*study.structure().unknown(study.structure().freedom(top, Freedom::z))] = w;
   result.to.state.lambda = 2.0 * w;
-  result.to.state.piece = Piece(static_cast<std::size_t>(study.contact()->guard_count()), 0);
+  result.to.state.piece = Piece(static_cast<std::size_t>(study.contact()->contact_count()), 0);
   result.to.arc = arc;
   result.to.iterations = 3;
   result.to.residual = 1e-13;
@@ -191,7 +191,7 @@ TEST_F(RecorderTest, TheResultSaysWhatWasRunAndHowItEnded) {
   EXPECT_EQ(json["deck"]["crc32"], "cbf43926");
   EXPECT_EQ(json["model"]["nodes"], 3);
   EXPECT_EQ(json["model"]["unknowns"], 2);
-  EXPECT_EQ(json["model"]["contact_candidates"], study_.contact()->guard_count());
+  EXPECT_EQ(json["model"]["contact_candidates"], study_.contact()->contact_count());
   EXPECT_EQ(json["counts"].dump(), R"({"branches":1,"points":1,"events":2,"iterations":3})");
   EXPECT_EQ(json["seconds"]["tracing"], 1.5);
   EXPECT_EQ(json["status"], 6);

@@ -1,0 +1,435 @@
+#include "contact/sliding_contact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "contact/sliding_layout.hpp"
+
+namespace arcwall {
+
+using Span = SlidingContactLayout::Span;
+using Bound = SlidingContactLayout::Bound;
+
+namespace {
+
+Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
+Vec2 tangent(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+// Slope angle of a wall and its curvature, with derivatives by x.
+struct Bend {
+  double angle, angle_x, curvature, curvature_x;
+};
+
+Bend bend(const Profile& profile, double x) {
+  const Height psi = profile.at(x);
+  const double w = 1.0 + psi.first * psi.first, root = std::sqrt(w);
+  return {.angle = std::atan(psi.first),
+          .angle_x = psi.second / w,
+          .curvature = psi.second / (w * root),
+          .curvature_x = psi.third / (w * root) - 3.0 * psi.first * psi.second * psi.second / (w * w * root)};
+}
+
+double sign_of(Side side) { return side == Side::below ? 1.0 : -1.0; }
+
+}  // namespace
+
+SlidingContact::SlidingContact(const SlidingBody& body, std::vector<Obstacle> obstacles, const ContactScales& scales)
+    : body_(body), obstacles_(std::move(obstacles)), scales_(scales) {
+  Cut cut;
+  for (Index run = 0; run < body.runs(); ++run) {
+    cut.push_back({std::max(1, static_cast<int>(std::lround(body.elements_between(run, 0.0, body.length(run)))))});
+    for (std::size_t w = 0; w < obstacles_.size(); ++w)
+      for (const bool last : {false, true})
+        if (obstacles_[w].runs[static_cast<std::size_t>(run)] && !body.end_is_held(run, last))
+          tied_.push_back({.run = run, .last = last, .obstacle = w});
+  }
+  const auto layout = std::make_shared<SlidingContactLayout>(body, body.mesh(cut),
+                                                             std::vector<SlidingContactLayout::Point>{}, Vector());
+  open_ = Piece(tied_.size(), 0, layout);
+}
+
+const SlidingContactLayout& SlidingContact::layout(const Piece& piece) const {
+  return static_cast<const SlidingContactLayout&>(*piece.layout());
+}
+
+State SlidingContact::rest() const {
+  const SlidingMesh& mesh = layout(open_).mesh();
+  return {.x = body_.rest(mesh, Vector()), .lambda = 0.0, .piece = open_};
+}
+
+// --- sizes and places in x: q, forces of closed contacts, forces of held nodes, moments, s ---------------------------
+
+Index SlidingContact::multiplier_count(const Piece& piece) const {
+  const SlidingContactLayout& on = layout(piece);
+  return piece.closed_count() + static_cast<Index>(on.held().size() + on.points().size());
+}
+
+Index SlidingContact::border_width(const Piece& piece) const {
+  return static_cast<Index>(layout(piece).points().size());
+}
+
+Index SlidingContact::size(const Piece& piece) const {
+  return layout(piece).mesh().unknowns() + multiplier_count(piece) + border_width(piece);
+}
+
+std::optional<Index> SlidingContact::multiplier_index(const Piece& piece, Index j) const {
+  if (!piece[static_cast<std::size_t>(j)]) return std::nullopt;
+  return layout(piece).mesh().unknowns() + std::count(piece.begin(), piece.begin() + j, std::uint8_t{1});
+}
+
+Vector SlidingContact::weights(const Piece& piece) const {
+  Vector weights = Vector::Zero(size(piece));
+  weights.head(layout(piece).mesh().unknowns()) = layout(piece).mesh().weights();
+  return weights;
+}
+
+// --- kinematics of contact ------------------------------------------------------------------------------------------
+
+// Of the face that looks at the obstacle, along the wall's normal (upwards).
+double SlidingContact::normal_offset(std::size_t obstacle, Index run) const {
+  return obstacles_[obstacle].on_face ? -sign_of(obstacles_[obstacle].side) * body_.half_height(run) : 0.0;
+}
+
+SlidingContact::Touch SlidingContact::touch(const SlidingContactLayout& on, std::size_t j) const {
+  if (j < on.points().size()) {
+    const auto [run, position] = on.mesh().breakpoint(static_cast<Index>(j));
+    const std::size_t obstacle = on.points()[j].obstacle;
+    return {.run = run, .position = position, .obstacle = obstacle, .offset = normal_offset(obstacle, run)};
+  }
+  const Tied& end = tied_[j - on.points().size()];
+  return {.run = end.run,
+          .position = end.last ? on.mesh().nodes(end.run) - 1 : 0,
+          .obstacle = end.obstacle,
+          .offset = normal_offset(end.obstacle, end.run)};
+}
+
+// A section's normal looks along the wall's or against it, with the direction of travel.
+double SlidingContact::face_gap(const Touch& touch, const AxisPlace& place) const {
+  const double offset = std::cos(place.angle) >= 0.0 ? touch.offset : -touch.offset;
+  const Vec2 face = place.position + offset * normal(place.angle);
+  const Obstacle& obstacle = obstacles_[touch.obstacle];
+  return obstacle.profile->covers(face.x()) ? surface_gap(*obstacle.profile, obstacle.side, face).value : infinity;
+}
+
+// The face r + o n(θ) with ∂n/∂θ = −t; the tilt is θ − φ(x of the face), φ the wall's slope.
+SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const Vector& x,
+                                                 const SlidingContactLayout& on) const {
+  const AxisPlace place = on.mesh().node(touch.run, touch.position, x);
+  const Obstacle& obstacle = obstacles_[touch.obstacle];
+  const Vec2 n = normal(place.angle), t = tangent(place.angle);
+  const double o = t.x() >= 0.0 ? touch.offset : -touch.offset;
+  const Vec2 face = place.position + o * n;
+  const SurfaceGap g = surface_gap(*obstacle.profile, obstacle.side, face);
+  const Bend wall = bend(*obstacle.profile, face.x());
+
+  NodeGap out;
+  out.gap = g.value;
+  out.tilt = std::remainder(place.angle - wall.angle, pi);
+  out.gap_gradient << g.x, g.z, -o * (g.x * t.x() + g.z * t.y());
+  out.tilt_gradient << -wall.angle_x, 0.0, 1.0 + wall.angle_x * o * t.x();
+  out.gap_hessian.setZero();
+  out.gap_hessian(0, 0) = g.xx;
+  out.gap_hessian(0, 1) = out.gap_hessian(1, 0) = g.xz;
+  out.gap_hessian(0, 2) = out.gap_hessian(2, 0) = -o * (g.xx * t.x() + g.xz * t.y());
+  out.gap_hessian(1, 2) = out.gap_hessian(2, 1) = -o * g.xz * t.x();
+  out.gap_hessian(2, 2) = o * o * (g.xx * t.x() * t.x() + 2.0 * g.xz * t.x() * t.y()) - o * (g.x * n.x() + g.z * n.y());
+  return out;
+}
+
+// ± (κ − λ κ̂): κ the body's curvature and λ its stretch by stress-free length, κ̂ the curvature of the curve at the
+// face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
+SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, std::size_t k) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  const Touch at = touch(on, k);
+  const AxisPlace place = on.mesh().node(at.run, at.position, x);
+  const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0, offset = travel * at.offset;
+  const double side = sign_of(obstacles_[at.obstacle].side);
+  const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), x, s, state.lambda);
+  const Bend wall = bend(*obstacles_[at.obstacle].profile, (place.position + offset * normal(place.angle)).x());
+  const double shrink = 1.0 / (1.0 + at.offset * wall.curvature);
+  const double parallel = wall.curvature * shrink, parallel_x = wall.curvature_x * shrink * shrink;
+
+  CurvatureGap out{.value = side * (travel * strain.curvature - strain.stretch * parallel), .stretch = strain.stretch};
+  out.dx = side * (travel * strain.curvature_dx - parallel * strain.stretch_dx);
+  out.ds = side * (travel * strain.curvature_ds - parallel * strain.stretch_ds);
+  out.dlambda = side * (travel * strain.curvature_dlambda - parallel * strain.stretch_dlambda);
+  const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+  out.dx[unknowns[0]] -= side * strain.stretch * parallel_x;
+  out.dx[unknowns[2]] += side * strain.stretch * parallel_x * offset * std::cos(place.angle);
+  return out;
+}
+
+// Force per length that would hold the body on the wall at point k: ± [EI (κ̂″ − κ₀″) + P κ̂ − q·n], q the load along
+// the body. Its sign says whether the
+// body lies on the wall there, its vanishing that it does so by itself.
+double SlidingContact::pressure(const State& state, std::size_t k) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  const Touch at = touch(on, k);
+  const AxisPlace place = on.mesh().node(at.run, at.position, x);
+  const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
+  const double L = body_.length(at.run), step = 0.01 * L, S = s[static_cast<Index>(k)];
+  const Profile& profile = *obstacles_[at.obstacle].profile;
+  const auto second = [step](const auto& f) { return (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (step * step); };
+  const double natural = second([&](double i) { return body_.natural_curvature({.run = at.run, .s = S + i * step}); });
+  const auto wall = [&](double i) {
+    const double x_there = place.position.x() + i * step * std::cos(place.angle);
+    return profile.covers(x_there) ? bend(profile, x_there).curvature : 0.0;
+  };
+  const double EI = body_.bending_stiffness(at.run), EA = body_.axial_stiffness(at.run);
+  const double thrust = -EA * (on.mesh().strain(static_cast<Index>(k), x, s, state.lambda).stretch - 1.0);
+  const Vec2 up = travel * normal(place.angle);
+  const double q =
+      sign_of(obstacles_[at.obstacle].side) *
+      (EI * (second(wall) - travel * natural) + thrust * wall(0.0) - body_.load(at.run, state.lambda).dot(up));
+  const double noise = 1e-7 * EI / (L * L * L);
+  return std::abs(q) > noise ? q : 0.0;
+}
+
+double SlidingContact::wall_curvature(const State& state, std::size_t k) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Touch at = touch(on, k);
+  const AxisPlace place = on.mesh().node(at.run, at.position, on.x_of(state));
+  return bend(*obstacles_[at.obstacle].profile, place.position.x()).curvature;
+}
+
+// --- the equations --------------------------------------------------------------------------------------------------
+
+// visit(touch, where its force stands in x)
+template <typename Visit>
+void SlidingContact::for_each_force(const State& state, const Visit& visit) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  Index at = on.mesh().unknowns();
+  for (std::size_t j = 0; j < state.piece.size(); ++j)
+    if (state.piece[j]) visit(touch(on, j), at++);
+  for (const SlidingContactLayout::Held& node : on.held())
+    visit(Touch{.run = node.run,
+                .position = node.position,
+                .obstacle = node.obstacle,
+                .offset = normal_offset(node.obstacle, node.run)},
+          at++);
+}
+
+void SlidingContact::residual(const State& state, Eigen::Ref<Vector> F) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Index n = on.mesh().unknowns(), m = border_width(state.piece);
+  const Vector x = on.x_of(state);
+  on.mesh().residual(x, on.s_of(state), state.lambda, F.head(n));
+  const auto add = [&](const Touch& at, const Eigen::Vector3d& gradient, double force) {
+    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (unknowns[i] >= 0) F[unknowns[i]] -= force * gradient[static_cast<Index>(i)];
+  };
+  for_each_force(state, [&](const Touch& at, Index p) {
+    const NodeGap gap = node_gap(at, x, on);
+    add(at, gap.gap_gradient, state.x[p]);
+    F[p] = -gap.gap;
+  });
+  const Index moments = F.size() - 2 * m;
+  for (Index k = 0; k < m; ++k) {
+    const Touch at = touch(on, static_cast<std::size_t>(k));
+    const NodeGap gap = node_gap(at, x, on);
+    add(at, gap.tilt_gradient, state.x[moments + k]);
+    F[moments + k] = -gap.tilt;
+    F[moments + m + k] = state.x[moments + k];
+  }
+}
+
+void SlidingContact::linearize(const State& state, Linearization& out) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Index n = on.mesh().unknowns(), m = border_width(state.piece), size = state.x.size();
+  if (!out.inner) out.inner = std::make_unique<Linearization>();
+  Linearization& inner = *out.inner;
+  if (!out.pattern_of || out.pattern_of->layout() != state.piece.layout()) inner.pattern_of.reset();
+  const Vector x = on.x_of(state);
+  on.mesh().linearize(x, on.s_of(state), state.lambda, inner);
+  inner.pattern_of = state.piece;
+  if (!out.pattern_of || *out.pattern_of != state.piece) lay_out(state, out);
+
+  out.F.resize(size);
+  residual(state, out.F);
+  out.F_lambda.setZero(size);
+  out.F_lambda.head(n) = inner.F_lambda;
+  out.B.setZero(size - m, m);
+  out.B.topRows(n) = inner.B;
+  std::fill(out.K.valuePtr(), out.K.valuePtr() + out.K.nonZeros(), 0.0);
+  const Index* start = inner.K.outerIndexPtr();
+  for (Index column = 0; column < n; ++column)
+    std::copy(inner.K.valuePtr() + start[column], inner.K.valuePtr() + start[column + 1],
+              out.K.valuePtr() + out.K.outerIndexPtr()[column]);
+  const auto add_row = [&](const Touch& at, const Eigen::Vector3d& gradient, Index row) {
+    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (unknowns[i] >= 0) out.K.coeffRef(row, unknowns[i]) = -gradient[static_cast<Index>(i)];
+  };
+  for_each_force(state, [&](const Touch& at, Index p) {
+    const NodeGap gap = node_gap(at, x, on);
+    add_row(at, gap.gap_gradient, p);
+    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        if (unknowns[i] < 0 || unknowns[j] < 0) continue;
+        const double h = gap.gap_hessian(static_cast<Index>(i), static_cast<Index>(j));
+        if (h != 0.0)
+          out.K.coeffRef(std::max(unknowns[i], unknowns[j]), std::min(unknowns[i], unknowns[j])) -= state.x[p] * h;
+      }
+  });
+  const Index moments = size - 2 * m;
+  for (Index k = 0; k < m; ++k) {
+    const Touch at = touch(on, static_cast<std::size_t>(k));
+    add_row(at, node_gap(at, x, on).tilt_gradient, moments + k);
+  }
+}
+
+void SlidingContact::lay_out(const State& state, Linearization& out) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const SparseMatrix& inner = out.inner->K;
+  const Index n = inner.cols(), m = border_width(state.piece), core = state.x.size() - m;
+  std::vector<std::vector<Index>> behind(static_cast<std::size_t>(n));  // multipliers that touch each unknown
+  const auto touches = [&](const Touch& at, Index row) {
+    for (const Index unknown : on.mesh().node_unknowns(at.run, at.position))
+      if (unknown >= 0) behind[static_cast<std::size_t>(unknown)].push_back(row);
+  };
+  for_each_force(state, touches);
+  for (Index k = 0; k < m; ++k) touches(touch(on, static_cast<std::size_t>(k)), core - m + k);
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  entries.reserve(static_cast<std::size_t>(inner.nonZeros() + 4 * core));
+  for (Index column = 0; column < n; ++column) {
+    for (SparseMatrix::InnerIterator it(inner, column); it; ++it) entries.emplace_back(it.row(), column, 0.0);
+    for (const Index row : behind[static_cast<std::size_t>(column)]) entries.emplace_back(row, column, 0.0);
+  }
+  for (Index i = n; i < core; ++i) entries.emplace_back(i, i, 0.0);
+  out.K.resize(core, core);
+  out.K.setFromTriplets(entries.begin(), entries.end());
+  out.K.makeCompressed();
+  out.zero.clear();
+  for (Index k = 0; k < m; ++k) out.zero.push_back(core - m + k);
+  out.pattern_of = state.piece;
+}
+
+double SlidingContact::energy(const State& state) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  return on.mesh().energy(on.x_of(state), on.s_of(state), state.lambda);
+}
+
+// The second variation of contact at a point that slides: p v vᵀ / g″, v the derivative of g′. With v = λ ∂tilt and
+// g″ = λ (κ − λ κ̂) the spring on the tilt is p λ / (κ − λ κ̂). Where the body lies on the wall, the tilt is held.
+Vector SlidingContact::border_springs(const State& state) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  Vector springs = Vector::Zero(border_width(state.piece));
+  for (Index k = 0; k < springs.size(); ++k) {
+    const auto point = static_cast<std::size_t>(k);
+    if (on.lies_beside(point)) springs[k] = infinity;
+    if (on.lies_beside(point) || !state.piece[point]) continue;
+    const CurvatureGap gap = curvature_gap(state, point);
+    constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
+    const double p = std::max(0.0, state.x[*multiplier_index(state.piece, k)]);
+    springs[k] = gap.value * scales_.length > touching ? p * gap.stretch / gap.value : infinity;
+  }
+  return springs;
+}
+
+// --- guards ---------------------------------------------------------------------------------------------------------
+
+Index SlidingContact::guard_count(const Piece& piece) const {
+  return static_cast<Index>(piece.size() + layout(piece).limits().size());
+}
+
+Vector SlidingContact::guards(const State& state) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  Vector guards(guard_count(state.piece));
+  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+    const Touch at = touch(on, j);
+    if (state.piece[j]) {
+      guards[static_cast<Index>(j)] = state.x[*multiplier_index(state.piece, static_cast<Index>(j))] / scales_.force;
+    } else {
+      const double gap = face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state)));
+      guards[static_cast<Index>(j)] = std::isfinite(gap) ? gap / scales_.length : 1.0;
+    }
+  }
+  for (std::size_t l = 0; l < on.limits().size(); ++l)
+    guards[static_cast<Index>(state.piece.size() + l)] = limit_value(state, l);
+  return guards;
+}
+
+Row SlidingContact::guard_gradient(const State& state, Index j) const {
+  const auto contacts = static_cast<Index>(state.piece.size());
+  if (j >= contacts) return limit_gradient(state, static_cast<std::size_t>(j - contacts));
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (const auto p = multiplier_index(state.piece, j)) {
+    row.dx[*p] = 1.0 / scales_.force;
+    return row;
+  }
+  const SlidingContactLayout& on = layout(state.piece);
+  const Touch at = touch(on, static_cast<std::size_t>(j));
+  const Vector x = on.x_of(state);
+  if (!std::isfinite(face_gap(at, on.mesh().node(at.run, at.position, x)))) return row;
+  const NodeGap gap = node_gap(at, x, on);
+  const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (unknowns[i] >= 0) row.dx[unknowns[i]] = gap.gap_gradient[static_cast<Index>(i)] / scales_.length;
+  return row;
+}
+
+std::vector<Index> SlidingContact::weak_guards(const State& state, double tolerance) const {
+  const Vector now = guards(state);
+  std::vector<Index> weak;
+  for (Index j = 0; j < static_cast<Index>(state.piece.size()); ++j)
+    if (std::abs(now[j]) <= tolerance) weak.push_back(j);
+  return weak;
+}
+
+Vector SlidingContact::unit_force(const State& state, Index j) const {
+  return guard_gradient(state, j).dx * scales_.length * scales_.force;
+}
+
+Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {
+  const Index n = layout(from).mesh().unknowns();
+  const Index rest = x.size() - n - from.closed_count();
+  Vector moved = Vector::Zero(n + to.closed_count() + rest);
+  moved.head(n) = x.head(n);
+  moved.tail(rest) = x.tail(rest);
+  Index source = n, target = n;
+  for (std::size_t j = 0; j < to.size(); ++j) {
+    if (from[j] && to[j]) moved[target] = x[source];
+    source += from[j] ? 1 : 0;
+    target += to[j] ? 1 : 0;
+  }
+  return moved;
+}
+
+std::optional<std::string> SlidingContact::obstruction(const State& state) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Vector x = on.x_of(state);
+  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+    const Touch at = touch(on, j);
+    if (state.piece[j] && !std::isfinite(face_gap(at, on.mesh().node(at.run, at.position, x)))) return "wall_end";
+  }
+  return std::nullopt;
+}
+
+ContactLabel SlidingContact::label(const State& state, Index j) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Touch at = touch(on, static_cast<std::size_t>(j));
+  const auto [member, fraction] =
+      body_.label({.run = at.run, .s = on.mesh().coordinate(at.run, at.position, on.s_of(state))});
+  return {.wall = obstacles_[at.obstacle].name, .member = member, .fraction = fraction};
+}
+
+Vec2 SlidingContact::place(const State& state, Index j) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Touch at = touch(on, static_cast<std::size_t>(j));
+  const AxisPlace place = on.mesh().node(at.run, at.position, on.x_of(state));
+  const double offset = std::cos(place.angle) >= 0.0 ? at.offset : -at.offset;
+  return place.position + offset * normal(place.angle);
+}
+
+double SlidingContact::force(const State& state, Index j) const {
+  const auto p = multiplier_index(state.piece, j);
+  return p ? state.x[*p] : 0.0;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/candidate.hpp"
+#include "contact/multiplier_contact.hpp"
+#include "core/sliding_body.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// A rigid surface that slender members may touch.
+struct Obstacle {
+  std::string name{};
+  std::shared_ptr<const Profile> profile{};
+  Side side = Side::above;
+  bool on_face = true;               ///< contact of the members' faces, or of their axes
+  std::vector<std::uint8_t> runs{};  ///< per run whether it concerns it
+};
+
+class SlidingContactLayout;
+
+/// A body of slender members among obstacles, with contact where it is: the material coordinates s of the contact
+/// points are unknowns, and the mesh moves with them (docs/theory.md, section 8).
+///
+///     F(x, s, λ) − Σ p_k ∇g_k − Σ m_k ∇t_k = 0,   −g_k = 0 (closed),   −t_k = 0,   m_k = 0
+///
+/// g is the gap, t the angle between the body and the wall, p ≥ 0 the contact force; m, a moment that holds the
+/// tangency, vanishes. Tracked points are closed, or open and follow a least gap. Unknowns: x, p, m, s.
+///
+/// Between two closed points on one wall the body may lie on the wall: straight and without pressure, or with nodes
+/// that are held on the wall, where wall or body are curved so that they press.
+class SlidingContact final : public System {
+ public:
+  /// `body` must outlive this.
+  SlidingContact(const SlidingBody& body, std::vector<Obstacle> obstacles, const ContactScales& scales);
+
+  Index size(const Piece& piece) const override;
+  void residual(const State& state, Eigen::Ref<Vector> F) const override;
+  void linearize(const State& state, Linearization& out) const override;
+  double energy(const State& state) const override;
+  Vector weights(const Piece& piece) const override;
+  Piece open_piece() const override { return open_; }
+  Index multiplier_count(const Piece& piece) const override;
+  Index border_width(const Piece& piece) const override;
+  Vector border_springs(const State& state) const override;
+
+  Index guard_count(const Piece& piece) const override;
+  Vector guards(const State& state) const override;
+  Row guard_gradient(const State& state, Index j) const override;
+  std::vector<Index> weak_guards(const State& state, double tolerance) const override;
+  Vector unit_force(const State& state, Index j) const override;
+  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
+  double multiplier_scale() const override { return scales_.force; }
+  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
+  std::vector<Passage> passages(const State& state, const Direction& forward, Index limit,
+                                double tolerance) const override;
+  bool admissible(const State& state, double margin) const override;
+  std::optional<Passage> refined(const State& from, const Direction& forward, const State& to,
+                                 double margin) const override;
+  Piece settled(const State& state) const override;
+  std::optional<std::string> obstruction(const State& state) const override;
+
+  /// The stress-free state, all contacts open.
+  State rest() const;
+
+  /// Where contact j of a piece is, and its force.
+  ContactLabel label(const State& state, Index j) const;
+  Vec2 place(const State& state, Index j) const;
+  double force(const State& state, Index j) const;
+
+  /// The least gap at `places` points of each element against every obstacle, flat parts included [length].
+  double least_gap(const State& state, int places) const;
+
+  const ContactScales& scales() const { return scales_; }
+  const SlidingBody& body() const { return body_; }
+  const std::vector<Obstacle>& obstacles() const { return obstacles_; }
+
+ private:
+  // A body's node against an obstacle: gap, angle to the wall, and their derivatives by x, z and rotation.
+  struct NodeGap {
+    double gap, tilt;
+    Eigen::Vector3d gap_gradient, tilt_gradient;
+    Eigen::Matrix3d gap_hessian;
+  };
+  // A node that touches or may touch.
+  struct Touch {
+    Index run, position;
+    std::size_t obstacle;
+    double offset;
+  };
+  // How much more the wall bends towards the body than the body does: > 0 where contact is at a point [1/length].
+  struct CurvatureGap {
+    double value = 0.0, stretch = 1.0;
+    Vector dx{}, ds{};
+    double dlambda = 0.0;
+  };
+  // A place where the gap is least.
+  struct Minimum {
+    std::size_t obstacle = 0;
+    MaterialPoint at{};
+    double gap = 0.0;
+  };
+  using Map = std::function<State(const State&)>;
+
+  const SlidingContactLayout& layout(const Piece& piece) const;
+  Touch touch(const SlidingContactLayout& on, std::size_t j) const;
+  double normal_offset(std::size_t obstacle, Index run) const;
+  double face_gap(const Touch& touch, const AxisPlace& place) const;
+  NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
+  CurvatureGap curvature_gap(const State& state, std::size_t k) const;
+  double pressure(const State& state, std::size_t k) const;
+  double wall_curvature(const State& state, std::size_t k) const;
+  template <typename Visit>
+  void for_each_force(const State& state, const Visit& visit) const;
+  void lay_out(const State& state, Linearization& out) const;
+
+  Index held_force(const State& state, std::size_t node) const;
+  double limit_value(const State& state, std::size_t limit) const;
+  Row limit_gradient(const State& state, std::size_t limit) const;
+  template <typename Visit>
+  void for_each_minimum(const State& state, bool everywhere, const Visit& visit) const;
+  std::optional<Minimum> deepest(const State& state, double margin) const;
+
+  struct Redrawn;
+  State redrawn(const State& state, const Redrawn& by) const;
+  Passage remeshed(const State& state, const Direction& forward, const Map& map) const;
+  std::vector<Passage> spreads(const State& state, std::size_t k) const;
+  enum class Lying { flat, pressed, off };
+  Passage spread(const State& state, std::size_t k, Lying lying, double length) const;
+  Passage gathered(const State& state, std::size_t k) const;
+  Passage without(const State& state, const Direction& forward, std::size_t k) const;
+  Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;
+  double least_span(Index run) const;
+
+  const SlidingBody& body_;
+  std::vector<Obstacle> obstacles_;
+  ContactScales scales_;
+  struct Tied {  // a free end of a run, which may touch though no tangent does
+    Index run;
+    bool last;
+    std::size_t obstacle;
+  };
+  std::vector<Tied> tied_;
+  Piece open_;
+};
+
+}  // namespace arcwall

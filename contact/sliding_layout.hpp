@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/sliding_body.hpp"
+
+namespace arcwall {
+
+/// What the unknowns of sliding contact mean: the mesh, which of its breakpoints touch what, where the body lies on a
+/// wall between two of them, and what bounds the piece besides.
+class SlidingContactLayout final : public SlidingLayout {
+ public:
+  /// How the body runs on behind a point.
+  enum class Span {
+    free,     ///< off the wall, or to the end
+    flat,     ///< on the wall up to the next point, straight and without pressure
+    pressed,  ///< on the wall up to the next point; the nodes between are held
+  };
+
+  /// A tracked point: one a breakpoint of the mesh.
+  struct Point {
+    std::size_t obstacle = 0;
+    Span behind = Span::free;
+  };
+
+  /// A node inside a pressed part, which is a segment.
+  struct Held {
+    Index run, position;
+    std::size_t obstacle, segment;
+  };
+
+  /// A stretch between breakpoints; −1: the end of the run.
+  struct Segment {
+    Index run, first_point, last_point;
+    int elements;
+    Span span;
+  };
+
+  /// What bounds a piece besides gaps and forces.
+  enum class Bound {
+    curvature,  ///< of point `which`: a point contact becomes a line, or a least gap vanishes
+    length,     ///< of the span behind point `which`: a line becomes a point
+    coarse,     ///< of segment `which`: more elements are needed
+    fine,       ///< fewer
+    half_wave,  ///< of the flat segment `which`: long enough to need elements of its own
+    straight,   ///< short enough to need none
+    room,       ///< of segment `which`: a contact reaches the end of its member, or one on another wall
+    pressure,   ///< of the held node `which`
+  };
+  struct Limit {
+    Bound bound;
+    std::size_t which;
+  };
+
+  /// `s` where the layout begins: meshes that are too fine from the start are let be.
+  SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh, std::vector<Point> points,
+                       const Vector& s);
+
+  const SlidingMesh& mesh() const override { return *mesh_; }
+  const std::shared_ptr<const SlidingMesh>& shared_mesh() const { return mesh_; }
+  const std::vector<Point>& points() const { return points_; }
+  const std::vector<Held>& held() const { return held_; }
+  const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<Limit>& limits() const { return limits_; }
+
+  Vector x_of(const State& state) const { return state.x.head(mesh_->unknowns()); }
+  Vector s_of(const State& state) const { return state.x.tail(mesh_->breakpoints()); }
+
+  /// Whether the body lies on the wall on one side of a point.
+  bool lies_beside(std::size_t point) const;
+
+  /// Material coordinates of a segment's ends.
+  std::pair<double, double> ends(const SlidingBody& body, const Segment& segment, const Vector& s) const;
+
+ private:
+  std::shared_ptr<const SlidingMesh> mesh_;
+  std::vector<Point> points_;
+  std::vector<Held> held_;
+  std::vector<Segment> segments_;
+  std::vector<Limit> limits_;
+};
+
+/// Sizes of elements, relative to those asked for, at which a segment is meshed anew.
+constexpr double coarsest = 1.25, finest = 0.25;
+
+}  // namespace arcwall

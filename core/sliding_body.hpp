@@ -1,0 +1,140 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// A place on a run of slender members, by the arc length along its stress-free axis.
+struct MaterialPoint {
+  Index run = 0;
+  double s = 0.0;
+};
+
+/// How the runs of a body are meshed: per run the number of elements of each segment. k breakpoints make k + 1
+/// segments.
+using Cut = std::vector<std::vector<int>>;
+
+/// Where a point of the axis is, and the direction of the axis there.
+struct AxisPlace {
+  Vec2 position{};
+  double angle = 0.0;  ///< of the tangent, continuous along the run [rad]
+};
+
+/// Curvature and stretch of the axis just before a breakpoint, with their derivatives.
+struct AxisStrain {
+  double curvature = 0.0;  ///< d angle / d stress-free arc length [1/length]
+  double stretch = 1.0;    ///< d deformed arc length / d stress-free arc length
+  Vector curvature_dx{}, curvature_ds{};
+  Vector stretch_dx{}, stretch_ds{};
+  double curvature_dlambda = 0.0, stretch_dlambda = 0.0;  ///< of loads along the element
+};
+
+/// Unknowns of a node in x: x and z of its position, and its rotation; −1 where a support holds it.
+using NodeUnknowns = std::array<Index, 3>;
+
+/// A mesh of a body between breakpoints that may move along it. Equilibrium of its nodes depends on where they are, x,
+/// and on the breakpoints' material coordinates s: F(x, s, λ). Immutable.
+///
+/// x holds positions and angles, not displacements: what is tied to a breakpoint's node then does not depend on s.
+class SlidingMesh {
+ public:
+  virtual ~SlidingMesh() = default;
+
+  virtual const Cut& cut() const = 0;
+  virtual Index unknowns() const = 0;
+
+  /// s has as many entries, run by run in ascending order.
+  virtual Index breakpoints() const = 0;
+
+  /// Weights of the squared norm of x in the path metric.
+  virtual const Vector& weights() const = 0;
+
+  virtual void residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const = 0;
+
+  /// F, K, F_λ and, as columns of B, ∂F/∂s; `pattern_of` is left alone.
+  virtual void linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const = 0;
+
+  virtual double energy(const Vector& x, const Vector& s, double lambda) const = 0;
+
+  // --- geometry: the nodes of a run have positions 0 … n along it ------------------------------------------------
+
+  virtual Index nodes(Index run) const = 0;
+  virtual double coordinate(Index run, Index position, const Vector& s) const = 0;
+  virtual NodeUnknowns node_unknowns(Index run, Index position) const = 0;
+  virtual AxisPlace node(Index run, Index position, const Vector& x) const = 0;
+
+  /// Run and position of breakpoint k.
+  virtual std::pair<Index, Index> breakpoint(Index k) const = 0;
+
+  /// Just before breakpoint k.
+  virtual AxisStrain strain(Index k, const Vector& x, const Vector& s, double lambda) const = 0;
+
+  /// Any place, by interpolation consistent with the elements.
+  virtual AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
+
+  /// Derivatives of x, z and angle of a place: rows by x, rows by s.
+  struct PlaceGradient {
+    Eigen::Matrix<double, 3, Eigen::Dynamic> dx{}, ds{};
+  };
+  virtual PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
+
+  /// A place inside the element behind a node, at a fraction of the element.
+  virtual AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const = 0;
+
+  /// The same shape on another mesh of the body.
+  virtual Vector transferred(const Vector& x, const Vector& s, const SlidingMesh& to, const Vector& s_to) const = 0;
+};
+
+/// The layout of a state on such a mesh: x of the mesh stands first in State::x, s last.
+class SlidingLayout : public Layout {
+ public:
+  virtual const SlidingMesh& mesh() const = 0;
+};
+
+inline const SlidingMesh& mesh_of(const State& state) {
+  return static_cast<const SlidingLayout&>(*state.piece.layout()).mesh();
+}
+
+/// A structure of slender members that can be meshed in many ways.
+class SlidingBody {
+ public:
+  virtual ~SlidingBody() = default;
+
+  virtual Index runs() const = 0;
+  virtual double length(Index run) const = 0;
+
+  /// Half the height of the sections [length]; 0 for contact on the axis.
+  virtual double half_height(Index run) const = 0;
+
+  /// Number of elements that a stretch of a run asks for, not rounded.
+  virtual double elements_between(Index run, double from, double to) const = 0;
+
+  /// Curvature of the stress-free axis at a place [1/length].
+  virtual double natural_curvature(const MaterialPoint& point) const = 0;
+
+  virtual double bending_stiffness(Index run) const = 0;  ///< EI [force·length²]
+  virtual double axial_stiffness(Index run) const = 0;    ///< EA [force]
+
+  /// Load along a run [force per stress-free length].
+  virtual Vec2 load(Index run, double lambda) const = 0;
+
+  /// Whether a support holds the end of a run in z.
+  virtual bool end_is_held(Index run, bool last) const = 0;
+
+  /// Words for messages: member and fraction of its length.
+  virtual std::pair<std::string, double> label(const MaterialPoint& point) const = 0;
+
+  virtual std::shared_ptr<const SlidingMesh> mesh(const Cut& cut) const = 0;
+
+  /// The unknowns of a mesh in the stress-free state.
+  virtual Vector rest(const SlidingMesh& mesh, const Vector& s) const = 0;
+
+  virtual double length_scale() const = 0;
+  virtual double force_scale() const = 0;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+
+#include "elements/chord_frame.hpp"
+#include "elements/element.hpp"
+#include "elements/slender_beam.hpp"
+
+namespace arcwall {
+
+/// Order of convergence of an elastica element: its angle is quadratic or cubic along the axis.
+enum class ElasticaOrder { four, six };
+
+/// Extensible elastica by a mixed element: the angle along the axis and a constant force vector, from which the axial
+/// force follows; what of them the ends do not determine is eliminated inside (docs/theory.md, section 2.5).
+///
+/// Unknowns as in ClassicBeam. Where the inner Newton iteration finds no state (bends far above those of a sensible
+/// mesh), energy and derivatives are NaN.
+class ElasticaBeam final : public Element, public SlenderBeam {
+ public:
+  ElasticaBeam(const StretchReference& stretch, double EA, double EI, ElasticaOrder order);
+
+  int unknown_count() const override { return 6; }
+  double evaluate(const double* u, double* f, double* K) const override;
+
+  void respond(const BeamEnds& ends, bool with_rates, BeamResponse& out) const override;
+
+  /// Between the ends positions have order 4 or 5, angles 3 or 4.
+  BeamPlace place(const BeamEnds& ends, double xi) const override;
+
+ private:
+  static constexpr std::size_t points = 7;  // of Gauss's rule along the axis
+
+  using Coefficients = Eigen::Matrix<double, 5, 1>;
+  struct Potential;
+  struct Solution;
+
+  // Of the stress-free state by a material coordinate.
+  struct Rate {
+    double length = 0.0, chord = 0.0;
+    Coefficients angle = Coefficients::Zero();
+    double along = 0.0, across = 0.0;  // ∫ sin θ⁰ θ⁰′ and ∫ cos θ⁰ θ⁰′, θ⁰′ the rate of the angle
+  };
+
+  using InnerGradient = Eigen::Matrix<double, 4, 3>;
+  Potential potential(const ChordMotion& at, const Eigen::Vector4d& inner) const;
+  Eigen::Vector4d first_guess(const ChordMotion& at) const;
+  Solution solve(const ChordMotion& at) const;
+  Solution condensed(const ChordMotion& at, const Eigen::Vector4d& inner, const Potential& potential,
+                     const InnerGradient& minus_gradient) const;
+  Eigen::Vector3d slope_rate(const ChordMotion& at, const Solution& solution, const Rate& rest) const;
+
+  RestChord rest_;
+  double length_;  // h, of the stress-free axis
+  double EA_, EI_;
+  bool cubic_;
+  Coefficients angle_;                        // coefficients of the stress-free angle against its chord
+  std::array<double, points> cosine_, sine_;  // of that angle at the points
+  std::array<Rate, 2> rates_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+
+#include "core/types.hpp"
+#include "elements/axis.hpp"
+
+namespace arcwall {
+
+/// A stretch of a member's stress-free axis between two material coordinates S1 < S2 (arc length of the axis without
+/// imperfection), with derivatives: index 0 by S1, 1 by S2.
+struct StretchReference {
+  static constexpr int samples = 4;  ///< angles at 0, ⅓, ⅔ and 1 of its length
+
+  double length = 0.0;                   ///< of the axis between them, imperfection included [length]
+  Vec2 chord = Vec2::Zero();             ///< from the first end to the second [length]
+  std::array<double, samples> angles{};  ///< of the axis' tangent, continuous [rad]
+  std::array<double, 2> length_rate{};
+  std::array<Vec2, 2> chord_rate{Vec2::Zero(), Vec2::Zero()};
+  std::array<std::array<double, samples>, 2> angle_rate{};
+};
+
+/// The stretch between two points of a member's stress-free shape.
+StretchReference stretch_reference(const ImperfectAxis& shape, double from, double to);
+
+/// Where the two ends of a beam element are: all that its energy depends on.
+struct BeamEnds {
+  Vec2 chord = Vec2::Zero();          ///< from the first end to the second, now [length]
+  double angle1 = 0.0, angle2 = 0.0;  ///< of the axis' tangent at the ends, now; any winding number [rad]
+};
+
+/// Energy of a beam element and its derivatives in q = (chord.x, chord.y, angle1, angle2).
+struct BeamResponse {
+  double energy = 0.0;
+  Eigen::Vector4d force = Eigen::Vector4d::Zero();      ///< ∂U/∂q
+  Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();  ///< ∂²U/∂q²
+  /// ∂force/∂S1 and ∂force/∂S2 at fixed q.
+  std::array<Eigen::Vector4d, 2> force_rate{Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero()};
+};
+
+/// A place inside an element.
+struct BeamPlace {
+  Vec2 offset = Vec2::Zero();  ///< from the first end [length]
+  double angle = 0.0;          ///< of the tangent, with the winding number of angle1 [rad]
+  Eigen::Matrix<double, 2, 4> offset_gradient = Eigen::Matrix<double, 2, 4>::Zero();  ///< by q
+  Eigen::RowVector4d angle_gradient = Eigen::RowVector4d::Zero();                     ///< by q
+};
+
+/// Unshearable beam between two material points, by where they are: the form in which the points may slide along the
+/// member.
+class SlenderBeam {
+ public:
+  virtual ~SlenderBeam() = default;
+
+  /// Energy, force and stiffness; `force_rate` too if asked for.
+  virtual void respond(const BeamEnds& ends, bool with_rates, BeamResponse& out) const = 0;
+
+  /// The place at a fraction ξ ∈ [0, 1] of the stretch's length, consistent with the ends at 0 and 1. It is the
+  /// fraction of S2 − S1 as well where there is no imperfection.
+  virtual BeamPlace place(const BeamEnds& ends, double xi) const = 0;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,799 @@
+#include "elements/sliding_structure.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/assembly.hpp"
+#include "elements/classic_beam.hpp"
+#include "elements/distributed_load.hpp"
+#include "elements/elastica_beam.hpp"
+
+namespace arcwall {
+
+namespace {
+
+Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
+Vec2 tangent(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+constexpr Index held = -1;
+
+}  // namespace
+
+/// The mesh of one cut. Elements are numbered along the runs; each lies between two places that are fixed or move with
+/// breakpoints.
+class SlidingStructureMesh final : public SlidingMesh {
+ public:
+  SlidingStructureMesh(const SlidingStructure& structure, Cut cut);
+
+  const Cut& cut() const override { return cut_; }
+  Index unknowns() const override { return assembly_.pattern().cols(); }
+  Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
+  const Vector& weights() const override { return weights_; }
+  void residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const override;
+  void linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const override;
+  double energy(const Vector& x, const Vector& s, double lambda) const override;
+
+  Index nodes(Index run) const override { return mesh_of(run).elements + 1; }
+  double coordinate(Index run, Index position, const Vector& s) const override;
+  NodeUnknowns node_unknowns(Index run, Index position) const override;
+  AxisPlace node(Index run, Index position, const Vector& x) const override;
+  std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
+  AxisStrain strain(Index k, const Vector& x, const Vector& s, double lambda) const override;
+  AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
+  PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
+  AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const override;
+  Vector transferred(const Vector& x, const Vector& s, const SlidingMesh& to, const Vector& s_to) const override;
+
+  Index unknown(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
+
+  SlidingStructure::Reaction reaction(const Vector& x, const Vector& s, double lambda, Index freedom) const;
+
+ private:
+  // A place that is fixed, or moves: S = constant + Σ weight_j s_j over two breakpoints at most.
+  struct Coordinate {
+    double constant = 0.0;
+    std::array<Index, 2> breakpoint{held, held};
+    std::array<double, 2> weight{};
+
+    double at(const Vector& s) const {
+      double S = constant;
+      for (std::size_t j = 0; j < 2; ++j)
+        if (breakpoint[j] != held) S += weight[j] * s[breakpoint[j]];
+      return S;
+    }
+  };
+  struct MeshedRun {
+    Index first_element = 0, elements = 0;
+    Index first_inner = 0;  // unknown of the first inner node
+    std::vector<Coordinate> nodes{};
+  };
+  // Where the ends of an element are, and the load that it carries with them.
+  struct Ends {
+    Vec2 first, second;
+    double angle1, angle2;
+    BeamEnds between() const { return {.chord = second - first, .angle1 = angle1, .angle2 = angle2}; }
+  };
+
+  const MeshedRun& mesh_of(Index run) const { return runs_[static_cast<std::size_t>(run)]; }
+  Coordinate interpolated(Index a, Index b, double length, double r) const;
+  Ends ends(Index run, Index position, const Vector& x) const;
+  double anchor(Index freedom, const Vector& x) const;
+  StretchReference reference(Index run, Index position, const Vector& s) const;
+  Index element_at(const MaterialPoint& point, const Vector& s) const;
+
+  using Six = StretchLoad::Vector6;
+  using SixBySix = StretchLoad::Matrix6;
+  // Of an element and the load along it, in x1, z1, angle1, x2, z2, angle2.
+  struct Response {
+    double energy = 0.0;
+    Six force{}, force_lambda = Six::Zero();
+    SixBySix stiffness{};
+    std::array<Six, 2> force_rate{};
+  };
+  Response respond(Index run, Index position, const Vector& x, const Vector& s, double lambda, bool with_rates) const;
+
+  // visit(beam) with the beam of an element, by value.
+  template <typename Visit>
+  void with_beam(Index run, Index position, const Vector& s, const Visit& visit) const;
+  template <typename Visit>
+  void for_each_rate(Index run, Index position, const Response& response, const Visit& visit) const;
+
+  const SlidingStructure& structure_;
+  Cut cut_;
+  std::vector<std::pair<Index, Index>> breakpoints_;
+  std::vector<MeshedRun> runs_;
+  std::vector<Index> unknown_of_freedom_;  // of the anchors
+  std::vector<Index> freedom_of_unknown_;  // −1 for inner nodes
+  BlockAssembly assembly_{0, {}};
+  Vector weights_;
+};
+
+namespace {
+
+double box_diagonal(const std::vector<Vec2>& points) {
+  Eigen::AlignedBox2d box;
+  for (const Vec2& point : points) box.extend(point);
+  return box.diagonal().norm();
+}
+
+// By ∂(chord, angle1, angle2)/∂(x1, z1, angle1, x2, z2, angle2).
+StretchLoad::Vector6 spread(const Eigen::Vector4d& q) {
+  StretchLoad::Vector6 f;
+  f << -q[0], -q[1], q[2], q[0], q[1], q[3];
+  return f;
+}
+
+StretchLoad::Matrix6 spread(const Eigen::Matrix4d& Q) {
+  Eigen::Matrix<double, 4, 6> T = Eigen::Matrix<double, 4, 6>::Zero();
+  T(0, 0) = T(1, 1) = -1.0;
+  T(0, 3) = T(1, 4) = T(2, 2) = T(3, 5) = 1.0;
+  return T.transpose() * Q * T;
+}
+
+}  // namespace
+
+SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, Cut cut)
+    : structure_(structure), cut_(std::move(cut)) {
+  assert(static_cast<Index>(cut_.size()) == structure.runs());
+  Index unknowns = 0, first_element = 0, first_breakpoint = 0, node_count = 0, rotations = 0;
+  unknown_of_freedom_.assign(structure.freedoms_.size(), held);
+  const auto number_anchor = [&](const SlidingStructure::End& end) {
+    for (const Index freedom : end.freedom) {
+      Index& unknown = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
+      if (structure.held_[static_cast<std::size_t>(freedom)] || unknown != held) continue;
+      unknown = unknowns++;
+      freedom_of_unknown_.push_back(freedom);
+    }
+  };
+  for (Index r = 0; r < structure.runs(); ++r) {
+    const SlidingStructure::Run& run = structure.at(r);
+    const std::vector<int>& segments = cut_[static_cast<std::size_t>(r)];
+    MeshedRun meshed{.first_element = first_element};
+    number_anchor(run.ends[0]);
+    const auto last_segment = static_cast<Index>(segments.size()) - 1;
+    for (Index segment = 0; segment <= last_segment; ++segment) {
+      const int n = segments[static_cast<std::size_t>(segment)];
+      assert(n >= 1);
+      const Index a = segment == 0 ? held : first_breakpoint + segment - 1;
+      const Index b = segment == last_segment ? held : first_breakpoint + segment;
+      for (int i = 0; i < n; ++i) meshed.nodes.push_back(interpolated(a, b, run.length, double(i) / n));
+      meshed.elements += n;
+      if (b != held) breakpoints_.emplace_back(r, meshed.elements);
+    }
+    meshed.nodes.push_back({.constant = run.length});
+    first_breakpoint += last_segment;
+    first_element += meshed.elements;
+    meshed.first_inner = unknowns;
+    unknowns += 3 * (meshed.elements - 1);
+    freedom_of_unknown_.resize(static_cast<std::size_t>(unknowns), held);
+    number_anchor(run.ends[1]);
+    node_count += meshed.elements + 1;
+    rotations += meshed.elements + 1;
+    runs_.push_back(std::move(meshed));
+  }
+  std::vector<std::vector<Index>> blocks;
+  for (Index r = 0; r < structure.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) {
+      const NodeUnknowns first = node_unknowns(r, e), second = node_unknowns(r, e + 1);
+      blocks.push_back({first[0], first[1], first[2], second[0], second[1], second[2]});
+    }
+  assembly_ = BlockAssembly(unknowns, blocks);
+
+  // Means over all nodes, held ones included: they count as zeros.
+  const double L = structure.length_scale_;
+  weights_ = Vector::Constant(unknowns, 1.0 / (double(node_count) * L * L));
+  for (Index r = 0; r < structure.runs(); ++r)
+    for (Index i = 0; i < nodes(r); ++i)
+      if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = 1.0 / double(rotations);
+}
+
+SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(Index a, Index b, double length, double r) const {
+  Coordinate place;
+  if (a != held) {
+    place.breakpoint[0] = a;
+    place.weight[0] = 1.0 - r;
+  }
+  if (b != held) {
+    place.breakpoint[1] = b;
+    place.weight[1] = r;
+  } else {
+    place.constant = r * length;
+  }
+  return place;
+}
+
+double SlidingStructureMesh::coordinate(Index run, Index position, const Vector& s) const {
+  return mesh_of(run).nodes[static_cast<std::size_t>(position)].at(s);
+}
+
+NodeUnknowns SlidingStructureMesh::node_unknowns(Index run, Index position) const {
+  const MeshedRun& meshed = mesh_of(run);
+  if (position > 0 && position < meshed.elements) {
+    const Index first = meshed.first_inner + 3 * (position - 1);
+    return {first, first + 1, first + 2};
+  }
+  const auto& freedom = structure_.at(run).ends[position == 0 ? 0 : 1].freedom;
+  return {unknown(freedom[0]), unknown(freedom[1]), unknown(freedom[2])};
+}
+
+// Position or rotation of a joint's freedom.
+double SlidingStructureMesh::anchor(Index freedom, const Vector& x) const {
+  if (const Index i = unknown(freedom); i != held) return x[i];
+  const Structure::Meaning& meaning = structure_.freedoms_[static_cast<std::size_t>(freedom)];
+  const Vec2& position = structure_.positions_[static_cast<std::size_t>(meaning.node)];
+  switch (meaning.freedom) {
+    case Freedom::x:
+      return position.x();
+    case Freedom::z:
+      return position.y();
+    case Freedom::rotation:
+      return 0.0;
+  }
+  return 0.0;
+}
+
+AxisPlace SlidingStructureMesh::node(Index run, Index position, const Vector& x) const {
+  const MeshedRun& meshed = mesh_of(run);
+  if (position > 0 && position < meshed.elements) {
+    const Index first = meshed.first_inner + 3 * (position - 1);
+    return {.position = {x[first], x[first + 1]}, .angle = x[first + 2]};
+  }
+  const SlidingStructure::Run& described = structure_.at(run);
+  const auto& end = described.ends[position == 0 ? 0 : 1];
+  return {.position = {anchor(end.freedom[0], x), anchor(end.freedom[1], x)},
+          .angle = end.angle + anchor(end.freedom[2], x)};
+}
+
+SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index run, Index position, const Vector& x) const {
+  const AxisPlace a = node(run, position, x), b = node(run, position + 1, x);
+  return {.first = a.position, .second = b.position, .angle1 = a.angle, .angle2 = b.angle};
+}
+
+StretchReference SlidingStructureMesh::reference(Index run, Index position, const Vector& s) const {
+  const SlidingStructure::Run& described = structure_.at(run);
+  return stretch_reference(*described.shape, described.offset + coordinate(run, position, s),
+                           described.offset + coordinate(run, position + 1, s));
+}
+
+template <typename Visit>
+void SlidingStructureMesh::with_beam(Index run, Index position, const Vector& s, const Visit& visit) const {
+  const SlidingStructure::Run& described = structure_.at(run);
+  const StretchReference stretch = reference(run, position, s);
+  const double EA = described.section.EA(), EI = described.section.EI();
+  if (described.theory == Theory::elastica) {
+    visit(ElasticaBeam(stretch, EA, EI, described.order == 6 ? ElasticaOrder::six : ElasticaOrder::four));
+  } else {
+    visit(ClassicBeam(stretch, EA, EI));
+  }
+}
+
+SlidingStructureMesh::Response SlidingStructureMesh::respond(Index run, Index position, const Vector& x,
+                                                             const Vector& s, double lambda, bool with_rates) const {
+  const SlidingStructure::Run& described = structure_.at(run);
+  const Ends at = ends(run, position, x);
+  BeamResponse beam_response;
+  with_beam(run, position, s, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
+  Response out{.energy = beam_response.energy,
+               .force = spread(beam_response.force),
+               .stiffness = spread(beam_response.stiffness),
+               .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
+  if (described.load.isZero() && described.constant_load.isZero()) return out;
+  const StretchReference stretch = reference(run, position, s);
+  const auto add = [&](const Vec2& load, double factor) {
+    const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
+    out.energy += factor * response.energy;
+    out.force += factor * response.force;
+    out.stiffness += factor * response.stiffness;
+    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
+    return response.force;
+  };
+  out.force_lambda = add(described.load, lambda);
+  add(described.constant_load, 1.0);
+  return out;
+}
+
+// visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
+template <typename Visit>
+void SlidingStructureMesh::for_each_rate(Index run, Index position, const Response& response,
+                                         const Visit& visit) const {
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Coordinate& place = mesh_of(run).nodes[static_cast<std::size_t>(position) + end];
+    for (std::size_t j = 0; j < 2; ++j)
+      if (place.breakpoint[j] != held && place.weight[j] != 0.0)
+        visit(place.breakpoint[j], Six(place.weight[j] * response.force_rate[end]));
+  }
+}
+
+void SlidingStructureMesh::residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const {
+  F.setZero();
+  for (Index i = 0; i < F.size(); ++i)
+    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
+      F[i] = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) {
+      const Six f = respond(r, e, x, s, lambda, false).force;
+      const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held) F[to[i]] += f[static_cast<Index>(i)];
+    }
+}
+
+void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const {
+  const Index n = unknowns(), m = breakpoints();
+  if (out.K.cols() != n || !out.pattern_of) out.K = assembly_.pattern();
+  std::fill(out.K.valuePtr(), out.K.valuePtr() + out.K.nonZeros(), 0.0);
+  out.F.setZero(n);
+  out.F_lambda.setZero(n);
+  out.B.setZero(n, m);
+  for (Index i = 0; i < n; ++i)
+    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held) {
+      out.F_lambda[i] = -structure_.load_[freedom];
+      out.F[i] = lambda * out.F_lambda[i] - structure_.constant_load_[freedom];
+    }
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) {
+      const Response response = respond(r, e, x, s, lambda, m > 0);
+      const Index block = mesh_of(r).first_element + e;
+      const auto to = assembly_.unknowns(block);
+      for (std::size_t i = 0; i < 6; ++i) {
+        if (to[i] == held) continue;
+        out.F[to[i]] += response.force[static_cast<Index>(i)];
+        out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
+      }
+      assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
+      for_each_rate(r, e, response, [&](Index k, const Six& rate) {
+        for (std::size_t i = 0; i < 6; ++i)
+          if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];
+      });
+    }
+}
+
+double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lambda) const {
+  double energy = 0.0;
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, x, s, lambda, false).energy;
+  for (Index i = 0; i < unknowns(); ++i)
+    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
+      energy -= (lambda * structure_.load_[freedom] + structure_.constant_load_[freedom]) *
+                structure_.value(*this, x, freedom);
+  return energy;
+}
+
+// The element before the breakpoint: its end moment M, loads included, and the force along the axis N there.
+//
+//   curvature = κ₀ + M/EI,   stretch = 1 + N/EA,   N = f·t
+AxisStrain SlidingStructureMesh::strain(Index k, const Vector& x, const Vector& s, double lambda) const {
+  const auto [run, position] = breakpoint(k);
+  const Index e = position - 1, n = unknowns(), m = breakpoints();
+  const SlidingStructure::Run& described = structure_.at(run);
+  const double EA = described.section.EA(), EI = described.section.EI();
+  const Response response = respond(run, e, x, s, lambda, true);
+  const Vec2 t = tangent(node(run, position, x).angle);
+  const double S = coordinate(run, position, s), step = 1e-5 * described.length;
+  const auto natural = [&](double place) { return structure_.natural_curvature({.run = run, .s = place}); };
+  const auto force = response.force.segment<2>(3);
+  AxisStrain strain{.curvature = natural(S) + response.force[5] / EI, .stretch = 1.0 + force.dot(t) / EA};
+
+  const Six curvature_dx = response.stiffness.col(5) / EI;
+  Six stretch_dx = response.stiffness.middleCols<2>(3) * t / EA;
+  stretch_dx[5] += force.dot(perp(t)) / EA;
+  strain.curvature_dx = strain.stretch_dx = Vector::Zero(n);
+  strain.curvature_ds = strain.stretch_ds = Vector::Zero(m);
+  const auto to = assembly_.unknowns(mesh_of(run).first_element + e);
+  for (std::size_t i = 0; i < 6; ++i)
+    if (to[i] != held) {
+      strain.curvature_dx[to[i]] += curvature_dx[static_cast<Index>(i)];
+      strain.stretch_dx[to[i]] += stretch_dx[static_cast<Index>(i)];
+    }
+  for_each_rate(run, e, response, [&](Index j, const Six& rate) {
+    strain.curvature_ds[j] += rate[5] / EI;
+    strain.stretch_ds[j] += rate.segment<2>(3).dot(t) / EA;
+  });
+  strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
+  strain.curvature_dlambda = response.force_lambda[5] / EI;
+  strain.stretch_dlambda = response.force_lambda.segment<2>(3).dot(t) / EA;
+  return strain;
+}
+
+Index SlidingStructureMesh::element_at(const MaterialPoint& point, const Vector& s) const {
+  const auto& places = mesh_of(point.run).nodes;
+  Index low = 0, high = static_cast<Index>(places.size()) - 1;
+  while (high - low > 1) {
+    const Index middle = (low + high) / 2;
+    (places[static_cast<std::size_t>(middle)].at(s) <= point.s ? low : high) = middle;
+  }
+  return low;
+}
+
+AxisPlace SlidingStructureMesh::place(const MaterialPoint& point, const Vector& x, const Vector& s) const {
+  const Index e = element_at(point, s);
+  const double S1 = coordinate(point.run, e, s), S2 = coordinate(point.run, e + 1, s);
+  return inside(point.run, e, (point.s - S1) / (S2 - S1), x, s);
+}
+
+AxisPlace SlidingStructureMesh::inside(Index run, Index position, double fraction, const Vector& x,
+                                       const Vector& s) const {
+  if (fraction <= 0.0) return node(run, position, x);
+  if (fraction >= 1.0) return node(run, position + 1, x);
+  const Ends at = ends(run, position, x);
+  AxisPlace place;
+  with_beam(run, position, s, [&](const auto& beam) {
+    const BeamPlace local = beam.place(at.between(), fraction);
+    place = {.position = at.first + local.offset, .angle = local.angle};
+  });
+  return place;
+}
+
+SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPoint& point, const Vector& x,
+                                                                const Vector& s) const {
+  const Index e = element_at(point, s), m = breakpoints();
+  const double S1 = coordinate(point.run, e, s), S2 = coordinate(point.run, e + 1, s);
+  PlaceGradient gradient;
+  gradient.dx.setZero(3, unknowns());
+  gradient.ds.setZero(3, m);
+  const Ends at = ends(point.run, e, x);
+  const auto to = assembly_.unknowns(mesh_of(point.run).first_element + e);
+  with_beam(point.run, e, s, [&](const auto& beam) {
+    const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
+    for (int row = 0; row < 3; ++row) {
+      StretchLoad::Vector6 d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
+      if (row < 2) d[row] += 1.0;
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held) gradient.dx(row, to[i]) += d[static_cast<Index>(i)];
+    }
+  });
+  // By s the mesh moves under the place: differences, as the element may be another one.
+  for (Index k = 0; k < m; ++k) {
+    const double step = 1e-6 * structure_.at(point.run).length;
+    Vector forward = s, backward = s;
+    forward[k] += step;
+    backward[k] -= step;
+    const AxisPlace a = place(point, x, forward), b = place(point, x, backward);
+    gradient.ds.col(k) << (a.position - b.position) / (2.0 * step), (a.angle - b.angle) / (2.0 * step);
+  }
+  return gradient;
+}
+
+Vector SlidingStructureMesh::transferred(const Vector& x, const Vector& s, const SlidingMesh& to,
+                                         const Vector& s_to) const {
+  Vector moved(to.unknowns());
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index i = 0; i < to.nodes(r); ++i) {
+      const NodeUnknowns unknowns = to.node_unknowns(r, i);
+      const bool first = i == 0, last = i + 1 == to.nodes(r);
+      if (first || last) {
+        const auto& freedom = structure_.at(r).ends[first ? 0 : 1].freedom;
+        for (std::size_t j = 0; j < 3; ++j)
+          if (unknowns[j] != held) moved[unknowns[j]] = anchor(freedom[j], x);
+      } else {
+        const AxisPlace at = place({.run = r, .s = to.coordinate(r, i, s_to)}, x, s);
+        moved[unknowns[0]] = at.position.x();
+        moved[unknowns[1]] = at.position.y();
+        moved[unknowns[2]] = at.angle;
+      }
+    }
+  return moved;
+}
+
+SlidingStructure::Reaction SlidingStructureMesh::reaction(const Vector& x, const Vector& s, double lambda,
+                                                          Index freedom) const {
+  SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
+  if (unknown(freedom) != held) return reaction;
+  reaction.value = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
+  reaction.dlambda = -structure_.load_[freedom];
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto& freedoms = structure_.at(r).ends[end].freedom;
+      const auto here = std::find(freedoms.begin(), freedoms.end(), freedom);
+      if (here == freedoms.end()) continue;
+      const Index row = (end == 0 ? 0 : 3) + static_cast<Index>(here - freedoms.begin());
+      const Index e = end == 0 ? 0 : mesh_of(r).elements - 1;
+      const Response response = respond(r, e, x, s, lambda, true);
+      reaction.value += response.force[row];
+      reaction.dlambda += response.force_lambda[row];
+      const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held) reaction.dx[to[i]] += response.stiffness(row, static_cast<Index>(i));
+      for_each_rate(r, e, response, [&](Index k, const Six& rate) { reaction.ds[k] += rate[row]; });
+    }
+  return reaction;
+}
+
+double SlidingStructure::elements_between(Index run, double from, double to) const {
+  double count = 0.0;
+  for (const Part& part : at(run).parts)
+    count += std::max(0.0, std::min(to, part.to) - std::max(from, part.from)) * part.elements / (part.to - part.from);
+  return count;
+}
+
+double SlidingStructure::natural_curvature(const MaterialPoint& point) const {
+  const Run& run = runs_[static_cast<std::size_t>(point.run)];
+  const DeviatedPoint place = run.shape->along(run.offset + std::clamp(point.s, 0.0, run.length));
+  return place.turning / place.speed;
+}
+
+std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& point) const {
+  const std::vector<Part>& parts = at(point.run).parts;
+  const auto holds = [&](const Part& part) { return point.s <= part.to; };
+  auto part = std::find_if(parts.begin(), parts.end(), holds);
+  if (part == parts.end()) --part;
+  const double t = (point.s - part->from) / (part->to - part->from);
+  return {part->member, part->first_fraction + t * (part->last_fraction - part->first_fraction)};
+}
+
+MaterialPoint SlidingStructure::find(const std::string& member, double fraction) const {
+  for (Index r = 0; r < runs(); ++r)
+    for (const Part& part : at(r).parts)
+      if (part.member == member && fraction <= part.last_fraction && fraction >= part.first_fraction) {
+        const double t = (fraction - part.first_fraction) / (part.last_fraction - part.first_fraction);
+        return {.run = r, .s = part.from + t * (part.to - part.from)};
+      }
+  assert(false);
+  return {};
+}
+
+AxisPlace SlidingStructure::undeformed(const MaterialPoint& point, bool imperfect) const {
+  const Run& run = at(point.run);
+  const AxisPoint place = imperfect ? run.shape->at(run.offset + point.s) : run.axis->at(run.offset + point.s);
+  return {.position = place.position, .angle = place.angle};
+}
+
+std::shared_ptr<const SlidingMesh> SlidingStructure::mesh(const Cut& cut) const {
+  return std::make_shared<SlidingStructureMesh>(*this, cut);
+}
+
+Vector SlidingStructure::rest(const SlidingMesh& mesh, const Vector& s) const {
+  Vector x = Vector::Zero(mesh.unknowns());
+  for (Index r = 0; r < runs(); ++r)
+    for (Index i = 0; i < mesh.nodes(r); ++i) {
+      const NodeUnknowns unknowns = mesh.node_unknowns(r, i);
+      const bool inner = i > 0 && i + 1 < mesh.nodes(r);
+      const AxisPlace place = undeformed({.run = r, .s = mesh.coordinate(r, i, s)}, true);
+      const auto set = [&](std::size_t which, double value) {
+        if (unknowns[which] >= 0) x[unknowns[which]] = value;
+      };
+      // Joints are where they were put, free of the axis' round-off; their rotations start from zero.
+      const Vec2 position = inner
+                                ? place.position
+                                : positions_[static_cast<std::size_t>(
+                                      freedoms_[static_cast<std::size_t>(at(r).ends[i == 0 ? 0 : 1].freedom[0])].node)];
+      set(0, position.x());
+      set(1, position.y());
+      set(2, inner ? place.angle : 0.0);
+    }
+  return x;
+}
+
+std::optional<Index> SlidingStructure::unknown(const SlidingMesh& mesh, Index freedom) const {
+  const Index i = static_cast<const SlidingStructureMesh&>(mesh).unknown(freedom);
+  return i == held ? std::nullopt : std::optional(i);
+}
+
+double SlidingStructure::value(const SlidingMesh& mesh, const Vector& x, Index freedom) const {
+  const auto i = unknown(mesh, freedom);
+  if (!i) return 0.0;
+  const Structure::Meaning& meaning = freedoms_[static_cast<std::size_t>(freedom)];
+  const Vec2& position = positions_[static_cast<std::size_t>(meaning.node)];
+  switch (meaning.freedom) {
+    case Freedom::x:
+      return x[*i] - position.x();
+    case Freedom::z:
+      return x[*i] - position.y();
+    case Freedom::rotation:
+      return x[*i];
+  }
+  return 0.0;
+}
+
+SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, const Vector& x, const Vector& s,
+                                                      double lambda, Index freedom) const {
+  return static_cast<const SlidingStructureMesh&>(mesh).reaction(x, s, lambda, freedom);
+}
+
+bool StructureBuilder::can_slide() const {
+  return std::all_of(descriptions_.begin(), descriptions_.end(), [](const MemberDescription& member) {
+    return member.theory == Theory::classic || member.theory == Theory::elastica;
+  });
+}
+
+// A member is cut into runs where a load acts inside it; runs that continue each other straight are joined again.
+std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
+                                                                  const SlidingStructure::Alike& alike) const {
+  auto structure = std::unique_ptr<SlidingStructure>(new SlidingStructure());
+  structure->positions_ = positions_;
+  structure->first_freedom_ = first_freedom_;
+  structure->freedoms_ = freedoms_;
+  structure->held_ = held_;
+  structure->length_scale_ = box_diagonal(positions_);
+  const double L = structure->length_scale_;
+  structure->load_ = structure->constant_load_ = Vector::Zero(static_cast<Index>(freedoms_.size()));
+  const auto acts = [&](LoadKind kind) { return !ramp || kind == LoadKind::constant; };
+  const auto proportional = [&](LoadKind kind) { return ramp || kind == LoadKind::proportional; };
+  std::vector<bool> loaded(positions_.size(), false);
+  for (const Load& load : loads_) {
+    const Structure::Meaning& meaning = freedoms_[static_cast<std::size_t>(load.freedom)];
+    if (load.value != 0.0) loaded[static_cast<std::size_t>(meaning.node)] = true;
+    if (!acts(load.kind)) continue;
+    (proportional(load.kind) ? structure->load_ : structure->constant_load_)[load.freedom] += load.value;
+    if (proportional(load.kind))
+      structure->force_scale_ =
+          std::max(structure->force_scale_, std::abs(load.value) / (meaning.freedom == Freedom::rotation ? L : 1.0));
+  }
+
+  for (std::size_t m = 0; m < descriptions_.size(); ++m) {
+    const MemberDescription& member = descriptions_[m];
+    const MemberMesh& mesh = meshes_[m];
+    SlidingStructure::Run run{.axis = member.axis,
+                              .shape = std::make_shared<ImperfectAxis>(*member.axis, member.imperfection),
+                              .perfect = member.imperfection.empty(),
+                              .theory = member.theory,
+                              .order = member.order,
+                              .section = member.section};
+    for (const DistributedLoad& load : distributed_loads_) {
+      if (load.member != static_cast<Index>(m) || !acts(load.kind)) continue;
+      (proportional(load.kind) ? run.load : run.constant_load) += load.load;
+      if (proportional(load.kind))
+        structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
+    }
+    const auto end_at = [&](std::size_t node) {
+      return SlidingStructure::End{.freedom = {freedom(mesh.nodes[node], Freedom::x),
+                                               freedom(mesh.nodes[node], Freedom::z), *mesh.rotations[node]},
+                                   .angle = mesh.shape[node].angle};
+    };
+    const auto last = mesh.nodes.size() - 1;
+    std::size_t from = 0;
+    for (std::size_t to = 1; to <= last; ++to) {
+      if (to < last && !loaded[static_cast<std::size_t>(mesh.nodes[to])]) continue;
+      SlidingStructure::Run part = run;
+      part.offset = member.axis->length() * mesh.fraction(from);
+      part.length = member.axis->length() * mesh.fraction(to) - part.offset;
+      part.parts = {{.member = member.name,
+                     .from = 0.0,
+                     .to = part.length,
+                     .first_fraction = mesh.fraction(from),
+                     .last_fraction = mesh.fraction(to),
+                     .elements = double(to - from)}};
+      part.ends = {end_at(from), end_at(to)};
+      structure->runs_.push_back(std::move(part));
+      from = to;
+    }
+  }
+  structure->join_straight_runs(loaded, alike);
+  return structure;
+}
+
+// Runs a and b that meet at a joint where nothing else acts, both straight, perfect and of one section, become one.
+void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded, const Alike& alike) {
+  const auto node_of = [&](const End& end) { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; };
+  const auto straight = [](const Run& run) {
+    const double L = run.axis->length();
+    return run.perfect && std::abs((run.axis->at(L).position - run.axis->at(0.0).position).norm() - L) <= 1e-12 * L;
+  };
+  const auto ends_at = [&](Index node) {
+    Index count = 0;
+    for (const Run& run : runs_)
+      for (const End& end : run.ends) count += node_of(end) == node;
+    return count;
+  };
+  const auto continues = [&](const Run& a, const Run& b) {
+    const End &end = a.ends[1], &next = b.ends[0];
+    const Index node = node_of(end);
+    const bool free = std::none_of(end.freedom.begin(), end.freedom.end(),
+                                   [&](Index f) { return held_[static_cast<std::size_t>(f)]; });
+    return end.freedom == next.freedom && free && ends_at(node) == 2 && !loaded[static_cast<std::size_t>(node)] &&
+           straight(a) && straight(b) && std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory &&
+           a.order == b.order && a.section.E == b.section.E && a.section.A == b.section.A &&
+           a.section.I == b.section.I && a.section.height == b.section.height && a.load == b.load &&
+           a.constant_load == b.constant_load && (!alike || alike(a.parts.back().member, b.parts.front().member));
+  };
+  for (bool joined = true; joined;) {
+    joined = false;
+    for (std::size_t a = 0; a < runs_.size() && !joined; ++a)
+      for (std::size_t b = 0; b < runs_.size() && !joined; ++b) {
+        if (a == b || !continues(runs_[a], runs_[b])) continue;
+        const AxisPlace from = undeformed({.run = static_cast<Index>(a), .s = 0.0}, false);
+        const AxisPlace to = undeformed({.run = static_cast<Index>(b), .s = runs_[b].length}, false);
+        for (Part part : runs_[b].parts) {
+          part.from += runs_[a].length;
+          part.to += runs_[a].length;
+          runs_[a].parts.push_back(part);
+        }
+        runs_[a].axis = straight_axis(from.position, to.position);
+        runs_[a].shape = std::make_shared<ImperfectAxis>(*runs_[a].axis, std::vector<SineDeviation>{});
+        runs_[a].offset = 0.0;
+        runs_[a].length = runs_[a].axis->length();
+        runs_[a].ends[1] = runs_[b].ends[1];
+        runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(b));
+        joined = true;
+      }
+  }
+}
+
+PlaceObservable::PlaceObservable(const SlidingStructure& structure, const MaterialPoint& point,
+                                 MemberObservable::Component component)
+    : point_(point), component_(component) {
+  using Component = MemberObservable::Component;
+  if (component == Component::face_above_z) offset_ = structure.half_height(point.run);
+  if (component == Component::face_below_z) offset_ = -structure.half_height(point.run);
+  const AxisPlace perfect = structure.undeformed(point, false);
+  switch (component) {
+    case Component::x:
+      origin_ = perfect.position.x();
+      break;
+    case Component::z:
+    case Component::face_above_z:
+    case Component::face_below_z:
+      origin_ = perfect.position.y() + offset_ * normal(perfect.angle).y();
+      break;
+    case Component::rotation:
+      origin_ = perfect.angle;
+      break;
+  }
+}
+
+double PlaceObservable::value(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const AxisPlace at = mesh.place(point_, state.x.head(mesh.unknowns()), state.x.tail(mesh.breakpoints()));
+  switch (component_) {
+    case MemberObservable::Component::x:
+      return at.position.x() - origin_;
+    case MemberObservable::Component::z:
+    case MemberObservable::Component::face_above_z:
+    case MemberObservable::Component::face_below_z:
+      return at.position.y() + offset_ * normal(at.angle).y() - origin_;
+    case MemberObservable::Component::rotation:
+      return at.angle - origin_;
+  }
+  return 0.0;
+}
+
+Row PlaceObservable::gradient(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
+  const auto gradient = mesh.place_gradient(point_, x, s);
+  Eigen::RowVector3d row = Eigen::RowVector3d::Zero();
+  switch (component_) {
+    case MemberObservable::Component::x:
+      row[0] = 1.0;
+      break;
+    case MemberObservable::Component::z:
+    case MemberObservable::Component::face_above_z:
+    case MemberObservable::Component::face_below_z:
+      row[1] = 1.0;
+      row[2] = -offset_ * std::sin(mesh.place(point_, x, s).angle);
+      break;
+    case MemberObservable::Component::rotation:
+      row[2] = 1.0;
+      break;
+  }
+  Row result{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  result.dx.head(x.size()) = (row * gradient.dx).transpose();
+  result.dx.tail(s.size()) = (row * gradient.ds).transpose();
+  return result;
+}
+
+double JointObservable::value(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const Vector x = state.x.head(mesh.unknowns());
+  if (what_ == What::motion) return structure_.value(mesh, x, freedom_);
+  return structure_.reaction(mesh, x, state.x.tail(mesh.breakpoints()), state.lambda, freedom_).value;
+}
+
+Row JointObservable::gradient(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (what_ == What::motion) {
+    if (const auto i = structure_.unknown(mesh, freedom_)) row.dx[*i] = 1.0;
+    return row;
+  }
+  const auto reaction = structure_.reaction(mesh, state.x.head(mesh.unknowns()), state.x.tail(mesh.breakpoints()),
+                                            state.lambda, freedom_);
+  row.dx.head(mesh.unknowns()) = reaction.dx;
+  row.dx.tail(mesh.breakpoints()) = reaction.ds;
+  row.dlambda = reaction.dlambda;
+  return row;
+}
+
+}  // namespace arcwall

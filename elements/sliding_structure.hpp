@@ -1,0 +1,142 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/observable.hpp"
+#include "core/sliding_body.hpp"
+#include "elements/member_point.hpp"
+
+namespace arcwall {
+
+class SlidingStructureMesh;
+
+/// Slender beams between joints, supports and dead loads, to be meshed with breakpoints that move. Built by
+/// StructureBuilder::build_sliding().
+///
+/// Members that continue each other straight at a joint without support, load or hinge are one run: a breakpoint passes
+/// such a joint without notice. Loads inside a member end runs, too.
+class SlidingStructure final : public SlidingBody {
+ public:
+  /// Whether two members, by name, may be parts of one run.
+  using Alike = std::function<bool(const std::string&, const std::string&)>;
+
+  Index runs() const override { return static_cast<Index>(runs_.size()); }
+  double length(Index run) const override { return at(run).length; }
+  double half_height(Index run) const override { return 0.5 * at(run).section.height.value_or(0.0); }
+  double elements_between(Index run, double from, double to) const override;
+  double natural_curvature(const MaterialPoint& point) const override;
+  double bending_stiffness(Index run) const override { return at(run).section.EI(); }
+  double axial_stiffness(Index run) const override { return at(run).section.EA(); }
+  Vec2 load(Index run, double lambda) const override { return lambda * at(run).load + at(run).constant_load; }
+  bool end_is_held(Index run, bool last) const override {
+    return held_[static_cast<std::size_t>(at(run).ends[last ? 1 : 0].freedom[1])];
+  }
+  std::pair<std::string, double> label(const MaterialPoint& point) const override;
+  std::shared_ptr<const SlidingMesh> mesh(const Cut& cut) const override;
+  Vector rest(const SlidingMesh& mesh, const Vector& s) const override;
+  double length_scale() const override { return length_scale_; }
+  double force_scale() const override { return force_scale_; }
+
+  /// The place of a member at a fraction of its length.
+  MaterialPoint find(const std::string& member, double fraction) const;
+
+  /// Stress-free place and direction of the axis, with or without imperfection.
+  AxisPlace undeformed(const MaterialPoint& point, bool imperfect) const;
+
+  /// What the unknown of a support's or a joint's freedom is; see StructureBuilder::freedom.
+  Index freedom(Index node, Freedom which) const {
+    return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
+  }
+
+  /// Displacement or rotation of a joint's freedom.
+  double value(const SlidingMesh& mesh, const Vector& x, Index freedom) const;
+  std::optional<Index> unknown(const SlidingMesh& mesh, Index freedom) const;
+
+  /// Force that a support exerts through a freedom it holds, with its derivatives in x, s and λ; 0 in one that is free.
+  struct Reaction {
+    double value = 0.0;
+    Vector dx{}, ds{};
+    double dlambda = 0.0;
+  };
+  Reaction reaction(const SlidingMesh& mesh, const Vector& x, const Vector& s, double lambda, Index freedom) const;
+
+ private:
+  friend class StructureBuilder;
+  friend class SlidingStructureMesh;
+
+  // A stretch of a run that is, or is part of, a member of the deck.
+  struct Part {
+    std::string member;
+    double from, to;                       // arc length along the run
+    double first_fraction, last_fraction;  // of the member
+    double elements;                       // that it asks for
+  };
+  // An end of a run: its freedoms x, z, rotation, and the stress-free angle.
+  struct End {
+    std::array<Index, 3> freedom{};
+    double angle = 0.0;
+  };
+  struct Run {
+    std::shared_ptr<const Axis> axis{};
+    std::shared_ptr<const ImperfectAxis> shape{};  // of the axis
+    bool perfect = true;
+    Theory theory = Theory::classic;
+    int order = 2;
+    Section section{};
+    double length = 0.0, offset = 0.0;  // of the run; where it begins on the axis
+    std::vector<Part> parts{};
+    std::array<End, 2> ends{};
+    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the run [force/length]
+  };
+
+  SlidingStructure() = default;
+  void join_straight_runs(const std::vector<bool>& loaded, const Alike& alike);
+  const Run& at(Index run) const { return runs_[static_cast<std::size_t>(run)]; }
+
+  std::vector<Run> runs_;
+  std::vector<Vec2> positions_;       // of the builder's nodes
+  std::vector<Index> first_freedom_;  // of the builder's nodes
+  std::vector<Structure::Meaning> freedoms_;
+  std::vector<bool> held_;
+  Vector load_, constant_load_;  // per freedom
+  double length_scale_ = 1.0, force_scale_ = 0.0;
+};
+
+/// What is read off a place of a member in a state whose layout is a SlidingLayout: as MemberObservable, but anywhere.
+class PlaceObservable final : public Observable {
+ public:
+  /// `structure` must outlive this.
+  PlaceObservable(const SlidingStructure& structure, const MaterialPoint& point, MemberObservable::Component component);
+
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
+
+ private:
+  MaterialPoint point_;
+  MemberObservable::Component component_;
+  double offset_ = 0.0;  // of a face from the axis [length]
+  double origin_ = 0.0;  // what is subtracted
+};
+
+/// Displacement or rotation of a joint's freedom, or what a support does to the structure through it, likewise.
+class JointObservable final : public Observable {
+ public:
+  enum class What { motion, reaction };
+
+  /// `structure` must outlive this.
+  JointObservable(const SlidingStructure& structure, Index freedom, What what)
+      : structure_(structure), freedom_(freedom), what_(what) {}
+
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
+
+ private:
+  const SlidingStructure& structure_;
+  Index freedom_;
+  What what_;
+};
+
+}  // namespace arcwall
