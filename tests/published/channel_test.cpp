@@ -45,17 +45,6 @@ double buckling_load(int n) {
   return 0.5 * 210.0 * (1.0 - std::sqrt(1.0 - 4.0 * euler / 210.0));
 }
 
-// The same kinds in the same order, with the same contacts, at the same λ.
-void expect_same_events(const std::vector<Event>& found, const std::vector<Event>& expected, double relative) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    EXPECT_EQ(found[i].kind, expected[i].kind) << "event " << i;
-    EXPECT_EQ(found[i].guards, expected[i].guards) << "event " << i;
-    EXPECT_NEAR(found[i].state.lambda, expected[i].state.lambda, relative * std::abs(expected[i].state.lambda))
-        << "event " << i;
-  }
-}
-
 }  // namespace
 
 // A half sine of 0.00176 touches the upper wall at 0.430656908534 with shortening 0.032101003206.
@@ -118,14 +107,14 @@ TEST(Channel, AnyStepAndAnyArcLengthMethodFindTheSameEventsSlow) {
   const auto expected = contact_events(trace(model.system(), until(10.0)));
   for (const double step : {0.005, 0.5}) {
     SCOPED_TRACE(step);
-    expect_same_events(contact_events(trace(model.system(), until(10.0, step))), expected, 1e-8);
+    test::expect_same_events(contact_events(trace(model.system(), until(10.0, step))), expected);
   }
   for (const PathMethod method :
        {PathMethod::riks, PathMethod::normal_plane, PathMethod::cylindrical, PathMethod::pseudo_arclength}) {
     SCOPED_TRACE(static_cast<int>(method));
     TraceOptions options = until(10.0);
     options.method = method;
-    expect_same_events(contact_events(trace(model.system(), options)), expected, 1e-8);
+    test::expect_same_events(contact_events(trace(model.system(), options)), expected);
   }
 }
 
@@ -133,7 +122,7 @@ TEST(Channel, UnitsDoNotMatterSlow) {
   const auto in_cm = test::Channel{.imperfection = test::snapping_imperfection()}.model();
   const auto in_m = test::Channel{.imperfection = test::snapping_imperfection(0.01), .cm = 0.01, .kN = 1000.0}.model();
   const auto expected = trace(in_cm.system(), until(10.0)), found = trace(in_m.system(), until(10.0));
-  expect_same_events(contact_events(found), contact_events(expected), 1e-9);
+  test::expect_same_events(contact_events(found), contact_events(expected), {.relative = 1e-9});
   const auto a = contact_events(expected), b = contact_events(found);
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
     EXPECT_NEAR(shortening(in_m, b[i].state), 0.01 * shortening(in_cm, a[i].state),

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/text.hpp"
 
 namespace arcwall::test {
@@ -43,6 +45,21 @@ Event only_event(const Branch& branch, EventKind kind) {
   const std::vector<Event> found = events_of(branch, kind);
   EXPECT_EQ(found.size(), 1U);
   return found.empty() ? Event{} : found.front();
+}
+
+void expect_same_events(const std::vector<Event>& found, const std::vector<Event>& expected, const SameEvents& how) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    SCOPED_TRACE("event " + std::to_string(i));
+    EXPECT_EQ(found[i].kind, expected[i].kind);
+    EXPECT_EQ(found[i].label, expected[i].label);
+    EXPECT_EQ(found[i].guards, expected[i].guards);
+    EXPECT_EQ(found[i].unstable_before, expected[i].unstable_before);
+    EXPECT_EQ(found[i].unstable_after, expected[i].unstable_after);
+    const bool turns = expected[i].kind == EventKind::displacement_limit;
+    const double lambda = expected[i].state.lambda, relative = turns ? how.at_displacement_limits : how.relative;
+    EXPECT_NEAR(found[i].state.lambda, lambda, relative * std::abs(lambda));
+  }
 }
 
 Landmark stop_at_lambda(double value) {

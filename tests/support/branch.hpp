@@ -29,6 +29,16 @@ std::vector<Event> events_of(const Branch& branch, EventKind kind);
 /// The event of this kind; fails the test if there is not exactly one.
 Event only_event(const Branch& branch, EventKind kind);
 
+/// How exactly two runs shall agree.
+struct SameEvents {
+  double relative = 1e-8;                ///< of λ
+  double at_displacement_limits = 1e-8;  ///< likewise, of their λ, which changes with the place at first order
+};
+
+/// The same kinds in the same order, with the same contacts, monitors and unstable counts, at the same λ.
+void expect_same_events(const std::vector<Event>& found, const std::vector<Event>& expected,
+                        const SameEvents& how = {});
+
 /// A bound of λ that ends the branch.
 Landmark stop_at_lambda(double value);
 

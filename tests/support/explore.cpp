@@ -1,5 +1,9 @@
 #include "tests/support/explore.hpp"
 
+#include <gtest/gtest.h>
+
+#include <string>
+
 namespace arcwall::test {
 
 Graph explore(const System& system, const TraceOptions& trace, const ExploreOptions& options, const State& start,
@@ -21,6 +25,19 @@ Graph explore(const System& system, const TraceOptions& trace, const ExploreOpti
 Graph explore(const System& system, const TraceOptions& trace, const ExploreOptions& options,
               const std::vector<Watch>& watched) {
   return explore(system, trace, options, rest(system), watched);
+}
+
+void expect_same_graphs(const Graph& found, const Graph& expected, const SameEvents& how) {
+  ASSERT_EQ(found.records.size(), expected.records.size());
+  for (std::size_t i = 0; i < found.records.size(); ++i) {
+    SCOPED_TRACE("branch " + std::to_string(i));
+    const BranchRecord &a = found.records[i], &b = expected.records[i];
+    EXPECT_EQ(a.parent, b.parent);
+    EXPECT_EQ(a.mirrored, b.mirrored);
+    EXPECT_EQ(found.branches[i].end.reason, expected.branches[i].end.reason);
+    EXPECT_EQ(found.branches[i].end.partner, expected.branches[i].end.partner);
+    expect_same_events(events_of(found.branches[i]), events_of(expected.branches[i]), how);
+  }
 }
 
 }  // namespace arcwall::test

@@ -19,4 +19,7 @@ Graph explore(const System& system, const TraceOptions& trace, const ExploreOpti
 Graph explore(const System& system, const TraceOptions& trace, const ExploreOptions& options,
               const std::vector<Watch>& watched = {});
 
+/// The same branches with the same origins, ends and events.
+void expect_same_graphs(const Graph& found, const Graph& expected, const SameEvents& how = {});
+
 }  // namespace arcwall::test

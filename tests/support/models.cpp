@@ -242,6 +242,19 @@ ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vect
                                                  ContactScales{.length = structure_->length_scale(), .force = force});
 }
 
+ContactModel foundation_beam(int elements) {
+  StructureBuilder builder;
+  const auto at = add_joints(builder, {{0.0, 0.0}, {2.0, 0.0}});
+  constexpr double h = 0.2;
+  const Section section{.E = 21000.0, .A = h * h, .I = h * h * h * h / 12.0, .height = h};
+  builder.add_member(beam_between(0, 1, straight_axis(at[0], at[1]), section, {}, elements));
+  fix(builder, 0);
+  builder.fix(builder.freedom(1, Freedom::z));
+  builder.add_load(builder.shared_rotation(0).value(), -1.0, LoadKind::proportional);
+  builder.add_load(builder.shared_rotation(1).value(), 1.0, LoadKind::proportional);
+  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(-0.18)}}, 0.05};
+}
+
 ContactModel Channel::model() const {
   StructureBuilder builder;
   const double h = 0.1 * cm;
