@@ -145,7 +145,7 @@ std::optional<State> Study::start(std::string& reason) const {
     return std::nullopt;
   }
   state.lambda = 0.0;
-  return state;
+  return sliding_ ? sliding_->adopted(state) : state;
 }
 
 Study::ContactPlace Study::contact_place(const State& state, Index j) const {

@@ -59,6 +59,15 @@ State SlidingContact::rest() const {
   return {.x = body_.rest(mesh, Vector()), .lambda = 0.0, .piece = open_};
 }
 
+State SlidingContact::adopted(const State& state) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const auto here =
+      std::make_shared<SlidingContactLayout>(body_, body_.mesh(on.mesh().cut()), on.points(), on.s_of(state));
+  State out{.x = state.x, .lambda = state.lambda, .piece = Piece(state.piece.size(), 0, here)};
+  for (std::size_t j = 0; j < state.piece.size(); ++j) out.piece[j] = state.piece[j];
+  return out;
+}
+
 // --- sizes and places in x: q, forces of closed contacts, forces of held nodes, moments, s ---------------------------
 
 Index SlidingContact::multiplier_count(const Piece& piece) const {

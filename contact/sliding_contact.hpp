@@ -67,6 +67,9 @@ class SlidingContact final : public System {
   /// The stress-free state, all contacts open.
   State rest() const;
 
+  /// The same state of this body, of one on another body that differs from it in its loads alone.
+  State adopted(const State& state) const;
+
   /// Where contact j of a piece is, and its force.
   ContactLabel label(const State& state, Index j) const;
   Vec2 place(const State& state, Index j) const;

@@ -21,6 +21,7 @@ SOURCE = Path(__file__).resolve().parent.parent
 SHOOTING = "shooting with Taylor series of order 24, 80 bit"
 CHECKED = SHOOTING + "; collocation agrees to 3e-11 in the limit loads"
 FIRST_INTEGRAL = "extensible elastica between its contacts, by its first integral"
+BETWEEN_CONTACTS = "extensible elastica between its contacts, by shooting and by quadrature of its first integral"
 IMPERFECT = "extensible elastica with the imperfection as its stress-free shape, by shooting"
 ENDED_EARLY = 3  # what was traced is written; such runs are marked on the page
 RUN_IS_USABLE = (0, ENDED_EARLY)
@@ -86,6 +87,27 @@ def meshes(members: dict, counts: list) -> dict:
     return result
 
 
+def perfect_channel(theory: str) -> Case:
+    """Every event of the column between walls, from its buckling to the opposite wall."""
+    events = [
+        ("buckling", load("branch-point"), 0.432686705811),
+        ("touch", load("contact-closes"), 0.435739888353),
+        ("shortening there", monitor("shortening", "contact-closes"), 0.032153206553),
+        ("the contact spreads to a line", load("contact-spreads"), 1.726295916538),
+        ("the flat part buckles", load("branch-point", 1), 7.003081493782),
+        ("shortening there", monitor("shortening", "branch-point", 1), 0.142961858290),
+        ("load at the least shortening", load("displacement-limit"), 6.214791656),
+        ("touch of the opposite wall", load("contact-closes", 1), 4.253608535128),
+        ("shortening there", monitor("shortening", "contact-closes", 1), 0.313645142120),
+        ("three contacts become lines (the end of the path)", load("end", -1), 14.8210269646),
+    ]
+    return Case(f"Perfect column in a channel, theory {theory}", "docs/validation/channel_perfect.toml",
+                meshes({"column": 1}, [10, 20, 40, 80]),
+                [Quantity(what, of, reference, BETWEEN_CONTACTS) for what, of, reference in events],
+                always=(f"member.column.theory='{theory}'",), note="Behind the last event lies a family of equilibria "
+                "of one load and energy, where the path ends.")
+
+
 def cases() -> list:
     EA, h, half_span = 1e5, 0.5, 5.0
     L = math.hypot(half_span, h)
@@ -148,6 +170,7 @@ def cases() -> list:
             Quantity("turn of the end at M₀ = 2.5", landed("turn", 2.5), 0.329610888261, FIRST_INTEGRAL),
         ], always=("contact.points='nodes'", "monitor=[{name='turn', at='right', component='rotation'}]", "path.land.lambda=[1.0, 2.5]",
                    "path.stop.lambda=[-1.0, 3.0]")),
+        *(perfect_channel(theory) for theory in ("classic", "elastica")),
         Case("Column in a channel, half sine of 0.00176 cm", "docs/validation/channel_half_sine.toml",
              meshes({"column": 1}, [20, 40, 80, 160]), [
             Quantity("load of the first touch", load("contact-closes"), 0.430656908534, IMPERFECT),

@@ -209,6 +209,27 @@ TEST(SlidingContact, GuardsAreGapsAndForcesInTheirScales) {
   EXPECT_DOUBLE_EQ(guards[1], system.force(state, 1) / system.scales().force);
 }
 
+// A path may begin where one on the same body under other loads has ended.
+TEST(SlidingContact, AdoptsStatesOfABodyUnderOtherLoads) {
+  Numbers numbers(77);
+  const auto walls = two_of(test::all_walls(false), 0);
+  StructureBuilder loaded = wavy_beam(false);
+  loaded.add_load(loaded.freedom(1, Freedom::z), 5.0, LoadKind::constant);
+  const SlidingModel from(wavy_beam(false), walls, 0.1), to(loaded, walls, 0.1);
+  const State state = random_state(from, piece_of(from, layouts()[3]), numbers);
+  const State adopted = to.system().adopted(state);
+  EXPECT_EQ(adopted.x, state.x);
+  EXPECT_EQ(adopted.lambda, state.lambda);
+  EXPECT_EQ(adopted.piece.closed_count(), state.piece.closed_count());
+  Vector before(state.x.size()), after(state.x.size());
+  from.system().residual(state, before);
+  to.system().residual(adopted, after);
+  const Index loaded_unknown = *to.structure().unknown(mesh_of(adopted), to.structure().freedom(1, Freedom::z));
+  EXPECT_NEAR(before[loaded_unknown] - after[loaded_unknown], 5.0, 1e-12);
+  after[loaded_unknown] = before[loaded_unknown];
+  EXPECT_EQ(before, after);
+}
+
 // Places where nodes sit are nodes; between them values and rates are those of the element's own interpolation. Rates
 // by s are differences of step 2e-6 of arc lengths that are sure to 1e-13.
 TEST(SlidingContact, PlacesMoveWithTheMeshConsistently) {
