@@ -208,7 +208,7 @@ TEST(SlidingContactPath, SlidesOffTheMiddle) {
   const auto found = limits(meshes, {touches, spreads, branches, touches, corner});
   ASSERT_EQ(found.size(), 5U);
   const auto place = [&](std::size_t mesh, std::size_t event) {
-    const State& state = meshes[mesh].events()[event].state;
+    const State state = meshes[mesh].events()[event].state;
     return state.x[state.x.size() - 1];
   };
   EXPECT_NEAR(place(2, 0), 0.9860, 1e-3);
