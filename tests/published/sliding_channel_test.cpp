@@ -126,7 +126,7 @@ TEST(SlidingChannelEvents, CountUnstableDirections) {
   ASSERT_EQ(found.branches.size(), 3U);
   EXPECT_EQ(test::events_of(found.branches)[0].branching->type, BranchType::symmetric);
   EXPECT_TRUE(found.branches[1].record.mirrored);
-  const Event& buckles = test::events_of(found.branches)[3];
+  const Event buckles = test::events_of(found.branches)[3];
   EXPECT_EQ(buckles.branching->type, BranchType::one_sided);
   EXPECT_EQ(buckles.branching->multiplicity, 1);
   bool lower = false;
