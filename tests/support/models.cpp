@@ -221,7 +221,20 @@ std::vector<Watch> PathModel::watched() const {
   return {{.quantity = displacement(*structure, loaded, Freedom::z), .label = "z"}};
 }
 
-ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step)
+namespace {
+
+// Half of each element that meets at a node.
+double tributary(const MemberMesh& mesh, std::size_t k) {
+  const auto half = [&](std::size_t a, std::size_t b) {
+    return 0.5 * (mesh.axis[b].position - mesh.axis[a].position).norm();
+  };
+  return (k > 0 ? half(k - 1, k) : 0.0) + (k + 1 < mesh.nodes.size() ? half(k, k + 1) : 0.0);
+}
+
+}  // namespace
+
+ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step,
+                           const ContactLaw& law)
     : structure_(std::move(structure)) {
   std::vector<Candidate> candidates;
   for (const TestWall& wall : walls)
@@ -232,17 +245,19 @@ ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vect
             wall.on_axis ? 0.0 : std::copysign(0.5 * mesh.height.value(), looks_up * std::cos(mesh.shape[k].angle));
         auto point = std::make_unique<MemberPoint>(*structure_, mesh, k, offset);
         if (point->unknowns().empty()) continue;
-        candidates.emplace_back(std::move(point), wall.profile, wall.side,
-                                ContactLabel{.wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k)});
+        candidates.emplace_back(
+            std::move(point), wall.profile, wall.side,
+            ContactLabel{
+                .wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k), .tributary = tributary(mesh, k)});
       }
   // Forces below the guard tolerance times this scale are zero: ten first steps, but above the mesh's round-off.
   const double force = std::max(10.0 * structure_->force_scale() * std::abs(first_step),
                                 structure_->force_roundoff() / TraceOptions{}.guard_tolerance);
-  contact_ = std::make_unique<MultiplierContact>(*structure_, std::move(candidates),
-                                                 ContactScales{.length = structure_->length_scale(), .force = force});
+  contact_ = std::make_unique<MultiplierContact>(
+      *structure_, std::move(candidates), ContactScales{.length = structure_->length_scale(), .force = force}, law);
 }
 
-ContactModel foundation_beam(int elements) {
+ContactModel foundation_beam(int elements, const ContactLaw& law) {
   StructureBuilder builder;
   const auto at = add_joints(builder, {{0.0, 0.0}, {2.0, 0.0}});
   constexpr double h = 0.2;
@@ -252,7 +267,7 @@ ContactModel foundation_beam(int elements) {
   builder.fix(builder.freedom(1, Freedom::z));
   builder.add_load(builder.shared_rotation(0).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(1).value(), 1.0, LoadKind::proportional);
-  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(-0.18)}}, 0.05};
+  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(-0.18)}}, 0.05, law};
 }
 
 ContactModel Channel::model() const {
@@ -274,7 +289,7 @@ ContactModel Channel::model() const {
   if (walls)
     both = {{.name = "upper", .side = Side::above, .profile = flat_profile(0.2 * cm)},
             {.name = "lower", .side = Side::below, .profile = flat_profile(-0.2 * cm)}};
-  return {builder.build(), both, first_step};
+  return {builder.build(), both, first_step, law};
 }
 
 std::vector<SineDeviation> snapping_imperfection(double cm) {
