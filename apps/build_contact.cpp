@@ -38,6 +38,14 @@ std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, std:
   return {up > 0.0 ? half : -half};
 }
 
+// Half of each element that meets at a node.
+double tributary(const MemberMesh& mesh, std::size_t k) {
+  const auto half = [&](std::size_t a, std::size_t b) {
+    return 0.5 * (mesh.axis[b].position - mesh.axis[a].position).norm();
+  };
+  return (k > 0 ? half(k - 1, k) : 0.0) + (k + 1 < mesh.nodes.size() ? half(k, k + 1) : 0.0);
+}
+
 bool concerns(const deck::Wall& wall, const std::string& member) {
   return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
 }
@@ -75,8 +83,9 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           if (std::any_of(taken.begin(), taken.end(), same)) continue;
           taken.emplace_back(mesh.nodes[k], place);
           const bool movable = !point->unknowns().empty();
-          Candidate candidate(std::move(point), profile, side,
-                              {.wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k)});
+          Candidate candidate(
+              std::move(point), profile, side,
+              {.wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k), .tributary = tributary(mesh, k)});
           const double gap = candidate.gap(rest);
           if (-gap > deepest.depth) deepest = {.depth = -gap, .label = candidate.label()};
           if (movable) candidates.push_back(std::move(candidate));
