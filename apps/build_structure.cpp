@@ -243,6 +243,9 @@ void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
         return "in z";
       case Freedom::rotation:
         return "in rotation";
+      case Freedom::thickness:
+      case Freedom::thickness2:
+        return "in thickness";
     }
     return "";
   }();

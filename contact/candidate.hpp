@@ -12,7 +12,8 @@ namespace arcwall {
 struct ContactLabel {
   std::string wall{};
   std::string member{};
-  double fraction = 0.0;  ///< of the member's arc length
+  double fraction = 0.0;   ///< of the member's arc length
+  double tributary = 0.0;  ///< length of axis that its force stands for; 0: a point force [length]
 };
 
 /// A gap with its derivatives in the tracked point's unknowns (sizes as in PointKinematics).

@@ -226,14 +226,16 @@ ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vect
   std::vector<Candidate> candidates;
   for (const TestWall& wall : walls)
     for (const MemberMesh& mesh : structure_->members())
-      for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+      for (const MemberSection& section : mesh.contact_sections()) {
         const double looks_up = wall.side == Side::above ? 1.0 : -1.0;
         const double offset =
-            wall.on_axis ? 0.0 : std::copysign(0.5 * mesh.height.value(), looks_up * std::cos(mesh.shape[k].angle));
-        auto point = std::make_unique<MemberPoint>(*structure_, mesh, k, offset);
+            wall.on_axis ? 0.0 : std::copysign(0.5 * mesh.height.value(), looks_up * std::cos(section.shape.angle));
+        auto point = std::make_unique<MemberPoint>(*structure_, section, offset);
         if (point->unknowns().empty()) continue;
-        candidates.emplace_back(std::move(point), wall.profile, wall.side,
-                                ContactLabel{.wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k)});
+        candidates.emplace_back(
+            std::move(point), wall.profile, wall.side,
+            ContactLabel{
+                .wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
       }
   // Forces below the guard tolerance times this scale are zero: ten first steps, but above the mesh's round-off.
   const double force = std::max(10.0 * structure_->force_scale() * std::abs(first_step),
