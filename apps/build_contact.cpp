@@ -29,21 +29,13 @@ std::shared_ptr<const Profile> make_profile(const deck::Wall& wall, Side side) {
 
 // Offsets from the axis of the points that may touch: 0, or the face whose normal looks at the wall; both of a section
 // that stands across it.
-std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, std::size_t k) {
+std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
   if (wall.acts_on == deck::ActsOn::axis) return {0.0};
-  const double up = std::cos(mesh.shape[k].angle) * (wall.side == deck::Side::above ? 1.0 : -1.0);
+  const double up = std::cos(section.shape.angle) * (wall.side == deck::Side::above ? 1.0 : -1.0);
   const double half = 0.5 * mesh.height.value();
   constexpr double level = 1e-9;
   if (std::abs(up) <= level) return {half, -half};
   return {up > 0.0 ? half : -half};
-}
-
-// Half of each element that meets at a node.
-double tributary(const MemberMesh& mesh, std::size_t k) {
-  const auto half = [&](std::size_t a, std::size_t b) {
-    return 0.5 * (mesh.axis[b].position - mesh.axis[a].position).norm();
-  };
-  return (k > 0 ? half(k - 1, k) : 0.0) + (k + 1 < mesh.nodes.size() ? half(k, k + 1) : 0.0);
 }
 
 bool concerns(const deck::Wall& wall, const std::string& member) {
@@ -73,19 +65,19 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
                      "member \"" + mesh.name + "\" is a truss and has no faces that turn", "use acts_on = \"axis\"");
         continue;
       }
-      for (std::size_t k = 0; k < mesh.nodes.size(); ++k)
-        for (const double offset : offsets(wall, mesh, k)) {
-          auto point = std::make_unique<MemberPoint>(structure, mesh, k, offset);
+      for (const MemberSection& section : mesh.contact_sections())
+        for (const double offset : offsets(wall, mesh, section)) {
+          auto point = std::make_unique<MemberPoint>(structure, section, offset);
           const Vec2 place = point->position(rest);
           const auto same = [&](const auto& other) {
-            return other.first == mesh.nodes[k] && (other.second - place).norm() <= 1e-12 * structure.length_scale();
+            return other.first == section.node && (other.second - place).norm() <= 1e-12 * structure.length_scale();
           };
           if (std::any_of(taken.begin(), taken.end(), same)) continue;
-          taken.emplace_back(mesh.nodes[k], place);
+          taken.emplace_back(section.node, place);
           const bool movable = !point->unknowns().empty();
           Candidate candidate(
               std::move(point), profile, side,
-              {.wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k), .tributary = tributary(mesh, k)});
+              {.wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
           const double gap = candidate.gap(rest);
           if (-gap > deepest.depth) deepest = {.depth = -gap, .label = candidate.label()};
           if (movable) candidates.push_back(std::move(candidate));

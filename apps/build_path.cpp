@@ -98,6 +98,12 @@ std::shared_ptr<const Observable> reaction(const Model& model, Index freedom) {
   return std::make_shared<ReactionObservable>(model.structure, freedom);
 }
 
+std::optional<Index> thickness_freedom(const ThicknessFreedoms& freedoms, deck::Component component) {
+  if (component == deck::Component::thickness) return freedoms.e;
+  if (component == deck::Component::thickness2) return freedoms.xi;
+  return std::nullopt;
+}
+
 // What a place's component is read from; null if the place has no such component.
 std::shared_ptr<const Observable> observable(const Model& model, const deck::Place& place, deck::Component component) {
   const Structure& structure = model.structure;
@@ -111,6 +117,10 @@ std::shared_ptr<const Observable> observable(const Model& model, const deck::Pla
         return reaction(model, *rotation);
     return nullptr;
   }
+  for (const End& end : at)
+    if (const auto thickness = end.mesh->section(end.position).thickness)
+      if (const auto freedom = thickness_freedom(*thickness, component))
+        return std::make_shared<FreedomObservable>(structure, *freedom);
   const auto wanted = member_component(component);
   if (!wanted) return nullptr;
   const bool turns = *wanted != Component::x && *wanted != Component::z;

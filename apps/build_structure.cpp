@@ -26,7 +26,7 @@ std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, co
   return std::visit(Maker{from, to}, member.axis);
 }
 
-std::optional<Theory> theory_of(const deck::Member& member, DeckProblems& problems) {
+Theory theory_of(const deck::Member& member) {
   switch (member.theory) {
     case deck::Theory::classic:
       return Theory::classic;
@@ -34,15 +34,22 @@ std::optional<Theory> theory_of(const deck::Member& member, DeckProblems& proble
       return Theory::elastica;
     case deck::Theory::exact:
       return Theory::exact;
+    case deck::Theory::essenburg:
+      return Theory::essenburg;
     case deck::Theory::truss:
       return Theory::truss;
-    case deck::Theory::essenburg:
-      problems.add(member.position, "member." + member.name + ".theory",
-                   "theory \"essenburg\" is not part of this version",
-                   "use \"classic\", \"elastica\", \"exact\" or \"truss\"");
-      return std::nullopt;
   }
-  return std::nullopt;
+  return Theory::classic;
+}
+
+QuadraticTerm quadratic_term(deck::Along along) {
+  switch (along) {
+    case deck::Along::fixed:
+      return QuadraticTerm::fixed;
+    case deck::Along::director:
+      return QuadraticTerm::director;
+  }
+  return QuadraticTerm::fixed;
 }
 
 TrussStrain strain_of(deck::Strain strain) {
@@ -74,13 +81,31 @@ double shear_correction(const deck::Section& section) {
   return section.shear_correction.value_or(std::visit(Correction{}, section.shape));
 }
 
+std::vector<SectionPoint> section_points(const deck::Section& section) {
+  struct Points {
+    std::vector<SectionPoint> operator()(const deck::Rectangle& of) const {
+      return rectangle_points(of.width, of.height);
+    }
+    std::vector<SectionPoint> operator()(const deck::Circle& of) const { return circle_points(of.radius); }
+    std::vector<SectionPoint> operator()(const deck::Tube& of) const { return tube_points(of.radius, of.thickness); }
+    std::vector<SectionPoint> operator()(const deck::General&) const { return {}; }  // refused by the reader
+  };
+  return std::visit(Points{}, section.shape);
+}
+
 Section section_of(const deck::Deck& deck, const deck::Member& member) {
   const deck::Section& described = *deck::find(deck.sections, member.section);
   const deck::Material& material = *deck::find(deck.materials, member.material);
   const deck::SectionProperties properties = deck::properties(described);
   Section section{.E = material.E, .A = properties.A, .I = properties.I, .height = properties.height};
-  if (member.theory != deck::Theory::exact) return section;
+  const bool essenburg = member.theory == deck::Theory::essenburg;
+  if (member.theory != deck::Theory::exact && !essenburg) return section;
   section.G = material.E / (2.0 * (1.0 + material.nu.value()));
+  if (essenburg) {
+    section.shear_area = described.shear_correction.value_or(1.0) * properties.A;
+    section.points = section_points(described);
+    return section;
+  }
   section.shear_area = properties.shear_area.value_or(shear_correction(described) * properties.A);
   return section;
 }
@@ -94,11 +119,27 @@ Section balanced(Section section, double length) {
   return section;
 }
 
+// A section of finite height needs an axis that bends less: at the centre of curvature its fibres would meet.
+void check_curvature(const deck::Member& member, const MemberDescription& description, DeckProblems& problems) {
+  const ImperfectAxis shape(*description.axis, description.imperfection);
+  const int places = 2 * member.elements;
+  for (int i = 0; i <= places; ++i) {
+    const DeviatedPoint at = shape.along(description.axis->length() * i / places);
+    const double radius = std::abs(at.speed / at.turning);
+    if (radius > 0.5 * description.section.height.value()) continue;
+    problems.add(
+        member.position, "member." + member.name,
+        fmt::format("at {} of its length the axis has a radius of {:.4g}, less than half the height of section {}",
+                    double(i) / places, radius, member.section),
+        "bend the axis less, or take theory \"classic\" or \"elastica\"");
+    return;
+  }
+}
+
 void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
   for (const deck::Member& member : deck.members) {
-    const auto theory = theory_of(member, problems);
-    if (!theory) continue;
-    if (*theory == Theory::truss && member.elements > 1)
+    const Theory theory = theory_of(member);
+    if (theory == Theory::truss && member.elements > 1)
       problems.add(
           member.position, "member." + member.name + ".elements",
           fmt::format("a truss of {} elements is a chain of hinges that can move without strain", member.elements),
@@ -106,8 +147,9 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
     MemberDescription description{.name = member.name,
                                   .from = out.places.joints.at(member.from),
                                   .to = out.places.joints.at(member.to),
-                                  .theory = *theory,
+                                  .theory = theory,
                                   .order = member.order.value_or(2),
+                                  .quadratic = quadratic_term(member.along),
                                   .strain = strain_of(member.strain),
                                   .section = section_of(deck, member),
                                   .elements = elements.value_or(member.elements),
@@ -115,14 +157,27 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
                                   .hinge_to = member.hinge_to};
     description.axis =
         make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
-    // A classic element moves without strain where one of the elastica does, and takes any bend of its axis.
-    if (elements && *theory == Theory::elastica) description.theory = Theory::classic;
-    if (elements && *theory == Theory::exact)
+    // A classic element moves without strain where one of the elastica does, and takes any bend of its axis; an exact
+    // one where one of Essenburg's does, whose thickness has a stiffness of its own.
+    if (elements && theory == Theory::elastica) description.theory = Theory::classic;
+    if (elements && theory == Theory::essenburg) description.theory = Theory::exact;
+    if (elements && description.theory == Theory::exact)
       description.section = balanced(description.section, description.axis->length());
     for (const deck::Imperfection& wave : member.imperfections)
       description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
+    if (theory == Theory::essenburg) check_curvature(member, description, problems);
     out.places.members[member.name] = out.builder.add_member(std::move(description));
   }
+}
+
+void fix_thickness(const deck::Support& support, deck::Direction direction, DeckProblems& problems,
+                   StructureOfDeck& out) {
+  const std::vector<ThicknessFreedoms> ends = out.builder.thickness(out.places.joints.at(support.point));
+  for (const ThicknessFreedoms& end : ends) out.builder.fix(direction == deck::Direction::thickness ? end.e : end.xi);
+  if (ends.empty())
+    problems.add(support.position, "support." + support.point,
+                 "no member of theory \"essenburg\" ends at \"" + support.point + "\": there is no thickness to fix",
+                 "leave out \"thickness\" and \"thickness2\"");
 }
 
 void add_support(const deck::Support& support, DeckProblems& problems, StructureOfDeck& out) {
@@ -146,8 +201,7 @@ void add_support(const deck::Support& support, DeckProblems& problems, Structure
         break;
       case deck::Direction::thickness:
       case deck::Direction::thickness2:
-        problems.add(support.position, key, "only the theory \"essenburg\" has a thickness to fix",
-                     "leave out \"thickness\" and \"thickness2\"");
+        fix_thickness(support, direction, problems, out);
         break;
     }
   }
@@ -243,6 +297,9 @@ void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
         return "in z";
       case Freedom::rotation:
         return "in rotation";
+      case Freedom::thickness:
+      case Freedom::thickness2:
+        return "in thickness";
     }
     return "";
   }();

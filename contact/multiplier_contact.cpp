@@ -215,4 +215,9 @@ double MultiplierContact::force(const State& state, Index j) const {
   return k ? state.x[*k] : 0.0;
 }
 
+std::optional<double> MultiplierContact::pressure(const State& state, Index j) const {
+  const double length = candidate(j).label().tributary;
+  return length > 0.0 ? std::optional(force(state, j) / length) : std::nullopt;
+}
+
 }  // namespace arcwall

@@ -65,6 +65,9 @@ class MultiplierContact final : public System {
   /// Contact force of candidate j, 0 if open [force].
   double force(const State& state, Index j) const;
 
+  /// The same over the length of axis it stands for [force/length]; empty where it is a point force.
+  std::optional<double> pressure(const State& state, Index j) const;
+
  private:
   State inner_state(const State& state) const {
     return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .piece = {}};

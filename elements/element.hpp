@@ -8,7 +8,7 @@ namespace arcwall {
 class Element {
  public:
   /// Most unknowns an element may have.
-  static constexpr int max_unknowns = 10;
+  static constexpr int max_unknowns = 15;
 
   virtual ~Element() = default;
 

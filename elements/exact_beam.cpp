@@ -4,32 +4,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "elements/shape_functions.hpp"
+
 namespace arcwall {
 
 namespace {
-
-constexpr int most_nodes = 3;
-
-struct ShapeFunctions {
-  std::array<double, most_nodes> N{}, dN{};  // values and derivatives in ξ; nodes at ξ = −1, (0,) 1
-};
-
-ShapeFunctions shape_functions(int order, double xi) {
-  if (order == 1) return {.N = {0.5 * (1.0 - xi), 0.5 * (1.0 + xi)}, .dN = {-0.5, 0.5}};
-  return {.N = {0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)}, .dN = {xi - 0.5, -2.0 * xi, xi + 0.5}};
-}
-
-struct GaussRule {
-  std::array<double, 2> xi{};
-  double weight = 0.0;
-};
-
-// As many points as the order: one fewer than for the whole polynomial, which would lock.
-GaussRule gauss_rule(int order) {
-  if (order == 1) return {.xi = {0.0}, .weight = 2.0};
-  const double xi = 1.0 / std::sqrt(3.0);
-  return {.xi = {-xi, xi}, .weight = 1.0};
-}
 
 // ds/dξ
 double arc_speed(const ExactBeamReference& reference, const ShapeFunctions& shape) {
@@ -45,12 +24,13 @@ double arc_speed(const ExactBeamReference& reference, const ShapeFunctions& shap
 ExactBeam::ExactBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness)
     : order_(reference.order()), stiffness_(stiffness) {
   assert((order_ == 1 || order_ == 2) && reference.arcs.size() == reference.nodes.size());
+  // As many points as the order: one fewer than for the whole polynomial, which would lock.
   const GaussRule rule = gauss_rule(order_);
   for (std::size_t g = 0; g < static_cast<std::size_t>(order_); ++g) {
     const ShapeFunctions shape = shape_functions(order_, rule.xi[g]);
     const double speed = arc_speed(reference, shape);
     GaussPoint& point = points_[g];
-    point.ds = rule.weight * speed;
+    point.ds = rule.weight[g] * speed;
     point.N = shape.N;
     Vec2 tangent = Vec2::Zero();
     for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
@@ -145,27 +125,27 @@ void ExactBeam::add_stiffness(const GaussPoint& at, std::size_t nodes, const Sec
     }
 }
 
-ExactDistributedLoad::ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load)
-    : forces_(reference.nodes.size(), Vec2::Zero()) {
+ExactDistributedLoad::ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load, int unknowns_a_node)
+    : forces_(reference.nodes.size(), Vec2::Zero()), stride_(unknowns_a_node) {
   const GaussRule rule = gauss_rule(reference.order());
   for (std::size_t g = 0; g + 1 < forces_.size(); ++g) {
     const ShapeFunctions shape = shape_functions(reference.order(), rule.xi[g]);
-    const double ds = rule.weight * arc_speed(reference, shape);
+    const double ds = rule.weight[g] * arc_speed(reference, shape);
     for (std::size_t a = 0; a < forces_.size(); ++a) forces_[a] += ds * shape.N[a] * load;
   }
 }
 
 double ExactDistributedLoad::evaluate(const double* u, double* f, double* K) const {
+  const auto n = static_cast<std::size_t>(unknown_count()), stride = static_cast<std::size_t>(stride_);
+  if (f != nullptr) std::fill(f, f + n, 0.0);
+  if (K != nullptr) std::fill(K, K + n * n, 0.0);
   double V = 0.0;
   for (std::size_t a = 0; a < forces_.size(); ++a) {
-    V -= forces_[a].x() * u[3 * a] + forces_[a].y() * u[3 * a + 1];
+    V -= forces_[a].x() * u[stride * a] + forces_[a].y() * u[stride * a + 1];
     if (f == nullptr) continue;
-    f[3 * a] = -forces_[a].x();
-    f[3 * a + 1] = -forces_[a].y();
-    f[3 * a + 2] = 0.0;
+    f[stride * a] = -forces_[a].x();
+    f[stride * a + 1] = -forces_[a].y();
   }
-  const auto n = static_cast<std::size_t>(unknown_count());
-  if (K != nullptr) std::fill(K, K + n * n, 0.0);
   return V;
 }
 

@@ -60,18 +60,19 @@ class ExactBeam final : public Element {
   ExactBeamStiffness stiffness_;
 };
 
-/// Potential of a dead load per length of the undeformed axis on an ExactBeam, whose unknowns it has:
-/// V = −∫ q·u ds with the same shape functions, linear in the displacements.
+/// Potential of a dead load per length of the undeformed axis on an ExactBeam, whose unknowns it has, or on another
+/// beam with displacements of the same shape functions: V = −∫ q·u ds, linear in the displacements.
 class ExactDistributedLoad final : public Element {
  public:
-  /// `load` [force/length].
-  ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load);
+  /// `load` [force/length]. Of the unknowns of each node the first two are the displacements.
+  ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load, int unknowns_a_node = 3);
 
-  int unknown_count() const override { return static_cast<int>(3 * forces_.size()); }
+  int unknown_count() const override { return stride_ * static_cast<int>(forces_.size()); }
   double evaluate(const double* u, double* f, double* K) const override;
 
  private:
   std::vector<Vec2> forces_;  // at each node
+  int stride_;
 };
 
 }  // namespace arcwall

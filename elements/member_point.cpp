@@ -25,8 +25,8 @@ double offset_of(const MemberMesh& mesh, MemberObservable::Component component) 
 
 }  // namespace
 
-MemberPoint::MemberPoint(const Structure& structure, const MemberMesh& mesh, std::size_t node, double offset)
-    : structure_(structure), node_(mesh.nodes[node]), angle_(mesh.shape[node].angle), offset_(offset) {
+MemberPoint::MemberPoint(const Structure& structure, const MemberSection& section, double offset)
+    : structure_(structure), node_(section.node), section_(section.kinematics()), offset_(offset) {
   const auto column = [&](Index freedom) -> std::optional<Index> {
     const auto unknown = structure.unknown(freedom);
     if (!unknown) return std::nullopt;
@@ -36,29 +36,55 @@ MemberPoint::MemberPoint(const Structure& structure, const MemberMesh& mesh, std
   x_ = column(structure.freedom(node_, Freedom::x));
   z_ = column(structure.freedom(node_, Freedom::z));
   if (offset_ == 0.0) return;
-  assert(mesh.rotations[node]);
-  rotation_ = mesh.rotations[node];
+  assert(section.rotation);
+  rotation_ = section.rotation;
   turn_ = column(*rotation_);
+  thickness_ = section.thickness;
+  if (!thickness_) return;
+  e_ = column(thickness_->e);
+  xi_ = column(thickness_->xi);
+}
+
+EssenburgNode::Vectors MemberPoint::vectors(const Vector& x) const {
+  const auto value = [&](Index freedom) { return structure_.value(x, freedom); };
+  return section_.vectors(value(*rotation_), thickness_ ? value(thickness_->e) : 0.0,
+                          thickness_ ? value(thickness_->xi) : 0.0);
+}
+
+// o d + o² q
+Vec2 MemberPoint::arm(const EssenburgNode::Vectors& v) const {
+  return offset_ * (section_.D + v.d_change) + offset_ * offset_ * v.q;
 }
 
 Vec2 MemberPoint::position(const Vector& x) const {
   const Vec2 axis = structure_.current(x, node_);
-  return rotation_ ? Vec2(axis + offset_ * normal(angle_ + structure_.value(x, *rotation_))) : axis;
+  return rotation_ ? Vec2(axis + arm(vectors(x))) : axis;
 }
 
-// r + o n(φ):  ∂n/∂φ = −t,  ∂²n/∂φ² = −n
 void MemberPoint::kinematics(const Vector& x, PointKinematics& out) const {
   const auto n = static_cast<Index>(unknowns_.size());
   out.jacobian.setZero(2, n);
   for (auto& second : out.curvature) second.setZero(n, n);
-  out.position = position(x);
+  out.position = structure_.current(x, node_);
   if (x_) out.jacobian(0, *x_) = 1.0;
   if (z_) out.jacobian(1, *z_) = 1.0;
-  if (!turn_) return;
-  const Vec2 arm = offset_ * normal(angle_ + structure_.value(x, *rotation_));
-  out.jacobian.col(*turn_) = perp(arm);
-  out.curvature[0](*turn_, *turn_) = -arm.x();
-  out.curvature[1](*turn_, *turn_) = -arm.y();
+  if (!rotation_) return;
+  const EssenburgNode::Vectors v = vectors(x);
+  const double o = offset_, o2 = offset_ * offset_;
+  out.position += arm(v);
+  const auto second = [&](std::optional<Index> i, std::optional<Index> j, const Vec2& value) {
+    if (!i || !j) return;
+    for (const int k : {0, 1}) {
+      auto& of_coordinate = out.curvature[static_cast<std::size_t>(k)];
+      of_coordinate(*i, *j) = of_coordinate(*j, *i) = value[k];
+    }
+  };
+  if (turn_) out.jacobian.col(*turn_) = o * v.d_phi + o2 * v.q_phi;
+  if (e_) out.jacobian.col(*e_) = o * v.d_e;
+  if (xi_) out.jacobian.col(*xi_) = o2 * v.q_xi;
+  second(turn_, turn_, o * v.d_phi_phi + o2 * v.q_phi_phi);
+  second(turn_, e_, o * v.d_phi_e);
+  second(turn_, xi_, o2 * v.q_phi_xi);
 }
 
 MemberObservable::MemberObservable(const Structure& structure, const MemberMesh& mesh, std::size_t node,

@@ -5,25 +5,32 @@
 
 namespace arcwall {
 
-/// A material point of a member's section at a node: r + offset · n, n the section's normal (the axis' tangent turned
-/// by +90°), which turns with the node. offset = 0 is the axis, ± half the height a face.
+/// A material point of a member's section at a node: r + o n, o the offset and n the section's normal (the axis'
+/// tangent turned by +90°), which turns with the node; r + o d + o² q where the thickness changes, see EssenburgNode. o
+/// = 0 is the axis, ± half the height a face.
 class MemberPoint final : public TrackedPoint {
  public:
   /// `structure` must outlive this. `offset` must be 0 for members whose nodes do not rotate.
-  MemberPoint(const Structure& structure, const MemberMesh& mesh, std::size_t node, double offset);
+  MemberPoint(const Structure& structure, const MemberSection& section, double offset);
+  MemberPoint(const Structure& structure, const MemberMesh& mesh, std::size_t node, double offset)
+      : MemberPoint(structure, mesh.section(node), offset) {}
 
   const std::vector<Index>& unknowns() const override { return unknowns_; }
   Vec2 position(const Vector& x) const override;
   void kinematics(const Vector& x, PointKinematics& out) const override;
 
  private:
+  EssenburgNode::Vectors vectors(const Vector& x) const;
+  Vec2 arm(const EssenburgNode::Vectors& v) const;
+
   const Structure& structure_;
   Index node_;
-  double angle_;   // stress-free angle of the section's normal, less a quarter turn
+  EssenburgNode section_;
   double offset_;  // [length]
   std::vector<Index> unknowns_;
-  std::optional<Index> rotation_;      // freedom
-  std::optional<Index> x_, z_, turn_;  // columns of the derivatives, where not held
+  std::optional<Index> rotation_;               // freedom
+  std::optional<ThicknessFreedoms> thickness_;  // likewise
+  std::optional<Index> x_, z_, turn_, e_, xi_;  // columns of the derivatives, where not held
 };
 
 /// x, z or rotation of a member's node, measured from the axis without imperfection; or the z of one of its faces,

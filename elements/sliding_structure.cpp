@@ -229,6 +229,8 @@ double SlidingStructureMesh::anchor(Index freedom, const Vector& x) const {
     case Freedom::z:
       return position.y();
     case Freedom::rotation:
+    case Freedom::thickness:
+    case Freedom::thickness2:
       return 0.0;
   }
   return 0.0;
@@ -582,6 +584,8 @@ double SlidingStructure::value(const SlidingMesh& mesh, const Vector& x, Index f
     case Freedom::z:
       return x[*i] - position.y();
     case Freedom::rotation:
+    case Freedom::thickness:
+    case Freedom::thickness2:
       return x[*i];
   }
   return 0.0;

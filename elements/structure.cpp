@@ -23,6 +23,44 @@ void scatter(std::span<const Index> unknowns, const double* f, double factor, do
 
 }  // namespace
 
+EssenburgNode MemberSection::kinematics() const {
+  const auto normal = [](double angle) { return Vec2(-std::sin(angle), std::cos(angle)); };
+  return {.D = normal(shape.angle), .n = normal(axis.angle), .quadratic = quadratic};
+}
+
+MemberSection MemberMesh::section(std::size_t k) const {
+  MemberSection at{.node = nodes[k],
+                   .rotation = rotations[k],
+                   .axis = axis[k],
+                   .shape = shape[k],
+                   .quadratic = quadratic,
+                   .fraction = fraction(k)};
+  if (!thickness.empty()) at.thickness = thickness[k];
+  return at;
+}
+
+// ∫ N ds of each node's shape function: what a constant pressure gives it.
+std::vector<MemberSection> MemberMesh::contact_sections() const {
+  const std::size_t elements = nodes.size() - 1;
+  const double h = length / double(elements);
+  const bool middles = !middle_thickness.empty();
+  std::vector<MemberSection> sections;
+  for (std::size_t k = 0; k <= elements; ++k) {
+    sections.push_back(section(k));
+    sections.back().tributary = (k == 0 || k == elements ? 0.5 : 1.0) * h / (middles ? 3.0 : 1.0);
+    if (!middles || k == elements) continue;
+    sections.push_back({.node = middle_nodes[k],
+                        .rotation = middle_rotations[k],
+                        .thickness = middle_thickness[k],
+                        .axis = middle_axis[k],
+                        .shape = middle_shape[k],
+                        .quadratic = quadratic,
+                        .fraction = (double(k) + 0.5) / double(elements),
+                        .tributary = 2.0 * h / 3.0});
+  }
+  return sections;
+}
+
 void Structure::gather(Index block, const Vector& x, double* u) const {
   const auto unknowns = assembly_.unknowns(block);
   for (std::size_t i = 0; i < unknowns.size(); ++i) u[i] = unknowns[i] >= 0 ? x[unknowns[i]] : 0.0;
@@ -104,7 +142,8 @@ double Structure::force_roundoff() const {
   linearize({.x = Vector::Zero(size({}))}, rest);
   double stiffness = 0.0;
   for (Index i = 0; i < rest.K.cols(); ++i)
-    if (meaning(i).freedom != Freedom::rotation) stiffness = std::max(stiffness, rest.K.coeff(i, i));
+    if (meaning(i).freedom == Freedom::x || meaning(i).freedom == Freedom::z)
+      stiffness = std::max(stiffness, rest.K.coeff(i, i));
   return 0.1 * std::numeric_limits<double>::epsilon() * length_scale_ * stiffness;
 }
 

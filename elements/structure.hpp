@@ -12,15 +12,17 @@
 #include "core/tracked_point.hpp"
 #include "elements/axis.hpp"
 #include "elements/element.hpp"
+#include "elements/essenburg_beam.hpp"
 #include "elements/section.hpp"
 #include "elements/truss.hpp"
 
 namespace arcwall {
 
-/// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there.
-enum class Freedom { x, z, rotation };
+/// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there; e and ξ
+/// of the Essenburg theory (see EssenburgNode) to members that go on straight there.
+enum class Freedom { x, z, rotation, thickness, thickness2 };
 
-enum class Theory { classic, elastica, exact, truss };
+enum class Theory { classic, elastica, exact, essenburg, truss };
 
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
@@ -32,11 +34,30 @@ struct MemberDescription {
   std::shared_ptr<const Axis> axis{};
   std::vector<SineDeviation> imperfection{};
   Theory theory = Theory::classic;
-  int order = 2;  ///< exact: 1 or 2, the degree of the shape functions; elastica: 4 or 6, of convergence
+  int order = 2;  ///< exact, essenburg: 1 or 2, the degree of the shape functions; elastica: 4 or 6, of convergence
+  QuadraticTerm quadratic = QuadraticTerm::fixed;  ///< essenburg
   TrussStrain strain = TrussStrain::green;
   Section section{};
   int elements = 1;
   bool hinge_from = false, hinge_to = false;
+};
+
+/// Freedoms of a section whose thickness changes.
+struct ThicknessFreedoms {
+  Index e = 0, xi = 0;
+};
+
+/// A section of a member at one of its nodes.
+struct MemberSection {
+  Index node = 0;                                  ///< in the structure
+  std::optional<Index> rotation{};                 ///< freedom; a bar has none
+  std::optional<ThicknessFreedoms> thickness{};    ///< essenburg
+  AxisPoint axis{}, shape{};                       ///< without and with imperfection
+  QuadraticTerm quadratic = QuadraticTerm::fixed;  ///< essenburg
+  double fraction = 0.0;                           ///< of the member's arc length
+  double tributary = 0.0;                          ///< length of axis that a contact force here stands for
+
+  EssenburgNode kinematics() const;
 };
 
 /// The mesh of a member: node k of n + 1, at equal spacing of the axis' arc length. Elements of higher order have a
@@ -50,16 +71,28 @@ struct MemberMesh {
   std::optional<double> height{};                 ///< of the section
   std::vector<Index> middle_nodes{};              ///< of each element, in the structure; empty where there are none
   std::vector<Index> middle_rotations{};          ///< their freedoms, as many
+  double length = 0.0;                            ///< of the axis
+  // Of the Essenburg theory alone, else empty:
+  std::vector<ThicknessFreedoms> thickness{}, middle_thickness{};  ///< at each node, and at each middle node
+  std::vector<AxisPoint> middle_axis{}, middle_shape{};            ///< at the middle nodes
+  QuadraticTerm quadratic = QuadraticTerm::fixed;
 
   double fraction(std::size_t k) const { return double(k) / double(nodes.size() - 1); }
+
+  /// At a node of the mesh.
+  MemberSection section(std::size_t k) const;
+
+  /// Where contact is tied to the mesh, in the order along the member: its nodes; of the Essenburg theory, whose
+  /// contact forces are pressures, the middle nodes too.
+  std::vector<MemberSection> contact_sections() const;
 };
 
 class SlidingStructure;
 class StructureBuilder;
 
 /// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
-/// rotations from the stress-free state as unknowns. Freedoms count every x, z and rotation; unknowns those that no
-/// support holds.
+/// rotations from the stress-free state as unknowns. Freedoms count every x, z, rotation and change of thickness;
+/// unknowns those that no support holds.
 class Structure final : public System {
  public:
   Index size(const Piece&) const override { return assembly_.pattern().cols(); }
@@ -67,7 +100,7 @@ class Structure final : public System {
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
 
-  /// ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale().
+  /// ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale(); changes of thickness follow these.
   Vector weights(const Piece&) const override { return weights_; }
 
   /// Diagonal of the box around the stress-free structure [length].
@@ -155,6 +188,9 @@ class StructureBuilder {
   /// The rotation that the rigidly joined member ends at a joint share; empty if there are none.
   std::optional<Index> shared_rotation(Index joint) const { return shared_rotation_[static_cast<std::size_t>(joint)]; }
 
+  /// Of the member ends at a joint whose thickness changes.
+  std::vector<ThicknessFreedoms> thickness(Index joint) const;
+
   Index freedom(Index node, Freedom which) const {
     return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
   }
@@ -186,14 +222,26 @@ class StructureBuilder {
     LoadKind kind;
   };
 
+  struct EndThickness {
+    Index joint;
+    bool hinged;
+    double angle, height;  // of the axis, of the section
+    QuadraticTerm quadratic;
+    ThicknessFreedoms freedoms;
+  };
+
   Index add_node(const Vec2& position);
   Index add_freedom(Index node, Freedom which);
+  void add_middle_node(const MemberDescription& member, const ImperfectAxis& shape, int element, MemberMesh& mesh);
   Index end_rotation(Index joint, bool hinged);
+  ThicknessFreedoms add_thickness(Index node);
+  ThicknessFreedoms end_thickness(Index joint, const MemberDescription& member, double angle, bool hinged);
   std::vector<Index> element_freedoms(const MemberMesh& mesh, std::size_t element) const;
 
   std::vector<Vec2> positions_;
   std::vector<Index> first_freedom_;
   std::vector<std::optional<Index>> shared_rotation_;
+  std::vector<EndThickness> end_thickness_;
   std::vector<Structure::Meaning> freedoms_;
   std::vector<bool> held_;
   std::vector<MemberDescription> descriptions_;

@@ -8,6 +8,7 @@
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"
+#include "elements/essenburg_beam.hpp"
 #include "elements/exact_beam.hpp"
 #include "elements/structure.hpp"
 
@@ -59,6 +60,32 @@ ExactBeamReference exact_reference(const Stretch& stretch) {
   return reference;
 }
 
+bool has_middle_nodes(const MemberDescription& member) {
+  return (member.theory == Theory::exact || member.theory == Theory::essenburg) && member.order == 2;
+}
+
+EssenburgReference essenburg_reference(const Stretch& stretch) {
+  const MemberMesh& mesh = stretch.mesh;
+  const Vec2& origin = mesh.shape[stretch.k].position;
+  EssenburgReference reference;
+  const auto add = [&](const AxisPoint& axis, const AxisPoint& shape) {
+    const MemberSection section{.axis = axis, .shape = shape, .quadratic = stretch.member.quadratic};
+    reference.nodes.push_back(shape.position - origin);
+    reference.sections.push_back(section.kinematics());
+  };
+  add(mesh.axis[stretch.k], mesh.shape[stretch.k]);
+  if (stretch.member.order == 2) add(mesh.middle_axis[stretch.k], mesh.middle_shape[stretch.k]);
+  add(mesh.axis[stretch.k + 1], mesh.shape[stretch.k + 1]);
+  return reference;
+}
+
+EssenburgStiffness essenburg_stiffness(const Section& section) {
+  return {.E = section.E,
+          .nu = 0.5 * section.E / section.G - 1.0,
+          .shear_correction = section.shear_area / section.A,
+          .points = section.points};
+}
+
 std::unique_ptr<Element> make_element(const Stretch& stretch) {
   const Section& section = stretch.member.section;
   switch (stretch.member.theory) {
@@ -70,6 +97,8 @@ std::unique_ptr<Element> make_element(const Stretch& stretch) {
     case Theory::exact:
       return std::make_unique<ExactBeam>(
           exact_reference(stretch), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
+    case Theory::essenburg:
+      return std::make_unique<EssenburgBeam>(essenburg_reference(stretch), essenburg_stiffness(section));
     case Theory::truss:
       return std::make_unique<Truss>(beam_reference(stretch).chord, section.EA(), stretch.member.strain);
   }
@@ -83,6 +112,8 @@ std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
       return std::make_unique<BeamDistributedLoad>(beam_reference(stretch), load);
     case Theory::exact:
       return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), load);
+    case Theory::essenburg:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), load, EssenburgBeam::unknowns_a_node);
     case Theory::truss:
       return std::make_unique<TrussDistributedLoad>(beam_reference(stretch).length * load);
   }
@@ -121,22 +152,52 @@ Index StructureBuilder::end_rotation(Index joint, bool hinged) {
   return *shared;
 }
 
+ThicknessFreedoms StructureBuilder::add_thickness(Index node) {
+  const Index e = add_freedom(node, Freedom::thickness);
+  return {.e = e, .xi = add_freedom(node, Freedom::thickness2)};
+}
+
+// A beam that goes on straight with the same section has one thickness at its joint.
+ThicknessFreedoms StructureBuilder::end_thickness(Index joint, const MemberDescription& member, double angle,
+                                                  bool hinged) {
+  constexpr double straight = 1e-9;  // [rad]
+  const double height = member.section.height.value_or(0.0);
+  for (const EndThickness& other : end_thickness_)
+    if (other.joint == joint && !other.hinged && !hinged && other.height == height &&
+        other.quadratic == member.quadratic && std::abs(std::remainder(other.angle - angle, 2.0 * pi)) <= straight)
+      return other.freedoms;
+  end_thickness_.push_back({.joint = joint,
+                            .hinged = hinged,
+                            .angle = angle,
+                            .height = height,
+                            .quadratic = member.quadratic,
+                            .freedoms = add_thickness(joint)});
+  return end_thickness_.back().freedoms;
+}
+
+std::vector<ThicknessFreedoms> StructureBuilder::thickness(Index joint) const {
+  std::vector<ThicknessFreedoms> all;
+  for (const EndThickness& end : end_thickness_)
+    if (end.joint == joint) all.push_back(end.freedoms);
+  return all;
+}
+
 Index StructureBuilder::add_member(MemberDescription member) {
   assert(member.elements >= 1 && member.axis != nullptr);
   assert(member.theory != Theory::exact || ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0));
+  assert(member.theory != Theory::essenburg ||
+         ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0 && !member.section.points.empty()));
   assert(member.theory != Theory::elastica || member.order == 4 || member.order == 6);
   const ImperfectAxis shape(*member.axis, member.imperfection);
-  const bool rotates = member.theory != Theory::truss;
-  const bool has_middle_nodes = member.theory == Theory::exact && member.order == 2;
-  MemberMesh mesh{.name = member.name, .height = member.section.height};
+  const bool rotates = member.theory != Theory::truss, thickens = member.theory == Theory::essenburg;
+  MemberMesh mesh{.name = member.name,
+                  .height = member.section.height,
+                  .length = member.axis->length(),
+                  .quadratic = member.quadratic};
   for (int k = 0; k <= member.elements; ++k) {
     const bool first = k == 0, last = k == member.elements;
-    const double s = member.axis->length() * k / member.elements;
-    if (has_middle_nodes && !first) {
-      const double middle = member.axis->length() * (k - 0.5) / member.elements;
-      mesh.middle_nodes.push_back(add_node(shape.at(middle).position));
-      mesh.middle_rotations.push_back(add_freedom(mesh.middle_nodes.back(), Freedom::rotation));
-    }
+    if (has_middle_nodes(member) && !first) add_middle_node(member, shape, k - 1, mesh);
+    const double s = mesh.length * k / member.elements;
     mesh.axis.push_back(member.axis->at(s));
     mesh.shape.push_back(shape.at(s));
     mesh.nodes.push_back(first ? member.from : last ? member.to : add_node(mesh.shape.back().position));
@@ -145,15 +206,31 @@ Index StructureBuilder::add_member(MemberDescription member) {
       const Vec2& joint = positions_[static_cast<std::size_t>(mesh.nodes.back())];
       mesh.axis.back().position = mesh.shape.back().position = joint;
     }
+    const bool hinged = (first && member.hinge_from) || (last && member.hinge_to);
     std::optional<Index> rotation;
-    if (rotates && first) rotation = end_rotation(member.from, member.hinge_from);
-    if (rotates && last) rotation = end_rotation(member.to, member.hinge_to);
-    if (rotates && !first && !last) rotation = add_freedom(mesh.nodes.back(), Freedom::rotation);
+    if (rotates)
+      rotation =
+          first || last ? end_rotation(mesh.nodes.back(), hinged) : add_freedom(mesh.nodes.back(), Freedom::rotation);
     mesh.rotations.push_back(rotation);
+    if (thickens)
+      mesh.thickness.push_back(first || last ? end_thickness(mesh.nodes.back(), member, mesh.shape.back().angle, hinged)
+                                             : add_thickness(mesh.nodes.back()));
   }
   meshes_.push_back(std::move(mesh));
   descriptions_.push_back(std::move(member));
   return static_cast<Index>(meshes_.size()) - 1;
+}
+
+void StructureBuilder::add_middle_node(const MemberDescription& member, const ImperfectAxis& shape, int element,
+                                       MemberMesh& mesh) {
+  const double s = mesh.length * (element + 0.5) / member.elements;
+  const AxisPoint point = shape.at(s);
+  mesh.middle_nodes.push_back(add_node(point.position));
+  mesh.middle_rotations.push_back(add_freedom(mesh.middle_nodes.back(), Freedom::rotation));
+  if (member.theory != Theory::essenburg) return;
+  mesh.middle_thickness.push_back(add_thickness(mesh.middle_nodes.back()));
+  mesh.middle_axis.push_back(member.axis->at(s));
+  mesh.middle_shape.push_back(point);
 }
 
 void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
@@ -166,14 +243,16 @@ void StructureBuilder::add_distributed_load(Index member, const Vec2& load, Load
 
 std::vector<Index> StructureBuilder::element_freedoms(const MemberMesh& mesh, std::size_t k) const {
   std::vector<Index> freedoms;
-  const auto add = [&](Index node, std::optional<Index> rotation) {
+  const auto add = [&](Index node, std::optional<Index> rotation, const std::vector<ThicknessFreedoms>& thickness,
+                       std::size_t at) {
     freedoms.push_back(freedom(node, Freedom::x));
     freedoms.push_back(freedom(node, Freedom::z));
     if (rotation) freedoms.push_back(*rotation);
+    if (!thickness.empty()) freedoms.insert(freedoms.end(), {thickness[at].e, thickness[at].xi});
   };
-  add(mesh.nodes[k], mesh.rotations[k]);
-  if (!mesh.middle_nodes.empty()) add(mesh.middle_nodes[k], mesh.middle_rotations[k]);
-  add(mesh.nodes[k + 1], mesh.rotations[k + 1]);
+  add(mesh.nodes[k], mesh.rotations[k], mesh.thickness, k);
+  if (!mesh.middle_nodes.empty()) add(mesh.middle_nodes[k], mesh.middle_rotations[k], mesh.middle_thickness, k);
+  add(mesh.nodes[k + 1], mesh.rotations[k + 1], mesh.thickness, k + 1);
   return freedoms;
 }
 
@@ -248,11 +327,21 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   // Means over all nodes and all rotations, held ones included: they count as zeros.
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
   const auto rotations = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
+  const auto weight = [&](Freedom which) {
+    switch (which) {
+      case Freedom::x:
+      case Freedom::z:
+        return 1.0 / (double(positions_.size()) * L * L);
+      case Freedom::rotation:
+        return 1.0 / rotations;
+      case Freedom::thickness:
+      case Freedom::thickness2:
+        return 0.0;
+    }
+    return 0.0;
+  };
   structure->weights_.resize(static_cast<Index>(structure->freedom_of_unknown_.size()));
-  for (Index i = 0; i < structure->weights_.size(); ++i)
-    structure->weights_[i] = structure->meaning(i).freedom == Freedom::rotation
-                                 ? 1.0 / rotations
-                                 : 1.0 / (double(positions_.size()) * L * L);
+  for (Index i = 0; i < structure->weights_.size(); ++i) structure->weights_[i] = weight(structure->meaning(i).freedom);
   return structure;
 }
 

@@ -82,6 +82,12 @@ void read_theory(Cursor& table, Member& member) {
 
 void read_material_and_section(Cursor& table, const Names& names, const Deck& deck, Member& member) {
   read_name(table, "section", "a section", names.sections, member.section);
+  const Section* section = find(deck.sections, member.section);
+  if (member.theory == Theory::essenburg && section != nullptr && std::holds_alternative<General>(section->shape)) {
+    table.report("section",
+                 "section " + member.section + " has no shape over whose height theory essenburg could integrate",
+                 "take a rectangle, a circle or a tube");
+  }
   if (!read_name(table, "material", "a material", names.materials, member.material)) return;
   const Material* material = find(deck.materials, member.material);
   const bool has_nu = material == nullptr || material->nu.has_value();

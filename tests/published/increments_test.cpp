@@ -21,13 +21,13 @@ class Incremental {
       : model_(model), structure_(model.structure()) {
     std::vector<Candidate> candidates;
     for (const MemberMesh& mesh : model.structure().members())
-      for (std::size_t k = 1; k + 1 < mesh.nodes.size(); ++k)
-        candidates.emplace_back(std::make_unique<MemberPoint>(model.structure(), mesh, k, -0.1), flat_profile(-0.18),
+      for (const MemberSection& section : mesh.contact_sections())
+        candidates.emplace_back(std::make_unique<MemberPoint>(model.structure(), section, -0.1), flat_profile(-0.18),
                                 Side::below,
                                 ContactLabel{.wall = "foundation",
                                              .member = mesh.name,
-                                             .fraction = mesh.fraction(k),
-                                             .tributary = 2.0 / double(mesh.nodes.size() - 1)});
+                                             .fraction = section.fraction,
+                                             .tributary = section.tributary});
     contact_ = std::make_unique<MultiplierContact>(
         structure_, std::move(candidates), ContactScales{.length = 2.0, .force = 1.0},
         ContactLaw{.method = ContactLaw::Method::penalty, .stiffness = stiffness});

@@ -221,34 +221,22 @@ std::vector<Watch> PathModel::watched() const {
   return {{.quantity = displacement(*structure, loaded, Freedom::z), .label = "z"}};
 }
 
-namespace {
-
-// Half of each element that meets at a node.
-double tributary(const MemberMesh& mesh, std::size_t k) {
-  const auto half = [&](std::size_t a, std::size_t b) {
-    return 0.5 * (mesh.axis[b].position - mesh.axis[a].position).norm();
-  };
-  return (k > 0 ? half(k - 1, k) : 0.0) + (k + 1 < mesh.nodes.size() ? half(k, k + 1) : 0.0);
-}
-
-}  // namespace
-
 ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step,
                            const ContactLaw& law)
     : structure_(std::move(structure)) {
   std::vector<Candidate> candidates;
   for (const TestWall& wall : walls)
     for (const MemberMesh& mesh : structure_->members())
-      for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+      for (const MemberSection& section : mesh.contact_sections()) {
         const double looks_up = wall.side == Side::above ? 1.0 : -1.0;
         const double offset =
-            wall.on_axis ? 0.0 : std::copysign(0.5 * mesh.height.value(), looks_up * std::cos(mesh.shape[k].angle));
-        auto point = std::make_unique<MemberPoint>(*structure_, mesh, k, offset);
+            wall.on_axis ? 0.0 : std::copysign(0.5 * mesh.height.value(), looks_up * std::cos(section.shape.angle));
+        auto point = std::make_unique<MemberPoint>(*structure_, section, offset);
         if (point->unknowns().empty()) continue;
         candidates.emplace_back(
             std::move(point), wall.profile, wall.side,
             ContactLabel{
-                .wall = wall.name, .member = mesh.name, .fraction = mesh.fraction(k), .tributary = tributary(mesh, k)});
+                .wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
       }
   // Forces below the guard tolerance times this scale are zero: ten first steps, but above the mesh's round-off.
   const double force = std::max(10.0 * structure_->force_scale() * std::abs(first_step),

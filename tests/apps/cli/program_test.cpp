@@ -308,7 +308,7 @@ TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
 TEST_F(ProgramTest, ExamplesAreListedAndRight) {
   const Outcome list = run("examples");
   ASSERT_EQ(list.status, 0);
-  for (const char* name : {"arch", "cantilever", "channel", "cylinder", "foundation", "lee", "truss"}) {
+  for (const char* name : {"arch", "cantilever", "channel", "cylinder", "foundation", "lee", "thick", "truss"}) {
     expect_in(std::string("\n") + name + " ", list.out);
     ASSERT_EQ(shell("\"$PROGRAM\" examples " + std::string(name) + " >deck.toml").status, 0);
     EXPECT_EQ(run("deck.toml --quiet --out " + std::string(name)).status, 0) << name;

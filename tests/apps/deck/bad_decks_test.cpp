@@ -128,6 +128,7 @@ TEST(BadDecks, MembersAndTheirTheory) {
       {"order = 1", "order = 3", "member.arch.order", "give 1 or 2"},
       {"order = 1", "order = 1.0", "member.arch.order", "1 is of the wrong type"},
       {"order = 4", "order = 5", "member.spline.order", "give 4 or 6"},
+      {"section = \"rod\"", "section = \"bar\"", "member.arch.section", "has no shape over whose height"},
       {"along = \"director\"", "along = \"z\"", "member.arch.along", "known are fixed, director"},
       {"strain = \"log\"", "strain = \"hencky\"", "member.strut.strain", "known are green, engineering, log"},
       {"material = \"plain\"", "material = \"plane\"", "member.column.material", "did you mean plain?"},

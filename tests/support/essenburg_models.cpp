@@ -1,0 +1,68 @@
+#include "tests/support/essenburg_models.hpp"
+
+namespace arcwall::test {
+
+Section essenburg_section(double E, double nu, double width, double height, double shear_correction) {
+  const double A = width * height;
+  return {.E = E,
+          .A = A,
+          .I = A * height * height / 12.0,
+          .height = height,
+          .G = 0.5 * E / (1.0 + nu),
+          .shear_area = shear_correction * A,
+          .points = rectangle_points(width, height)};
+}
+
+namespace {
+
+MemberDescription beam_along(std::unique_ptr<Axis> axis, const EssenburgBeams& beams, double width, double height,
+                             int elements) {
+  return {.name = "beam",
+          .from = 0,
+          .to = 1,
+          .axis = std::move(axis),
+          .theory = Theory::essenburg,
+          .order = beams.order,
+          .quadratic = beams.quadratic,
+          .section = essenburg_section(21000.0, 0.29, width, height, beams.shear_correction),
+          .elements = elements};
+}
+
+}  // namespace
+
+ContactModel EssenburgFoundation::model() const {
+  constexpr double h = 0.2, clearance = 0.08;
+  StructureBuilder builder;
+  const Vec2 middle(0.0, 0.0), end(1.0, 0.0);
+  builder.add_joint(middle);
+  builder.add_joint(end);
+  builder.add_member(beam_along(straight_axis(middle, end), beams, h, h, elements));
+  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.shared_rotation(0).value());
+  builder.fix(builder.freedom(1, Freedom::z));
+  builder.add_load(builder.shared_rotation(1).value(), scale, LoadKind::proportional);
+  const double wall = -0.5 * h - scale * clearance;
+  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(wall)}}, first_step};
+}
+
+ContactModel EssenburgChannel::model() const {
+  constexpr double width = 0.1, clearance = 0.15;
+  StructureBuilder builder;
+  const Vec2 left(0.0, 0.0), right(2.0, 0.0);
+  builder.add_joint(left);
+  builder.add_joint(right);
+  MemberDescription column = beam_along(straight_axis(left, right), beams, width, height, elements);
+  column.imperfection = imperfection;
+  builder.add_member(std::move(column));
+  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.freedom(0, Freedom::z));
+  builder.fix(builder.freedom(1, Freedom::z));
+  builder.add_load(builder.freedom(1, Freedom::x), -1.0, LoadKind::proportional);
+  const double wall = 0.5 * height + clearance;
+  return {builder.build(),
+          {{.name = "upper", .side = Side::above, .profile = flat_profile(wall)},
+           {.name = "lower", .side = Side::below, .profile = flat_profile(-wall)}},
+          first_step};
+}
+
+}  // namespace arcwall::test
