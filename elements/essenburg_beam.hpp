@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/types.hpp"
@@ -50,6 +51,23 @@ struct EssenburgStiffness {
   std::vector<SectionPoint> points{};  ///< over the height
 };
 
+/// Plane stress across the width: S11 = C11 E11 + C13 E33, S33 = C13 E11 + C11 E33, S13 = G γ [force/length²].
+struct EssenburgLaw {
+  double C11 = 0.0, C13 = 0.0, G = 0.0;
+
+  EssenburgLaw() = default;
+  explicit EssenburgLaw(const EssenburgStiffness& stiffness);
+};
+
+/// A quadrature point. Deformation gradient on the section's stress-free axes e1 (along) and e3 (across):
+/// f1 = e1 + Σ_j c1_j v_j, f3 = e3 + Σ_j c3_j v_j with the changes v = (u, d − D, q) of each node in turn.
+struct EssenburgPoint {
+  static constexpr std::size_t most_nodes = 3;
+  double volume = 0.0;
+  Vec2 e1{}, e3{};
+  std::array<double, 3 * most_nodes> c1{}, c3{};
+};
+
 /// Beam whose thickness changes (Essenburg 1975; eqs. (15) to (17) of Selke and Kikuchi): Green's strain, St
 /// Venant-Kirchhoff's law in plane stress across the width, any displacement and rotation.
 ///
@@ -68,17 +86,10 @@ class EssenburgBeam final : public Element {
   int unknown_count() const override { return unknowns_a_node * static_cast<int>(sections_.size()); }
   double evaluate(const double* u, double* f, double* K) const override;
 
+  /// With this material, its constants referred to each configuration; u = 0.
+  std::unique_ptr<Element> updated(const double* u) const override;
+
  private:
-  static constexpr std::size_t most_nodes = 3;
-
-  // A quadrature point. Deformation gradient on the section's stress-free axes e1 (along) and e3 (across):
-  // f1 = e1 + Σ_j c1_j v_j, f3 = e3 + Σ_j c3_j v_j with the changes v = (u, d − D, q) of each node in turn.
-  struct Point {
-    double volume = 0.0;
-    Vec2 e1{}, e3{};
-    std::array<double, 3 * most_nodes> c1{}, c3{};
-  };
-
   // Energy of a point and its derivatives in (f1, f3), times the volume.
   struct Response {
     double U = 0.0;
@@ -88,13 +99,13 @@ class EssenburgBeam final : public Element {
 
   void add_points(const EssenburgReference& reference, double xi, double weight,
                   const std::vector<SectionPoint>& heights);
-  Response respond(const Point& at, const Vec2& h1, const Vec2& h3, bool tangent) const;
+  Response respond(const EssenburgPoint& at, const Vec2& h1, const Vec2& h3, bool tangent) const;
   template <int nodes>
   double evaluate_nodes(const double* u, double* f, double* K) const;
 
-  double C11_, C13_, G_;
+  EssenburgLaw law_;
   std::vector<EssenburgNode> sections_;
-  std::vector<Point> points_;
+  std::vector<EssenburgPoint> points_;
 };
 
 }  // namespace arcwall
