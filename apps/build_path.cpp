@@ -1,6 +1,7 @@
 #include "apps/build_path.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/text.hpp"
 #include "elements/member_point.hpp"
@@ -93,6 +94,7 @@ std::vector<End> ends_at(const Structure& structure, Index joint) {
 std::shared_ptr<const Observable> reaction(const Model& model, Index freedom) {
   if (model.sliding != nullptr)
     return std::make_shared<JointObservable>(*model.sliding, freedom, JointObservable::What::reaction);
+  if (model.incremental != nullptr) return std::make_shared<IncrementalReaction>(*model.incremental, freedom);
   return std::make_shared<ReactionObservable>(model.structure, freedom);
 }
 
@@ -139,8 +141,8 @@ std::shared_ptr<const Observable> observable(const Model& model, const deck::Pla
   return nullptr;
 }
 
-PathMethod path_method(const deck::Path& path, DeckProblems& problems) {
-  switch (path.method) {
+PathMethod path_method(deck::PathMethod method) {
+  switch (method) {
     case deck::PathMethod::load:
       return PathMethod::load;
     case deck::PathMethod::displacement:
@@ -155,11 +157,9 @@ PathMethod path_method(const deck::Path& path, DeckProblems& problems) {
       return PathMethod::spherical;
     case deck::PathMethod::pseudo_arclength:
       return PathMethod::pseudo_arclength;
-    case deck::PathMethod::incremental:
+    case deck::PathMethod::incremental:  // has no steps along the path
       break;
   }
-  problems.add(path.position, "path.method", "method \"incremental\" is not part of this version",
-               "use \"spherical\", or one of the other methods that solve the equilibrium equations");
   return PathMethod::spherical;
 }
 
@@ -198,11 +198,27 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Model& 
   return columns;
 }
 
+std::vector<double> load_levels(const deck::Path& path) {
+  std::vector<double> levels;
+  double from = 0.0;
+  for (const deck::Landing& landing : path.land) {
+    if (landing.name != "lambda") continue;
+    for (const double value : landing.values) {
+      // A level that round-off alone keeps from being met needs no increment of its own.
+      const int parts = std::max(1, static_cast<int>(std::ceil(std::abs((value - from) / path.step) - 1e-9)));
+      for (int i = 1; i < parts; ++i) levels.push_back(from + (value - from) * i / parts);
+      levels.push_back(value);
+      from = value;
+    }
+  }
+  return levels;
+}
+
 TraceOptions trace_options(const deck::Deck& deck, const Model& model, const std::vector<MonitorColumn>& monitors,
                            DeckProblems& problems) {
   const deck::Path& path = deck.path;
   TraceOptions options;
-  options.method = path_method(path, problems);
+  options.method = path_method(path.method);
   options.events = event_search(path.events);
   options.step.first = path.step;
   options.step.min = path.min_step;

@@ -10,7 +10,8 @@ namespace arcwall {
 /// What monitors are read off.
 struct Model {
   const Structure& structure;
-  const SlidingStructure* sliding;  ///< if the states are those of contact that slides; else null
+  const SlidingStructure* sliding;          ///< if the states are those of contact that slides; else null
+  const IncrementalStructure* incremental;  ///< of load increments; else null
   const Places& places;
 };
 
@@ -20,5 +21,9 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Model& 
 /// How the deck's path is followed.
 TraceOptions trace_options(const deck::Deck& deck, const Model& model, const std::vector<MonitorColumn>& monitors,
                            DeckProblems& problems);
+
+/// Values of λ that load increments lead to: those the deck lands on, in their order, and equal increments of at most
+/// `step` between them.
+std::vector<double> load_levels(const deck::Path& path);
 
 }  // namespace arcwall

@@ -39,22 +39,43 @@ BranchPolicy policy_of(deck::Branches branches) {
   return BranchPolicy::follow;
 }
 
-void check_contact_method(const deck::Deck& deck, DeckProblems& problems) {
-  if (deck.walls.empty()) return;
-  if (deck.contact.method != deck::ContactMethod::multiplier)
-    problems.add({}, "contact.method", "only method \"multiplier\" is part of this version", "use \"multiplier\"");
+ContactLaw contact_law(const deck::Contact& contact) {
+  switch (contact.method) {
+    case deck::ContactMethod::multiplier:
+      return {};
+    case deck::ContactMethod::penalty:
+      return {.method = ContactLaw::Method::penalty, .stiffness = contact.penalty.value()};
+    case deck::ContactMethod::augmented:
+      return {.method = ContactLaw::Method::augmented, .stiffness = contact.penalty.value()};
+  }
+  return {};
 }
 
-// Sliding where contact forces are point forces, unless the deck wants otherwise.
+bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
+
+// Sliding where contact forces are point forces, unless the deck wants otherwise. Springs and increments act at nodes.
 bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblems& problems) {
   if (deck.walls.empty() || deck.contact.points == deck::ContactPoints::nodes) return false;
-  if (builder.can_slide()) return true;
+  const bool rigid = deck.contact.method == deck::ContactMethod::multiplier;
+  if (rigid && !increments_of(deck) && builder.can_slide()) return true;
   if (deck.contact.points == deck::ContactPoints::sliding)
     problems.add({}, "contact.points",
-                 "points = \"sliding\" needs members whose contact forces are point forces: theory \"classic\" or "
-                 "\"elastica\" throughout",
+                 "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
+                 "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
                  "use \"nodes\"");
   return false;
+}
+
+void check_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
+  if (!increments_of(deck)) return;
+  if (!structure.can_be_updated())
+    problems.add(deck.path.position, "path.method",
+                 "method \"incremental\" needs members of theory \"classic\" or \"essenburg\" throughout",
+                 "use \"spherical\"");
+  for (const deck::Load& load : deck.loads)
+    if (load.constant)
+      problems.add(load.position, "load", "method \"incremental\" has no constant loads",
+                   "multiply all loads by lambda, or use method \"spherical\"");
 }
 
 }  // namespace
@@ -62,7 +83,6 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblem
 Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   DeckProblems problems(deck_.source);
   const StructureOfDeck model = describe_structure(deck_, problems);
-  check_contact_method(deck_, problems);
   problems.raise();
   check_mechanism(deck_, problems);
   problems.raise();
@@ -71,11 +91,17 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   if (!moves_something(*structure_))
     problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
                  "the loads that λ multiplies act on supports only: nothing moves", "load a free direction");
+  check_increments(deck_, *structure_, problems);
   auto candidates = contact_candidates(deck_, *structure_, problems);
   const bool sliding = slides(deck_, model.builder, problems);
   const auto alike = [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); };
   if (sliding) sliding_structure_ = model.builder.build_sliding(false, alike);
-  const Model read_off{.structure = *structure_, .sliding = sliding_structure_.get(), .places = model.places};
+  if (increments_of(deck_) && structure_->can_be_updated())
+    incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
+  const Model read_off{.structure = *structure_,
+                       .sliding = sliding_structure_.get(),
+                       .incremental = incremental_structure_.get(),
+                       .places = model.places};
   monitors_ = monitor_columns(deck_, read_off, problems);
   options_ = trace_options(deck_, read_off, monitors_, problems);
   problems.raise();
@@ -85,10 +111,12 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   if (ramp) ramp_structure_ = model.builder.build(true);
   if (!deck_.walls.empty()) {
     const ContactScales scales = contact_scales(*structure_, deck_.path.step);
-    contact_ = std::make_unique<MultiplierContact>(*structure_, std::move(candidates), scales);
+    const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
+    const ContactLaw law = contact_law(deck_.contact);
+    contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
     if (ramp)
       ramp_contact_ = std::make_unique<MultiplierContact>(
-          *ramp_structure_, contact_candidates(deck_, *ramp_structure_, problems), scales);
+          *ramp_structure_, contact_candidates(deck_, *ramp_structure_, problems), scales, law);
     if (sliding) make_sliding(model.builder, ramp, scales);
   }
   for (const std::string& name : deck_.path.watch)
@@ -115,7 +143,15 @@ void Study::make_sliding(const StructureBuilder& builder, bool ramp, const Conta
 const System& Study::system() const {
   if (sliding_) return *sliding_;
   if (contact_) return *contact_;
+  if (incremental_structure_) return *incremental_structure_;
   return *structure_;
+}
+
+LoadIncrements Study::increments(State start) {
+  const double scale = Tracer(system(), start, options_).lambda_scale();
+  const Index n = structure_->size({});
+  return {system(), std::move(start), scale,
+          [this, n](const State& state) { incremental_structure_->advance(state.x.head(n)); }};
 }
 
 std::optional<State> Study::start(std::string& reason) const {

@@ -8,6 +8,8 @@
 #include "contact/multiplier_contact.hpp"
 #include "contact/sliding_contact.hpp"
 #include "continuation/explorer.hpp"
+#include "continuation/load_increments.hpp"
+#include "elements/incremental_structure.hpp"
 #include "elements/sliding_structure.hpp"
 
 namespace arcwall {
@@ -39,6 +41,12 @@ class Study {
   /// What is traced: the structure with its contacts.
   const System& system() const;
 
+  /// Whether load increments are taken instead of steps along the equations' path.
+  bool in_increments() const { return incremental_structure_ != nullptr; }
+
+  /// The increments from the start, whose reference configuration is the study's: for one run alone.
+  LoadIncrements increments(State start);
+
   /// Where contact j of a state's piece is.
   struct ContactPlace {
     ContactLabel label{};
@@ -66,6 +74,7 @@ class Study {
 
   deck::Deck deck_;
   std::unique_ptr<Structure> structure_, ramp_structure_;
+  std::unique_ptr<IncrementalStructure> incremental_structure_;
   std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
   std::unique_ptr<SlidingStructure> sliding_structure_, sliding_ramp_structure_;
   std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;

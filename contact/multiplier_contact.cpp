@@ -30,6 +30,18 @@ double& entry(SparseMatrix& A, Index row, Index column) {
 
 }  // namespace
 
+MultiplierContact::MultiplierContact(const System& inner, std::vector<Candidate> candidates,
+                                     const ContactScales& scales, const ContactLaw& law)
+    : inner_(inner), candidates_(std::move(candidates)), scales_(scales) {
+  for (const Candidate& candidate : candidates_) {
+    const double k = law.stiffness * candidate.label().tributary;
+    Springs springs;
+    if (law.method == ContactLaw::Method::penalty) springs.c = 1.0 / k;
+    if (law.method == ContactLaw::Method::augmented) springs.r = k;
+    springs_.push_back(springs);
+  }
+}
+
 Index MultiplierContact::multiplier_count(const Piece& piece) const { return piece.closed_count(); }
 
 void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const {
@@ -39,10 +51,11 @@ void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const
   Gap gap;
   for_each_closed(state.piece, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
+    const double p = state.x[n + k];
     candidates_[j].gap(inner.x, gap);
-    for (std::size_t i = 0; i < unknowns.size(); ++i)
-      F[unknowns[i]] -= state.x[n + k] * gap.gradient[static_cast<Index>(i)];
-    F[n + k] = -gap.value;
+    const double t = p - springs_[j].r * gap.value;
+    for (std::size_t i = 0; i < unknowns.size(); ++i) F[unknowns[i]] -= t * gap.gradient[static_cast<Index>(i)];
+    F[n + k] = -gap.value - springs_[j].c * p;
   });
 }
 
@@ -68,15 +81,19 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   for_each_closed(state.piece, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
     const double p = state.x[n + k];
+    const auto [c, r] = springs_[j];
     candidates_[j].gap(inner_at.x, gap);
-    out.F[n + k] = -gap.value;
+    const double t = p - r * gap.value;
+    out.F[n + k] = -gap.value - c * p;
+    entry(out.K, n + k, n + k) = -c;
     for (Index a = 0; a < static_cast<Index>(unknowns.size()); ++a) {
       const Index column = unknowns[static_cast<std::size_t>(a)];
-      out.F[column] -= p * gap.gradient[a];
+      out.F[column] -= t * gap.gradient[a];
       entry(out.K, n + k, column) = -gap.gradient[a];
       for (Index b = 0; b < static_cast<Index>(unknowns.size()); ++b) {
         const Index row = unknowns[static_cast<std::size_t>(b)];
-        if (row >= column && gap.hessian(b, a) != 0.0) entry(out.K, row, column) -= p * gap.hessian(b, a);
+        const double stiffness = r * gap.gradient[b] * gap.gradient[a] - t * gap.hessian(b, a);
+        if (row >= column && stiffness != 0.0) entry(out.K, row, column) += stiffness;
       }
     }
   });
@@ -101,6 +118,16 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
   out.K.setFromTriplets(entries.begin(), entries.end());
   out.K.makeCompressed();
   out.pattern_of = state.piece;
+}
+
+double MultiplierContact::energy(const State& state) const {
+  const State inner = inner_state(state);
+  double springs = 0.0;
+  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+    const double p = state.x[inner.x.size() + k];
+    springs += 0.5 * springs_[j].c * p * p;
+  });
+  return inner_.energy(inner) + springs;
 }
 
 Vector MultiplierContact::weights(const Piece& piece) const {

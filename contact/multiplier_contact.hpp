@@ -13,21 +13,36 @@ struct ContactScales {
   double force = 1.0;   ///< of contact forces [force]
 };
 
+/// What obstacles answer a contact with (docs/theory.md, section 7.4). Stiffnesses are per length of axis and of gap
+/// [force/length²]: a contact has that times its tributary length.
+struct ContactLaw {
+  enum class Method {
+    rigid,      ///< no gap, whatever the force
+    penalty,    ///< springs in compression: p = −stiffness · gap
+    augmented,  ///< no gap, and springs beside the forces that vanish with it: K alone holds the contacts
+  };
+  Method method = Method::rigid;
+  double stiffness = 0.0;
+};
+
 /// A system with unilateral contact: the forces p ≥ 0 of the closed contacts are unknowns behind those of the inner
 /// system.
 ///
-///     F_inner(x, λ) − Σ p_j ∇g_j = 0,   −g_j = 0   (closed)          [ K − Σ p ∇²g   −Gᵀ ]
-///     p_j = 0,   g_j ≥ 0                           (open)            [ −G             0  ]
+///     F_inner(x, λ) − Σ t_j ∇g_j = 0,   −g_j − c_j p_j = 0   (closed)     [ K − Σ t ∇²g + Σ r ∇g ∇gᵀ   −Gᵀ ]
+///     p_j = 0,   g_j ≥ 0                                     (open)       [ −G                         −c  ]
+///
+/// with t = p − r g; c = 0 but for the method `penalty`, r = 0 but for `augmented`.
 class MultiplierContact final : public System {
  public:
-  /// `inner` must have no guards of its own and outlive this.
-  MultiplierContact(const System& inner, std::vector<Candidate> candidates, const ContactScales& scales)
-      : inner_(inner), candidates_(std::move(candidates)), scales_(scales) {}
+  /// `inner` must have no guards of its own and outlive this. Methods other than `rigid` need candidates with tributary
+  /// lengths.
+  MultiplierContact(const System& inner, std::vector<Candidate> candidates, const ContactScales& scales,
+                    const ContactLaw& law = {});
 
   Index size(const Piece& piece) const override { return inner_.size({}) + multiplier_count(piece); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
-  double energy(const State& state) const override { return inner_.energy(inner_state(state)); }
+  double energy(const State& state) const override;
   Vector weights(const Piece& piece) const override;
   Index multiplier_count(const Piece& piece) const override;
 
@@ -38,6 +53,7 @@ class MultiplierContact final : public System {
   Vector guard_rates(const State& state, const Direction& direction) const override;
   std::vector<Index> weak_guards(const State& state, double tolerance) const override;
   Vector unit_force(const State& state, Index j) const override;
+  double compliance(Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
@@ -56,12 +72,18 @@ class MultiplierContact final : public System {
   State inner_state(const State& state) const {
     return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .piece = {}};
   }
+  // Of one contact: c [length/force] and r [force/length] of the equations above.
+  struct Springs {
+    double c = 0.0, r = 0.0;
+  };
+  const Springs& springs_at(Index j) const { return springs_[static_cast<std::size_t>(j)]; }
   double open_guard(Index j, const Vector& x) const;
   void lay_out(const State& state, Linearization& out) const;
 
   const System& inner_;
   std::vector<Candidate> candidates_;
   ContactScales scales_;
+  std::vector<Springs> springs_;
 };
 
 }  // namespace arcwall

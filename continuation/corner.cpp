@@ -11,7 +11,7 @@ namespace arcwall {
 
 namespace {
 
-// The rate problem in the weak contacts' guards: ġ = λ̇ a + M ṗ.
+// The rate problem in the weak contacts' guards: ġ + c ṗ = λ̇ a + M ṗ, c their compliances.
 struct RateProblem {
   State open{};        // the corner with all weak contacts open
   Vector free_rate{};  // ẋ for λ̇ = 1 without weak forces
@@ -48,12 +48,14 @@ std::optional<RateProblem> reduce(const System& system, const State& corner, con
     const Row gap = system.guard_gradient(problem.open, weak[static_cast<std::size_t>(i)]);
     problem.a[i] = gap.dx.dot(problem.free_rate) + gap.dlambda;
     problem.M.row(i) = gap.dx.transpose() * problem.response;
+    problem.M(i, i) += system.compliance(weak[static_cast<std::size_t>(i)]);
   }
   if (!problem.a.allFinite() || !problem.M.allFinite()) return std::nullopt;
   return problem;
 }
 
-// The direction (λ̇, ṗ_A) with ġ_A = 0 and ṗ = 0 outside A: the null vector of [a_A M_AA], up to its length and sign.
+// The direction (λ̇, ṗ_A) with ġ_A + c ṗ_A = 0 and ṗ = 0 outside A: the null vector of [a_A M_AA], up to its length and
+// sign.
 Solution direction_with(const RateProblem& problem, const std::vector<Index>& active) {
   const auto k = static_cast<Index>(active.size());
   Solution solution{.lambda = 1.0, .p = Vector::Zero(problem.a.size())};

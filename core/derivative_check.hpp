@@ -18,11 +18,11 @@ struct DerivativeReport {
   double worst() const;
 };
 
-/// Compares K, F_λ and all guard gradients with central differences of step `step` (times 1 + |x|). The energy is
-/// compared only on pieces without multipliers, where F is its gradient.
-DerivativeReport check_derivatives(const System& system, const State& state, double step = 1e-6);
+/// Compares K, F_λ and all guard gradients with central differences of fourth order and step `step` (times 1 + |x|).
+/// The energy is compared only on pieces without multipliers, where F is its gradient.
+DerivativeReport check_derivatives(const System& system, const State& state, double step = 1e-4);
 
 /// Largest difference between the gradient and central differences, relative to the gradient's greatest entry.
-double check_gradient(const Observable& observable, const State& state, double step = 1e-6);
+double check_gradient(const Observable& observable, const State& state, double step = 1e-4);
 
 }  // namespace arcwall

@@ -113,6 +113,10 @@ class System {
   /// change of 1 of the guard `force of j`.
   virtual Vector unit_force(const State& state, Index) const { return Vector::Zero(state.x.size()); }
 
+  /// How far a closed contact gives way for its force, both in the scale of the guards: its gap is −compliance times
+  /// its force. Zero for rigid obstacles.
+  virtual double compliance(Index) const { return 0.0; }
+
   /// Where the force of a closed contact stands in x; empty for an open one.
   virtual std::optional<Index> multiplier_index(const Piece&, Index) const { return std::nullopt; }
 

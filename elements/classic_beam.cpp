@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elements/chord_frame.hpp"
+#include "elements/updated_classic_beam.hpp"
 
 namespace arcwall {
 
@@ -145,6 +146,10 @@ double ClassicBeam::evaluate(const double* u, double* f, double* K) const {
   if (f != nullptr) nodal_forces(chord, at.length, U, f);
   if (K != nullptr) nodal_stiffness(chord, at.length, U, d.curvatures(), K);
   return d.energy();
+}
+
+std::unique_ptr<Element> ClassicBeam::updated(const double* u) const {
+  return std::make_unique<UpdatedClassicBeam>(u, chord_, UpdatedClassicBeam::Resultants{}, EA_, EI_);
 }
 
 void ClassicBeam::respond(const BeamEnds& ends, bool with_rates, BeamResponse& out) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "core/types.hpp"
 #include "elements/element.hpp"
@@ -32,6 +33,9 @@ class ClassicBeam final : public Element, public SlenderBeam {
 
   int unknown_count() const override { return 6; }
   double evaluate(const double* u, double* f, double* K) const override;
+
+  /// As Selke and Kikuchi have it; u = 0.
+  std::unique_ptr<Element> updated(const double* u) const override;
 
   void respond(const BeamEnds& ends, bool with_rates, BeamResponse& out) const override;
 

@@ -165,6 +165,22 @@ Structure::Meaning Structure::meaning(Index unknown) const {
   return meaning_of_freedom_[static_cast<std::size_t>(freedom_of_unknown_[static_cast<std::size_t>(unknown)])];
 }
 
+std::unique_ptr<Structure> Structure::updated(const Vector& x) const {
+  auto moved = std::unique_ptr<Structure>(new Structure(*this));
+  Local local;
+  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
+    gather(e, x, local.u);
+    moved->elements_[static_cast<std::size_t>(e)] = elements_[static_cast<std::size_t>(e)]->updated(local.u);
+  }
+  return moved;
+}
+
+bool Structure::can_be_updated() const {
+  const Local rest{};
+  return std::all_of(elements_.begin(), elements_.end(),
+                     [&](const auto& element) { return element->updated(rest.u) != nullptr; });
+}
+
 double Structure::reaction(const State& state, Index freedom) const {
   if (unknown(freedom)) return 0.0;
   Local local;

@@ -141,15 +141,22 @@ class Structure final : public System {
   double reaction(const State& state, Index freedom) const;
   Row reaction_gradient(const State& state, Index freedom) const;
 
+  /// The structure with the updated form of its elements after an increment that led to x: see IncrementalStructure.
+  std::unique_ptr<Structure> updated(const Vector& x) const;
+
+  /// Whether all elements have that form.
+  bool can_be_updated() const;
+
  private:
   friend class StructureBuilder;
 
   struct LoadedElement {
-    std::unique_ptr<Element> potential;
+    std::shared_ptr<const Element> potential;
     LoadKind kind;
     Index element;  // whose unknowns it has: also its block of the assembly
   };
 
+  Structure(const Structure&) = default;
   Structure(Index unknowns, const std::vector<std::vector<Index>>& blocks) : assembly_(unknowns, blocks) {}
   void gather(Index block, const Vector& x, double* u) const;
 
@@ -159,7 +166,7 @@ class Structure final : public System {
   std::vector<Index> unknown_of_freedom_;  // −1: held
   std::vector<Meaning> meaning_of_freedom_;
   std::vector<Index> freedom_of_unknown_;
-  std::vector<std::unique_ptr<Element>> elements_;  // element e is block e of the assembly
+  std::vector<std::shared_ptr<const Element>> elements_;  // element e is block e of the assembly
   std::vector<std::vector<Index>> element_freedoms_;
   std::vector<LoadedElement> loaded_elements_;
   Vector load_, constant_load_;  // point loads per freedom

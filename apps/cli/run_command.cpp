@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/build_path.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/progress.hpp"
@@ -55,6 +56,8 @@ RunRequest request_from(const Options& options);
 ExitStatus dry_run(const RunRequest& request, const Study& study);
 void trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
            Record& record);
+void trace_increments(const RunRequest& request, Study& study, State start, const InterruptGuard& interrupts,
+                      Record& record);
 const BranchEnd& decisive_end(const Record& record);
 void write_files(const OutputFolder& folder, const RunRequest& request, const Study& study, const Record& record,
                  const RunSeconds& seconds, ExitStatus status);
@@ -63,7 +66,7 @@ void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolde
 ExitStatus run(const Options& options) {
   const Stopwatch since_begin;
   const RunRequest request = request_from(options);
-  const Study study(deck::read_deck_text(request.deck_text, request.deck, request.assignments));
+  Study study(deck::read_deck_text(request.deck_text, request.deck, request.assignments));
   for (const std::string& warning : study.warnings()) std::cerr << "warning: " << warning << "\n";
   if (request.dry) return dry_run(request, study);
 
@@ -77,7 +80,10 @@ ExitStatus run(const Options& options) {
     std::cerr << "error: there is no equilibrium at the start: " << reason << "\n";
     return ExitStatus::no_start;
   }
-  trace(request, study, std::move(*start), interrupts, record);
+  if (study.in_increments())
+    trace_increments(request, study, std::move(*start), interrupts, record);
+  else
+    trace(request, study, std::move(*start), interrupts, record);
   const BranchEnd& end = decisive_end(record);
   if (record.points.empty() && (end.reason == EndReason::singular || end.reason == EndReason::not_finite)) {
     std::cerr << "error: there is no equilibrium at the start: " << explanation(end.reason) << "\n";
@@ -166,6 +172,59 @@ void trace(const RunRequest& request, const Study& study, State start, const Int
     branch = 0;
   }
   end_branch(branch);
+}
+
+// Whether the way between two states crosses a bound that stops.
+const Landmark* crossed(const std::vector<Landmark>& landmarks, const State& from, const State& to) {
+  const auto stops = [&](const Landmark& landmark) {
+    const double before = landmark.quantity->value(from) - landmark.value;
+    const double after = landmark.quantity->value(to) - landmark.value;
+    return landmark.stops && before != 0.0 && before * after <= 0.0;
+  };
+  const auto found = std::find_if(landmarks.begin(), landmarks.end(), stops);
+  return found == landmarks.end() ? nullptr : &*found;
+}
+
+// The deck's load increments: one branch.
+void trace_increments(const RunRequest& request, Study& study, State start, const InterruptGuard& interrupts,
+                      Record& record) {
+  const Stopwatch watch;
+  LoadIncrements increments = study.increments(std::move(start));
+  Recorder recorder(study, record);
+  ProgressLine progress(request.progress);
+  std::size_t events_printed = 0;
+  State last;
+  const auto add = [&](const Arc& arc) {
+    recorder.add(arc);
+    progress.show(record);
+    if (request.report == Report::json_lines) print_lines(record, events_printed);
+    last = arc.to.state;
+  };
+  const auto ending = [&]() -> BranchEnd {
+    const int most_points = request.max_points.value_or(study.options().max_points);
+    add(increments.start());
+    for (const double level : load_levels(study.deck().path)) {
+      const State before = last;
+      const auto arc = increments.to(level);
+      if (!arc) return increments.end().value();
+      add(*arc);
+      if (const Landmark* bound = crossed(study.options().landmarks, before, last))
+        return {.reason = EndReason::stop, .detail = bound->label};
+      if (study.options().stop_contacts && study.closed_contacts(last) >= *study.options().stop_contacts)
+        return {.reason = EndReason::stop, .detail = "contacts"};
+      if (static_cast<int>(record.points.size()) >= most_points)
+        return {.reason = EndReason::max_points, .detail = std::to_string(most_points)};
+      if (interrupts.interrupted()) return {.reason = EndReason::interrupted, .detail = "by a signal"};
+      if (request.max_seconds && watch.seconds() >= *request.max_seconds)
+        return {.reason = EndReason::max_time, .detail = round_trip(*request.max_seconds) + " s"};
+    }
+    std::string detail = "lambda = " + round_trip(last.lambda);
+    if (increments.unsettled() > 0)
+      detail += fmt::format("; contacts did not settle in {} increments", increments.unsettled());
+    return {.reason = EndReason::stop, .detail = detail};
+  };
+  recorder.end(ending());
+  if (request.report == Report::json_lines) print_lines(record, events_printed);
 }
 
 // The branch whose end decides the status: an interrupt, then a limit, then an early end.

@@ -58,10 +58,10 @@ struct Square final : Observable {
 
 }  // namespace
 
-// Central differences of step 1e-6: truncation 1e-12 of third derivatives, round-off ε/1e-6 = 2e-10, times a few.
+// Central differences of fourth order and step 1e-4: truncation 1e-16 of fifth derivatives, round-off ε/1e-4 = 2e-12.
 TEST(DerivativeCheck, ARightSystemPasses) {
-  EXPECT_LE(check_derivatives(right(), somewhere).worst(), 1e-8);
-  EXPECT_LE(check_derivatives(Guarded(1.0), somewhere).worst(), 1e-8);
+  EXPECT_LE(check_derivatives(right(), somewhere).worst(), 1e-10);
+  EXPECT_LE(check_derivatives(Guarded(1.0), somewhere).worst(), 1e-10);
 }
 
 TEST(DerivativeCheck, FindsAWrongK) {
@@ -101,7 +101,7 @@ TEST(DerivativeCheck, FindsAWrongGuardGradientInXAndInLambda) {
 
 TEST(GradientCheck, TellsRightFromWrong) {
   Square square;
-  EXPECT_LE(check_gradient(square, somewhere), 1e-8);
+  EXPECT_LE(check_gradient(square, somewhere), 1e-10);
   square.factor = 2.002;
   EXPECT_GE(check_gradient(square, somewhere), 5e-4);
   EXPECT_LE(check_gradient(ScaledObservable(std::make_shared<Square>(), -3.0), somewhere), 1e-8);

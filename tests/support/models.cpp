@@ -221,7 +221,8 @@ std::vector<Watch> PathModel::watched() const {
   return {{.quantity = displacement(*structure, loaded, Freedom::z), .label = "z"}};
 }
 
-ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step)
+ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step,
+                           const ContactLaw& law)
     : structure_(std::move(structure)) {
   std::vector<Candidate> candidates;
   for (const TestWall& wall : walls)
@@ -240,11 +241,11 @@ ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vect
   // Forces below the guard tolerance times this scale are zero: ten first steps, but above the mesh's round-off.
   const double force = std::max(10.0 * structure_->force_scale() * std::abs(first_step),
                                 structure_->force_roundoff() / TraceOptions{}.guard_tolerance);
-  contact_ = std::make_unique<MultiplierContact>(*structure_, std::move(candidates),
-                                                 ContactScales{.length = structure_->length_scale(), .force = force});
+  contact_ = std::make_unique<MultiplierContact>(
+      *structure_, std::move(candidates), ContactScales{.length = structure_->length_scale(), .force = force}, law);
 }
 
-ContactModel foundation_beam(int elements) {
+ContactModel foundation_beam(int elements, const ContactLaw& law) {
   StructureBuilder builder;
   const auto at = add_joints(builder, {{0.0, 0.0}, {2.0, 0.0}});
   constexpr double h = 0.2;
@@ -254,7 +255,7 @@ ContactModel foundation_beam(int elements) {
   builder.fix(builder.freedom(1, Freedom::z));
   builder.add_load(builder.shared_rotation(0).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(1).value(), 1.0, LoadKind::proportional);
-  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(-0.18)}}, 0.05};
+  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(-0.18)}}, 0.05, law};
 }
 
 ContactModel Channel::model() const {
@@ -276,7 +277,7 @@ ContactModel Channel::model() const {
   if (walls)
     both = {{.name = "upper", .side = Side::above, .profile = flat_profile(0.2 * cm)},
             {.name = "lower", .side = Side::below, .profile = flat_profile(-0.2 * cm)}};
-  return {builder.build(), both, first_step};
+  return {builder.build(), both, first_step, law};
 }
 
 std::vector<SineDeviation> snapping_imperfection(double cm) {

@@ -136,7 +136,8 @@ struct TestWall {
 /// A structure with node contact of all its members: guards are scaled as in a study whose first step is `first_step`.
 class ContactModel {
  public:
-  ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step);
+  ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step,
+               const ContactLaw& law = {});
 
   const Structure& structure() const { return *structure_; }
   const MultiplierContact& system() const { return *contact_; }
@@ -148,7 +149,7 @@ class ContactModel {
 
 /// Selke & Kikuchi's first example [kN, cm]: a beam of length 2 and square section 0.2 (E = 21000, EI = 2.8), 0.08
 /// above a flat foundation, bent down by end moments λ; its right end slides.
-ContactModel foundation_beam(int elements);
+ContactModel foundation_beam(int elements, const ContactLaw& law = {});
 
 /// The channel of Selke & Kikuchi's second example [kN, cm]: a pinned column of length 2 and square section 0.1 (E =
 /// 2.1e4, so EA = 210, EI = 0.175) between walls 0.15 from its axis, λ pushes its right end to the left.
@@ -159,6 +160,7 @@ struct Channel {
   double first_step = 0.05;
   double cm = 1.0;  ///< the user's unit of length [1/cm]: 0.01 for metres
   double kN = 1.0;  ///< of force [1/kN]: 1000 for newtons
+  ContactLaw law{};
 
   ContactModel model() const;
 };

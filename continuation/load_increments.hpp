@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "continuation/metric.hpp"
+#include "continuation/path_point.hpp"
+#include "core/bordered_solver.hpp"
+
+namespace arcwall {
+
+/// Load increments without iteration, as Selke and Kikuchi take them (eqs. 11 to 14; docs/theory.md, section 11):
+///
+///     K(x_t) Δx = λ_{t+1} f − f_int(x_t) + contact        at the configuration x_t
+///
+/// What an increment leaves unbalanced, the residue R, goes into the next one, so that results depend on the
+/// increments. Within an increment contacts close and open until the linear problem's side conditions hold, if they
+/// can. For comparison with that scheme and for teaching: Tracer solves the equations.
+class LoadIncrements {
+ public:
+  /// `system` must outlive this; `advance` tells it that an increment has led to a state, whose configuration is the
+  /// reference of the next. `lambda_scale` as in Metric.
+  LoadIncrements(const System& system, State start, double lambda_scale, std::function<void(const State&)> advance);
+
+  /// The state at the start, with its event.
+  Arc start();
+
+  /// One increment. Empty when it fails: see end().
+  std::optional<Arc> to(double lambda);
+
+  const std::optional<BranchEnd>& end() const { return end_; }
+
+  /// Increments whose contacts found no set that fulfils the side conditions.
+  int unsettled() const { return unsettled_; }
+
+ private:
+  struct Increment {
+    State from{};  // on the piece that holds behind the increment
+    Vector dx{};
+    Index negative = 0;  // eigenvalues of K
+  };
+  std::optional<Increment> solve(double lambda);
+  std::optional<Increment> solve_on(const Piece& piece, double lambda);
+  std::vector<Index> violated(const Increment& increment) const;
+  PathPoint point(const Increment& increment, double lambda);
+  std::vector<Event> changes(const Piece& before, const PathPoint& after, double lambda_before) const;
+
+  const System& system_;
+  std::function<void(const State&)> advance_;
+  double lambda_scale_;
+  PathPoint last_{};
+  Linearization now_;
+  BorderedSolver solver_;
+  int unsettled_ = 0;
+  std::optional<BranchEnd> end_;
+};
+
+}  // namespace arcwall

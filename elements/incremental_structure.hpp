@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+
+#include "core/observable.hpp"
+#include "elements/structure.hpp"
+
+namespace arcwall {
+
+/// A structure in the updated Lagrangian formulation: linear about its present configuration, which carries the
+/// stresses of all increments so far. Its unknowns are those of the structure it was made of.
+class IncrementalStructure final : public System {
+ public:
+  /// Stress-free, as `structure` is; every element must have an updated form: see can_be_updated().
+  explicit IncrementalStructure(const Structure& structure)
+      : present_(structure.updated(Vector::Zero(structure.size({})))) {}
+
+  Index size(const Piece& piece) const override { return present_->size(piece); }
+  void residual(const State& state, Eigen::Ref<Vector> F) const override { present_->residual(state, F); }
+  void linearize(const State& state, Linearization& out) const override { present_->linearize(state, out); }
+  double energy(const State& state) const override { return present_->energy(state); }
+  Vector weights(const Piece& piece) const override { return present_->weights(piece); }
+
+  /// The end of an increment: the configuration at x becomes the reference.
+  void advance(const Vector& x) { present_ = present_->updated(x); }
+
+  const Structure& present() const { return *present_; }
+
+ private:
+  std::unique_ptr<Structure> present_;
+};
+
+/// Support reaction by the stresses carried so far; at the end of the last increment alone.
+class IncrementalReaction final : public Observable {
+ public:
+  IncrementalReaction(const IncrementalStructure& structure, Index freedom)
+      : structure_(structure), freedom_(freedom) {}
+  double value(const State& state) const override { return structure_.present().reaction(state, freedom_); }
+  Row gradient(const State& state) const override { return structure_.present().reaction_gradient(state, freedom_); }
+
+ private:
+  const IncrementalStructure& structure_;
+  Index freedom_;
+};
+
+}  // namespace arcwall
