@@ -13,7 +13,7 @@ struct ContactLabel {
   std::string wall{};
   std::string member{};
   double fraction = 0.0;   ///< of the member's arc length
-  double tributary = 0.0;  ///< length of axis that its force stands for [length]
+  double tributary = 0.0;  ///< part of the axis whose pressure the contact stands for; 0 if not given [length]
 };
 
 /// A gap with its derivatives in the tracked point's unknowns (sizes as in PointKinematics).
