@@ -168,7 +168,7 @@ class SlidingContact final : public System {
   Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;
   Index straightened_ends(const State& state, std::size_t k) const;
   double least_span(Index run) const;
-  double least_gap_span(Index run) const;
+  double least_span(const SlidingContactLayout& on, std::size_t k) const;
 
   const SlidingBody& body_;
   std::vector<Obstacle> obstacles_;

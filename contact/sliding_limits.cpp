@@ -8,6 +8,7 @@
 namespace arcwall {
 
 using Layout_ = SlidingContactLayout;
+using Span = SlidingContactLayout::Span;
 using Bound = SlidingContactLayout::Bound;
 
 namespace {
@@ -22,8 +23,8 @@ constexpr double flatness = 0.5;       // curvature of an open point over its ga
 //
 //   −f′ r / (5 (2 − r)) · (−r)^j,   r = 2 − √3,   j nodes from the first.
 //
-// A cubic through four forces shows the force that an edge at the end itself would have, and f′ with the layer's own part
-// in it.
+// A cubic through four forces shows the force that an edge at the end itself would have, and f′ with the layer's own
+// part in it.
 constexpr Index fewest_for_ends = 4;
 
 using Four = Eigen::Vector4d;
@@ -46,15 +47,18 @@ Matrix smoothing(Index count) {
 
 }  // namespace
 
-// Spans below this are points.
+// Spans below this are none. Between two pressed parts the pressure that is left at the edges goes with the square of
+// the span, and is lost in the error of the elements where these are much longer.
+double SlidingContact::least_span(const SlidingContactLayout& on, std::size_t k) const {
+  const bool between_parts = on.points()[k].behind == Span::free && on.span_before(k) == Span::pressed &&
+                             on.points()[k + 1].behind == Span::pressed;
+  return (between_parts ? 4.0 : 1.0) * least_span(on.mesh().breakpoint(static_cast<Index>(k)).first);
+}
+
 double SlidingContact::least_span(Index run) const {
   const double L = body_.length(run);
   return std::max(0.125 * L / body_.elements_between(run, 0.0, L), 1e-3 * L);
 }
-
-// Free stretches beside pressed parts below this are none: shorter ones feel the error of the elements beside them,
-// which goes with their length.
-double SlidingContact::least_gap_span(Index run) const { return 4.0 * least_span(run); }
 
 // Where the force of a held node stands in x.
 Index SlidingContact::held_force(const State& state, std::size_t node) const {
@@ -133,8 +137,8 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       return bend - flatness * face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state))) / scales_.length;
     }
     case Bound::length: {
-      const Index k = static_cast<Index>(which), run = on.mesh().breakpoint(k).first;
-      return (s[k + 1] - s[k] - (on.parts_pressed(which) ? least_gap_span(run) : least_span(run))) / scales_.length;
+      const auto k = static_cast<Index>(which);
+      return (s[k + 1] - s[k] - least_span(on, which)) / scales_.length;
     }
     case Bound::coarse:
       return coarsest - asked() / on.segments()[which].elements;

@@ -168,7 +168,9 @@ std::vector<Passage> SlidingContact::passages(const State& state, const Directio
       if (!state.piece[which]) return {without(state, forward, which)};
       return straightened(state, tolerance);
     case Bound::length:
-      return {shrunk(state, which, tolerance)};
+      return {shrunk(state, which, tolerance),
+              {.change = Passage::Change::unsupported,
+               .detail = "a stretch between contacts closes, and no equilibrium without it was found"}};
     case Bound::coarse:
       return {with_elements(state, forward, which, 2 * on.segments()[which].elements)};
     case Bound::fine:
@@ -340,9 +342,9 @@ std::vector<Passage> SlidingContact::lifted(const State& state, double tolerance
       nodes.back() = node;
     }
   }
-  const double length = 2.0 * least_gap_span(on.held()[nodes.front()].run);
+  const double length = 2.0 * least_span(on.held()[nodes.front()].run);
   std::vector<Passage> passages;
-  for (const double factor : {1.0, 2.0, 4.0}) add_split(state, nodes, factor * length, passages);
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0}) add_split(state, nodes, factor * length, passages);
   passages.push_back({.change = Passage::Change::unsupported,
                       .detail = "a part that is pressed on a wall lifts off inside, and no equilibrium with one free "
                                 "stretch was found"});
@@ -369,8 +371,10 @@ void SlidingContact::add_split(const State& state, const std::vector<std::size_t
     };
     const int across = elements(left, left + length, 2);
     const double next = draft.s[part.first_point + 1];  // up to where it has lifted before
+    const double least_between = 8.0 * least_span(held.run);
     const int behind = elements(left + length, next, fewest_pressed);
-    if (left < begin || left + length > next) return;
+    const bool fits = left >= begin && left + length <= next;
+    if (!fits || (!at_first && !at_last && length < least_between)) return;
     SlidingDraft::Entry edge{.point = {.obstacle = held.obstacle}, .run = held.run, .s = left, .closed = true};
     first = at_first ? a : draft.insert(edge, elements(begin, left, fewest_pressed), at_last ? across : behind);
     draft.points[first].behind = Span::free;
