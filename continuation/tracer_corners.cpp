@@ -179,6 +179,7 @@ void Tracer::refine(const State& violated, double margin) {
   if (!here) return;
   here->arc = here_.arc;
   here_ = std::move(*here);
+  before_.reset();
   held_ = here_.held;
   after_ = here_.count;
   refined_ = true;
