@@ -4,65 +4,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "elements/essenburg_assembly.hpp"
 #include "elements/shape_functions.hpp"
+#include "elements/updated_essenburg_beam.hpp"
 
 namespace arcwall {
-
-namespace {
-
-constexpr int unknowns_a_node = EssenburgBeam::unknowns_a_node;
-constexpr int vectors_a_node = 3;               // u, d − D, q
-constexpr int components = 2 * vectors_a_node;  // of the vectors of a node
-
-template <int nodes>
-using Sections = std::array<EssenburgNode::Vectors, nodes>;
-
-// T = ∂v/∂u of one node.
-Eigen::Matrix<double, components, unknowns_a_node> transform(const EssenburgNode::Vectors& section) {
-  Eigen::Matrix<double, components, unknowns_a_node> T;
-  T.setZero();
-  T.block<2, 2>(0, 0).setIdentity();
-  T.block<2, 1>(2, 2) = section.d_phi;
-  T.block<2, 1>(4, 2) = section.q_phi;
-  T.block<2, 1>(2, 3) = section.d_e;
-  T.block<2, 1>(4, 4) = section.q_xi;
-  return T;
-}
-
-// f = Tᵀ g
-template <int nodes>
-void forces_of_unknowns(const Sections<nodes>& sections, const Eigen::Matrix<double, 2, vectors_a_node * nodes>& g,
-                        double* f) {
-  const Eigen::Map<const Eigen::Matrix<double, components * nodes, 1>> forces(g.data());
-  Eigen::Map<Eigen::Matrix<double, unknowns_a_node * nodes, 1>> out(f);
-  for (int a = 0; a < nodes; ++a)
-    out.template segment<unknowns_a_node>(unknowns_a_node * a) =
-        transform(sections[static_cast<std::size_t>(a)]).transpose() *
-        forces.template segment<components>(components * a);
-}
-
-// K = Tᵀ H T + Σ g·∂²v; the lower triangle of H is enough.
-template <int nodes>
-void stiffness_of_unknowns(const Sections<nodes>& sections, const Eigen::Matrix<double, 2, vectors_a_node * nodes>& g,
-                           Eigen::Matrix<double, components * nodes, components * nodes>& H, double* K) {
-  H.template triangularView<Eigen::StrictlyUpper>() = H.transpose();
-  Eigen::Map<Eigen::Matrix<double, unknowns_a_node * nodes, unknowns_a_node * nodes>> out(K);
-  for (int b = 0; b < nodes; ++b) {
-    const EssenburgNode::Vectors& at = sections[static_cast<std::size_t>(b)];
-    const auto T = transform(at);
-    for (int a = b; a < nodes; ++a)
-      out.template block<unknowns_a_node, unknowns_a_node>(unknowns_a_node * a, unknowns_a_node * b).noalias() =
-          transform(sections[static_cast<std::size_t>(a)]).transpose() *
-          (H.template block<components, components>(components * a, components * b) * T).eval();
-    const Vec2 of_d = g.col(vectors_a_node * b + 1), of_q = g.col(vectors_a_node * b + 2);
-    const int phi = unknowns_a_node * b + 2, e = phi + 1, xi = phi + 2;
-    out(phi, phi) += of_d.dot(at.d_phi_phi) + of_q.dot(at.q_phi_phi);
-    out(e, phi) += of_d.dot(at.d_phi_e);
-    out(xi, phi) += of_q.dot(at.q_phi_xi);
-  }
-}
-
-}  // namespace
 
 // With p = t turned by +90°: ∂t/∂φ = p, ∂p/∂φ = −t. d − D = (cos φ − 1) D + sin φ D⊥ + e t, with cos φ − 1 =
 // −2 sin²(φ/2) for the digits of small rotations.
@@ -95,11 +41,12 @@ EssenburgNode::Vectors EssenburgNode::vectors(double phi, double e, double xi) c
 }
 
 // Plane stress across the width: C11 = C33 = E/(1 − ν²), C13 = ν C11.
-EssenburgBeam::EssenburgBeam(const EssenburgReference& reference, const EssenburgStiffness& stiffness, int axial_points)
-    : C11_(stiffness.E / (1.0 - stiffness.nu * stiffness.nu)),
-      C13_(stiffness.nu * C11_),
-      G_(stiffness.shear_correction * stiffness.E / (2.0 * (1.0 + stiffness.nu))),
-      sections_(reference.sections) {
+EssenburgElement::EssenburgElement(const EssenburgReference& reference, const EssenburgStiffness& stiffness,
+                                   int axial_points)
+    : C11(stiffness.E / (1.0 - stiffness.nu * stiffness.nu)),
+      C13(stiffness.nu * C11),
+      G(stiffness.shear_correction * stiffness.E / (2.0 * (1.0 + stiffness.nu))),
+      sections(reference.sections) {
   assert(reference.nodes.size() == reference.sections.size());
   const GaussRule rule = gauss_rule(axial_points);
   for (std::size_t g = 0; g < static_cast<std::size_t>(axial_points); ++g)
@@ -110,8 +57,8 @@ EssenburgBeam::EssenburgBeam(const EssenburgReference& reference, const Essenbur
 //
 //   f1 = F e1 = [a1 − (A1·e3/m) a3]/J,    f3 = F e3 = a3/m,    dV = J m dξ dA                            (1)
 //   a1 = ∂/∂ξ (r + z d + z² q),           a3 = d + 2 z q                                                 (2)
-void EssenburgBeam::add_points(const EssenburgReference& reference, double xi, double weight,
-                               const std::vector<SectionPoint>& heights) {
+void EssenburgElement::add_points(const EssenburgReference& reference, double xi, double weight,
+                                  const std::vector<SectionPoint>& heights) {
   const ShapeFunctions shape = shape_functions(reference.order(), xi);
   Vec2 X_xi = Vec2::Zero(), D = Vec2::Zero(), D_xi = Vec2::Zero();
   for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
@@ -129,14 +76,15 @@ void EssenburgBeam::add_points(const EssenburgReference& reference, double xi, d
     point.volume = weight * area * J * m;
     for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
       const double N = shape.N[a], dN = shape.dN[a];
-      double *c1 = &point.c1[vectors_a_node * a], *c3 = &point.c3[vectors_a_node * a];
+      double *c1 = &point.c1[static_cast<std::size_t>(vectors_a_node) * a],
+             *c3 = &point.c3[static_cast<std::size_t>(vectors_a_node) * a];
       c1[0] = dN / J;
       c1[1] = (z * dN - skew * N) / J;
       c1[2] = (z * z * dN - 2.0 * z * skew * N) / J;
       c3[1] = N / m;
       c3[2] = 2.0 * z * N / m;
     }
-    points_.push_back(point);
+    points.push_back(point);
   }
 }
 
@@ -152,61 +100,32 @@ void EssenburgBeam::add_points(const EssenburgReference& reference, double xi, d
 //        [              ·                   S33 1 + C11 f3 f3ᵀ + G f1 f1ᵀ ]                               (5)
 //
 // in (f1, f3).
-EssenburgBeam::Response EssenburgBeam::respond(const Point& at, const Vec2& h1, const Vec2& h3, bool tangent) const {
+EssenburgElement::Response EssenburgBeam::respond(const EssenburgElement::Point& at, const Vec2& h1, const Vec2& h3,
+                                                  bool tangent) const {
+  const double C11 = at.volume * element_->C11, C13 = at.volume * element_->C13, G = at.volume * element_->G;
   const double E11 = at.e1.dot(h1) + 0.5 * h1.squaredNorm(), E33 = at.e3.dot(h3) + 0.5 * h3.squaredNorm();
   const double gamma = at.e1.dot(h3) + at.e3.dot(h1) + h1.dot(h3);
-  const double S11 = at.volume * (C11_ * E11 + C13_ * E33), S33 = at.volume * (C13_ * E11 + C11_ * E33);
-  const double S13 = at.volume * G_ * gamma;
+  const double S11 = C11 * E11 + C13 * E33, S33 = C13 * E11 + C11 * E33, S13 = G * gamma;
   const Vec2 f1 = at.e1 + h1, f3 = at.e3 + h3;
-  Response response{
+  EssenburgElement::Response response{
       .U = 0.5 * (S11 * E11 + S33 * E33 + S13 * gamma), .P1 = S11 * f1 + S13 * f3, .P3 = S13 * f1 + S33 * f3};
   if (!tangent) return response;
   const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-  const double C11 = at.volume * C11_, C13 = at.volume * C13_, G = at.volume * G_;
   response.A11 = S11 * I + C11 * f1 * f1.transpose() + G * f3 * f3.transpose();
   response.A13 = S13 * I + C13 * f1 * f3.transpose() + G * f3 * f1.transpose();
   response.A33 = S33 * I + C11 * f3 * f3.transpose() + G * f1 * f1.transpose();
   return response;
 }
 
-// By c1 and c3 of (1) gradient g and Hessian H are those in the nodal vectors v.
-template <int nodes>
-double EssenburgBeam::evaluate_nodes(const double* u, double* f, double* K) const {
-  constexpr int vectors = vectors_a_node * nodes;
-  std::array<EssenburgNode::Vectors, nodes> sections;
-  Eigen::Matrix<double, 2, vectors> v, g = Eigen::Matrix<double, 2, vectors>::Zero();
-  for (int a = 0; a < nodes; ++a) {
-    const double* at = u + unknowns_a_node * a;
-    EssenburgNode::Vectors& section = sections[static_cast<std::size_t>(a)];
-    section = sections_[static_cast<std::size_t>(a)].vectors(at[2], at[3], at[4]);
-    v.col(vectors_a_node * a) = Vec2(at[0], at[1]);
-    v.col(vectors_a_node * a + 1) = section.d_change;
-    v.col(vectors_a_node * a + 2) = section.q;
-  }
-  Eigen::Matrix<double, 2 * vectors, 2 * vectors> H;
-  if (K != nullptr) H.setZero();
-
-  double U = 0.0;
-  for (const Point& at : points_) {
-    const Eigen::Map<const Eigen::Matrix<double, vectors, 1>> c1(at.c1.data()), c3(at.c3.data());
-    const Response response = respond(at, v * c1, v * c3, K != nullptr);
-    U += response.U;
-    g.noalias() += response.P1 * c1.transpose();
-    g.noalias() += response.P3 * c3.transpose();
-    if (K == nullptr) continue;
-    for (int j = 0; j < vectors; ++j) {
-      const Eigen::Matrix2d B1 = c1[j] * response.A11 + c3[j] * response.A13;
-      const Eigen::Matrix2d B3 = c1[j] * response.A13.transpose() + c3[j] * response.A33;
-      for (int i = j; i < vectors; ++i) H.template block<2, 2>(2 * i, 2 * j) += c1[i] * B1 + c3[i] * B3;
-    }
-  }
-  if (f != nullptr) forces_of_unknowns<nodes>(sections, g, f);
-  if (K != nullptr) stiffness_of_unknowns<nodes>(sections, g, H, K);
-  return U;
+double EssenburgBeam::evaluate(const double* u, double* f, double* K) const {
+  const auto response = [this](std::size_t i, const Vec2& h1, const Vec2& h3, bool tangent) {
+    return respond(element_->points[i], h1, h3, tangent);
+  };
+  return essenburg::assemble(*element_, response, u, f, K);
 }
 
-double EssenburgBeam::evaluate(const double* u, double* f, double* K) const {
-  return sections_.size() == 2 ? evaluate_nodes<2>(u, f, K) : evaluate_nodes<3>(u, f, K);
+std::unique_ptr<Element> EssenburgBeam::updated(const double* u) const {
+  return std::make_unique<UpdatedEssenburgBeam>(u, element_);
 }
 
 }  // namespace arcwall
