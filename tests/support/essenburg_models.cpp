@@ -28,41 +28,47 @@ MemberDescription beam_along(std::unique_ptr<Axis> axis, const EssenburgBeams& b
           .elements = elements};
 }
 
+constexpr double foundation_height = 0.2, channel_clearance = 0.15;
+
 }  // namespace
 
-ContactModel EssenburgFoundation::model() const {
-  constexpr double h = 0.2, clearance = 0.08;
+std::unique_ptr<Structure> EssenburgFoundation::structure() const {
   StructureBuilder builder;
   const Vec2 middle(0.0, 0.0), end(1.0, 0.0);
   builder.add_joint(middle);
   builder.add_joint(end);
-  builder.add_member(beam_along(straight_axis(middle, end), beams, h, h, elements));
+  builder.add_member(beam_along(straight_axis(middle, end), beams, foundation_height, foundation_height, elements));
   builder.fix(builder.freedom(0, Freedom::x));
   builder.fix(builder.shared_rotation(0).value());
   builder.fix(builder.freedom(1, Freedom::z));
   builder.add_load(builder.shared_rotation(1).value(), scale, LoadKind::proportional);
-  const double wall = -0.5 * h - scale * clearance;
-  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(wall)}}, first_step};
+  return builder.build();
 }
 
-ContactModel EssenburgChannel::model() const {
-  constexpr double width = 0.1, clearance = 0.15;
+std::vector<TestWall> EssenburgFoundation::walls() const {
+  const double z = -0.5 * foundation_height - scale * 0.08;
+  return {{.name = "foundation", .side = Side::below, .profile = flat_profile(z)}};
+}
+
+std::unique_ptr<Structure> EssenburgChannel::structure() const {
   StructureBuilder builder;
   const Vec2 left(0.0, 0.0), right(2.0, 0.0);
   builder.add_joint(left);
   builder.add_joint(right);
-  MemberDescription column = beam_along(straight_axis(left, right), beams, width, height, elements);
+  MemberDescription column = beam_along(straight_axis(left, right), beams, 0.1, height, elements);
   column.imperfection = imperfection;
   builder.add_member(std::move(column));
   builder.fix(builder.freedom(0, Freedom::x));
   builder.fix(builder.freedom(0, Freedom::z));
   builder.fix(builder.freedom(1, Freedom::z));
   builder.add_load(builder.freedom(1, Freedom::x), -1.0, LoadKind::proportional);
-  const double wall = 0.5 * height + clearance;
-  return {builder.build(),
-          {{.name = "upper", .side = Side::above, .profile = flat_profile(wall)},
-           {.name = "lower", .side = Side::below, .profile = flat_profile(-wall)}},
-          first_step};
+  return builder.build();
+}
+
+std::vector<TestWall> EssenburgChannel::walls() const {
+  const double z = 0.5 * height + channel_clearance;
+  return {{.name = "upper", .side = Side::above, .profile = flat_profile(z)},
+          {.name = "lower", .side = Side::below, .profile = flat_profile(-z)}};
 }
 
 }  // namespace arcwall::test

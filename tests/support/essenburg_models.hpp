@@ -26,7 +26,9 @@ struct EssenburgFoundation {
   double scale = 1.0;
   double first_step = 0.05;
 
-  ContactModel model() const;
+  std::unique_ptr<Structure> structure() const;
+  std::vector<TestWall> walls() const;
+  ContactModel model() const { return {structure(), walls(), first_step}; }
 };
 
 /// The channel of Selke & Kikuchi's second example [kN, cm]: pinned column of length 2, width 0.1, between walls 0.15
@@ -38,7 +40,9 @@ struct EssenburgChannel {
   std::vector<SineDeviation> imperfection{};
   double first_step = 0.05;
 
-  ContactModel model() const;
+  std::unique_ptr<Structure> structure() const;
+  std::vector<TestWall> walls() const;
+  ContactModel model() const { return {structure(), walls(), first_step}; }
 };
 
 }  // namespace arcwall::test

@@ -221,28 +221,33 @@ std::vector<Watch> PathModel::watched() const {
   return {{.quantity = displacement(*structure, loaded, Freedom::z), .label = "z"}};
 }
 
-ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step,
-                           const ContactLaw& law)
-    : structure_(std::move(structure)) {
-  std::vector<Candidate> candidates;
+std::vector<Candidate> candidates(const Structure& structure, const std::vector<TestWall>& walls) {
+  std::vector<Candidate> all;
   for (const TestWall& wall : walls)
-    for (const MemberMesh& mesh : structure_->members())
+    for (const MemberMesh& mesh : structure.members())
       for (const MemberSection& section : mesh.contact_sections()) {
         const double looks_up = wall.side == Side::above ? 1.0 : -1.0;
         const double offset =
             wall.on_axis ? 0.0 : std::copysign(0.5 * mesh.height.value(), looks_up * std::cos(section.shape.angle));
-        auto point = std::make_unique<MemberPoint>(*structure_, section, offset);
+        auto point = std::make_unique<MemberPoint>(structure, section, offset);
         if (point->unknowns().empty()) continue;
-        candidates.emplace_back(
+        all.emplace_back(
             std::move(point), wall.profile, wall.side,
             ContactLabel{
                 .wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
       }
+  return all;
+}
+
+ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vector<TestWall>& walls, double first_step,
+                           const ContactLaw& law)
+    : structure_(std::move(structure)) {
   // Forces below the guard tolerance times this scale are zero: ten first steps, but above the mesh's round-off.
   const double force = std::max(10.0 * structure_->force_scale() * std::abs(first_step),
                                 structure_->force_roundoff() / TraceOptions{}.guard_tolerance);
-  contact_ = std::make_unique<MultiplierContact>(
-      *structure_, std::move(candidates), ContactScales{.length = structure_->length_scale(), .force = force}, law);
+  contact_ =
+      std::make_unique<MultiplierContact>(*structure_, candidates(*structure_, walls),
+                                          ContactScales{.length = structure_->length_scale(), .force = force}, law);
 }
 
 ContactModel foundation_beam(int elements, const ContactLaw& law) {

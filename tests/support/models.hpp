@@ -133,6 +133,9 @@ struct TestWall {
   bool on_axis = false;
 };
 
+/// Every section that carries contact against every wall.
+std::vector<Candidate> candidates(const Structure& structure, const std::vector<TestWall>& walls);
+
 /// A structure with node contact of all its members: guards are scaled as in a study whose first step is `first_step`.
 class ContactModel {
  public:
