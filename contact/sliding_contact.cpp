@@ -19,7 +19,7 @@ Vec2 tangent(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 // Slope angle of a wall and its curvature, with derivatives by x.
 struct Bend {
-  double angle, angle_x, curvature, curvature_x;
+  double angle, angle_x, angle_xx, curvature, curvature_x;
 };
 
 Bend bend(const Profile& profile, double x) {
@@ -27,8 +27,20 @@ Bend bend(const Profile& profile, double x) {
   const double w = 1.0 + psi.first * psi.first, root = std::sqrt(w);
   return {.angle = std::atan(psi.first),
           .angle_x = psi.second / w,
+          .angle_xx = psi.third / w - 2.0 * psi.first * psi.second * psi.second / (w * w),
           .curvature = psi.second / (w * root),
           .curvature_x = psi.third / (w * root) - 3.0 * psi.first * psi.second * psi.second / (w * w * root)};
+}
+
+// The point of a section that looks at a wall: its normal looks along the wall's or against it, with the direction of
+// travel.
+Vec2 face(double offset, const AxisPlace& place) {
+  return place.position + (std::cos(place.angle) >= 0.0 ? offset : -offset) * normal(place.angle);
+}
+
+// Where the body does not lie on the wall; before a point contact.
+SlidingMesh::At free_side(const SlidingContactLayout& on, std::size_t point) {
+  return on.span_before(point) == Span::free ? SlidingMesh::At::before : SlidingMesh::At::behind;
 }
 
 double sign_of(Side side) { return side == Side::below ? 1.0 : -1.0; }
@@ -114,12 +126,10 @@ SlidingContact::Touch SlidingContact::touch(const SlidingContactLayout& on, std:
           .offset = normal_offset(end.obstacle, end.run)};
 }
 
-// A section's normal looks along the wall's or against it, with the direction of travel.
 double SlidingContact::face_gap(const Touch& touch, const AxisPlace& place) const {
-  const double offset = std::cos(place.angle) >= 0.0 ? touch.offset : -touch.offset;
-  const Vec2 face = place.position + offset * normal(place.angle);
+  const Vec2 at = face(touch.offset, place);
   const Obstacle& obstacle = obstacles_[touch.obstacle];
-  return obstacle.profile->covers(face.x()) ? surface_gap(*obstacle.profile, obstacle.side, face).value : infinity;
+  return obstacle.profile->covers(at.x()) ? surface_gap(*obstacle.profile, obstacle.side, at).value : infinity;
 }
 
 // The face r + o n(θ) with ∂n/∂θ = −t; the tilt is θ − φ(x of the face), φ the wall's slope.
@@ -138,6 +148,11 @@ SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const Vecto
   out.tilt = std::remainder(place.angle - wall.angle, pi);
   out.gap_gradient << g.x, g.z, -o * (g.x * t.x() + g.z * t.y());
   out.tilt_gradient << -wall.angle_x, 0.0, 1.0 + wall.angle_x * o * t.x();
+  const double sway = o * t.x();  // of the face against x, by angle
+  out.tilt_hessian.setZero();
+  out.tilt_hessian(0, 0) = -wall.angle_xx;
+  out.tilt_hessian(0, 2) = out.tilt_hessian(2, 0) = wall.angle_xx * sway;
+  out.tilt_hessian(2, 2) = -wall.angle_xx * sway * sway + wall.angle_x * o * n.x();
   out.gap_hessian.setZero();
   out.gap_hessian(0, 0) = g.xx;
   out.gap_hessian(0, 1) = out.gap_hessian(1, 0) = g.xz;
@@ -156,7 +171,7 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, s
   const AxisPlace place = on.mesh().node(at.run, at.position, x);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0, offset = travel * at.offset;
   const double side = sign_of(obstacles_[at.obstacle].side);
-  const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), x, s, state.lambda);
+  const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), free_side(on, k), x, s, state.lambda);
   const Bend wall = bend(*obstacles_[at.obstacle].profile, (place.position + offset * normal(place.angle)).x());
   const double shrink = 1.0 / (1.0 + at.offset * wall.curvature);
   const double parallel = wall.curvature * shrink, parallel_x = wall.curvature_x * shrink * shrink;
@@ -171,9 +186,14 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, s
   return out;
 }
 
+// In terms of a moment.
+double SlidingContact::bending_gap(const State& state, std::size_t k) const {
+  const Index run = layout(state.piece).mesh().breakpoint(static_cast<Index>(k)).first;
+  return body_.bending_stiffness(run) * curvature_gap(state, k).value;
+}
+
 // Force per length that would hold the body on the wall at point k: ± [EI (κ̂″ − κ₀″) + P κ̂ − q·n], q the load along
-// the body. Its sign says whether the
-// body lies on the wall there, its vanishing that it does so by itself.
+// the body. Its sign says whether the body lies on the wall there, its vanishing that it does so by itself.
 double SlidingContact::pressure(const State& state, std::size_t k) const {
   const SlidingContactLayout& on = layout(state.piece);
   const Vector x = on.x_of(state), s = on.s_of(state);
@@ -189,7 +209,8 @@ double SlidingContact::pressure(const State& state, std::size_t k) const {
     return profile.covers(x_there) ? bend(profile, x_there).curvature : 0.0;
   };
   const double EI = body_.bending_stiffness(at.run), EA = body_.axial_stiffness(at.run);
-  const double thrust = -EA * (on.mesh().strain(static_cast<Index>(k), x, s, state.lambda).stretch - 1.0);
+  const double thrust =
+      -EA * (on.mesh().strain(static_cast<Index>(k), free_side(on, k), x, s, state.lambda).stretch - 1.0);
   const Vec2 up = travel * normal(place.angle);
   const double q =
       sign_of(obstacles_[at.obstacle].side) *
@@ -203,6 +224,11 @@ double SlidingContact::wall_curvature(const State& state, std::size_t k) const {
   const Touch at = touch(on, k);
   const AxisPlace place = on.mesh().node(at.run, at.position, on.x_of(state));
   return bend(*obstacles_[at.obstacle].profile, place.position.x()).curvature;
+}
+
+// Whether the body needs no pressure to lie on a straight wall behind point k.
+bool SlidingContact::lies_by_itself(const State& state, std::size_t k) const {
+  return pressure(state, k) == 0.0 && wall_curvature(state, k) == 0.0;
 }
 
 // --- the equations --------------------------------------------------------------------------------------------------
@@ -243,7 +269,8 @@ void SlidingContact::residual(const State& state, Eigen::Ref<Vector> F) const {
     const NodeGap gap = node_gap(at, x, on);
     add(at, gap.tilt_gradient, state.x[moments + k]);
     F[moments + k] = -gap.tilt;
-    F[moments + m + k] = state.x[moments + k];
+    F[moments + m + k] = on.lies_pressed(static_cast<std::size_t>(k)) ? bending_gap(state, static_cast<std::size_t>(k))
+                                                                      : state.x[moments + k];
   }
 }
 
@@ -274,22 +301,37 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
     for (std::size_t i = 0; i < 3; ++i)
       if (unknowns[i] >= 0) out.K.coeffRef(row, unknowns[i]) = -gradient[static_cast<Index>(i)];
   };
-  for_each_force(state, [&](const Touch& at, Index p) {
-    const NodeGap gap = node_gap(at, x, on);
-    add_row(at, gap.gap_gradient, p);
+  const auto add_hessian = [&](const Touch& at, const Eigen::Matrix3d& hessian, double force) {
     const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j <= i; ++j) {
         if (unknowns[i] < 0 || unknowns[j] < 0) continue;
-        const double h = gap.gap_hessian(static_cast<Index>(i), static_cast<Index>(j));
+        const double h = hessian(static_cast<Index>(i), static_cast<Index>(j));
         if (h != 0.0)
-          out.K.coeffRef(std::max(unknowns[i], unknowns[j]), std::min(unknowns[i], unknowns[j])) -= state.x[p] * h;
+          out.K.coeffRef(std::max(unknowns[i], unknowns[j]), std::min(unknowns[i], unknowns[j])) -= force * h;
       }
+  };
+  for_each_force(state, [&](const Touch& at, Index p) {
+    const NodeGap gap = node_gap(at, x, on);
+    add_row(at, gap.gap_gradient, p);
+    add_hessian(at, gap.gap_hessian, state.x[p]);
   });
   const Index moments = size - 2 * m;
+  out.C.setZero(m, size);
   for (Index k = 0; k < m; ++k) {
     const Touch at = touch(on, static_cast<std::size_t>(k));
-    add_row(at, node_gap(at, x, on).tilt_gradient, moments + k);
+    const NodeGap gap = node_gap(at, x, on);
+    add_row(at, gap.tilt_gradient, moments + k);
+    add_hessian(at, gap.tilt_hessian, state.x[moments + k]);
+    if (on.lies_pressed(static_cast<std::size_t>(k))) {
+      const double EI = body_.bending_stiffness(at.run);
+      const CurvatureGap bend = curvature_gap(state, static_cast<std::size_t>(k));
+      out.C.row(k).head(n) = EI * bend.dx;
+      out.C.row(k).tail(m) = EI * bend.ds;
+      out.F_lambda[size - m + k] = EI * bend.dlambda;
+    } else {
+      out.C(k, moments + k) = 1.0;
+    }
   }
 }
 
@@ -314,8 +356,8 @@ void SlidingContact::lay_out(const State& state, Linearization& out) const {
   out.K.resize(core, core);
   out.K.setFromTriplets(entries.begin(), entries.end());
   out.K.makeCompressed();
-  out.zero.clear();
-  for (Index k = 0; k < m; ++k) out.zero.push_back(core - m + k);
+  out.holding.clear();
+  for (Index k = 0; k < m; ++k) out.holding.push_back(core - m + k);
   out.pattern_of = state.piece;
 }
 
@@ -420,20 +462,38 @@ std::optional<std::string> SlidingContact::obstruction(const State& state) const
   return std::nullopt;
 }
 
+std::optional<MaterialPoint> SlidingContact::lifting_place(const State& state, Index j) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  if (j < static_cast<Index>(state.piece.size())) return std::nullopt;
+  const auto limit = on.limits()[static_cast<std::size_t>(j) - state.piece.size()];
+  assert(limit.bound == Bound::pressure);
+  return MaterialPoint{.run = on.held()[limit.which].run, .s = least_pressure_place(state, limit.which)};
+}
+
 ContactLabel SlidingContact::label(const State& state, Index j) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Touch at = touch(on, static_cast<std::size_t>(j));
-  const auto [member, fraction] =
-      body_.label({.run = at.run, .s = on.mesh().coordinate(at.run, at.position, on.s_of(state))});
-  return {.wall = obstacles_[at.obstacle].name, .member = member, .fraction = fraction};
+  std::size_t obstacle = 0;
+  std::optional<MaterialPoint> place = lifting_place(state, j);
+  if (place) {
+    obstacle = on.held()[on.limits()[static_cast<std::size_t>(j) - state.piece.size()].which].obstacle;
+  } else {
+    const Touch at = touch(on, static_cast<std::size_t>(j));
+    obstacle = at.obstacle;
+    place = {.run = at.run, .s = on.mesh().coordinate(at.run, at.position, on.s_of(state))};
+  }
+  const auto [member, fraction] = body_.label(*place);
+  return {.wall = obstacles_[obstacle].name, .member = member, .fraction = fraction};
 }
 
 Vec2 SlidingContact::place(const State& state, Index j) const {
   const SlidingContactLayout& on = layout(state.piece);
+  if (const auto at = lifting_place(state, j)) {
+    const std::size_t obstacle =
+        on.held()[on.limits()[static_cast<std::size_t>(j) - state.piece.size()].which].obstacle;
+    return face(normal_offset(obstacle, at->run), on.mesh().place(*at, on.x_of(state), on.s_of(state)));
+  }
   const Touch at = touch(on, static_cast<std::size_t>(j));
-  const AxisPlace place = on.mesh().node(at.run, at.position, on.x_of(state));
-  const double offset = std::cos(place.angle) >= 0.0 ? at.offset : -at.offset;
-  return place.position + offset * normal(place.angle);
+  return face(at.offset, on.mesh().node(at.run, at.position, on.x_of(state)));
 }
 
 double SlidingContact::force(const State& state, Index j) const {

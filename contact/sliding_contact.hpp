@@ -7,6 +7,7 @@
 
 #include "contact/candidate.hpp"
 #include "contact/multiplier_contact.hpp"
+#include "contact/sliding_layout.hpp"
 #include "core/sliding_body.hpp"
 #include "core/system.hpp"
 
@@ -21,7 +22,7 @@ struct Obstacle {
   std::vector<std::uint8_t> runs{};  ///< per run whether it concerns it
 };
 
-class SlidingContactLayout;
+struct SlidingDraft;
 
 /// A body of slender members among obstacles, with contact where it is: the material coordinates s of the contact
 /// points are unknowns, and the mesh moves with them (docs/theory.md, section 8).
@@ -29,7 +30,8 @@ class SlidingContactLayout;
 ///     F(x, s, λ) − Σ p_k ∇g_k − Σ m_k ∇t_k = 0,   −g_k = 0 (closed),   −t_k = 0,   m_k = 0
 ///
 /// g is the gap, t the angle between the body and the wall, p ≥ 0 the contact force; m, a moment that holds the
-/// tangency, vanishes. Tracked points are closed, or open and follow a least gap. Unknowns: x, p, m, s.
+/// tangency, vanishes, or at the ends of a pressed part what the body bends more than the wall does. Tracked points are
+/// closed, or open and follow a least gap. Unknowns: x, p, m, s.
 ///
 /// Between two closed points on one wall the body may lie on the wall: straight and without pressure, or with nodes
 /// that are held on the wall, where wall or body are curved so that they press.
@@ -70,7 +72,8 @@ class SlidingContact final : public System {
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
-  /// Where contact j of a piece is, and its force.
+  /// Where contact j of a piece is, and its force. The number of a guard on the pressure of a part on a wall stands for
+  /// the place where the pressure is least.
   ContactLabel label(const State& state, Index j) const;
   Vec2 place(const State& state, Index j) const;
   double force(const State& state, Index j) const;
@@ -87,7 +90,7 @@ class SlidingContact final : public System {
   struct NodeGap {
     double gap, tilt;
     Eigen::Vector3d gap_gradient, tilt_gradient;
-    Eigen::Matrix3d gap_hessian;
+    Eigen::Matrix3d gap_hessian, tilt_hessian;
   };
   // A node that touches or may touch.
   struct Touch {
@@ -107,7 +110,14 @@ class SlidingContact final : public System {
     MaterialPoint at{};
     double gap = 0.0;
   };
-  using Map = std::function<State(const State&)>;
+  // Where the pressure of a held node's surroundings is least, in elements from the node; it is Σ weight · pressure of
+  // the held nodes from `first` on.
+  struct LeastPressure {
+    double offset = 0.0;
+    std::size_t first = 0;
+    Vector weights{};
+  };
+  using Edit = std::function<void(SlidingDraft&)>;
 
   const SlidingContactLayout& layout(const Piece& piece) const;
   Touch touch(const SlidingContactLayout& on, std::size_t j) const;
@@ -115,30 +125,50 @@ class SlidingContact final : public System {
   double face_gap(const Touch& touch, const AxisPlace& place) const;
   NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
   CurvatureGap curvature_gap(const State& state, std::size_t k) const;
+  double bending_gap(const State& state, std::size_t k) const;
   double pressure(const State& state, std::size_t k) const;
   double wall_curvature(const State& state, std::size_t k) const;
+  bool lies_by_itself(const State& state, std::size_t k) const;
   template <typename Visit>
   void for_each_force(const State& state, const Visit& visit) const;
   void lay_out(const State& state, Linearization& out) const;
 
+  std::optional<MaterialPoint> lifting_place(const State& state, Index j) const;
   Index held_force(const State& state, std::size_t node) const;
+  LeastPressure least_pressure(const State& state, std::size_t node) const;
+  double least_pressure_around(const State& state, std::size_t node) const;
+  double least_pressure_place(const State& state, std::size_t node) const;
   double limit_value(const State& state, std::size_t limit) const;
   Row limit_gradient(const State& state, std::size_t limit) const;
   template <typename Visit>
   void for_each_minimum(const State& state, bool everywhere, const Visit& visit) const;
   std::optional<Minimum> deepest(const State& state, double margin) const;
+  std::optional<Minimum> nearest(const State& state, const Minimum& other) const;
 
-  struct Redrawn;
-  State redrawn(const State& state, const Redrawn& by) const;
-  Passage remeshed(const State& state, const Direction& forward, const Map& map) const;
-  std::vector<Passage> spreads(const State& state, std::size_t k) const;
-  enum class Lying { flat, pressed, off };
-  Passage spread(const State& state, std::size_t k, Lying lying, double length) const;
-  Passage gathered(const State& state, std::size_t k) const;
+  SlidingDraft draft_of(const State& state) const;
+  std::shared_ptr<const SlidingContactLayout> layout_of(const SlidingDraft& draft) const;
+  State redrawn(const State& state, const SlidingDraft& by,
+                const std::shared_ptr<const SlidingContactLayout>& on) const;
+  Passage remeshed(const State& state, const Direction& forward, const Edit& edit) const;
+
+  std::vector<std::size_t> reached(const State& state, SlidingContactLayout::Bound bound, double tolerance) const;
+  std::vector<Passage> straightened(const State& state, double tolerance) const;
+  Passage family(const State& state, Index lines, Index ends) const;
+  std::vector<Passage> spreads(const State& state, const std::vector<std::size_t>& points) const;
+  Passage spread(const State& state, const std::vector<std::size_t>& points, SlidingContactLayout::Span between,
+                 double length) const;
+  Passage shrunk(const State& state, std::size_t k, double tolerance) const;
+  Passage shrunk_passage(const State& state, const SlidingDraft& draft, double s, Passage::Change change) const;
+  Passage gathered(const State& state, const std::vector<std::size_t>& spans) const;
+  Passage joined(const State& state, const std::vector<std::size_t>& gaps) const;
+  std::vector<Passage> lifted(const State& state, double tolerance) const;
+  void add_split(const State& state, const std::vector<std::size_t>& nodes, double length,
+                 std::vector<Passage>& to) const;
   Passage without(const State& state, const Direction& forward, std::size_t k) const;
   Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;
   Index straightened_ends(const State& state, std::size_t k) const;
   double least_span(Index run) const;
+  double least_span(const SlidingContactLayout& on, std::size_t k) const;
 
   const SlidingBody& body_;
   std::vector<Obstacle> obstacles_;

@@ -52,10 +52,14 @@ SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_
   for (std::size_t i = 0; i < held_.size(); ++i) limits_.push_back({.bound = Bound::pressure, .which = i});
 }
 
-bool SlidingContactLayout::lies_beside(std::size_t point) const {
-  if (points_[point].behind != Span::free) return true;
-  if (point == 0 || points_[point - 1].behind == Span::free) return false;
-  return mesh_->breakpoint(static_cast<Index>(point)).first == mesh_->breakpoint(static_cast<Index>(point) - 1).first;
+SlidingContactLayout::Span SlidingContactLayout::span_before(std::size_t point) const {
+  const auto run = [this](std::size_t k) { return mesh_->breakpoint(static_cast<Index>(k)).first; };
+  return point == 0 || run(point) != run(point - 1) ? Span::free : points_[point - 1].behind;
+}
+
+bool SlidingContactLayout::parts_pressed(std::size_t point) const {
+  if (points_[point].behind != Span::free || point + 1 == points_.size()) return false;
+  return span_before(point) == Span::pressed || points_[point + 1].behind == Span::pressed;
 }
 
 std::pair<double, double> SlidingContactLayout::ends(const SlidingBody& body, const Segment& segment,

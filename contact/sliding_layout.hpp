@@ -46,7 +46,7 @@ class SlidingContactLayout final : public SlidingLayout {
     half_wave,  ///< of the flat segment `which`: long enough to need elements of its own
     straight,   ///< short enough to need none
     room,       ///< of segment `which`: a contact reaches the end of its member, or one on another wall
-    pressure,   ///< of the held node `which`
+    pressure,   ///< around the held node `which`
   };
   struct Limit {
     Bound bound;
@@ -67,8 +67,21 @@ class SlidingContactLayout final : public SlidingLayout {
   Vector x_of(const State& state) const { return state.x.head(mesh_->unknowns()); }
   Vector s_of(const State& state) const { return state.x.tail(mesh_->breakpoints()); }
 
+  /// How the body runs up to a point.
+  Span span_before(std::size_t point) const;
+
+  /// Whether the stretch behind a point is free with a pressed part on one side.
+  bool parts_pressed(std::size_t point) const;
+
+  /// Whether a point is the end of a pressed part.
+  bool lies_pressed(std::size_t point) const {
+    return points_[point].behind == Span::pressed || span_before(point) == Span::pressed;
+  }
+
   /// Whether the body lies on the wall on one side of a point.
-  bool lies_beside(std::size_t point) const;
+  bool lies_beside(std::size_t point) const {
+    return points_[point].behind != Span::free || span_before(point) != Span::free;
+  }
 
   /// Material coordinates of a segment's ends.
   std::pair<double, double> ends(const SlidingBody& body, const Segment& segment, const Vector& s) const;

@@ -59,6 +59,12 @@ std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count)
   return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count);
 }
 
+std::optional<Matrix> Corrector::responses(Matrix columns) const {
+  if (!solver_.inner_is_regular()) return std::nullopt;
+  solver_.inner().solve(columns);
+  return columns.allFinite() ? std::optional(std::move(columns)) : std::nullopt;
+}
+
 //   [ J   ψ ] [φ]   [0]
 //   [ ψᵀ  0 ] [0] = [1]
 std::optional<Vector> Corrector::right_null(const Vector& left) {

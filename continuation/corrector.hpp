@@ -48,6 +48,9 @@ class Corrector {
   /// Eigenpairs nearest zero of K at the state reached last; empty where K is singular to working precision.
   std::optional<NearNull> near_null(const Vector& weights, Index count) const;
 
+  /// K⁻¹ times the columns, K at the state reached last; empty where it is singular to working precision.
+  std::optional<Matrix> responses(Matrix columns) const;
+
   /// The right null vector of ∂F/∂x that goes with a left one, where both exist nearly: the same unless there is a
   /// border. At the state reached last.
   std::optional<Vector> right_null(const Vector& left);

@@ -59,7 +59,7 @@ void Explorer::stop(const BranchEnd& end) {
 // A branch point was located on the branch under way: decide who goes on.
 void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
-  if (known(point)) return;
+  if (event.suspected || known(point)) return;
   known_.push_back({.state = point.state, .branch = current_});
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;

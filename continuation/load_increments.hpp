@@ -9,7 +9,7 @@
 
 namespace arcwall {
 
-/// Load increments without iteration, as Selke and Kikuchi take them (eqs. 11 to 14; docs/theory.md, section 11):
+/// Load increments without iteration, as Selke and Kikuchi take them (eqs. 11 to 14; docs/theory.md, section 10):
 ///
 ///     K(x_t) Δx = λ_{t+1} f − f_int(x_t) + contact        at the configuration x_t
 ///

@@ -18,6 +18,7 @@ struct PathPoint {
   std::optional<Index>
       held{};  ///< negative eigenvalues with all closed contacts held; empty: one is zero within round-off
   StabilityCount count{};
+  NearNull nearest{};     ///< estimates of the eigenpairs nearest zero, at most two; none at singular points
   int iterations = 0;     ///< of the step that led here
   double residual = 0.0;  ///< relative
   Vector guards{};        ///< in the scale of System::guards
@@ -40,9 +41,10 @@ enum class EventKind {
 
 /// How branches cross.
 enum class BranchType {
-  symmetric,   ///< a pitchfork: the other branch leaves along the mode, both sides alike at first order
-  asymmetric,  ///< transcritical
-  one_sided,   ///< several rays leave a change of contact
+  symmetric,     ///< a pitchfork: the other branch leaves along the mode, both sides alike at first order
+  asymmetric,    ///< transcritical
+  one_sided,     ///< several rays leave a change of contact
+  undetermined,  ///< several modes at one place, or none that is known
 };
 
 /// A point where several branches meet.
@@ -55,13 +57,15 @@ struct BranchPoint {
 
   BranchType type = BranchType::symmetric;
   State state{};
-  Direction along{};            ///< unit tangent of the branch it was found on, forward
-  Direction mode{};             ///< critical mode, of unit length, largest component positive; no λ
-  Direction other{};            ///< unit tangent of the other branch
-  std::vector<Way> rays{};      ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
-  Index multiplicity = 1;       ///< of the zero eigenvalue
-  double localised = 0.0;       ///< half-width in λ of what is left uncertain
-  bool discretisation = false;  ///< contacts tied to nodes make it: the continuum has none
+  Direction along{};               ///< unit tangent of the branch it was found on, forward
+  Direction mode{};                ///< critical mode, of unit length, largest component positive; no λ
+  std::vector<Direction> modes{};  ///< all critical modes, `mode` the first
+  Direction other{};               ///< unit tangent of the other branch
+  std::vector<Way> rays{};         ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
+  Index multiplicity = 1;          ///< of the zero eigenvalue
+  Index change = 0;                ///< of the number of negative eigenvalues across it
+  double localised = 0.0;          ///< half-width in λ of what is left uncertain
+  bool discretisation = false;     ///< contacts tied to nodes make it: the continuum has none
 };
 
 /// A located point of a path.
@@ -72,6 +76,7 @@ struct Event {
   double arc = 0.0;
   double residual = 0.0;   ///< relative
   double localised = 0.0;  ///< half-width in λ of what is left uncertain
+  bool suspected = false;  ///< zero is touched without a change of sign, as nearly as can be told
   std::optional<Index> unstable_before{}, unstable_after{};
   std::vector<Index> guards{};                     ///< contacts that change
   std::shared_ptr<const BranchPoint> branching{};  ///< of branch points

@@ -130,21 +130,26 @@ std::optional<Arc> Tracer::begin_at_branch_point() {
 // One arc: predict and correct, land on the first change of contact, then on the first event before it; leave the
 // corner.
 std::optional<Arc> Tracer::advance(double s) {
-  auto step = take(s);
+  std::vector<Singular> singular = std::exchange(near_, {});
+  auto step = singular.empty() ? take_clear_of_singular(s) : std::optional(Step{.to = singular.front().at});
   if (!step) return std::nullopt;
   if (step->family) step->to.held = std::nullopt;
   const PathPoint beyond = step->to;
-  const Segment whole(metric_, here_, beyond);
-  if (options_.events != EventSearch::none && (hides_two_zeros(whole) || several_singular_points(whole)))
-    return std::nullopt;
+  if (singular.empty() && options_.events != EventSearch::none && !find_singular(beyond, singular)) return std::nullopt;
 
   std::optional<Found> found;
+  if (!singular.empty()) {
+    found = singular.front().found;
+    step->to = singular.front().at;
+    step->corner = false;
+  }
   if (options_.events != EventSearch::none || !options_.landmarks.empty()) {
     while (auto next = earliest(Segment(metric_, here_, step->to), found)) {
       constexpr double same = 1e-9;  // what was located lies at the end itself
       if (found && next->t >= 1.0 - same) break;
       auto at = locate(*next, step->to);
       if (!at) return std::nullopt;
+      singular.clear();
       step->to = std::move(*at);
       step->corner = false;
       found = next;
@@ -155,27 +160,38 @@ std::optional<Arc> Tracer::advance(double s) {
   to.arc = here_.arc + length;
   to.count = step->family ? StabilityCount{.unstable = after_.unstable} : counter_.count(to.state, to.held);
 
+  // A pitchfork met along its own branch, where λ turns and an eigenvalue touches zero, was reported on the other.
+  const bool crosses = !singular.empty() && singular.front().branching && singular.front().change % 2 == 0;
+  if (crosses && (end_ = end_where_known(to))) {
+    singular.clear();
+    found.reset();
+  }
+
   Arc arc;
-  const bool singular =
-      found && (found->what == Found::What::branch_point ||
-                (found->what == Found::What::detector && detectors_[found->which].kind == EventKind::limit_point));
   StabilityCount behind = to.count;  // just after `to`
-  if (found && found->what != Found::What::landmark) {
-    PathPoint after = beyond;
-    after.count = counter_.count(after.state, after.held);
-    arc.events.push_back(event_of(*found, to, after, length));
-    if (singular) behind = after.count;
+  if (!singular.empty()) {
+    const Singular& first = singular.front();
+    behind = count_behind(beyond, first.change);
+    arc.events = events_of(first, to, beyond, behind, length);
+    near_.assign(std::next(singular.begin()), singular.end());
+    held_ = *held_ + first.change;
+    vanishing_ = first.branching ? first.branching->multiplicity : 1;
+  } else {
+    if (found && found->what != Found::What::landmark)
+      arc.events.push_back(event_of(*found, to, beyond, behind, length));
+    if (to.held || step->family) held_ = to.held;
+    vanishing_ = to.held ? 0 : 1;
   }
   if (found && found->what == Found::What::landmark) stop_at(options_.landmarks[found->which], to);
-  held_ = singular ? beyond.held : to.held;
   if (!step->corner) after_ = behind;
-  if (!step->corner && !end_) end_where_known(to);
+  if (!step->corner && !end_) end_ = end_where_known(to);
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
 
+  const bool touched = !singular.empty() && singular.front().suspected && !singular.front().branching;
   std::vector<int> signs = signs_at(to);
   for (std::size_t i = 0; i < signs.size(); ++i) {
     if (signs[i] == 0) signs[i] = signs_[i];
-    if (found && found->what == Found::What::detector && found->which == i) signs[i] = -signs_[i];
+    if (found && found->what == Found::What::detector && found->which == i && !touched) signs[i] = -signs_[i];
   }
   signs_ = signs;
   if (step->corner && !end_) {
@@ -196,6 +212,8 @@ std::optional<Arc> Tracer::advance(double s) {
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
       end_ = {.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
   }
+  before_.reset();
+  if (!step->corner && !ahead_ && length > 0.0) before_ = std::move(here_);
   here_ = ahead_ ? ahead_->to : to;
   points_ += ahead_ ? 2 : 1;
   arc.to = std::move(to);
@@ -209,6 +227,15 @@ void Tracer::stop_at(const Landmark& landed, const PathPoint& to) {
       end_ = {.reason = EndReason::stop, .detail = mark.label};
 }
 
+// A step that ends on a singular point shows nothing of it, and its tangent there may be any: a shorter one is taken.
+std::optional<Tracer::Step> Tracer::take_clear_of_singular(double s) {
+  constexpr double beside_singular = 0.93;
+  auto step = take(s);
+  if (!step || step->corner || step->to.held || !held_ || options_.events != EventSearch::locate) return step;
+  auto shorter = take(beside_singular * s);
+  return shorter && shorter->to.held ? shorter : step;
+}
+
 std::optional<Tracer::Step> Tracer::take(double s) {
   // Off a branch point the component along the mode is prescribed, so that the step cannot fall back.
   const bool leaves = points_ == 1 && start_.forward;
@@ -216,8 +243,10 @@ std::optional<Tracer::Step> Tracer::take(double s) {
       leaves ? std::make_unique<PlaneConstraint>(metric_, here_.state, start_.mode,
                                                  s * metric_.inner(here_.tangent, start_.mode))
              : step_constraint(options_.method, metric_, here_.state, here_.tangent, s, options_.control.get());
-  CorrectorResult result =
-      corrector_.correct(moved(here_.state, here_.tangent, s), *constraint, metric_, here_.tangent, s);
+  if (here_.nearest.values.size() > 0) corrector_.track_from(here_.nearest);
+  CorrectorResult result = corrector_.correct(predicted(s), *constraint, metric_, here_.tangent, s);
+  if (!result.converged() && before_)
+    result = corrector_.correct(moved(here_.state, here_.tangent, s), *constraint, metric_, here_.tangent, s);
   last_failure_ = result.status;
   if (!result.converged()) return std::nullopt;
   obstruction_ = system_.obstruction(result.state);
@@ -235,6 +264,20 @@ std::optional<Tracer::Step> Tracer::take(double s) {
   }
   decide_count(step.to);
   return step;
+}
+
+// The guess for the end of a step: along the cubic through the last two points and their tangents, else along the
+// tangent. What is controlled has its value where the tangent leads; where contacts are watched steps end at corners as
+// often as not, and the tangent does not overshoot them.
+State Tracer::predicted(double s) const {
+  constexpr double reach = 2.5;  // of the last step, to which a cubic is extrapolated
+  const bool controlled = options_.method == PathMethod::load || options_.method == PathMethod::displacement;
+  const bool guarded = system_.guard_count(here_.state.piece) > 0;
+  if (before_ && !controlled && !guarded && before_->state.piece == here_.state.piece) {
+    const Segment last(metric_, *before_, here_);
+    if (s <= reach * last.length()) return last.at(1.0 + s / last.length());
+  }
+  return moved(here_.state, here_.tangent, s);
 }
 
 // Whether the end of a step is the continuation of its start: neither far off the predictor nor turned too much.
@@ -317,6 +360,7 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
   point.held = point.count.unstable = result.negative;
   point.iterations = result.iterations;
   point.residual = result.residual;
+  point.nearest = std::move(result.nearest);
   point.guards = system_.guards(point.state);
   point.guard_rates = system_.guard_rates(point.state, point.tangent);
   return point;
@@ -343,17 +387,18 @@ bool Tracer::passes(const PathPoint& to, const State& place) {
   return at && metric_.norm(difference(at->state, place)) <= passing;
 }
 
-void Tracer::end_where_known(const PathPoint& to) {
+// The end of a branch at a place that was passed before.
+std::optional<BranchEnd> Tracer::end_where_known(const PathPoint& to) {
   const bool far = to.arc > 3.0 * Segment(metric_, here_, to).length() + same_place;
-  if (far && passes(to, start_.state))
-    end_ = {.reason = EndReason::closed_loop, .detail = "the branch came back to its start"};
-  for (const KnownPoint& known : start_.known) {
-    if (end_ || !far) return;
+  if (!far) return std::nullopt;
+  if (passes(to, start_.state))
+    return BranchEnd{.reason = EndReason::closed_loop, .detail = "the branch came back to its start"};
+  for (const KnownPoint& known : start_.known)
     if (passes(to, known.state))
-      end_ = {.reason = EndReason::joined,
-              .detail = "joins branch " + std::to_string(known.branch),
-              .partner = known.branch};
-  }
+      return BranchEnd{.reason = EndReason::joined,
+                       .detail = "joins branch " + std::to_string(known.branch),
+                       .partner = known.branch};
+  return std::nullopt;
 }
 
 void Tracer::give_up() {

@@ -122,13 +122,24 @@ class Tracer {
     bool family = false;  // whether a continuum of equilibria lies behind the corner
   };
 
+  // A singular point of a step, located: a branch point, a limit point, or both at one place.
+  struct Singular {
+    Found found;
+    PathPoint at;
+    Index change;                                            // of the number of negative eigenvalues, held, across it
+    std::shared_ptr<const BranchPoint> branching = nullptr;  // empty: a limit point alone
+    bool suspected = false;
+  };
+
   std::optional<Arc> begin();
   std::optional<Arc> begin_at_branch_point();
   std::optional<Arc> advance(double s);
   std::optional<Step> take(double s);
+  std::optional<Step> take_clear_of_singular(double s);
   void stop_at(const Landmark& landed, const PathPoint& to);
   bool trustworthy(const PathPoint& to, double s, double& turn) const;
-  bool hides_two_zeros(const Segment& segment) const;
+  bool hides_two_zeros(const Segment& segment, double part) const;
+  State predicted(double s) const;
 
   struct GuardCrossing {
     Index guard;
@@ -138,12 +149,25 @@ class Tracer {
   bool land(Step& step, GuardCrossing crossing);
   bool leads_to_family(const Step& step) const;
 
-  bool several_singular_points(const Segment& segment) const;
-  std::optional<PathPoint> locate_branch_point(const PathPoint& to);
+  bool find_singular(const PathPoint& to, std::vector<Singular>& found);
+  bool find_limit_point(const PathPoint& to, std::vector<Singular>& found);
+  bool find_branch_points(const PathPoint& to, std::vector<Singular>& found);
+  bool find_touching_limit(const Segment& segment, std::vector<Singular>& found);
+  void add_branch_point_at_limit(const PathPoint& before, const PathPoint& after, double half_width, Singular& limit);
+  std::optional<PathPoint> beside(const Segment& segment, double t);
+  bool made_by_nodes(const State& state) const;
+  Singular singular_at(const SingularPlace& place, double chord_dlambda);
+  bool dips(const Segment& segment);
+  bool dips(const Segment& segment, Index here, Index there);
+  bool rises_from_zero(const Segment& segment, Index there);
+  StabilityCount count_behind(const PathPoint& beyond, Index change);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);
-  Event event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, double length) const;
+  Event event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, const StabilityCount& behind,
+                 double length) const;
+  std::vector<Event> events_of(const Singular& singular, const PathPoint& at, const PathPoint& beyond,
+                               const StabilityCount& behind, double length) const;
 
   bool turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events);
   bool pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events);
@@ -160,7 +184,7 @@ class Tracer {
   void decide_count(PathPoint& point);
   std::vector<int> signs_at(const PathPoint& point) const;
   bool passes(const PathPoint& to, const State& place);
-  void end_where_known(const PathPoint& to);
+  std::optional<BranchEnd> end_where_known(const PathPoint& to);
   void give_up();
 
   const System& system_;
@@ -172,10 +196,13 @@ class Tracer {
   StabilityCounter counter_;
   StepControl step_;
   PathPoint here_;
-  std::vector<int> signs_;                // of each detector just after here_
-  std::optional<Index> held_;             // negative eigenvalues just after here_, closed contacts held
-  StabilityCount after_;                  // the count just after here_
-  std::shared_ptr<BranchPoint> located_;  // the last branch point
+  std::optional<PathPoint> before_;  // the point before here_, if the arc between is smooth
+  std::vector<int> signs_;           // of each detector just after here_
+  std::optional<Index> held_;        // negative eigenvalues just after here_, closed contacts held
+  StabilityCount after_;             // the count just after here_
+  std::vector<Singular> near_;       // located with the singular point here_ and just behind it
+  Index vanishing_ = 0;              // eigenvalues that are zero at here_
+  Linearization beside_;             // workspace
   BranchStart start_;
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
   struct Visited {

@@ -1,5 +1,6 @@
 // How the tracer leaves a change of contact: the rays, the choice between them, and the events that are reported.
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "continuation/tracer.hpp"
@@ -12,6 +13,31 @@ constexpr double between = 1e-9;  // penetration between contacts, in the scale 
 constexpr int max_standing = 50;
 constexpr double same_place = 1e-8;      // in the path metric
 constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
+
+// Of a passage that is an event.
+EventKind kind_of(Passage::Change change) {
+  switch (change) {
+    case Passage::Change::spreads:
+      return EventKind::contact_spreads;
+    case Passage::Change::gathers:
+      return EventKind::contact_gathers;
+    case Passage::Change::splits:
+      return EventKind::contact_opens;
+    case Passage::Change::joins:
+      return EventKind::contact_closes;
+    case Passage::Change::remeshed:
+    case Passage::Change::family:
+    case Passage::Change::unsupported:
+      break;
+  }
+  assert(false);
+  return EventKind::user;
+}
+
+// Whether the first point on the piece ahead lies a little beyond the corner, with a new stretch of some length.
+bool begins_with_length(Passage::Change change) {
+  return change == Passage::Change::spreads || change == Passage::Change::splits;
+}
 
 }  // namespace
 
@@ -80,17 +106,16 @@ bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Ev
     at = std::move(*after);
     return pass_shifted_limit(at, events);
   }
-  const bool spreads = passage.change == Passage::Change::spreads;
-  event.kind = spreads ? EventKind::contact_spreads : EventKind::contact_gathers;
-  if (!spreads) {
+  event.kind = kind_of(passage.change);
+  const bool grows = begins_with_length(passage.change);
+  if (!grows) {
     event.state = after->state;
     event.residual = after->residual;
-    event.guards.resize(1);
   }
   events.push_back(event);
   event.guards.clear();
   add_turns(*after, event, events);
-  if (spreads) {
+  if (grows) {
     held_ = after->held;
     after_ = after->count;
     ahead_ = Arc{.to = std::move(*after), .events = {}};
@@ -139,7 +164,7 @@ std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& 
   const Direction forward = passage.quantity ? result.tangent : along;
   metric_ = metric;
   PathPoint to = point_of(std::move(result), forward);
-  to.arc = from.arc + (passage.change == Passage::Change::spreads
+  to.arc = from.arc + (begins_with_length(passage.change)
                            ? std::abs(to.state.lambda - from.state.lambda) / metric_.lambda_scale()
                            : 0.0);
   to.count = counter_.count(to.state, to.held);
@@ -154,6 +179,7 @@ void Tracer::refine(const State& violated, double margin) {
   if (!here) return;
   here->arc = here_.arc;
   here_ = std::move(*here);
+  before_.reset();
   held_ = here_.held;
   after_ = here_.count;
   refined_ = true;

@@ -27,8 +27,9 @@ EventDetector turning_detector(const System& system, const Metric& metric, std::
   return {.kind = EventKind::displacement_limit, .label = std::move(label), .value = rate, .integral = nullptr};
 }
 
-// λ may turn twice inside a step and look as if it had not: then the cubic through its ends does.
-bool Tracer::hides_two_zeros(const Segment& segment) const {
+// λ may turn twice inside a step, or nearly, and look as if it had not: then the cubic through its ends does. `part`:
+// of the lesser rate at the ends, below which the least rate inside must lie; a negative one is taken as it is.
+bool Tracer::hides_two_zeros(const Segment& segment, double part) const {
   for (const EventDetector& detector : detectors_) {
     if (!detector.integral) continue;
     const double v0 = detector.integral(segment.from()), v1 = detector.integral(segment.to());
@@ -40,8 +41,8 @@ bool Tracer::hides_two_zeros(const Segment& segment) const {
     const double mean = sign * (v1 - v0) / L, a = sign * r0, b = sign * r1;
     const double curvature = 3.0 * (a + b - 2.0 * mean), slope = 2.0 * (3.0 * mean - 2.0 * a - b);
     if (curvature <= 0.0) continue;
-    const double t = -slope / (2.0 * curvature);
-    if (t > 0.0 && t < 1.0 && a + t * (slope + t * curvature) < -detector_noise) return true;
+    const double t = -slope / (2.0 * curvature), bound = part > 0.0 ? part * std::min(a, b) : part;
+    if (t > 0.0 && t < 1.0 && a + t * (slope + t * curvature) < bound) return true;
   }
   return false;
 }
@@ -49,12 +50,6 @@ bool Tracer::hides_two_zeros(const Segment& segment) const {
 // The first detector or landmark with a zero inside the segment, besides the one that its end lies on.
 std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std::optional<Found>& already) const {
   std::optional<Found> first;
-  const bool turns =
-      !signs_.empty() && signs_.front() * sign_of(segment.to().tangent.dlambda / metric_.lambda_scale()) < 0;
-  const bool whole = !already;  // counts are certain at the end of a step, not at a located point
-  if (options_.events == EventSearch::locate && whole && !turns && held_ && segment.to().held &&
-      *held_ != *segment.to().held)
-    return Found{.what = Found::What::branch_point, .which = 0, .t = 0.5, .half_width = 0.0};
   const auto consider = [&](Found::What what, std::size_t which, double t) {
     const bool done = already && already->what == what && already->which == which;
     if (!done && (!first || t < first->t)) first = Found{.what = what, .which = which, .t = t, .half_width = 0.0};
@@ -72,7 +67,10 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
     const auto rate = [&](const PathPoint& p) { return apply(mark.quantity->gradient(p.state), p.tangent); };
     const double v0 = value(segment.from()), v1 = value(segment.to());
     const double noise = 1e-11 * std::max({std::abs(mark.value), std::abs(v0), std::abs(v1)});
-    if (const auto t = segment.first_zero(v0, rate(segment.from()), v1, rate(segment.to()), noise))
+    // A step may end on the mark to the last digit but one.
+    if (std::abs(v1) <= noise && std::abs(v0) > noise)
+      consider(Found::What::landmark, i, 1.0);
+    else if (const auto t = segment.first_zero(v0, rate(segment.from()), v1, rate(segment.to()), noise))
       consider(Found::What::landmark, i, *t);
   }
   return first;
@@ -80,7 +78,6 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
 
 // Lands on a landmark with its value as the constraint; brackets a detector's zero in planes across the chord.
 std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
-  if (found.what == Found::What::branch_point) return locate_branch_point(to);
   const Segment segment(metric_, here_, to);
   if (found.what == Found::What::landmark) {
     const Landmark& mark = options_.landmarks[found.which];
@@ -102,60 +99,18 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
     return point ? std::optional(detector.value(*point)) : std::nullopt;
   };
   const double sign = signs_[found.which];
-  const double v0 = detector.value(here_);
+  const double v0 = detector.value(here_), v1 = detector.value(to);
   const double start = sign * v0 > 0.0 ? v0 : sign * detector_noise;
-  const auto root = bracketed_root(value, 0.0, start, 1.0, detector.value(to), options_.localisation);
+  const auto root = bracketed_root(value, 0.0, start, 1.0, v1, options_.localisation);
   if (!root) return std::nullopt;
   found.t = root->at;
-  found.half_width = root->half_width;
+  // Points of the path are known no better than where the corrector takes what is left for round-off.
+  found.half_width = std::max(root->half_width, options_.corrector.stagnation / segment.length());
   return at(root->at);
 }
 
-std::optional<PathPoint> Tracer::locate_branch_point(const PathPoint& to) {
-  const Segment segment(metric_, here_, to);
-  auto branching = std::make_shared<BranchPoint>();
-  BranchPointLocator locator(system_, corrector_);
-  const auto at = locator.locate(segment, metric_, held_.value(), to.held.value(), *branching);
-  if (!at) return std::nullopt;
-  CorrectorResult result = corrector_.inspect(at->state, metric_, at->tangent);
-  result.state = at->state;
-  result.tangent = at->tangent;
-  result.iterations = at->iterations;
-  branching->discretisation = options_.tied_contacts && system_.multiplier_count(to.state.piece) > 0;
-  if (system_.multiplier_count(to.state.piece) > 0 && branching->type == BranchType::asymmetric &&
-      branching->mode.dx.size() > 0) {
-    // A contact may forbid one side.
-    const auto open = [&](int sign) {
-      return step_off(system_, corrector_, metric_, *branching, sign, start_.distance, options_.guard_tolerance)
-          .has_value();
-    };
-    if (open(1) != open(-1)) branching->type = BranchType::one_sided;
-  }
-  located_ = std::move(branching);
-  return point_of(std::move(result), here_.tangent);
-}
-
-// A fold changes the count of negative eigenvalues by one, and so does a simple branch point. Where a step shows more,
-// or a fold without its change, it is looked at again in shorter steps.
-bool Tracer::several_singular_points(const Segment& segment) const {
-  constexpr double inseparable = 1e-5;  // arc length below which they are one
-  if (!held_ || !segment.to().held || segment.length() < inseparable || detectors_.empty()) return false;
-  const Index changes = std::abs(*segment.to().held - *held_);
-  const bool turns = signs_.front() * sign_of(detectors_.front().value(segment.to())) < 0;
-  return changes > 1 || (turns && changes != 1);
-}
-
-Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, double length) const {
-  if (found.what == Found::What::branch_point)
-    return {.kind = EventKind::branch_point,
-            .state = at.state,
-            .arc = at.arc,
-            .residual = at.residual,
-            .localised =
-                std::max(located_->localised, 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda)),
-            .unstable_before = after_.unstable,
-            .unstable_after = beyond.count.unstable,
-            .branching = located_};
+Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, const StabilityCount& behind,
+                       double length) const {
   const EventDetector& detector = detectors_[found.which];
   // λ changes by λ′ δ + ½ λ″ δ² over the bracket that is left.
   const double width = found.half_width * length / std::max(found.t, 1e-3);
@@ -168,7 +123,7 @@ Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint&
           .residual = at.residual,
           .localised = std::max(std::abs(at.tangent.dlambda) * width + 0.5 * bend * width * width, roundoff),
           .unstable_before = after_.unstable,
-          .unstable_after = detector.kind == EventKind::limit_point ? beyond.count.unstable : at.count.unstable};
+          .unstable_after = behind.unstable};
 }
 
 std::vector<int> Tracer::signs_at(const PathPoint& point) const {

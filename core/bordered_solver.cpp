@@ -19,7 +19,7 @@ Matrix product(const Linearization& equations, const Matrix& X) {
   Y.topRows(n).noalias() = equations.K.selfadjointView<Eigen::Lower>() * X.topRows(n);
   if (m > 0) {
     Y.topRows(n).noalias() += equations.B * X.bottomRows(m);
-    for (Index k = 0; k < m; ++k) Y.row(n + k) = X.row(equations.zero[static_cast<std::size_t>(k)]);
+    Y.bottomRows(m).noalias() = equations.C * X;
   }
   return Y;
 }
@@ -39,13 +39,11 @@ bool BorderedSolver::eliminate_border() {
   if (m == 0) return true;
   border_ = now.B;
   ldlt_.solve(border_);
-  Matrix small(m, m);
-  for (Index k = 0; k < m; ++k) small.row(k) = border_.row(now.zero[static_cast<std::size_t>(k)]);
-  slides_.compute(small);
+  slides_.compute(now.C.leftCols(now.K.cols()) * border_ - now.C.rightCols(m));
   return border_.allFinite() && slides_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
 }
 
-//   y = K⁻¹ f,  (Eᵀ K⁻¹ B) δs = Eᵀ y − g,  δx = y − K⁻¹ B δs
+// With C = [C_x  C_s]:  y = K⁻¹ f,  (C_x K⁻¹ B − C_s) δs = C_x y − g,  δx = y − K⁻¹ B δs
 bool BorderedSolver::solve_inner(Matrix& X) const {
   const Linearization& now = *equations_;
   const Index n = now.K.cols(), m = now.B.cols();
@@ -53,10 +51,9 @@ bool BorderedSolver::solve_inner(Matrix& X) const {
     ldlt_.solve(X);
     return X.allFinite();
   }
-  Matrix Y = X.topRows(n), s(m, X.cols());
+  Matrix Y = X.topRows(n);
   ldlt_.solve(Y);
-  for (Index k = 0; k < m; ++k) s.row(k) = Y.row(now.zero[static_cast<std::size_t>(k)]) - X.row(n + k);
-  s = slides_.solve(s).eval();
+  const Matrix s = slides_.solve(now.C.leftCols(n) * Y - X.bottomRows(m));
   Y.noalias() -= border_ * s;
   X.topRows(n) = Y;
   X.bottomRows(m) = s;
@@ -64,11 +61,11 @@ bool BorderedSolver::solve_inner(Matrix& X) const {
 }
 
 Matrix BorderedSolver::inverse_at_border() const {
-  const auto m = static_cast<Index>(equations_->zero.size());
+  const auto m = static_cast<Index>(equations_->holding.size());
   Matrix units = Matrix::Zero(equations_->K.cols(), m), inverse(m, m);
-  for (Index k = 0; k < m; ++k) units(equations_->zero[static_cast<std::size_t>(k)], k) = 1.0;
+  for (Index k = 0; k < m; ++k) units(equations_->holding[static_cast<std::size_t>(k)], k) = 1.0;
   ldlt_.solve(units);
-  for (Index k = 0; k < m; ++k) inverse.row(k) = units.row(equations_->zero[static_cast<std::size_t>(k)]);
+  for (Index k = 0; k < m; ++k) inverse.row(k) = units.row(equations_->holding[static_cast<std::size_t>(k)]);
   return inverse;
 }
 
@@ -158,7 +155,7 @@ bool BorderedSolver::factorize_whole(const Row& border) {
     }
   for (Index k = 0; k < m; ++k) {
     for (Index i = 0; i < n; ++i) add(i, n + k, now.B(i, k));
-    add(n + k, now.zero[static_cast<std::size_t>(k)], 1.0);
+    for (Index i = 0; i < last; ++i) add(n + k, i, now.C(k, i));
   }
   for (Index i = 0; i < last; ++i) {
     add(i, last, now.F_lambda[i]);

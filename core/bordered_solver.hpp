@@ -20,8 +20,8 @@ Matrix product(const Linearization& equations, const Matrix& X);
 
 /// Solves with J = ∂F/∂x and with J bordered by F_λ and a row, by block elimination with one LDLᵀ factorization of K:
 ///
-///     [ J   F_λ ] [δx]   [f]            [ K   B ]
-///     [ cᵀ   d  ] [δλ] = [g],       J = [ Eᵀ  0 ]
+///     [ J   F_λ ] [δx]   [f]            [ K  B ]
+///     [ cᵀ   d  ] [δλ] = [g],       J = [   C  ]
 ///
 /// Where K is singular (limit points, branch points) the elimination loses digits: the result is checked, refined, and
 /// at worst taken from the LU factorization of the whole.
@@ -44,7 +44,7 @@ class BorderedSolver {
   /// J⁻¹ X in place; false where J is singular to working precision.
   bool solve_inner(Matrix& X) const;
 
-  /// Sub-matrix of K⁻¹ at the unknowns that the border asks to be zero (Linearization::zero).
+  /// Sub-matrix of K⁻¹ at the border's holding unknowns (Linearization::holding).
   Matrix inverse_at_border() const;
 
   /// The factorization of K alone.
@@ -65,7 +65,7 @@ class BorderedSolver {
   bool regular_ = false;
   Matrix columns_;                      // workspace: J⁻¹ [−F, −F_λ]
   Matrix border_;                       // K⁻¹ B
-  Eigen::PartialPivLU<Matrix> slides_;  // of Eᵀ K⁻¹ B
+  Eigen::PartialPivLU<Matrix> slides_;  // of C_x K⁻¹ B − C_s
 };
 
 }  // namespace arcwall

@@ -24,7 +24,7 @@ struct AxisPlace {
   double angle = 0.0;  ///< of the tangent, continuous along the run [rad]
 };
 
-/// Curvature and stretch of the axis just before a breakpoint, with their derivatives.
+/// Curvature and stretch of the axis on one side of a breakpoint, with their derivatives.
 struct AxisStrain {
   double curvature = 0.0;  ///< d angle / d stress-free arc length [1/length]
   double stretch = 1.0;    ///< d deformed arc length / d stress-free arc length
@@ -70,8 +70,10 @@ class SlidingMesh {
   /// Run and position of breakpoint k.
   virtual std::pair<Index, Index> breakpoint(Index k) const = 0;
 
-  /// Just before breakpoint k.
-  virtual AxisStrain strain(Index k, const Vector& x, const Vector& s, double lambda) const = 0;
+  enum class At { before, behind };
+
+  /// Just before or behind breakpoint k.
+  virtual AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const = 0;
 
   /// Any place, by interpolation consistent with the elements.
   virtual AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;

@@ -13,16 +13,17 @@ namespace arcwall {
 /// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the piece stays
 /// the same, the pattern of K does, and only values are written.
 ///
-/// ∂F/∂x is symmetric but for a border of a few unknowns s that stand last in x, with as many last equations, which ask
-/// other unknowns y_k (moments that must vanish) to be zero:
+/// ∂F/∂x is symmetric but for a border of a few unknowns s that stand last in x, with as many last equations. Each s_k
+/// belongs to an unknown y_k of K (a moment that holds the body where it slides), which its equation may ask to vanish:
 ///
-///     ∂F/∂x = [ K   B ]      Eᵀ: one 1 in each row, at the unknown y_k
-///             [ Eᵀ  0 ]
+///     ∂F/∂x = [ K  B ]
+///             [   C  ]
 struct Linearization {
   Vector F{};                              ///< residual, internal minus external
   SparseMatrix K{};                        ///< the symmetric part: its lower triangle alone is stored
   Matrix B{};                              ///< columns of the border; none for most systems
-  std::vector<Index> zero{};               ///< y_k: unknowns that the last equations ask to be zero, one a column of B
+  Matrix C{};                              ///< rows of the border, by x and s
+  std::vector<Index> holding{};            ///< y_k, one a column of B
   Vector F_lambda{};                       ///< ∂F/∂λ
   std::optional<Piece> pattern_of{};       ///< the piece whose pattern K has; empty: not laid out yet
   std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
@@ -33,13 +34,15 @@ struct Passage {
   enum class Change {
     spreads,      ///< a point contact becomes a line
     gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
+    splits,       ///< a part on a wall lifts off inside
+    joins,        ///< the reverse; the place is known on the piece ahead alone
     remeshed,     ///< the same point in other unknowns
     family,       ///< a continuum of equilibria with the same load and energy
     unsupported,  ///< something that is not modelled
   };
   Change change = Change::remeshed;
   std::string detail{};           ///< of the last two: what and why
-  std::vector<Index> contacts{};  ///< that change, in the piece behind
+  std::vector<Index> contacts{};  ///< that change: in the piece behind, of `gathers` and `joins` in the piece ahead
   State guess{};                  ///< on the piece ahead, near the first point there
   Direction forward{};            ///< there, roughly
   /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
@@ -81,7 +84,7 @@ class System {
   virtual Index border_width(const Piece&) const { return 0; }
 
   /// Where a border holds what in truth gives way: the springs on the y_k with which K has the eigenvalues that
-  /// stability is counted by; infinite where it is truly held. Linearization::zero says which.
+  /// stability is counted by; infinite where it is truly held. Linearization::holding says which.
   virtual Vector border_springs(const State& state) const { return Vector::Zero(border_width(state.piece)); }
 
   // --- guards: side conditions that say how far a piece reaches -------------------------------------------------

@@ -40,7 +40,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   NodeUnknowns node_unknowns(Index run, Index position) const override;
   AxisPlace node(Index run, Index position, const Vector& x) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
-  AxisStrain strain(Index k, const Vector& x, const Vector& s, double lambda) const override;
+  AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const override;
   AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
   PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
   AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const override;
@@ -363,24 +363,28 @@ double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lam
   return energy;
 }
 
-// The element before the breakpoint: its end moment M, loads included, and the force along the axis N there.
+// Of the element on that side: its end moment M, loads included, and the force along the axis N there, with the sign ±
+// of what the element does to the node before or behind it.
 //
-//   curvature = κ₀ + M/EI,   stretch = 1 + N/EA,   N = f·t
-AxisStrain SlidingStructureMesh::strain(Index k, const Vector& x, const Vector& s, double lambda) const {
+//   curvature = κ₀ ± M/EI,   stretch = 1 ± N/EA,   N = f·t
+AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const {
   const auto [run, position] = breakpoint(k);
-  const Index e = position - 1, n = unknowns(), m = breakpoints();
+  const bool before = side == At::before;
+  const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();
+  const Index place = before ? 3 : 0, turn = place + 2;  // of the node among the element's freedoms
   const SlidingStructure::Run& described = structure_.at(run);
-  const double EA = described.section.EA(), EI = described.section.EI();
+  const double sign = before ? 1.0 : -1.0;
+  const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
   const Response response = respond(run, e, x, s, lambda, true);
   const Vec2 t = tangent(node(run, position, x).angle);
   const double S = coordinate(run, position, s), step = 1e-5 * described.length;
-  const auto natural = [&](double place) { return structure_.natural_curvature({.run = run, .s = place}); };
-  const auto force = response.force.segment<2>(3);
-  AxisStrain strain{.curvature = natural(S) + response.force[5] / EI, .stretch = 1.0 + force.dot(t) / EA};
+  const auto natural = [&](double at) { return structure_.natural_curvature({.run = run, .s = at}); };
+  const auto force = response.force.segment<2>(place);
+  AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI, .stretch = 1.0 + force.dot(t) / EA};
 
-  const Six curvature_dx = response.stiffness.col(5) / EI;
-  Six stretch_dx = response.stiffness.middleCols<2>(3) * t / EA;
-  stretch_dx[5] += force.dot(perp(t)) / EA;
+  const Six curvature_dx = response.stiffness.col(turn) / EI;
+  Six stretch_dx = response.stiffness.middleCols<2>(place) * t / EA;
+  stretch_dx[turn] += force.dot(perp(t)) / EA;
   strain.curvature_dx = strain.stretch_dx = Vector::Zero(n);
   strain.curvature_ds = strain.stretch_ds = Vector::Zero(m);
   const auto to = assembly_.unknowns(mesh_of(run).first_element + e);
@@ -390,12 +394,12 @@ AxisStrain SlidingStructureMesh::strain(Index k, const Vector& x, const Vector& 
       strain.stretch_dx[to[i]] += stretch_dx[static_cast<Index>(i)];
     }
   for_each_rate(run, e, response, [&](Index j, const Six& rate) {
-    strain.curvature_ds[j] += rate[5] / EI;
-    strain.stretch_ds[j] += rate.segment<2>(3).dot(t) / EA;
+    strain.curvature_ds[j] += rate[turn] / EI;
+    strain.stretch_ds[j] += rate.segment<2>(place).dot(t) / EA;
   });
   strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
-  strain.curvature_dlambda = response.force_lambda[5] / EI;
-  strain.stretch_dlambda = response.force_lambda.segment<2>(3).dot(t) / EA;
+  strain.curvature_dlambda = response.force_lambda[turn] / EI;
+  strain.stretch_dlambda = response.force_lambda.segment<2>(place).dot(t) / EA;
   return strain;
 }
 

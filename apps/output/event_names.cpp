@@ -121,6 +121,8 @@ std::string_view to_text(BranchType type) {
       return "asymmetric";
     case BranchType::one_sided:
       return "one-sided";
+    case BranchType::undetermined:
+      return "undetermined";
   }
   assert(false);
   return {};

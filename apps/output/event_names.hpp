@@ -17,7 +17,7 @@ std::string_view to_text(EndReason reason);
 /// `stable`, `unstable` or `undecided`.
 std::string_view to_text(Stability stability);
 
-/// `symmetric`, `asymmetric` or `one-sided`.
+/// `symmetric`, `asymmetric`, `one-sided` or `undetermined`.
 std::string_view to_text(BranchType type);
 
 /// The kind of that name, or nothing.

@@ -72,8 +72,10 @@ Json event_json(const Record& record, const RecordEvent& event) {
     for (const RecordContact& one : event.contacts) json["contact"].push_back(contact(one));
   }
   if (event.monitor) json["monitor"] = *event.monitor;
+  if (event.branch_type || event.kind == EventKind::limit_point) json["suspected"] = event.suspected;
   if (event.branch_type) {
     json["type"] = to_text(*event.branch_type);
+    json["multiplicity"] = event.multiplicity;
     json["discretisation"] = event.discretisation;
     json["branches"] = event.branches;
   }

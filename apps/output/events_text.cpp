@@ -35,7 +35,10 @@ std::string contacts(const std::vector<RecordContact>& list) {
 std::string what(const RecordEvent& event) {
   if (event.branch_end) return std::string(to_text(event.branch_end->reason));
   if (event.branch_type)
-    return std::string(to_text(*event.branch_type)) + (event.discretisation ? ", of the node contact" : "");
+    return std::string(to_text(*event.branch_type)) +
+           (event.multiplicity > 1 ? fmt::format(", {} modes", event.multiplicity) : "") +
+           (event.suspected ? ", suspected" : "") + (event.discretisation ? ", of the node contact" : "");
+  if (event.suspected) return "suspected";
   if (event.monitor) return *event.monitor;
   return contacts(event.contacts);
 }

@@ -52,6 +52,8 @@ struct RecordEvent {
   std::optional<std::string> monitor{};     ///< of a displacement limit
   std::optional<BranchEnd> branch_end{};    ///< of an end
   std::optional<BranchType> branch_type{};  ///< of a branch point
+  Index multiplicity = 1;                   ///< of a branch point: critical modes
+  bool suspected = false;                   ///< zero is touched without a change of sign, as nearly as can be told
   bool discretisation = false;              ///< of a branch point that only contact at nodes makes
   std::vector<Index> branches{};            ///< that leave a branch point
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty

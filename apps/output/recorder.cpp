@@ -91,10 +91,12 @@ RecordEvent Recorder::recorded(const Event& event) const {
                      .unstable_before = event.unstable_before,
                      .unstable_after = event.unstable_after,
                      .residual = event.residual,
-                     .localised = event.localised};
+                     .localised = event.localised,
+                     .suspected = event.suspected};
   if (event.kind == EventKind::displacement_limit) record.monitor = event.label;
   if (event.branching) {
     record.branch_type = event.branching->type;
+    record.multiplicity = event.branching->multiplicity;
     record.discretisation = event.branching->discretisation;
     record.mode = mode_rates(study_.monitors(), *event.branching);
   }

@@ -100,11 +100,13 @@ TEST(Tracer, FindsBothFoldsOfACuspHoweverNearTheyAre) {
   }
 }
 
-TEST(Tracer, AnInflectionWithALevelTangentIsNoLimitPoint) {
+TEST(Tracer, AnInflectionWithALevelTangentIsASuspectedLimitPointAtMost) {
   const test::SmoothToy system = test::cusp(0.0);
   const Branch branch = trace(system, {.landmarks = {stop_at_x(-1.0)}}, at(1.0, -1.0));
   EXPECT_EQ(branch.end.reason, EndReason::stop);
-  EXPECT_TRUE(events_of(branch, EventKind::limit_point).empty());
+  const Event event = only_event(branch, EventKind::limit_point);
+  EXPECT_TRUE(event.suspected);
+  EXPECT_EQ(event.unstable_before, event.unstable_after);
 }
 
 TEST(Tracer, LandmarksAreLandedOnExactly) {

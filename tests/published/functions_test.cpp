@@ -130,13 +130,16 @@ TEST(CuspFunction, FoldsVanishAtTheCusp) {
     const double x = std::sqrt(a / 3.0), lambda = 2.0 * x * x * x;
     expect_folds(system, test::trace(system, backwards, start), backwards, {{-x, -lambda}, {x, lambda}});
   }
-  for (const double a : {0.0, -1e-3, -0.1}) {
+  const TraceOptions backwards = between(-1.5, 1.5, -0.02);
+  for (const double a : {-1e-3, -0.1}) {
     SCOPED_TRACE(a);
     const auto system = test::cusp(a);
-    TraceOptions backwards = between(-1.5, 1.5, -0.02);
     const State start = test::solved_at(system, at(-1.1, 1.4), 1.4, 1);
     expect_folds(system, test::trace(system, backwards, start), backwards, {});
   }
+  const auto cusp = test::cusp(0.0);
+  const Branch level = test::trace(cusp, backwards, test::solved_at(cusp, at(-1.1, 1.4), 1.4, 1));
+  EXPECT_TRUE(only_event(level, EventKind::limit_point).suspected);
 }
 
 TEST(IsolaFunction, IsPassedOnceAroundHoweverSmall) {

@@ -58,7 +58,8 @@ void expect_same_events(const std::vector<Event>& found, const std::vector<Event
     EXPECT_EQ(found[i].unstable_after, expected[i].unstable_after);
     const bool turns = expected[i].kind == EventKind::displacement_limit;
     const double lambda = expected[i].state.lambda, relative = turns ? how.at_displacement_limits : how.relative;
-    EXPECT_NEAR(found[i].state.lambda, lambda, relative * std::abs(lambda));
+    const double uncertain = found[i].localised + expected[i].localised;
+    EXPECT_NEAR(found[i].state.lambda, lambda, relative * std::abs(lambda) + uncertain);
   }
 }
 

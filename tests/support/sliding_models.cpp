@@ -48,8 +48,12 @@ SlidingModel SlidingChannel::model() const {
                         .to = reversed ? from : to,
                         .axis = reversed ? straight_axis(end, start) : straight_axis(start, end),
                         .imperfection = m == 0 ? imperfection : std::vector<SineDeviation>{},
+                        .theory = theory,
+                        .order = 4,
                         .section = section,
                         .elements = members[m].elements});
+    if (lateral != 0.0)
+      builder.add_distributed_load(static_cast<Index>(m), {0.0, lateral * kN / cm}, LoadKind::proportional);
     from = to;
     start = end;
   }
@@ -86,6 +90,27 @@ SlidingModel SlidingFoundation::model() const {
   return {builder,
           {{.name = "floor", .side = Side::below, .profile = line_profile(-0.18 / std::cos(turned), std::tan(turned))}},
           0.1};
+}
+
+SlidingModel SlidingCylinder::model() const {
+  StructureBuilder builder;
+  const Vec2 a(-10.0, 0.0), b(10.0, 0.0);
+  const Index left = builder.add_joint(a), right = builder.add_joint(b);
+  builder.add_member({.name = "strip",
+                      .from = left,
+                      .to = right,
+                      .axis = straight_axis(a, b),
+                      .theory = theory,
+                      .order = 4,
+                      .section = {.E = 2.1e4, .A = 0.1, .I = 0.001 / 12.0, .height = 0.1},
+                      .elements = elements});
+  builder.fix(builder.freedom(left, Freedom::x));
+  for (const Index end : {left, right}) builder.fix(builder.freedom(end, Freedom::z));
+  builder.add_load(builder.shared_rotation(left).value(), -1.0, LoadKind::proportional);
+  builder.add_load(builder.shared_rotation(right).value(), 1.0, LoadKind::proportional);
+  return {builder,
+          {{.name = "cylinder", .side = Side::below, .profile = circle_profile({0.0, -20.55}, 20.0, Side::below)}},
+          0.01};
 }
 
 std::vector<ExploredBranch> follow(const System& system, const State& start, const TraceOptions& options,

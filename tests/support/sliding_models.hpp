@@ -47,7 +47,9 @@ struct SlidingChannel {
   double slope = 0.0;                                ///< of both walls
   bool clamped = false;
   double end_moment = 0.0;  ///< at the left end, times λ
-  bool reversed = false;    ///< members run from right to left
+  double lateral = 0.0;     ///< along all members in z, times λ [per length]
+  Theory theory = Theory::classic;
+  bool reversed = false;  ///< members run from right to left
   double first_step = 0.05;
   double cm = 1.0, kN = 1.0;  ///< the user's units [1/cm], [1/kN]
 
@@ -60,6 +62,16 @@ struct SlidingFoundation {
   int elements = 40;
   bool fixed = false;   ///< both supports in both directions; else the right one slides along x
   double turned = 0.0;  ///< of beam and floor together [rad]
+
+  SlidingModel model() const;
+};
+
+/// A strip of length 20 and section 1 × 0.1 [kN, cm] (EA = 2100, EI = 1.75) that end moments λ bend round a cylinder of
+/// radius 20, whose top is 0.5 below the strip's lower face and below its middle. The left support is fixed, the right
+/// one slides along x.
+struct SlidingCylinder {
+  int elements = 20;
+  Theory theory = Theory::classic;
 
   SlidingModel model() const;
 };

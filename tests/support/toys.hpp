@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "core/system.hpp"
 #include "tests/support/dense.hpp"
@@ -69,6 +70,99 @@ inline SmoothToy spring(double k) {
   toy.F = [k](const Vector& x, double lambda) { return scalar(k * x[0] - lambda); };
   toy.K = [k](const Vector&, double) { return scalar_matrix(k); };
   toy.F_lambda = [](const Vector&, double) { return scalar(-1.0); };
+  return toy;
+}
+
+/// A quadratic a + b (x − at) + c (x − at)².
+struct Quadratic {
+  double at = 0.0, a = 0.0, b = 0.0, c = 0.0;
+
+  double operator()(double x) const { return a + (x - at) * (b + c * (x - at)); }
+  double slope(double x) const { return b + 2.0 * c * (x - at); }
+};
+
+/// The rotation between the unknowns of `modes_beside` and (x, y₁, …): each equation has all unknowns.
+inline Matrix mixing(Index n) { return Eigen::HouseholderQR<Matrix>(Numbers(31).matrix(n, n)).householderQ(); }
+
+/// Modes y_i beside a path of x alone, with stiffnesses k_i(x): each simple zero of one of them is a pitchfork.
+///
+///     (x-equation of `path`) + ½ Σ k_i′(x) y_i² = 0,     k_i(x) y_i + y_i³ = 0
+///
+/// The unknowns are mixing(n) · (x, y₁, …).
+inline SmoothToy modes_beside(const SmoothToy& path, const std::vector<Quadratic>& modes) {
+  const auto n = static_cast<Index>(modes.size()) + 1;
+  const Matrix R = mixing(n);
+  SmoothToy toy;
+  toy.unknowns = n;
+  toy.F = [=](const Vector& z, double lambda) -> Vector {
+    const Vector q = R.transpose() * z;
+    Vector F(n);
+    F[0] = path.F(q.head(1), lambda)[0];
+    for (Index i = 1; i < n; ++i) {
+      const Quadratic& k = modes[static_cast<std::size_t>(i - 1)];
+      F[0] += 0.5 * k.slope(q[0]) * q[i] * q[i];
+      F[i] = k(q[0]) * q[i] + q[i] * q[i] * q[i];
+    }
+    return R * F;
+  };
+  toy.K = [=](const Vector& z, double lambda) -> Matrix {
+    const Vector q = R.transpose() * z;
+    Matrix K = Matrix::Zero(n, n);
+    K(0, 0) = path.K(q.head(1), lambda)(0, 0);
+    for (Index i = 1; i < n; ++i) {
+      const Quadratic& k = modes[static_cast<std::size_t>(i - 1)];
+      K(0, 0) += k.c * q[i] * q[i];
+      K(0, i) = K(i, 0) = k.slope(q[0]) * q[i];
+      K(i, i) = k(q[0]) + 3.0 * q[i] * q[i];
+    }
+    return R * K * R.transpose();
+  };
+  toy.F_lambda = [=](const Vector& z, double lambda) -> Vector {
+    return R.col(0) * path.F_lambda((R.transpose() * z).head(1), lambda)[0];
+  };
+  return toy;
+}
+
+/// A state of that system on its path, all y_i = 0, and x of a state.
+inline State state_beside(const SmoothToy& system, double x, double lambda) {
+  return {.x = mixing(system.unknowns).col(0) * x, .lambda = lambda};
+}
+inline double place_of(const State& state) { return mixing(state.x.size()).col(0).dot(state.x); }
+
+/// Two bars of Green's strain from (±b, 0) to an apex at (u, h − w), held sideways by a spring k and pushed down by λ,
+/// in units of EA/L³; unknowns (u, w). With q = l² − L² of each bar:
+///
+///     V = ⅛ Σ q² + ½ k u² − λ w
+inline SmoothToy swaying_truss(double h, double b, double k) {
+  SmoothToy toy;
+  toy.unknowns = 2;
+  const auto bar = [h, b](const Vector& x, double side) {  // the way from the foot to the apex
+    return Eigen::Vector2d(x[0] - side * b, h - x[1]);
+  };
+  const auto stretch = [h, b](const Eigen::Vector2d& r) { return r.squaredNorm() - h * h - b * b; };
+  toy.potential = [=](const Vector& x, double lambda) {
+    double sum = 0.5 * k * x[0] * x[0] - lambda * x[1];
+    for (const double side : {1.0, -1.0}) sum += std::pow(stretch(bar(x, side)), 2) / 8.0;
+    return sum;
+  };
+  toy.F = [=](const Vector& x, double lambda) -> Vector {
+    Vector F{{k * x[0], -lambda}};
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Vector2d r = bar(x, side);
+      F += 0.5 * stretch(r) * Eigen::Vector2d(r[0], -r[1]);
+    }
+    return F;
+  };
+  toy.K = [=](const Vector& x, double) -> Matrix {
+    Matrix K = Matrix::Zero(2, 2);
+    K(0, 0) = k;
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Vector2d r = bar(x, side), d(r[0], -r[1]);
+      K += d * d.transpose() + 0.5 * stretch(r) * Matrix::Identity(2, 2);
+    }
+    return K;
+  };
+  toy.F_lambda = [](const Vector&, double) { return Vector(-Vector::Unit(2, 1)); };
   return toy;
 }
 

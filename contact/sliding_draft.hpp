@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contact/sliding_layout.hpp"
+
+namespace arcwall {
+
+/// A layout to be changed: its points, where they are and what they bear, and the elements between them.
+struct SlidingDraft {
+  Cut cut{};
+  std::vector<SlidingContactLayout::Point> points{};
+  std::vector<Index> runs{};           ///< of the points, ascending
+  std::vector<std::uint8_t> closed{};  ///< of the points
+  std::vector<double> forces{};        ///< of the points; those of open ones do not matter
+  Vector s{};
+
+  /// Elements of the segment before a point, and of that behind it.
+  int& elements_before(std::size_t point) { return segment(point); }
+  int& elements_behind(std::size_t point) { return segment(point, 1); }
+
+  /// A place with a point of its own.
+  struct Entry {
+    SlidingContactLayout::Point point{};
+    Index run = 0;
+    double s = 0.0;
+    bool closed = false;
+    double force = 0.0;
+  };
+
+  /// The segment in which the entry falls becomes two of these numbers of elements; which point it is now.
+  std::size_t insert(const Entry& entry, int elements_before, int elements_behind);
+
+  /// The segments before and behind a point become one.
+  void erase(std::size_t point, int elements);
+
+ private:
+  int& segment(std::size_t point, std::size_t beyond = 0);
+};
+
+}  // namespace arcwall

@@ -1,0 +1,169 @@
+// Gaps between the nodes of sliding contact: least gaps inside elements.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/sliding_contact.hpp"
+#include "contact/sliding_draft.hpp"
+
+namespace arcwall {
+
+using Layout_ = SlidingContactLayout;
+using Span = SlidingContactLayout::Span;
+using Bound = SlidingContactLayout::Bound;
+
+namespace {
+
+// The least value in [0, 1] of the cubic with these end values and slopes, where it has one inside.
+struct Least {
+  double at, value;
+};
+
+std::optional<Least> least_inside(double v0, double r0, double v1, double r1) {
+  const double a = 2.0 * (v0 - v1) + r0 + r1, b = 3.0 * (v1 - v0) - 2.0 * r0 - r1;
+  // v′ = r0 + 2 b t + 3 a t²; the root where v″ > 0
+  double t;
+  const double discriminant = b * b - 3.0 * a * r0;
+  if (discriminant < 0.0) return std::nullopt;
+  const double root = std::sqrt(discriminant);
+  if (b + root > 0.0) {
+    t = -r0 / (b + root);
+  } else {
+    if (a <= 0.0) return std::nullopt;
+    t = (root - b) / (3.0 * a);
+  }
+  if (!(t >= 0.0 && t <= 1.0)) return std::nullopt;
+  return Least{.at = t, .value = v0 + t * (r0 + t * (b + t * a))};
+}
+
+}  // namespace
+
+// visit(Minimum) for each least gap inside an element, the gap being a cubic between its nodes. Beside contact points,
+// and where the body lies on the wall, guards say all; these elements are left out unless `everywhere`.
+template <typename Visit>
+void SlidingContact::for_each_minimum(const State& state, bool everywhere, const Visit& visit) const {
+  const Layout_& on = layout(state.piece);
+  const SlidingMesh& mesh = on.mesh();
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  for (std::size_t w = 0; w < obstacles_.size(); ++w)
+    for (Index run = 0; run < body_.runs(); ++run) {
+      if (!obstacles_[w].runs[static_cast<std::size_t>(run)]) continue;
+      std::vector<std::uint8_t> skip(static_cast<std::size_t>(mesh.nodes(run)), 0);  // element behind the node
+      for (std::size_t k = 0; k < on.points().size() && !everywhere; ++k) {
+        const auto [at, position] = mesh.breakpoint(static_cast<Index>(k));
+        if (at != run || on.points()[k].obstacle != w) continue;
+        skip[static_cast<std::size_t>(position) - 1] = skip[static_cast<std::size_t>(position)] = 1;
+        if (on.points()[k].behind == Span::free) continue;
+        const Index last = mesh.breakpoint(static_cast<Index>(k) + 1).second;
+        std::fill(skip.begin() + position, skip.begin() + last, std::uint8_t{1});
+      }
+      const double offset = normal_offset(w, run);
+      struct Sample {
+        double gap;
+        Vec2 place, slope;  // slope: gap per place moved along the tangent
+        double rate;
+      };
+      const auto sample = [&](Index position) {
+        const AxisPlace place = mesh.node(run, position, x);
+        const Vec2 t = Vec2(std::cos(place.angle), std::sin(place.angle));
+        const double o = t.x() >= 0.0 ? offset : -offset;
+        const Vec2 face = place.position + o * perp(t);
+        Sample out{.gap = infinity, .place = place.position, .slope = Vec2::Zero(), .rate = 0.0};
+        if (!obstacles_[w].profile->covers(face.x())) return out;
+        const SurfaceGap g = surface_gap(*obstacles_[w].profile, obstacles_[w].side, face);
+        out.gap = g.value;
+        out.rate = g.x * t.x() + g.z * t.y();
+        return out;
+      };
+      Sample before = sample(0);
+      for (Index e = 0; e + 1 < mesh.nodes(run); ++e) {
+        const Sample after = sample(e + 1);
+        const double length = (after.place - before.place).norm();
+        const double r0 = before.rate * length, r1 = after.rate * length;
+        const bool far = std::min(before.gap, after.gap) > 0.5 * (std::abs(r0) + std::abs(r1));
+        if (!skip[static_cast<std::size_t>(e)] && std::isfinite(before.gap) && std::isfinite(after.gap) &&
+            (!far || everywhere))
+          if (const auto least = least_inside(before.gap, r0, after.gap, r1)) {
+            const double S1 = mesh.coordinate(run, e, s), S2 = mesh.coordinate(run, e + 1, s);
+            visit(Minimum{.obstacle = w, .at = {.run = run, .s = S1 + least->at * (S2 - S1)}, .gap = least->value});
+          }
+        before = after;
+      }
+    }
+}
+
+std::optional<SlidingContact::Minimum> SlidingContact::deepest(const State& state, double margin) const {
+  std::optional<Minimum> deepest;
+  for_each_minimum(state, false, [&](const Minimum& minimum) {
+    if (minimum.gap < margin * scales_.length && (!deepest || minimum.gap < deepest->gap)) deepest = minimum;
+  });
+  return deepest;
+}
+
+bool SlidingContact::admissible(const State& state, double margin) const { return !deepest(state, margin); }
+
+// Of the least gaps on the same run and obstacle the one nearest another.
+std::optional<SlidingContact::Minimum> SlidingContact::nearest(const State& state, const Minimum& other) const {
+  std::optional<Minimum> nearest;
+  for_each_minimum(state, true, [&](const Minimum& minimum) {
+    if (minimum.obstacle != other.obstacle || minimum.at.run != other.at.run) return;
+    if (!nearest || std::abs(minimum.at.s - other.at.s) < std::abs(nearest->at.s - other.at.s)) nearest = minimum;
+  });
+  return nearest;
+}
+
+// A least gap that becomes negative within the step is followed from the step's start on by an open point. It must
+// exist there already.
+std::optional<Passage> SlidingContact::refined(const State& from, const Direction& forward, const State& to,
+                                               double margin) const {
+  const auto violated = deepest(to, margin);
+  if (!violated) return std::nullopt;
+  const auto start = nearest(from, *violated);
+  const Index run = violated->at.run;
+  if (!start || std::abs(start->at.s - violated->at.s) > 0.25 * body_.length(run)) return std::nullopt;
+
+  const Layout_& on = layout(from.piece);
+  const Vector s = on.s_of(from);
+  for (std::size_t k = 0; k < on.points().size(); ++k)
+    if (on.points()[k].obstacle == start->obstacle && on.mesh().breakpoint(static_cast<Index>(k)).first == run &&
+        std::abs(s[static_cast<Index>(k)] - start->at.s) < least_span(run))
+      return std::nullopt;  // it is followed already
+  const auto holds = [&](const Layout_::Segment& segment) {
+    const auto [a, b] = on.ends(body_, segment, s);
+    return segment.run == run && a <= start->at.s && start->at.s < b;
+  };
+  const auto at = std::find_if(on.segments().begin(), on.segments().end(), holds);
+  if (at == on.segments().end()) return std::nullopt;
+  // How many elements on each side: by where it will touch, roughly.
+  const double fallen = start->gap - violated->gap;
+  const double part = fallen > 0.0 ? std::clamp(start->gap / fallen, 0.0, 2.0) : 0.0;
+  const double touch = start->at.s + part * (violated->at.s - start->at.s);
+  const auto [a, b] = on.ends(body_, *at, s);
+  const int elements = std::max(2, at->elements);
+  const int first = std::clamp(static_cast<int>(std::lround(elements * (touch - a) / (b - a) - 1e-3)), 1, elements - 1);
+  std::size_t k = 0;
+  Passage passage = remeshed(from, forward, [&](SlidingDraft& draft) {
+    k = draft.insert({.point = {.obstacle = start->obstacle}, .run = run, .s = start->at.s}, first, elements - first);
+  });
+  const auto& limits = layout(passage.guess.piece).limits();
+  for (std::size_t l = 0; l < limits.size(); ++l)
+    if (limits[l].bound == Bound::curvature && limits[l].which == k && limit_value(passage.guess, l) <= 0.0)
+      return std::nullopt;  // too shallow yet
+  return passage;
+}
+
+double SlidingContact::least_gap(const State& state, int places) const {
+  const Layout_& on = layout(state.piece);
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  double least = infinity;
+  for (std::size_t w = 0; w < obstacles_.size(); ++w)
+    for (Index run = 0; run < body_.runs(); ++run) {
+      if (!obstacles_[w].runs[static_cast<std::size_t>(run)]) continue;
+      const Touch surface{.run = run, .position = 0, .obstacle = w, .offset = normal_offset(w, run)};
+      for (Index e = 0; e + 1 < on.mesh().nodes(run); ++e)
+        for (int i = 0; i <= places; ++i)
+          least = std::min(least, face_gap(surface, on.mesh().inside(run, e, double(i) / places, x, s)));
+    }
+  return least;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,251 @@
+// How the tracer finds the singular points of a step: by the number of negative eigenvalues, and by eigenvalues and λ′
+// that come near zero although nothing at the step's ends shows it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "continuation/tracer.hpp"
+#include "core/root_find.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double short_step = 1e-4;  // below which shorter steps show no more [path metric]
+constexpr double same_mode = 0.7;    // cosine above which two eigenvectors belong to one mode
+constexpr double deep = 0.1;         // what falls below this part of its values at both ends is looked at
+constexpr double shallow = 0.6;      // what a parabola does not see fall below this is not
+constexpr double nothing = 1e-4;     // an eigenvalue below this part of its other value may touch zero right there
+
+// The vector among the columns that belongs to the same mode.
+std::optional<Index> same_as(const Vector& mode, const Matrix& vectors, const Vector& weights) {
+  if (vectors.rows() != mode.size()) return std::nullopt;
+  for (Index j = 0; j < vectors.cols(); ++j)
+    if (std::abs(vectors.col(j).dot(weights.cwiseProduct(mode))) > same_mode) return j;
+  return std::nullopt;
+}
+
+// The least value in [0, to] of the parabola through (−before, v₋), (0, v₀), (to, v₁).
+double least_of_parabola(double before, double v_before, double v0, double to, double v1) {
+  const double left = (v0 - v_before) / before, right = (v1 - v0) / to;
+  const double curvature = (right - left) / (before + to), slope = right - curvature * to;
+  const double t = curvature > 0.0 ? std::clamp(-0.5 * slope / curvature, 0.0, to) : 0.0;
+  return std::min({v0, v1, v0 + t * (slope + t * curvature)});
+}
+
+// The tangent between two; of a point where K is twice singular its own may be any.
+Direction mean(const Metric& metric, const Direction& a, const Direction& b) {
+  return unit(metric, {.dx = a.dx + b.dx, .dlambda = a.dlambda + b.dlambda});
+}
+
+}  // namespace
+
+// The first singular points of a step. False if shorter steps will show more.
+bool Tracer::find_singular(const PathPoint& to, std::vector<Singular>& found) {
+  const Segment segment(metric_, here_, to);
+  if (hides_two_zeros(segment, -detector_noise)) return false;
+  if (options_.events != EventSearch::locate) return true;
+  if (!find_touching_limit(segment, found)) return false;
+  if (!found.empty() || !held_ || !to.held) return true;
+  const bool turns = signs_.front() * sign_of(detectors_.front().value(to)) < 0;
+  return turns ? find_limit_point(to, found) : find_branch_points(to, found);
+}
+
+// λ turns. A limit point changes the count by one, right there; what else changes it are branch points: those before it
+// come first, those behind it are left to the next step, and those at the same place are reported with it.
+bool Tracer::find_limit_point(const PathPoint& to, std::vector<Singular>& found) {
+  const Segment segment(metric_, here_, to);
+  Found limit{.what = Found::What::detector, .which = 0, .t = 0.5, .half_width = 0.0};
+  auto at = locate(limit, to);
+  if (!at) return false;
+  const double L = segment.length();
+  std::optional<PathPoint> before, after;
+  const auto count_at = [](const std::optional<PathPoint>& point, Index otherwise) {
+    return point ? *point->held : otherwise;
+  };
+  Index change = 0;
+  double distance = 0.0;
+  for (const double next : {1e-4, 3e-5}) {
+    distance = next;
+    const double t0 = limit.t - distance / L, t1 = limit.t + distance / L;
+    before = t0 > 0.0 ? beside(segment, t0) : std::nullopt;
+    after = t1 < 1.0 ? beside(segment, t1) : std::nullopt;
+    if ((t0 > 0.0 && !before) || (t1 < 1.0 && !after)) continue;
+    change = count_at(after, *to.held) - count_at(before, *held_);
+    if (change % 2 != 0) break;  // else there is a branch point, too
+  }
+  if (before && *before->held != *held_) return find_branch_points(*before, found);
+  found.push_back({.found = limit, .at = std::move(*at), .change = change});
+  if (std::abs(change) == 1) return true;
+  if (!before || !after) {
+    found.back().change = *to.held - *held_;
+    return L <= short_step;
+  }
+  add_branch_point_at_limit(*before, *after, distance / L, found.back());
+  return true;
+}
+
+// λ turns and the count does not change by one: two eigenvalues pass zero, or one touches it as the branch of a
+// pitchfork goes through it from one side to the other.
+void Tracer::add_branch_point_at_limit(const PathPoint& before, const PathPoint& after, double half_width,
+                                       Singular& limit) {
+  limit.at.tangent = mean(metric_, before.tangent, after.tangent);
+  corrector_.inspect(limit.at.state, metric_, limit.at.tangent);
+  const auto pairs = corrector_.near_null(metric_.weights(), 2);
+  const auto second = [](const NearNull& nearest) { return std::abs(nearest.values[1]); };
+  SingularPlace place{.point = limit.at, .t = limit.found.t, .half_width = half_width, .change = limit.change};
+  place.at_limit = pairs && pairs->values.size() > 1 && after.nearest.values.size() > 1 &&
+                   second(*pairs) < 0.1 * second(after.nearest);
+  place.touches = !place.at_limit;
+  auto branching = std::make_shared<BranchPoint>(branch_point_at(system_, corrector_, metric_, place));
+  branching->localised = half_width * std::abs(limit.at.tangent.dlambda);
+  branching->discretisation = made_by_nodes(limit.at.state);
+  limit.branching = std::move(branching);
+  limit.suspected = place.touches;
+}
+
+// A point of the path beside a limit point, with a count.
+std::optional<PathPoint> Tracer::beside(const Segment& segment, double t) {
+  const double L = segment.length();
+  auto point = correct_onto(PlaneConstraint(metric_, here_.state, segment.chord(), t * L * L), segment, t);
+  if (!point) return std::nullopt;
+  decide_count(*point);
+  return point->held ? point : std::nullopt;
+}
+
+// The count changes and λ does not turn; or an eigenvalue may have come to zero and gone back.
+bool Tracer::find_branch_points(const PathPoint& to, std::vector<Singular>& found) {
+  const Segment segment(metric_, here_, to);
+  SingularLocator locator(system_, corrector_);
+  std::vector<SingularPlace> places;
+  if (*to.held != *held_) {
+    places = locator.changes(segment, metric_, *held_, *to.held);
+    if (places.empty()) return false;
+  } else if (dips(segment)) {
+    auto touches = locator.touches(segment, metric_, SingularLocator::What::eigenvalue, vanishing_ > 0, 0.0);
+    if (!touches) return segment.length() <= short_step;
+    places = std::move(*touches);
+  }
+  for (const SingularPlace& place : places) found.push_back(singular_at(place, segment.chord().dlambda));
+  return true;
+}
+
+// λ′ may touch zero, or change its sign twice, and look as if it had not: then the cubic through λ at the ends comes
+// near.
+bool Tracer::find_touching_limit(const Segment& segment, std::vector<Singular>& found) {
+  if (!hides_two_zeros(segment, deep)) return true;
+  SingularLocator locator(system_, corrector_);
+  const auto places = locator.touches(segment, metric_, SingularLocator::What::turning, vanishing_ > 0, detector_noise);
+  if (!places || places->size() == 2) return segment.length() <= short_step;
+  if (places->empty()) return true;
+  Singular singular = singular_at(places->front(), segment.chord().dlambda);
+  singular.found = {.what = Found::What::detector, .which = 0, .t = places->front().t, .half_width = 0.0};
+  singular.branching = nullptr;
+  found.push_back(std::move(singular));
+  return true;
+}
+
+// Whether contacts tied to nodes may make a branch point that the continuum has not.
+bool Tracer::made_by_nodes(const State& state) const {
+  return options_.tied_contacts && system_.multiplier_count(state.piece) > 0;
+}
+
+Tracer::Singular Tracer::singular_at(const SingularPlace& place, double chord_dlambda) {
+  auto branching = std::make_shared<BranchPoint>(branch_point_at(system_, corrector_, metric_, place));
+  branching->localised = place.half_width * std::abs(chord_dlambda);
+  CorrectorResult result = corrector_.inspect(place.point.state, metric_, place.point.tangent);
+  result.state = place.point.state;
+  result.tangent = place.point.tangent;
+  result.iterations = place.point.iterations;
+  branching->discretisation = made_by_nodes(result.state);
+  if (system_.multiplier_count(result.state.piece) > 0 && branching->type == BranchType::asymmetric &&
+      branching->mode.dx.size() > 0) {
+    // A contact may forbid one side.
+    const auto open = [&](int sign) {
+      return step_off(system_, corrector_, metric_, *branching, sign, start_.distance, options_.guard_tolerance)
+          .has_value();
+    };
+    if (open(1) != open(-1)) branching->type = BranchType::one_sided;
+  }
+  return {.found = {.what = Found::What::branch_point, .which = 0, .t = place.t, .half_width = 0.0},
+          .at = point_of(std::move(result), here_.tangent),
+          .change = place.change,
+          .branching = std::move(branching),
+          .suspected = place.touches};
+}
+
+// Whether an eigenvalue may have come to zero inside the segment and gone back, or two have passed zero in opposite
+// senses.
+bool Tracer::dips(const Segment& segment) {
+  const NearNull &here = segment.from().nearest, &there = segment.to().nearest;
+  if (segment.from().state.piece != segment.to().state.piece || here.values.size() == 0) return false;
+  for (Index j = 0; j < there.values.size(); ++j) {
+    const auto i = same_as(there.vectors.col(j), here.vectors, metric_.weights());
+    if (i && *i >= vanishing_ && dips(segment, *i, j)) return true;
+    if (!i && j == 0 && rises_from_zero(segment, j)) return true;
+  }
+  return false;
+}
+
+// The cubic through the values of a mode's eigenvalue at the ends, with its rates there; before these cost something,
+// the parabola through the values at the last three points.
+bool Tracer::dips(const Segment& segment, Index here, Index there) {
+  const PathPoint &from = segment.from(), &to = segment.to();
+  const double v0 = from.nearest.values[here], v1 = to.nearest.values[there], L = segment.length();
+  if ((v0 > 0.0) != (v1 > 0.0)) return true;
+  const double sign = v0 > 0.0 ? 1.0 : -1.0, least = std::min(std::abs(v0), std::abs(v1));
+  if (least <= nothing * std::max(std::abs(v0), std::abs(v1))) return true;
+  if (before_ && before_->state.piece == from.state.piece) {
+    const auto i = same_as(from.nearest.vectors.col(here), before_->nearest.vectors, metric_.weights());
+    const double before = i ? sign * before_->nearest.values[*i] : 0.0;
+    const double length = Segment(metric_, *before_, from).length();
+    if (before > 0.0 && least_of_parabola(length, before, sign * v0, L, sign * v1) > shallow * least) return false;
+  }
+  const auto rate = [&](const PathPoint& point, Index mode) {
+    const Vector vector = point.nearest.vectors.col(mode);
+    return sign * eigenvalue_rate(system_, point.state, point.tangent, vector, vector, beside_).value;
+  };
+  const double r0 = rate(from, here), r1 = rate(to, there);
+  return least_cubic_value(sign * v0, r0 * L, sign * v1, r1 * L) <= deep * least;
+}
+
+// A mode that was not among the nearest at the start of the segment: the straight line back from its end.
+bool Tracer::rises_from_zero(const Segment& segment, Index there) {
+  const PathPoint& to = segment.to();
+  const double v1 = to.nearest.values[there];
+  const Vector vector = to.nearest.vectors.col(there);
+  const double rate = eigenvalue_rate(system_, to.state, to.tangent, vector, vector, beside_).value;
+  return (v1 > 0.0) == (rate > 0.0) && std::abs(v1) <= segment.length() * std::abs(rate);
+}
+
+// The count just behind a singular point, where others may follow before the step's end.
+StabilityCount Tracer::count_behind(const PathPoint& beyond, Index change) {
+  if (beyond.held && *beyond.held == *held_ + change) return counter_.count(beyond.state, beyond.held);
+  if (!after_.unstable) return {};
+  const Index unstable = *after_.unstable + change;
+  return {.unstable = unstable, .stability = unstable > 0 ? Stability::unstable : Stability::stable};
+}
+
+std::vector<Event> Tracer::events_of(const Singular& singular, const PathPoint& at, const PathPoint& beyond,
+                                     const StabilityCount& behind, double length) const {
+  std::vector<Event> events;
+  if (const auto& branching = singular.branching) {
+    const double roundoff = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda);
+    events.push_back({.kind = EventKind::branch_point,
+                      .state = at.state,
+                      .arc = at.arc,
+                      .residual = at.residual,
+                      .localised = std::max(branching->localised, roundoff),
+                      .suspected = singular.suspected,
+                      .unstable_before = after_.unstable,
+                      .unstable_after = behind.unstable,
+                      .branching = branching});
+  }
+  if (singular.found.what == Found::What::detector) {
+    events.push_back(event_of(singular.found, at, beyond, behind, length));
+    events.back().suspected = singular.suspected && !singular.branching;
+  }
+  return events;
+}
+
+}  // namespace arcwall
