@@ -4,15 +4,11 @@
 #include <cassert>
 #include <cmath>
 
-#include "elements/essenburg_vectors.hpp"
+#include "elements/essenburg_assembly.hpp"
 #include "elements/shape_functions.hpp"
 #include "elements/updated_essenburg_beam.hpp"
 
 namespace arcwall {
-
-using essenburg::forces_of_unknowns;
-using essenburg::stiffness_of_unknowns;
-using essenburg::vectors_a_node;
 
 // With p = t turned by +90°: ∂t/∂φ = p, ∂p/∂φ = −t. d − D = (cos φ − 1) D + sin φ D⊥ + e t, with cos φ − 1 =
 // −2 sin²(φ/2) for the digits of small rotations.
@@ -44,14 +40,13 @@ EssenburgNode::Vectors EssenburgNode::vectors(double phi, double e, double xi) c
   return v;
 }
 
-// C11 = C33 = E/(1 − ν²), C13 = ν C11.
-EssenburgLaw::EssenburgLaw(const EssenburgStiffness& stiffness)
+// Plane stress across the width: C11 = C33 = E/(1 − ν²), C13 = ν C11.
+EssenburgElement::EssenburgElement(const EssenburgReference& reference, const EssenburgStiffness& stiffness,
+                                   int axial_points)
     : C11(stiffness.E / (1.0 - stiffness.nu * stiffness.nu)),
       C13(stiffness.nu * C11),
-      G(stiffness.shear_correction * stiffness.E / (2.0 * (1.0 + stiffness.nu))) {}
-
-EssenburgBeam::EssenburgBeam(const EssenburgReference& reference, const EssenburgStiffness& stiffness, int axial_points)
-    : law_(stiffness), sections_(reference.sections) {
+      G(stiffness.shear_correction * stiffness.E / (2.0 * (1.0 + stiffness.nu))),
+      sections(reference.sections) {
   assert(reference.nodes.size() == reference.sections.size());
   const GaussRule rule = gauss_rule(axial_points);
   for (std::size_t g = 0; g < static_cast<std::size_t>(axial_points); ++g)
@@ -62,8 +57,8 @@ EssenburgBeam::EssenburgBeam(const EssenburgReference& reference, const Essenbur
 //
 //   f1 = F e1 = [a1 − (A1·e3/m) a3]/J,    f3 = F e3 = a3/m,    dV = J m dξ dA                            (1)
 //   a1 = ∂/∂ξ (r + z d + z² q),           a3 = d + 2 z q                                                 (2)
-void EssenburgBeam::add_points(const EssenburgReference& reference, double xi, double weight,
-                               const std::vector<SectionPoint>& heights) {
+void EssenburgElement::add_points(const EssenburgReference& reference, double xi, double weight,
+                                  const std::vector<SectionPoint>& heights) {
   const ShapeFunctions shape = shape_functions(reference.order(), xi);
   Vec2 X_xi = Vec2::Zero(), D = Vec2::Zero(), D_xi = Vec2::Zero();
   for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
@@ -73,7 +68,7 @@ void EssenburgBeam::add_points(const EssenburgReference& reference, double xi, d
   }
   const double m = D.norm();
   for (const auto& [z, area] : heights) {
-    EssenburgPoint point{.e3 = D / m};
+    Point point{.e3 = D / m};
     point.e1 = -perp(point.e3);
     const Vec2 A1 = X_xi + z * D_xi;
     const double J = A1.dot(point.e1), skew = A1.dot(point.e3) / m;
@@ -81,14 +76,15 @@ void EssenburgBeam::add_points(const EssenburgReference& reference, double xi, d
     point.volume = weight * area * J * m;
     for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
       const double N = shape.N[a], dN = shape.dN[a];
-      double *c1 = &point.c1[vectors_a_node * a], *c3 = &point.c3[vectors_a_node * a];
+      double *c1 = &point.c1[static_cast<std::size_t>(vectors_a_node) * a],
+             *c3 = &point.c3[static_cast<std::size_t>(vectors_a_node) * a];
       c1[0] = dN / J;
       c1[1] = (z * dN - skew * N) / J;
       c1[2] = (z * z * dN - 2.0 * z * skew * N) / J;
       c3[1] = N / m;
       c3[2] = 2.0 * z * N / m;
     }
-    points_.push_back(point);
+    points.push_back(point);
   }
 }
 
@@ -104,68 +100,32 @@ void EssenburgBeam::add_points(const EssenburgReference& reference, double xi, d
 //        [              ·                   S33 1 + C11 f3 f3ᵀ + G f1 f1ᵀ ]                               (5)
 //
 // in (f1, f3).
-EssenburgBeam::Response EssenburgBeam::respond(const EssenburgPoint& at, const Vec2& h1, const Vec2& h3,
-                                               bool tangent) const {
+EssenburgElement::Response EssenburgBeam::respond(const EssenburgElement::Point& at, const Vec2& h1, const Vec2& h3,
+                                                  bool tangent) const {
+  const double C11 = at.volume * element_->C11, C13 = at.volume * element_->C13, G = at.volume * element_->G;
   const double E11 = at.e1.dot(h1) + 0.5 * h1.squaredNorm(), E33 = at.e3.dot(h3) + 0.5 * h3.squaredNorm();
   const double gamma = at.e1.dot(h3) + at.e3.dot(h1) + h1.dot(h3);
-  const double S11 = at.volume * (law_.C11 * E11 + law_.C13 * E33), S33 = at.volume * (law_.C13 * E11 + law_.C11 * E33);
-  const double S13 = at.volume * law_.G * gamma;
+  const double S11 = C11 * E11 + C13 * E33, S33 = C13 * E11 + C11 * E33, S13 = G * gamma;
   const Vec2 f1 = at.e1 + h1, f3 = at.e3 + h3;
-  Response response{
+  EssenburgElement::Response response{
       .U = 0.5 * (S11 * E11 + S33 * E33 + S13 * gamma), .P1 = S11 * f1 + S13 * f3, .P3 = S13 * f1 + S33 * f3};
   if (!tangent) return response;
   const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-  const double C11 = at.volume * law_.C11, C13 = at.volume * law_.C13, G = at.volume * law_.G;
   response.A11 = S11 * I + C11 * f1 * f1.transpose() + G * f3 * f3.transpose();
   response.A13 = S13 * I + C13 * f1 * f3.transpose() + G * f3 * f1.transpose();
   response.A33 = S33 * I + C11 * f3 * f3.transpose() + G * f1 * f1.transpose();
   return response;
 }
 
-// By c1 and c3 of (1) gradient g and Hessian H are those in the nodal vectors v.
-template <int nodes>
-double EssenburgBeam::evaluate_nodes(const double* u, double* f, double* K) const {
-  constexpr int vectors = vectors_a_node * nodes;
-  std::array<EssenburgNode::Vectors, nodes> sections;
-  Eigen::Matrix<double, 2, vectors> v, g = Eigen::Matrix<double, 2, vectors>::Zero();
-  for (int a = 0; a < nodes; ++a) {
-    const double* at = u + unknowns_a_node * a;
-    EssenburgNode::Vectors& section = sections[static_cast<std::size_t>(a)];
-    section = sections_[static_cast<std::size_t>(a)].vectors(at[2], at[3], at[4]);
-    v.col(vectors_a_node * a) = Vec2(at[0], at[1]);
-    v.col(vectors_a_node * a + 1) = section.d_change;
-    v.col(vectors_a_node * a + 2) = section.q;
-  }
-  Eigen::Matrix<double, 2 * vectors, 2 * vectors> H;
-  if (K != nullptr) H.setZero();
-
-  double U = 0.0;
-  for (const EssenburgPoint& at : points_) {
-    const Eigen::Map<const Eigen::Matrix<double, vectors, 1>> c1(at.c1.data()), c3(at.c3.data());
-    const Response response = respond(at, v * c1, v * c3, K != nullptr);
-    U += response.U;
-    g.noalias() += response.P1 * c1.transpose();
-    g.noalias() += response.P3 * c3.transpose();
-    if (K == nullptr) continue;
-    for (int j = 0; j < vectors; ++j) {
-      const Eigen::Matrix2d B1 = c1[j] * response.A11 + c3[j] * response.A13;
-      const Eigen::Matrix2d B3 = c1[j] * response.A13.transpose() + c3[j] * response.A33;
-      for (int i = j; i < vectors; ++i) H.template block<2, 2>(2 * i, 2 * j) += c1[i] * B1 + c3[i] * B3;
-    }
-  }
-  if (f != nullptr) forces_of_unknowns<nodes>(sections, g, f);
-  if (K != nullptr) stiffness_of_unknowns<nodes>(sections, g, H, K);
-  return U;
-}
-
 double EssenburgBeam::evaluate(const double* u, double* f, double* K) const {
-  return sections_.size() == 2 ? evaluate_nodes<2>(u, f, K) : evaluate_nodes<3>(u, f, K);
+  const auto response = [this](std::size_t i, const Vec2& h1, const Vec2& h3, bool tangent) {
+    return respond(element_->points[i], h1, h3, tangent);
+  };
+  return essenburg::assemble(*element_, response, u, f, K);
 }
 
 std::unique_ptr<Element> EssenburgBeam::updated(const double* u) const {
-  auto material = std::make_shared<UpdatedEssenburgBeam::Material>();
-  *material = {.law = law_, .sections = sections_, .points = points_};
-  return std::make_unique<UpdatedEssenburgBeam>(std::move(material), u);
+  return std::make_unique<UpdatedEssenburgBeam>(u, element_);
 }
 
 }  // namespace arcwall

@@ -51,21 +51,35 @@ struct EssenburgStiffness {
   std::vector<SectionPoint> points{};  ///< over the height
 };
 
-/// Plane stress across the width: S11 = C11 E11 + C13 E33, S33 = C13 E11 + C11 E33, S13 = G γ [force/length²].
-struct EssenburgLaw {
-  double C11 = 0.0, C13 = 0.0, G = 0.0;
-
-  EssenburgLaw() = default;
-  explicit EssenburgLaw(const EssenburgStiffness& stiffness);
-};
-
-/// A quadrature point. Deformation gradient on the section's stress-free axes e1 (along) and e3 (across):
-/// f1 = e1 + Σ_j c1_j v_j, f3 = e3 + Σ_j c3_j v_j with the changes v = (u, d − D, q) of each node in turn.
-struct EssenburgPoint {
+/// Quadrature points and elasticity of an element, and what both of its forms do with them.
+struct EssenburgElement {
   static constexpr std::size_t most_nodes = 3;
-  double volume = 0.0;
-  Vec2 e1{}, e3{};
-  std::array<double, 3 * most_nodes> c1{}, c3{};
+  static constexpr int vectors_a_node = 3;  ///< u, d − D, q
+
+  /// Deformation gradient on the section's stress-free axes e1 (along) and e3 (across): f1 = e1 + Σ_j c1_j v_j,
+  /// f3 = e3 + Σ_j c3_j v_j with the changes v = (u, d − D, q) of each node in turn.
+  struct Point {
+    double volume = 0.0;
+    Vec2 e1{}, e3{};
+    std::array<double, vectors_a_node * most_nodes> c1{}, c3{};
+  };
+
+  /// Energy of a point and its derivatives in (f1, f3), times the volume.
+  struct Response {
+    double U = 0.0;
+    Vec2 P1{}, P3{};
+    Eigen::Matrix2d A11{}, A13{}, A33{};
+  };
+
+  EssenburgElement(const EssenburgReference& reference, const EssenburgStiffness& stiffness, int axial_points);
+
+  double C11, C13, G;
+  std::vector<EssenburgNode> sections;
+  std::vector<Point> points;
+
+ private:
+  void add_points(const EssenburgReference& reference, double xi, double weight,
+                  const std::vector<SectionPoint>& heights);
 };
 
 /// Beam whose thickness changes (Essenburg 1975; eqs. (15) to (17) of Selke and Kikuchi): Green's strain, St
@@ -79,33 +93,20 @@ class EssenburgBeam final : public Element {
   static constexpr int unknowns_a_node = 5;
 
   /// `axial_points` other than the order shows what it is good for: one more than the order locks.
-  EssenburgBeam(const EssenburgReference& reference, const EssenburgStiffness& stiffness, int axial_points);
+  EssenburgBeam(const EssenburgReference& reference, const EssenburgStiffness& stiffness, int axial_points)
+      : element_(std::make_shared<const EssenburgElement>(reference, stiffness, axial_points)) {}
   EssenburgBeam(const EssenburgReference& reference, const EssenburgStiffness& stiffness)
       : EssenburgBeam(reference, stiffness, reference.order()) {}
 
-  int unknown_count() const override { return unknowns_a_node * static_cast<int>(sections_.size()); }
+  int unknown_count() const override { return unknowns_a_node * static_cast<int>(element_->sections.size()); }
   double evaluate(const double* u, double* f, double* K) const override;
-
-  /// With this material, its constants referred to each configuration; u = 0.
   std::unique_ptr<Element> updated(const double* u) const override;
 
  private:
-  // Energy of a point and its derivatives in (f1, f3), times the volume.
-  struct Response {
-    double U = 0.0;
-    Vec2 P1{}, P3{};
-    Eigen::Matrix2d A11{}, A13{}, A33{};
-  };
+  EssenburgElement::Response respond(const EssenburgElement::Point& at, const Vec2& h1, const Vec2& h3,
+                                     bool tangent) const;
 
-  void add_points(const EssenburgReference& reference, double xi, double weight,
-                  const std::vector<SectionPoint>& heights);
-  Response respond(const EssenburgPoint& at, const Vec2& h1, const Vec2& h3, bool tangent) const;
-  template <int nodes>
-  double evaluate_nodes(const double* u, double* f, double* K) const;
-
-  EssenburgLaw law_;
-  std::vector<EssenburgNode> sections_;
-  std::vector<EssenburgPoint> points_;
+  std::shared_ptr<const EssenburgElement> element_;
 };
 
 }  // namespace arcwall

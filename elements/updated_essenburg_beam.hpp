@@ -8,34 +8,26 @@
 
 namespace arcwall {
 
-/// The Essenburg beam of Selke and Kikuchi's incremental scheme (eqs. 13 to 17): increments of Green's strain in the
-/// present configuration, stresses of the second kind C times them, Cauchy stresses carried along at the quadrature
-/// points. C stays what it is on the section's present axes: the material is not that of EssenburgBeam at large
-/// strains.
+/// The Essenburg beam of Selke and Kikuchi's incremental scheme (eqs. 13 and 15 to 17): in each configuration the
+/// stresses of Cauchy are carried at the quadrature points, and their increments are C times those of Green's strain.
 class UpdatedEssenburgBeam final : public UpdatedElement {
  public:
-  struct Material {
-    EssenburgLaw law{};
-    std::vector<EssenburgNode> sections{};
-    std::vector<EssenburgPoint> points{};
-  };
-  using Stresses = std::vector<Eigen::Matrix2d>;  ///< Cauchy, on the global axes, one a quadrature point
+  /// Without stress, but moved to u.
+  UpdatedEssenburgBeam(const double* u, std::shared_ptr<const EssenburgElement> element);
 
-  /// Stress-free.
-  UpdatedEssenburgBeam(std::shared_ptr<const Material> material, const double* u);
-
-  UpdatedEssenburgBeam(std::shared_ptr<const Material> material, const double* u, Stresses stresses, double energy);
+  /// With Cauchy's stresses at the points of the element [force/length²].
+  UpdatedEssenburgBeam(const double* u, std::shared_ptr<const EssenburgElement> element,
+                       std::vector<Eigen::Matrix2d> stresses, double energy);
 
   std::unique_ptr<Element> updated(const double* u) const override;
 
-  const Stresses& stresses() const { return stresses_; }
+  const std::vector<Eigen::Matrix2d>& stresses() const { return stresses_; }
 
  private:
-  template <int nodes>
-  void respond();
+  EssenburgElement::Response respond(std::size_t i, const Eigen::Matrix2d& F) const;
 
-  std::shared_ptr<const Material> material_;
-  Stresses stresses_;
+  std::shared_ptr<const EssenburgElement> element_;
+  std::vector<Eigen::Matrix2d> stresses_;
 };
 
 }  // namespace arcwall
