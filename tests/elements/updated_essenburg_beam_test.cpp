@@ -5,9 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "elements/incremental_structure.hpp"
 #include "tests/elements/element_checks.hpp"
-#include "tests/support/essenburg_models.hpp"
 
 namespace arcwall {
 
