@@ -63,8 +63,13 @@ BranchPoint branch_point_at(const System& system, Corrector& corrector, const Me
                     .multiplicity = place.multiplicity,
                     .change = place.change};
   const Vector& weights = metric.weights();
-  corrector.inspect(point.state, metric, point.along);
-  auto pairs = corrector.near_null(weights, place.multiplicity + (place.at_limit ? 1 : 0));
+  // Where K is singular to the last digit its null vectors come from beside.
+  constexpr double beside = 1e-7;  // [path metric]
+  std::optional<NearNull> pairs;
+  for (const double along : {0.0, beside, -beside}) {
+    corrector.inspect(moved(point.state, point.along, along), metric, point.along);
+    if ((pairs = corrector.near_null(weights, place.multiplicity + (place.at_limit ? 1 : 0)))) break;
+  }
   if (pairs && place.at_limit && pairs->vectors.cols() == 2)
     pairs->vectors = across(pairs->vectors, metric, point.along);
   if (!pairs || pairs->vectors.cols() < place.multiplicity) return point;

@@ -11,8 +11,8 @@ namespace arcwall {
 /// In which direction a detector's sign must change.
 enum class Crossing { any, rising, falling };
 
-/// A function along the path whose zeros are events. It triggers on a half-open interval: a zero at an arc's end
-/// belongs to that arc, one at its start does not count. A program adds its own to TraceOptions::detectors.
+/// A function along the path whose zeros are events. It triggers on half-open intervals: a zero where two arcs meet
+/// counts once, one at the start of a branch not at all. A program adds its own to TraceOptions::detectors.
 struct EventDetector {
   EventKind kind = EventKind::user;
   std::string label{};

@@ -158,11 +158,14 @@ std::optional<Arc> Tracer::advance(double s) {
   const double length = Segment(metric_, here_, step->to).length();
   PathPoint to = std::move(step->to);
   to.arc = here_.arc + length;
-  to.count = step->family ? StabilityCount{.unstable = after_.unstable} : counter_.count(to.state, to.held);
+  if (!singular.empty())
+    to.count = {};  // an eigenvalue is zero there
+  else
+    to.count = step->family ? StabilityCount{.unstable = after_.unstable} : counter_.count(to.state, to.held);
 
   // A pitchfork met along its own branch, where λ turns and an eigenvalue touches zero, was reported on the other.
   const bool crosses = !singular.empty() && singular.front().branching && singular.front().change % 2 == 0;
-  if (crosses && (end_ = end_where_known(to))) {
+  if (crosses && (end_ = end_where_known(to, &to.state))) {
     singular.clear();
     found.reset();
   }
@@ -341,8 +344,14 @@ bool Tracer::leads_to_family(const Step& step) const {
 }
 
 std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, double t) {
-  const double distance = std::max(segment.length() * std::min(t, 1.0 - t), 1e-3 * segment.length());
-  CorrectorResult result = corrector_.correct(segment.at(t), constraint, metric_, here_.tangent, distance);
+  return correct_onto(constraint, segment, segment.at(t), segment.length() * std::min(t, 1.0 - t));
+}
+
+// The same from a guess at a distance from points that are known.
+std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, State guess,
+                                              double distance) {
+  distance = std::max(distance, 1e-3 * segment.length());
+  CorrectorResult result = corrector_.correct(std::move(guess), constraint, metric_, here_.tangent, distance);
   last_failure_ = result.status;
   if (!result.converged()) return std::nullopt;
   // The place must lie inside the step, up to the curvature of the arc.
@@ -387,17 +396,21 @@ bool Tracer::passes(const PathPoint& to, const State& place) {
   return at && metric_.norm(difference(at->state, place)) <= passing;
 }
 
-// The end of a branch at a place that was passed before.
-std::optional<BranchEnd> Tracer::end_where_known(const PathPoint& to) {
+// The end of a branch at a place that was passed before; `place`, if given, becomes that place.
+std::optional<BranchEnd> Tracer::end_where_known(const PathPoint& to, State* place) {
   const bool far = to.arc > 3.0 * Segment(metric_, here_, to).length() + same_place;
   if (!far) return std::nullopt;
-  if (passes(to, start_.state))
+  if (passes(to, start_.state)) {
+    if (place) *place = start_.state;
     return BranchEnd{.reason = EndReason::closed_loop, .detail = "the branch came back to its start"};
+  }
   for (const KnownPoint& known : start_.known)
-    if (passes(to, known.state))
+    if (passes(to, known.state)) {
+      if (place) *place = known.state;
       return BranchEnd{.reason = EndReason::joined,
                        .detail = "joins branch " + std::to_string(known.branch),
                        .partner = known.branch};
+    }
   return std::nullopt;
 }
 

@@ -153,6 +153,7 @@ class Tracer {
   bool find_limit_point(const PathPoint& to, std::vector<Singular>& found);
   bool find_branch_points(const PathPoint& to, std::vector<Singular>& found);
   bool find_touching_limit(const Segment& segment, std::vector<Singular>& found);
+  int change_at_limit(const PathPoint& at);
   void add_branch_point_at_limit(const PathPoint& before, const PathPoint& after, double half_width, Singular& limit);
   std::optional<PathPoint> beside(const Segment& segment, double t);
   bool made_by_nodes(const State& state) const;
@@ -164,6 +165,8 @@ class Tracer {
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);
+  std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, State guess,
+                                        double distance);
   Event event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, const StabilityCount& behind,
                  double length) const;
   std::vector<Event> events_of(const Singular& singular, const PathPoint& at, const PathPoint& beyond,
@@ -184,7 +187,7 @@ class Tracer {
   void decide_count(PathPoint& point);
   std::vector<int> signs_at(const PathPoint& point) const;
   bool passes(const PathPoint& to, const State& place);
-  std::optional<BranchEnd> end_where_known(const PathPoint& to);
+  std::optional<BranchEnd> end_where_known(const PathPoint& to, State* place = nullptr);
   void give_up();
 
   const System& system_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "continuation/tracer.hpp"
 #include "core/root_find.hpp"
@@ -89,24 +90,58 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
     return to;
   }
   const EventDetector& detector = detectors_[found.which];
-  const auto at = [&](double t) {
-    Direction normal = segment.chord();
-    const PlaneConstraint plane(metric_, here_.state, normal, t * segment.length() * segment.length());
-    return correct_onto(plane, segment, t);
-  };
-  const auto value = [&](double t) -> std::optional<double> {
-    const auto point = at(t);
-    return point ? std::optional(detector.value(*point)) : std::nullopt;
-  };
-  const double sign = signs_[found.which];
+  const double sign = signs_[found.which], L = segment.length();
   const double v0 = detector.value(here_), v1 = detector.value(to);
   const double start = sign * v0 > 0.0 ? v0 : sign * detector_noise;
+  const double range = std::abs(v1 - start);
+  // Points that were looked at are ends to interpolate between for the next: soon one iteration is enough.
+  struct Seen {
+    PathPoint point;
+    double v;
+  };
+  std::map<double, Seen> seen{{0.0, {here_, start}}, {1.0, {to, v1}}};
+  const auto look = [&](double t) {
+    const auto behind = seen.lower_bound(t), before = std::prev(behind);
+    const Segment near(metric_, before->second.point, behind->second.point);
+    const double part = (t - before->first) / (behind->first - before->first);
+    const PlaneConstraint plane(metric_, here_.state, segment.chord(), t * L * L);
+    auto point = correct_onto(plane, segment, near.at(part), near.length() * std::min(part, 1.0 - part));
+    if (!point) return false;
+    const double v = detector.value(*point);
+    seen.insert_or_assign(t, Seen{.point = std::move(*point), .v = v});
+    return true;
+  };
+  // Near the zero the bracket need not be closed from both sides, unless another lies at the start.
+  const double near_zero = std::abs(start) > 1e-2 * range ? 1e-4 : 0.0;
+  const auto value = [&](double t) -> std::optional<double> {
+    if (!look(t)) return std::nullopt;
+    const double v = seen.at(t).v;
+    return std::abs(v) <= near_zero * range ? 0.0 : v;
+  };
   const auto root = bracketed_root(value, 0.0, start, 1.0, v1, options_.localisation);
-  if (!root) return std::nullopt;
-  found.t = root->at;
-  // Points of the path are known no better than where the corrector takes what is left for round-off.
-  found.half_width = std::max(root->half_width, options_.corrector.stagnation / segment.length());
-  return at(root->at);
+  if (!root || (!seen.contains(root->at) && !look(root->at))) return std::nullopt;
+
+  // Secants, as long as the value gets less: then it is round-off.
+  const double tolerance = std::max(options_.localisation, 1e-10);
+  auto best = seen.find(root->at);
+  double width = tolerance;
+  for (int secant = 0; secant < 4 && std::abs(best->second.v) > tolerance * range; ++secant) {
+    const auto behind = std::next(best), before = best == seen.begin() ? behind : std::prev(best);
+    const bool ahead = behind != seen.end() && behind->first - best->first < best->first - before->first;
+    const auto& other = ahead ? behind : before;
+    const double slope = (other->second.v - best->second.v) / (other->first - best->first);
+    const double t = best->first - best->second.v / slope;
+    width = std::max(tolerance, std::abs(best->second.v / slope));
+    if (!(t > 0.0 && t < 1.0) || !look(t)) break;
+    const auto next = seen.find(t);
+    const bool noisy = std::abs(next->second.v) >= 0.5 * std::abs(best->second.v);
+    if (std::abs(next->second.v) < std::abs(best->second.v)) best = next;
+    width = std::max(tolerance, std::abs(best->second.v / slope));
+    if (noisy) break;
+  }
+  found.t = best->first;
+  found.half_width = width;
+  return best->second.point;
 }
 
 Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, const StabilityCount& behind,

@@ -52,20 +52,27 @@ bool Tracer::find_singular(const PathPoint& to, std::vector<Singular>& found) {
 }
 
 // λ turns. A limit point changes the count by one, right there; what else changes it are branch points: those before it
-// come first, those behind it are left to the next step, and those at the same place are reported with it.
+// come first, those behind it are left to the next step, and those at the same place are reported with it. How near to
+// it the count is sure depends on the mesh.
 bool Tracer::find_limit_point(const PathPoint& to, std::vector<Singular>& found) {
   const Segment segment(metric_, here_, to);
   Found limit{.what = Found::What::detector, .which = 0, .t = 0.5, .half_width = 0.0};
   auto at = locate(limit, to);
   if (!at) return false;
   const double L = segment.length();
+  if (const Index whole = *to.held - *held_; std::abs(whole) == 1) {
+    const int expected = change_at_limit(*at);
+    if (expected == -whole && L > short_step) return false;
+    found.push_back({.found = limit, .at = std::move(*at), .change = whole});
+    return true;
+  }
   std::optional<PathPoint> before, after;
   const auto count_at = [](const std::optional<PathPoint>& point, Index otherwise) {
     return point ? *point->held : otherwise;
   };
   Index change = 0;
   double distance = 0.0;
-  for (const double next : {1e-4, 3e-5}) {
+  for (const double next : {1e-4, 1e-3, 3e-5}) {
     distance = next;
     const double t0 = limit.t - distance / L, t1 = limit.t + distance / L;
     before = t0 > 0.0 ? beside(segment, t0) : std::nullopt;
@@ -83,6 +90,19 @@ bool Tracer::find_limit_point(const PathPoint& to, std::vector<Singular>& found)
   }
   add_branch_point_at_limit(*before, *after, distance / L, found.back());
   return true;
+}
+
+// How a limit point alone changes the number of negative eigenvalues: with K t_x = −t_λ F_λ,
+//
+//   t_xᵀ K t_x = −t_λ F_λᵀ t_x,
+//
+// which passes zero with t_λ. Zero where F_λᵀ t_x vanishes nearly, as at a branch point.
+int Tracer::change_at_limit(const PathPoint& at) {
+  constexpr double nearly = 1e-6;
+  system_.linearize(at.state, beside_);
+  const double work = beside_.F_lambda.dot(at.tangent.dx);
+  if (std::abs(work) <= nearly * metric_.dual_norm(beside_.F_lambda)) return 0;
+  return signs_.front() * work > 0.0 ? -1 : 1;
 }
 
 // λ turns and the count does not change by one: two eigenvalues pass zero, or one touches it as the branch of a

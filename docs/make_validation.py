@@ -140,6 +140,44 @@ def perfect_channel(theory: str) -> Case:
                 "of one load and energy, where the path ends.")
 
 
+def root(f: Callable[[float], float], low: float, high: float) -> float:
+    """A zero of f by bisection."""
+    rises = f(high) > 0.0
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if (f(middle) > 0.0) == rises else (middle, high)
+    return 0.5 * (low + high)
+
+
+def steep_truss(strain: str) -> Case:
+    """The steep truss, b = 1 and h = 5: z of the apex at which it sways and at which the load is greatest, by the strain."""
+    b, h = 1.0, 5.0
+    L = math.hypot(b, h)
+    length = lambda z: math.hypot(b, z)
+    stretch = lambda z: math.log(length(z) / L)
+    force, sways, limit = {
+        "green": (lambda z: z * (h * h - z * z) / L**3, lambda z: z * z - h * h + 2 * b * b, lambda z: z - h / math.sqrt(3)),
+        "engineering": (lambda z: 2 * z * (1 / length(z) - 1 / L),
+                        lambda z: length(z)**3 - L * length(z)**2 + L * b * b, lambda z: length(z)**3 - b * b * L),
+        "log": (lambda z: -2 * L * stretch(z) * z / length(z)**2,
+                lambda z: (1 - stretch(z)) * b * b + z * z * stretch(z),
+                lambda z: z * z + (b * b - z * z) * stretch(z)),
+    }[strain]
+    z_sways, z_limit = root(sways, 4.0, h), root(limit, 0.0, 4.0)
+    return Case(f"Steep truss of two bars, strain: {strain}", "docs/validation/truss_sway.toml",
+                {"2": [f"member.{m}.strain='{strain}'" for m in ("left", "right")]}, [
+        Quantity("load at which it sways", load("branch-point"), force(z_sways), "closed form"),
+        Quantity("way there", monitor("w", "branch-point"), h - z_sways, "closed form"),
+        Quantity("limit load", load("limit-point"), force(z_limit), "closed form"),
+    ])
+
+
+def buckling(n: int, EA: float, GA: float = math.inf) -> float:
+    """P (1 − P/EA + P/GA) = n² π² EI/L², the smaller root, EI = L = 1."""
+    a, euler = 1 / GA - 1 / EA, (n * math.pi)**2
+    return 2 * euler / (1 + math.sqrt(1 + 4 * a * euler))
+
+
 def cases() -> list:
     EA, h, half_span = 1e5, 0.5, 5.0
     L = math.hypot(half_span, h)
@@ -156,6 +194,11 @@ def cases() -> list:
         Case("Truss of two bars, engineering strain", "examples/truss.toml", {"2": strains["engineering"]}, [
             Quantity("first limit load", load("limit-point"), engineering, "closed form"),
         ]),
+        Case("Truss of two bars, logarithmic strain", "examples/truss.toml",
+             {"2": [f"member.{m}.strain='log'" for m in ("left", "right")]}, [
+            Quantity("first limit load", load("limit-point"), 1e5 * 3.82989288e-4, "closed form, to nine digits"),
+        ]),
+        *(steep_truss(strain) for strain in ("green", "engineering", "log")),
         Case("Cantilever rolled up by an end moment", "examples/cantilever.toml",
              meshes({"strip": 1}, [5, 10, 20, 40]), [
             Quantity("turn of the tip at half of the way", landed("turn", 100 * math.pi), math.pi, "closed form"),
@@ -193,6 +236,38 @@ def cases() -> list:
             Quantity("first branch point", load("branch-point"), 1279.36308536489, SHOOTING),
             Quantity("way there", monitor("down", "branch-point"), 293.892593560, SHOOTING),
             Quantity("second limit load", load("limit-point", 1), -477.994067635700, SHOOTING),
+        ]),
+        Case("Pinned semicircular arch", "docs/validation/semicircle.toml", meshes({"west": 1, "east": 1}, [8, 16, 32, 64]), [
+            Quantity("load at which it sways", load("branch-point"), 20.8420786502809, CHECKED),
+            Quantity("way there", monitor("down", "branch-point"), 24.7455260913, SHOOTING),
+            Quantity("limit load without sway", load("limit-point"), 36.0888659301171, CHECKED),
+            Quantity("limit load of the branch that sways", load("limit-point", 1), 27.6290182852711, CHECKED),
+        ]),
+        Case("Clamped semicircular arch, nearly inextensible", "docs/validation/semicircle_clamped.toml",
+             meshes({"west": 1, "east": 1}, [8, 16, 32, 64]), [
+            Quantity("limit load", load("limit-point"), 10.4572627019098, SHOOTING),
+        ], note="The reference is for the inextensible arch, here EA R²/EI = 1e8."),
+        Case("Pinned column, extensible", "docs/validation/column.toml", meshes({"column": 1}, [4, 8, 16, 32]), [
+            Quantity("first buckling load", load("branch-point"), buckling(1, 1000.0), "closed form"),
+            Quantity("second buckling load", load("branch-point", 1), buckling(2, 1000.0), "closed form"),
+        ]),
+        Case("Pinned column, flexible in shear", "docs/validation/column.toml", meshes({"column": 1}, [4, 8, 16, 32]), [
+            Quantity("first buckling load", load("branch-point"), buckling(1, 1000.0, 500.0), "closed form"),
+            Quantity("second buckling load", load("branch-point", 1), buckling(2, 1000.0, 500.0), "closed form"),
+        ], always=("member.column.theory='exact'",)),
+        Case("Clamped column, extensible", "docs/validation/column_clamped.toml",
+             meshes({"column": 1}, [6, 12, 24, 48]), [
+            Quantity("first buckling load", load("branch-point"), buckling(2, 1000.0), "closed form"),
+        ]),
+        Case("Roorda's frame, nearly inextensible", "docs/validation/roorda.toml",
+             meshes({"column": 1, "beam": 1}, [4, 8, 16, 32]), [
+            Quantity("limit load, moment 0.01 λ", load("limit-point"), 12.43820240758229, SHOOTING),
+        ], note="Inextensible, P_c = 13.8859429 without the moment; Koiter (1967) gives P/P_c = 1 − 0.3805 θ beside it. "
+                "The branches themselves are compared in the tests."),
+        Case("Diamond frame", "docs/validation/diamond.toml",
+             meshes({name: 1 for name in ("one", "two", "three", "four")}, [4, 8, 16]), [
+            Quantity("inwards at λ = 1", landed("inwards", 1.0), 0.1392338882316943, SHOOTING),
+            Quantity("apart at λ = 1", landed("apart", 1.0), 2 * 0.11325021615356089, SHOOTING),
         ]),
         Case("Bending onto a foundation, contact at nodes", "examples/foundation.toml",
              meshes({"beam": 1}, [10, 20, 40, 80]), [
@@ -273,6 +348,10 @@ touchdown between two nodes it is 1, or the error is irregular ([theory.md](theo
 References called *shooting* are solutions of the boundary value problem of the extensible elastica (a plane beam without shear
 flexibility, stretch 1 + N/EA, dead loads) that were computed independently of this program and are converged in all digits
 that stand here.
+
+What is no structure of a deck is compared in `tests/published` with closed forms and independent values: Bratu's problem with the
+exact folds of its difference scheme, the sinusoidal shallow arch, the star dome with its double points, and the normal forms of
+singular points.
 """
 
 

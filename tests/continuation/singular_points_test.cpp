@@ -185,6 +185,35 @@ TEST(DoublePoints, AreRecognisedByTheRankOfTheNullSpace) {
   }
 }
 
+// A rigid upright bar of length 1 on a ball with two equal springs (Augusti 1964), turned by θ₁ and θ₂, its head at
+// D = √(1 − sin² θ₁ − sin² θ₂) above the ball: V = ½ (θ₁² + θ₂²) + λ D. It may fall in any direction from λ = 1 on.
+TEST(DoublePoints, AColumnThatMayBuckleInTwoPlanes) {
+  SmoothToy column;
+  column.unknowns = 2;
+  const auto height = [](const Vector& x) { return std::sqrt(1.0 - x.array().sin().square().sum()); };
+  column.potential = [=](const Vector& x, double lambda) { return 0.5 * x.squaredNorm() + lambda * height(x); };
+  column.F_lambda = [=](const Vector& x, double) { return Vector(-0.5 * (2.0 * x.array()).sin() / height(x)); };
+  column.F = [=](const Vector& x, double lambda) { return Vector(x + lambda * column.F_lambda(x, lambda)); };
+  column.K = [=](const Vector& x, double lambda) {
+    const double D = height(x);
+    const Vector half = 0.5 * (2.0 * x.array()).sin(), cosine = (2.0 * x.array()).cos();
+    const Matrix curvature = Matrix((cosine / D).asDiagonal()) + half * half.transpose() / (D * D * D);
+    return Matrix(Matrix::Identity(2, 2) - lambda * curvature);
+  };
+  for (const double step : steps) {
+    SCOPED_TRACE(step);
+    const TraceOptions options = until(1.5, step);
+    const Branch branch = test::trace(column, options, {.x = Vector::Zero(2), .lambda = 0.0});
+    expect_events(branch, {{branch_point, 1.0, 0, 2}});
+    const Event event = only_event(branch, branch_point);
+    EXPECT_EQ(event.branching->multiplicity, 2);
+    EXPECT_EQ(event.branching->type, BranchType::undetermined);
+    ASSERT_EQ(event.branching->modes.size(), 2U);
+    const Vector a = event.branching->modes[0].dx, b = event.branching->modes[1].dx;
+    EXPECT_GT(std::abs(a[0] * b[1] - a[1] * b[0]), 0.9 * a.norm() * b.norm());
+  }
+}
+
 TEST(Touches, AreSuspected) {
   for (const double step : steps)
     for (const double least : {0.0, 1e-12, -1e-15}) {

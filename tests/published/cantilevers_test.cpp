@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -132,6 +133,10 @@ TEST(CantileverUnderAnEndMoment, ConvergesToTheCircle) {
       }
       std::vector<double> errors;
       for (std::size_t i = 0; i < xs.size(); ++i) errors.push_back(std::hypot(xs[i], zs[i]));
+      if (beam.on_circles == 0) {
+        EXPECT_LT(*std::max_element(errors.begin(), errors.end()), 1e-10);
+        continue;
+      }
       test::expect_order(errors, beam.on_circles, 1e-12);
       EXPECT_NEAR(test::extrapolated(xs, beam.on_circles), 0.0, 1e-7);
       EXPECT_NEAR(test::extrapolated(zs, beam.on_circles), 0.0, 1e-7);
@@ -148,7 +153,7 @@ TEST(CantileverUnderAnEndMoment, RollsUp) {
     SCOPED_TRACE(beam.name);
     const auto found = tips({.EA = 1e3, .elements = 40, .tip_moment = 1.0, .GA = 400.0, .beam = beam}, moments);
     for (std::size_t i = 0; i < moments.size(); ++i) {
-      const double m = moments[i], tolerance = beam.on_circles >= 6 ? 1e-8 : 3e-6;
+      const double m = moments[i], tolerance = beam.on_circles == 0 || beam.on_circles >= 6 ? 1e-8 : 3e-6;
       EXPECT_NEAR(found[i].rotation, m, 1e-9);
       EXPECT_NEAR(1.0 - found[i].shortening, std::sin(m) / m, tolerance);
       EXPECT_NEAR(found[i].descent, (1.0 - std::cos(m)) / m, tolerance);

@@ -70,7 +70,7 @@ std::vector<Bent> bent(const Column& column, double fraction, const std::vector<
 }
 
 // The state at 60° over four meshes, and its limit.
-void expect_bent_converges(const Bent& exact, double order, const std::function<Bent(int elements)>& at) {
+void expect_bent_converges(const Bent& exact, const BeamTheory& theory, const std::function<Bent(int elements)>& at) {
   std::vector<double> loads, chords, middles;
   for (const int elements : {8, 16, 32, 64}) {
     const Bent found = at(elements);
@@ -78,9 +78,9 @@ void expect_bent_converges(const Bent& exact, double order, const std::function<
     chords.push_back(found.chord);
     middles.push_back(found.middle);
   }
-  test::expect_convergence(loads, {.exact = exact.load, .order = order});
-  test::expect_convergence(chords, {.exact = exact.chord, .order = order});
-  test::expect_convergence(middles, {.exact = exact.middle, .order = order});
+  test::expect_convergence(loads, {.exact = exact.load, .order = double(theory.convergence)});
+  test::expect_convergence(chords, {.exact = exact.chord, .order = double(theory.convergence)});
+  test::expect_convergence(middles, {.exact = exact.middle, .order = double(theory.convergence)});
 }
 
 void expect_bent(const Bent& found, const Bent& expected, double relative) {
@@ -160,7 +160,7 @@ TEST(PinnedColumn, FollowsTheElasticaBehindTheEulerLoad) {
     SCOPED_TRACE(theory.name);
     const auto found = bent({.EA = 4e7, .elements = 40, .beam = theory}, 0.0, degrees);
     for (std::size_t i = 0; i < degrees.size(); ++i) expect_bent(found[i], elastica(degrees[i]), 1e-6);
-    expect_bent_converges(elastica(60.0), theory.convergence, [&](int elements) {
+    expect_bent_converges(elastica(60.0), theory, [&](int elements) {
       Bent limit{.degrees = 60.0};
       const auto at = [&](double Bent::*what) {
         return test::at_zero(
@@ -238,7 +238,7 @@ TEST(PinnedColumn, FollowsTheExtensibleElastica) {
       SCOPED_TRACE(theory.name + ", EA = " + std::to_string(table.EA));
       const auto found = bent({.EA = table.EA, .elements = 40, .beam = theory}, 0.0, {20.0, 40.0, 60.0});
       for (std::size_t i = 0; i < 3; ++i) expect_bent(found[i], table.rows[i], 1e-6);
-      expect_bent_converges(table.rows[2], theory.convergence, [&](int elements) {
+      expect_bent_converges(table.rows[2], theory, [&](int elements) {
         return bent({.EA = table.EA, .elements = elements, .beam = theory}, 0.0, {60.0})[0];
       });
     }
@@ -271,7 +271,7 @@ TEST(PinnedColumn, FollowsReissnersBeamWhereItShears) {
         const auto found = bent(column(40), 0.0, {20.0, 40.0, 60.0, 80.0});
         for (std::size_t i = 0; i < 4; ++i) expect_bent(found[i], table.rows[i], 1e-6);
       }
-      expect_bent_converges(table.rows[3], theory.convergence,
+      expect_bent_converges(table.rows[3], theory,
                             [&](int elements) { return bent(column(elements), 0.0, {80.0})[0]; });
     }
 }

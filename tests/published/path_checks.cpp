@@ -36,8 +36,9 @@ Scales scales_of(const std::vector<PathEvent>& points) {
 }
 
 // One point on all meshes, coarsest first.
-void expect_point_converges(const std::vector<PathEvent>& meshes, const PathEvent& expected, double order,
+void expect_point_converges(const std::vector<PathEvent>& meshes, const PathEvent& expected, const BeamTheory& theory,
                             const Scales& scales, const Precision& precision) {
+  const double order = theory.convergence;
   std::vector<double> lambdas, xs, zs, in_lambda, distances;
   for (const PathEvent& point : meshes) {
     lambdas.push_back(point.lambda);
@@ -95,7 +96,7 @@ void expect_points_converge(const BeamTheory& theory, int coarsest,
   const Scales scales = scales_of(expected);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     SCOPED_TRACE("point " + std::to_string(i));
-    expect_point_converges(found[i], expected[i], theory.convergence, scales, precision);
+    expect_point_converges(found[i], expected[i], theory, scales, precision);
   }
 }
 

@@ -13,12 +13,15 @@ struct BeamTheory {
   Theory theory = Theory::classic;
   int order = 2;        ///< as in MemberDescription
   int convergence = 4;  ///< exponent of the element length in the error
-  int on_circles = 6;   ///< the same where the axis bends to a circle
+  int on_circles = 6;   ///< the same where the axis bends to a circle; 0: exact
   int finer = 1;        ///< elements for what one of order four needs
 };
 
 /// Theories whose limit is the extensible elastica: no flexibility in shear.
-inline std::vector<BeamTheory> elastica_theories() { return {BeamTheory{}}; }
+inline std::vector<BeamTheory> elastica_theories() {
+  return {BeamTheory{},
+          {.name = "elastica, order 4", .theory = Theory::elastica, .order = 4, .convergence = 4, .on_circles = 0}};
+}
 
 /// Theories whose limit is Reissner's beam: extensible and flexible in shear.
 inline std::vector<BeamTheory> shear_theories() {

@@ -1,0 +1,93 @@
+#include "continuation/event_detector.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/branch.hpp"
+#include "tests/support/toys.hpp"
+
+// Detectors that a program adds, on x = λ and on F = x² + λ, where x falls from 1 to −1 and λ turns at 0.
+namespace arcwall {
+
+namespace {
+
+using test::Branch;
+
+EventDetector passes(double x, Crossing crossing = Crossing::any) {
+  return {.label = "x", .crossing = crossing, .value = [x](const PathPoint& point) { return point.state.x[0] - x; }};
+}
+
+Branch traced(const System& system, State start, std::vector<EventDetector> detectors, double until) {
+  TraceOptions options;
+  options.detectors = std::move(detectors);
+  options.landmarks = {test::stop_at_lambda(until)};
+  return test::trace(system, options, start);
+}
+
+Branch along_line(std::vector<EventDetector> detectors) {
+  return traced(test::spring(1.0), {.x = test::scalar(0.0), .lambda = 0.0}, std::move(detectors), 1.0);
+}
+
+Branch round_the_fold(std::vector<EventDetector> detectors) {
+  return traced(test::fold(), {.x = test::scalar(1.0), .lambda = -1.0}, std::move(detectors), -1.0);
+}
+
+}  // namespace
+
+// The example of docs/library.md, word for word: tests/check_examples.sh sees to that.
+TEST(EventDetector, IsAValueThatAProgramAdds) {
+  const test::SmoothToy system = test::spring(1.0);
+  const State start{.x = Vector::Zero(1), .lambda = 0.0};
+  std::vector<double> found;
+  // example begins
+  TraceOptions options;
+  options.landmarks = {{.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true}};
+  const auto past_half = [](const PathPoint& point) { return point.state.x[0] - 0.5; };
+  options.detectors.push_back({.label = "halfway", .crossing = Crossing::rising, .value = past_half});
+  Tracer tracer(system, start, options);
+  while (const auto arc = tracer.next())
+    for (const Event& event : arc->events)
+      if (event.kind == EventKind::user && event.label == "halfway") found.push_back(event.state.lambda);
+  // example ends
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0], 0.5, 1e-10);
+}
+
+TEST(EventDetector, CountsOnlyInItsDirection) {
+  EXPECT_EQ(events_of(along_line({passes(0.37, Crossing::any)}), EventKind::user).size(), 1U);
+  EXPECT_EQ(events_of(along_line({passes(0.37, Crossing::rising)}), EventKind::user).size(), 1U);
+  EXPECT_TRUE(events_of(along_line({passes(0.37, Crossing::falling)}), EventKind::user).empty());
+  EXPECT_EQ(events_of(round_the_fold({passes(0.37, Crossing::falling)}), EventKind::user).size(), 1U);
+  EXPECT_TRUE(events_of(round_the_fold({passes(0.37, Crossing::rising)}), EventKind::user).empty());
+}
+
+TEST(EventDetector, CarriesItsKindAndLabelAndStopsNothing) {
+  EventDetector own = passes(0.25);
+  own.kind = EventKind::displacement_limit;
+  own.label = "mine";
+  const Branch branch = along_line({own, passes(0.75)});
+  const Event event = only_event(branch, EventKind::displacement_limit);
+  EXPECT_EQ(event.label, "mine");
+  EXPECT_NEAR(event.state.x[0], 0.25, 1e-10);
+  EXPECT_NEAR(only_event(branch, EventKind::user).state.x[0], 0.75, 1e-10);
+  EXPECT_EQ(branch.end.reason, EndReason::stop);
+}
+
+// A zero where two arcs meet counts once: 0.3 is the end of a step, 0.02 + 0.04 + 0.08 +
+// 0.16.
+TEST(EventDetector, TriggersOnceWhereAStepEndsOnItsZero) {
+  const Branch branch = along_line({passes(0.3)});
+  EXPECT_NEAR(only_event(branch, EventKind::user).state.x[0], 0.3, 1e-7);
+}
+
+TEST(EventDetector, IgnoresAZeroAtTheStart) {
+  EXPECT_TRUE(events_of(along_line({passes(0.0)}), EventKind::user).empty());
+  EXPECT_TRUE(events_of(round_the_fold({passes(1.0)}), EventKind::user).empty());
+}
+
+TEST(EventDetector, SeesAZeroOnALimitPointBesideIt) {
+  const Branch branch = round_the_fold({passes(0.0)});
+  EXPECT_EQ(events_of(branch, EventKind::limit_point).size(), 1U);
+  EXPECT_NEAR(only_event(branch, EventKind::user).state.x[0], 0.0, 1e-7);
+}
+
+}  // namespace arcwall
