@@ -130,6 +130,7 @@ std::optional<Arc> Tracer::begin_at_branch_point() {
 // One arc: predict and correct, land on the first change of contact, then on the first event before it; leave the
 // corner.
 std::optional<Arc> Tracer::advance(double s) {
+  if (after_.unstable) counted_ = after_.unstable;
   auto step = take(s);
   if (!step) return std::nullopt;
   if (step->family) step->to.held = std::nullopt;
@@ -167,8 +168,10 @@ std::optional<Arc> Tracer::advance(double s) {
     if (singular) behind = after.count;
   }
   if (found && found->what == Found::What::landmark) stop_at(options_.landmarks[found->which], to);
-  held_ = singular ? beyond.held : to.held;
-  if (!step->corner) after_ = behind;
+  const bool waits = !found && !step->corner && before_double_fold(whole);
+  left_to_fold_ = waits ? left_to_fold_ + 1 : 0;
+  if (!waits) held_ = singular ? beyond.held : to.held;
+  if (!step->corner && !waits) after_ = behind;
   if (!step->corner && !end_) end_where_known(to);
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
 

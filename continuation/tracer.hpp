@@ -139,6 +139,7 @@ class Tracer {
   bool leads_to_family(const Step& step) const;
 
   bool several_singular_points(const Segment& segment) const;
+  bool before_double_fold(const Segment& segment) const;
   std::optional<PathPoint> locate_branch_point(const PathPoint& to);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
@@ -175,6 +176,7 @@ class Tracer {
   std::vector<int> signs_;                // of each detector just after here_
   std::optional<Index> held_;             // negative eigenvalues just after here_, closed contacts held
   StabilityCount after_;                  // the count just after here_
+  std::optional<Index> counted_;          // the last one on the branch that was sure
   std::shared_ptr<BranchPoint> located_;  // the last branch point
   BranchStart start_;
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
@@ -189,6 +191,7 @@ class Tracer {
   CorrectorStatus last_failure_ = CorrectorStatus::converged;
   std::optional<std::string> obstruction_;
   bool refined_ = false;  // the last attempt ended with a finer description of its start
+  int left_to_fold_ = 0;  // steps in a row that passed singular points which belong to the fold ahead
   int points_ = 0;
   int standing_ = 0;  // corners in a row at one place
 };

@@ -53,7 +53,7 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
       !signs_.empty() && signs_.front() * sign_of(segment.to().tangent.dlambda / metric_.lambda_scale()) < 0;
   const bool whole = !already;  // counts are certain at the end of a step, not at a located point
   if (options_.events == EventSearch::locate && whole && !turns && held_ && segment.to().held &&
-      *held_ != *segment.to().held)
+      *held_ != *segment.to().held && !before_double_fold(segment))
     return Found{.what = Found::What::branch_point, .which = 0, .t = 0.5, .half_width = 0.0};
   const auto consider = [&](Found::What what, std::size_t which, double t) {
     const bool done = already && already->what == what && already->which == which;
@@ -138,11 +138,23 @@ std::optional<PathPoint> Tracer::locate_branch_point(const PathPoint& to) {
 // A fold changes the count of negative eigenvalues by one, and so does a simple branch point. Where a step shows more,
 // or a fold without its change, it is looked at again in shorter steps.
 bool Tracer::several_singular_points(const Segment& segment) const {
-  constexpr double inseparable = 1e-5;  // arc length below which they are one
-  if (!held_ || !segment.to().held || segment.length() < inseparable || detectors_.empty()) return false;
+  constexpr double inseparable = 1e-5, double_fold = 1e-4;  // arc length below which they are one
+  if (!held_ || !segment.to().held || detectors_.empty() || before_double_fold(segment)) return false;
   const Index changes = std::abs(*segment.to().held - *held_);
   const bool turns = signs_.front() * sign_of(detectors_.front().value(segment.to())) < 0;
+  if (segment.length() < (turns && changes == 2 ? double_fold : inseparable)) return false;
   return changes > 1 || (turns && changes != 1);
+}
+
+// At a fold of an arc that two like parts share, two modes turn unstable. The mesh splits them, by so little that λ has
+// not turned yet when they do: they are left to the fold.
+bool Tracer::before_double_fold(const Segment& segment) const {
+  constexpr double level = 1e-3, close = 1e-4;  // λ′ of the unit tangent; arc length
+  constexpr int patience = 20;
+  if (!held_ || !segment.to().held || detectors_.empty() || left_to_fold_ >= patience) return false;
+  const double rate = detectors_.front().value(segment.to());
+  return *segment.to().held != *held_ && segment.length() < close && signs_.front() * sign_of(rate) >= 0 &&
+         std::abs(rate) < level;
 }
 
 Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, double length) const {
@@ -157,18 +169,28 @@ Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint&
             .unstable_after = beyond.count.unstable,
             .branching = located_};
   const EventDetector& detector = detectors_[found.which];
+  const bool turns = detector.kind == EventKind::limit_point;
+  // Where λ turns and no eigenvalue changes its sign, the branch meets another one at a pitchfork on that one.
+  std::shared_ptr<BranchPoint> pitchfork;
+  if (turns && counted_ && counted_ == beyond.count.unstable) {
+    pitchfork = std::make_shared<BranchPoint>();
+    pitchfork->state = at.state;
+    pitchfork->along = at.tangent;
+    pitchfork->discretisation = options_.tied_contacts && system_.multiplier_count(at.state.piece) > 0;
+  }
   // λ changes by λ′ δ + ½ λ″ δ² over the bracket that is left.
   const double width = found.half_width * length / std::max(found.t, 1e-3);
   const double roundoff = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda);
   const double bend = std::abs(beyond.tangent.dlambda - here_.tangent.dlambda) / std::max(length, 1e-300);
-  return {.kind = detector.kind,
+  return {.kind = pitchfork ? EventKind::branch_point : detector.kind,
           .label = detector.label,
           .state = at.state,
           .arc = at.arc,
           .residual = at.residual,
           .localised = std::max(std::abs(at.tangent.dlambda) * width + 0.5 * bend * width * width, roundoff),
           .unstable_before = after_.unstable,
-          .unstable_after = detector.kind == EventKind::limit_point ? beyond.count.unstable : at.count.unstable};
+          .unstable_after = turns ? beyond.count.unstable : at.count.unstable,
+          .branching = std::move(pitchfork)};
 }
 
 std::vector<int> Tracer::signs_at(const PathPoint& point) const {
