@@ -7,6 +7,7 @@
 
 #include "continuation/stability.hpp"
 #include "core/state.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 
@@ -55,12 +56,12 @@ struct BranchPoint {
 
   BranchType type = BranchType::symmetric;
   State state{};
-  Direction along{};            ///< unit tangent of the branch it was found on, forward
-  Direction mode{};             ///< critical mode, of unit length, largest component positive; no λ
-  Direction other{};            ///< unit tangent of the other branch
-  std::vector<Way> rays{};      ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
-  Index multiplicity = 1;       ///< of the zero eigenvalue
-  double localised = 0.0;       ///< half-width in λ of what is left uncertain
+  Direction along{};        ///< unit tangent of the branch it was found on, forward
+  Direction mode{};         ///< critical mode, of unit length, largest component positive; no λ. Empty where λ turns
+  Direction other{};        ///< unit tangent of the other branch; empty likewise
+  std::vector<Way> rays{};  ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
+  Index multiplicity = 1;   ///< of the zero eigenvalue
+  double localised = 0.0;   ///< half-width in λ of what is left uncertain
   bool discretisation = false;  ///< contacts tied to nodes make it: the continuum has none
 };
 
@@ -101,6 +102,7 @@ struct BranchEnd {
   EndReason reason = EndReason::stop;
   std::string detail{};          ///< which bound; what to try
   std::optional<int> partner{};  ///< the branch that it joined or that goes on
+  std::optional<Family> family{};
 };
 
 /// One accepted stretch of path and the events at its end. The first arc of a branch has length zero.
