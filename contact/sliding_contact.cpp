@@ -55,10 +55,17 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<Obstacle> ob
     for (std::size_t w = 0; w < obstacles_.size(); ++w)
       for (const bool last : {false, true})
         if (obstacles_[w].runs[static_cast<std::size_t>(run)] && !body.end_is_held(run, last))
-          tied_.push_back({.run = run, .last = last, .obstacle = w});
+          tied_.push_back({.run = run, .last = last, .obstacle = w, .travel = 0.0});
   }
   const auto layout = std::make_shared<SlidingContactLayout>(body, body.mesh(cut),
                                                              std::vector<SlidingContactLayout::Point>{}, Vector());
+  const Vector rest = body.rest(layout->mesh(), Vector());
+  for (Tied& end : tied_) {
+    constexpr double vertical = 1e-6;
+    const double along =
+        std::cos(layout->mesh().node(end.run, end.last ? layout->mesh().nodes(end.run) - 1 : 0, rest).angle);
+    end.travel = std::abs(along) > vertical ? std::copysign(1.0, along) : 0.0;
+  }
   open_ = Piece(tied_.size(), 0, layout);
 }
 
@@ -145,7 +152,8 @@ SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const Vecto
 
   NodeGap out;
   out.gap = g.value;
-  out.tilt = std::remainder(place.angle - wall.angle, pi);
+  out.angle = place.angle - wall.angle;
+  out.tilt = std::remainder(out.angle, pi);
   out.gap_gradient << g.x, g.z, -o * (g.x * t.x() + g.z * t.y());
   out.tilt_gradient << -wall.angle_x, 0.0, 1.0 + wall.angle_x * o * t.x();
   const double sway = o * t.x();  // of the face against x, by angle

@@ -88,7 +88,7 @@ class SlidingContact final : public System {
  private:
   // A body's node against an obstacle: gap, angle to the wall, and their derivatives by x, z and rotation.
   struct NodeGap {
-    double gap, tilt;
+    double gap, tilt, angle;  // angle: the tilt with its winding number and direction of travel
     Eigen::Vector3d gap_gradient, tilt_gradient;
     Eigen::Matrix3d gap_hessian, tilt_hessian;
   };
@@ -135,6 +135,7 @@ class SlidingContact final : public System {
 
   std::optional<MaterialPoint> lifting_place(const State& state, Index j) const;
   Index held_force(const State& state, std::size_t node) const;
+  std::optional<std::size_t> touching_end(const State& state, std::size_t which) const;
   LeastPressure least_pressure(const State& state, std::size_t node) const;
   double least_pressure_around(const State& state, std::size_t node) const;
   double least_pressure_place(const State& state, std::size_t node) const;
@@ -177,6 +178,7 @@ class SlidingContact final : public System {
     Index run;
     bool last;
     std::size_t obstacle;
+    double travel;  // ±1: with or against x at rest; 0: neither
   };
   std::vector<Tied> tied_;
   Piece open_;

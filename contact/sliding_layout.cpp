@@ -50,6 +50,12 @@ SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_
       limits_.push_back({.bound = Bound::fine, .which = i});
   }
   for (std::size_t i = 0; i < held_.size(); ++i) limits_.push_back({.bound = Bound::pressure, .which = i});
+  for (Index run = 0; run < body.runs(); ++run)
+    for (const bool last : {false, true}) {
+      if (body.end_is_held(run, last)) continue;
+      for (const Bound bound : {Bound::lies, Bound::upright})
+        limits_.push_back({.bound = bound, .which = 2 * static_cast<std::size_t>(run) + (last ? 1 : 0)});
+    }
 }
 
 SlidingContactLayout::Span SlidingContactLayout::span_before(std::size_t point) const {

@@ -47,6 +47,8 @@ class SlidingContactLayout final : public SlidingLayout {
     straight,   ///< short enough to need none
     room,       ///< of segment `which`: a contact reaches the end of its member, or one on another wall
     pressure,   ///< around the held node `which`
+    lies,       ///< of the free end `which` that touches: before it lies on the wall
+    upright,    ///< likewise: before it stands against the wall, where its section's other corner would touch
   };
   struct Limit {
     Bound bound;
@@ -63,6 +65,9 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::vector<Held>& held() const { return held_; }
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<Limit>& limits() const { return limits_; }
+
+  /// A free end as a limit's `which`: 2 run + 1 for the last.
+  static std::pair<Index, bool> end_of(std::size_t which) { return {static_cast<Index>(which / 2), which % 2 == 1}; }
 
   Vector x_of(const State& state) const { return state.x.head(mesh_->unknowns()); }
   Vector s_of(const State& state) const { return state.x.tail(mesh_->breakpoints()); }

@@ -13,8 +13,12 @@ using Bound = SlidingContactLayout::Bound;
 
 namespace {
 
-constexpr double shortest_flat = 0.8;  // of a half wave, below which a flat part has one element
-constexpr double flatness = 0.5;       // curvature of an open point over its gap, both scaled, below which it is let go
+constexpr double shortest_flat = 0.8;    // of a half wave, below which a flat part has one element
+constexpr double nearly_upright = 0.02;  // cosine: beyond 0 the section's other corner touches, and nothing is smooth
+constexpr double flatness = 0.5;  // curvature of an open point over its gap, both scaled, below which it is let go
+
+// The sine of the angle between body and wall has this sign at an end where the gap grows from there on.
+double outward(Side side, bool last) { return (side == Side::below) == last ? -1.0 : 1.0; }
 
 // Forces of the nodes of a pressed part, its first and last node left out, less what the mesh adds at the ends: the
 // part is a beam on knife edges at equal distances whose slope is held at its ends. To a pressure with the slope f′
@@ -120,6 +124,15 @@ double SlidingContact::least_pressure_place(const State& state, std::size_t node
   return on.mesh().coordinate(held.run, held.position, s) + least_pressure(state, node).offset * h;
 }
 
+// Which contact of a free end touches, if one does.
+std::optional<std::size_t> SlidingContact::touching_end(const State& state, std::size_t which) const {
+  const auto [run, last] = Layout_::end_of(which);
+  const std::size_t points = layout(state.piece).points().size();
+  for (std::size_t j = 0; j < tied_.size(); ++j)
+    if (tied_[j].run == run && tied_[j].last == last && state.piece[points + j]) return points + j;
+  return std::nullopt;
+}
+
 double SlidingContact::limit_value(const State& state, std::size_t limit) const {
   const Layout_& on = layout(state.piece);
   const Vector s = on.s_of(state);
@@ -159,6 +172,22 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       return asked() - 0.5;
     case Bound::pressure:
       return least_pressure_around(state, which) * scales_.length / scales_.force;
+    case Bound::lies: {
+      // How fast the gap grows from the end on.
+      const auto j = touching_end(state, which);
+      if (!j) break;
+      const Tied& end = tied_[*j - on.points().size()];
+      return outward(obstacles_[end.obstacle].side, end.last) *
+             std::sin(node_gap(touch(on, *j), on.x_of(state), on).angle);
+    }
+    case Bound::upright: {
+      const auto j = touching_end(state, which);
+      const Touch at = j ? touch(on, *j) : Touch{};
+      if (!j || at.offset == 0.0 || tied_[*j - on.points().size()].travel == 0.0) break;
+      return tied_[*j - on.points().size()].travel *
+                 std::cos(on.mesh().node(at.run, at.position, on.x_of(state)).angle) -
+             nearly_upright;
+    }
   }
   return 1.0;
 }
@@ -233,6 +262,29 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       row.dx.segment(first, count) = per_force * least.weights;
       row.dx[first_s + segment.last_point] = -per_force * p / span;
       row.dx[first_s + segment.first_point] = per_force * p / span;
+      break;
+    }
+    case Bound::lies: {
+      const auto j = touching_end(state, which);
+      if (!j) break;
+      const Tied& end = tied_[*j - on.points().size()];
+      const Touch at = touch(on, *j);
+      const NodeGap gap = node_gap(at, on.x_of(state), on);
+      const Eigen::Vector3d gradient =
+          outward(obstacles_[end.obstacle].side, end.last) * std::cos(gap.angle) * gap.tilt_gradient;
+      const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+      for (std::size_t i = 0; i < 3; ++i)
+        if (unknowns[i] >= 0) row.dx[unknowns[i]] = gradient[static_cast<Index>(i)];
+      break;
+    }
+    case Bound::upright: {
+      const auto j = touching_end(state, which);
+      const Touch at = j ? touch(on, *j) : Touch{};
+      if (!j || at.offset == 0.0) break;
+      const Index turn = on.mesh().node_unknowns(at.run, at.position)[2];
+      if (turn >= 0)
+        row.dx[turn] = -tied_[*j - on.points().size()].travel *
+                       std::sin(on.mesh().node(at.run, at.position, on.x_of(state)).angle);
       break;
     }
   }

@@ -187,6 +187,11 @@ std::vector<Passage> SlidingContact::passages(const State& state, const Directio
                .detail = "a contact point reached the end of its member, or another wall's contact"}};
     case Bound::pressure:
       return lifted(state, tolerance);
+    case Bound::lies:
+      return {{.change = Passage::Change::unsupported, .detail = "the free end of a member lies down on a wall"}};
+    case Bound::upright:
+      return {{.change = Passage::Change::unsupported,
+               .detail = "the free end of a member stands upright against a wall: its other corner would touch"}};
   }
   return {};
 }
@@ -208,11 +213,17 @@ std::vector<Passage> SlidingContact::straightened(const State& state, double tol
 }
 
 Passage SlidingContact::family(const State& state, Index lines, Index ends) const {
+  const Layout_& on = layout(state.piece);
+  const Vector s = on.s_of(state);
+  Family common{.energy = energy(state)};
+  for (std::size_t k = 0; k < on.points().size(); ++k)
+    if (on.points()[k].behind == Span::flat) common.length += s[static_cast<Index>(k) + 1] - s[static_cast<Index>(k)];
   return {.change = Passage::Change::family,
           .detail = counted(lines, "contact") + (ends > 0 ? " and " + counted(ends, "clamped end") : "") +
-                    " become lines together: only the sum of their lengths is determined, all such equilibria have the "
-                    "energy " +
-                    round_trip(energy(state))};
+                    " become lines together: only the sum of their lengths is determined, " +
+                    round_trip(common.length) + " here; all such equilibria have the energy " +
+                    round_trip(common.energy),
+          .family = common};
 }
 
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it

@@ -7,6 +7,7 @@
 
 #include "continuation/stability.hpp"
 #include "core/state.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 
@@ -106,6 +107,7 @@ struct BranchEnd {
   EndReason reason = EndReason::stop;
   std::string detail{};          ///< which bound; what to try
   std::optional<int> partner{};  ///< the branch that it joined or that goes on
+  std::optional<Family> family{};
 };
 
 /// One accepted stretch of path and the events at its end. The first arc of a branch has length zero.

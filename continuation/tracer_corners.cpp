@@ -85,7 +85,9 @@ bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Ev
     passage = std::move(candidate);
     if (passage.change == Passage::Change::family || passage.change == Passage::Change::unsupported) {
       const bool family = passage.change == Passage::Change::family;
-      end_ = {.reason = family ? EndReason::family : EndReason::unsupported, .detail = passage.detail};
+      end_ = {.reason = family ? EndReason::family : EndReason::unsupported,
+              .detail = passage.detail,
+              .family = passage.family};
       return false;
     }
     after = enter(passage, at);

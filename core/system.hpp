@@ -29,6 +29,12 @@ struct Linearization {
   std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
 };
 
+/// What the equilibria of a continuum have in common.
+struct Family {
+  double energy = 0.0;  ///< total potential [force·length]
+  double length = 0.0;  ///< sum of the lengths of the body's flat parts on walls, new ones being points yet [length]
+};
+
 /// What lies behind a limit of a piece: another piece that meets it there.
 struct Passage {
   enum class Change {
@@ -41,7 +47,8 @@ struct Passage {
     unsupported,  ///< something that is not modelled
   };
   Change change = Change::remeshed;
-  std::string detail{};           ///< of the last two: what and why
+  std::string detail{};  ///< of the last two: what and why
+  std::optional<Family> family{};
   std::vector<Index> contacts{};  ///< that change: in the piece behind, of `gathers` and `joins` in the piece ahead
   State guess{};                  ///< on the piece ahead, near the first point there
   Direction forward{};            ///< there, roughly

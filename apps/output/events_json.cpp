@@ -103,6 +103,7 @@ Json point_json(const Record& record, const RecordPoint& point) {
 Json end_json(const BranchEnd& end) {
   Json json{{"reason", to_text(end.reason)}, {"detail", end.detail}};
   if (end.partner) json["partner"] = *end.partner;
+  if (end.family) json["family"] = {{"energy", number(end.family->energy)}, {"length", number(end.family->length)}};
   return json;
 }
 

@@ -130,7 +130,7 @@ TEST(Channel, UnitsDoNotMatterSlow) {
 }
 
 // Without an imperfection and without walls the column stays straight: u = −λ L/EA. Its buckling loads solve
-// P (1 − P/EA) = n² π² EI/L²: 0.432687, 1.74166, 3.95970, 7.18….
+// P (1 − P/EA) = n² π² EI/L²: 0.432687, 1.74166, 3.96086, 7.18….
 TEST(Channel, APerfectColumnStaysStraightAndCountsItsBucklingModes) {
   const auto model = test::Channel{.elements = 20, .walls = false}.model();
   TraceOptions options = until(8.0);

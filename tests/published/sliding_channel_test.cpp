@@ -171,7 +171,11 @@ TEST(SlidingChannelEvents, EndInAFamilyOfThreeLines) {
   std::vector<double> ends;
   for (const int elements : {20, 40, 80}) {
     const PerfectChannel found(elements, 20.0);
-    EXPECT_EQ(found.branches.back().record.end->reason, EndReason::family);
+    const BranchEnd& end = *found.branches.back().record.end;
+    EXPECT_EQ(end.reason, EndReason::family);
+    ASSERT_TRUE(end.family.has_value());
+    EXPECT_EQ(end.family->length, 0.0);  // all three are points yet
+    EXPECT_EQ(end.family->energy, found.model.system().energy(found.branches.back().arcs.back().to.state));
     const auto events = test::events_of(found.branches);
     std::vector<EventKind> in_order;
     for (const Event& event : events) in_order.push_back(event.kind);

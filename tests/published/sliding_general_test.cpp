@@ -155,9 +155,10 @@ TEST(SlidingContactPath, LeavesTheUpperWallWhereTheLowerOneIsTooFar) {
   EXPECT_EQ(events[4].guards.size(), 2U);
   EXPECT_NEAR(events[4].state.lambda, 4.253608535, 4e-6);
   const double third = 105.0 * (1.0 - std::sqrt(1.0 - 4.0 * 9.0 * pi * pi * 0.175 / 4.0 / 210.0));
-  double least = 10.0;
-  for (const Arc& arc : path.branches.back().arcs) least = std::min(least, arc.to.state.lambda);
-  EXPECT_NEAR(least, third, 1e-5);
+  const auto pitchfork = *std::find_if(events.rbegin(), events.rend(),
+                                       [](const Event& event) { return event.kind == EventKind::branch_point; });
+  EXPECT_EQ(pitchfork.unstable_after, 2);
+  EXPECT_NEAR(pitchfork.state.lambda, third, 1e-5);
 }
 
 // Clamped ends straighten with the contact (equal moments wherever the column is parallel to its axis): from there on
@@ -177,12 +178,18 @@ TEST(SlidingContactPath, EndsInAFamilyBetweenClampedEnds) {
 }
 
 // The line branch between walls 0.6 apart from the axis ends in a load maximum, where each outer arc alone loses its
-// stability. P a²/EI = 2.7532 for inextensible arcs, 1.3383; extension takes a hundredth off.
+// stability: two modes at one place. P a²/EI = 2.7532 for inextensible arcs, 1.3383; extension takes a hundredth off.
 TEST(SlidingContactPath, TurnsAtTheLoadMaximumOfItsOuterArcs) {
   std::vector<double> maxima;
   for (const int elements : {20, 40, 80}) {
     const Path path = path_of(SlidingChannel{.members = one(elements), .upper = 0.6, .lower = 0.6}, 1.3275);
-    maxima.push_back(test::event_of(path.branches, limit).state.lambda);
+    const Event maximum = test::event_of(path.branches, limit);
+    EXPECT_EQ(maximum.unstable_before, 0);
+    EXPECT_EQ(maximum.unstable_after, 2);
+    maxima.push_back(maximum.state.lambda);
+    std::vector<EventKind> kinds;
+    for (const Event& event : path.events()) kinds.push_back(event.kind);
+    EXPECT_EQ(kinds, (std::vector{branches, touches, spreads, limit, EventKind::contact_gathers, limit}));
     EXPECT_EQ(path.branches.back().arcs.back().to.count.unstable, 1);  // far behind, at 1.3275 again
     expect_invariants(path);
   }
@@ -198,6 +205,39 @@ TEST(SlidingContactPath, FindsItsEventsBetweenInclinedWalls) {
   const std::array meshes{path(20), path(40), path(80)};
   for (const Path& p : meshes) EXPECT_EQ(p.end(), EndReason::stop);
   limits(meshes, {branches, touches, spreads, branches, touches, corner});
+}
+
+// A cantilever of length 1 above a floor, bent by a load along it or by a moment at its tip. The tip bears a force with
+// free rotation, until it would lie down on the floor, or stand upright on it. Under the load q the tip of a linear
+// beam, g above the floor, touches at q L⁴/8 = g EI and is parallel to the floor, bearing q L/3, at q L⁴/72 = g EI.
+TEST(SlidingContactPath, EndsWhereAFreeEndLiesDownOrStandsUpright) {
+  const auto path = [](double gap, double lateral, double moment) {
+    StructureBuilder builder;
+    const Index root = builder.add_joint({0.0, 0.0}), tip = builder.add_joint({1.0, 0.0});
+    builder.add_member({.name = "0",
+                        .from = root,
+                        .to = tip,
+                        .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
+                        .section = {.E = 1e4, .A = 0.1, .I = 1e-4, .height = 0.05},
+                        .elements = 16});
+    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(root, which));
+    builder.fix(builder.shared_rotation(root).value());
+    if (lateral != 0.0) builder.add_distributed_load(0, {0.0, lateral}, LoadKind::proportional);
+    if (moment != 0.0) builder.add_load(builder.shared_rotation(tip).value(), moment, LoadKind::proportional);
+    return path_of(
+        SlidingModel(builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-gap - 0.025)}}, 0.05),
+        100.0);
+  };
+  const Path lies = path(0.02, -1.0, 0.0);
+  EXPECT_EQ(lies.end(), EndReason::unsupported);
+  EXPECT_EQ(lies.branches.back().record.end->detail, "the free end of a member lies down on a wall");
+  ASSERT_EQ(lies.events().size(), 1U);
+  EXPECT_NEAR(lies.events()[0].state.lambda, 8.0 * 0.02, 1e-3 * 8.0 * 0.02);
+  EXPECT_NEAR(lies.branches.back().arcs.back().to.state.lambda, 72.0 * 0.02, 1e-3 * 72.0 * 0.02);
+  const Path stands = path(0.2, 0.0, -1.0);
+  EXPECT_EQ(stands.end(), EndReason::unsupported);
+  EXPECT_EQ(stands.branches.back().record.end->detail,
+            "the free end of a member stands upright against a wall: its other corner would touch");
 }
 
 // A load that acts 0.02 off the axis at the left end bends the column before it buckles: it touches aside the middle,

@@ -1,0 +1,407 @@
+#include "elements/sliding_mesh.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "elements/classic_beam.hpp"
+#include "elements/elastica_beam.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr Index held = -1;
+
+Vec2 tangent(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+// By ∂(chord, angle1, angle2)/∂(x1, z1, angle1, x2, z2, angle2).
+StretchLoad::Vector6 spread(const Eigen::Vector4d& q) {
+  StretchLoad::Vector6 f;
+  f << -q[0], -q[1], q[2], q[0], q[1], q[3];
+  return f;
+}
+
+StretchLoad::Matrix6 spread(const Eigen::Matrix4d& Q) {
+  Eigen::Matrix<double, 4, 6> T = Eigen::Matrix<double, 4, 6>::Zero();
+  T(0, 0) = T(1, 1) = -1.0;
+  T(0, 3) = T(1, 4) = T(2, 2) = T(3, 5) = 1.0;
+  return T.transpose() * Q * T;
+}
+
+}  // namespace
+
+SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, Cut cut)
+    : structure_(structure), cut_(std::move(cut)) {
+  assert(static_cast<Index>(cut_.size()) == structure.runs());
+  Index unknowns = 0, first_element = 0, first_breakpoint = 0, node_count = 0, rotations = 0;
+  unknown_of_freedom_.assign(structure.freedoms_.size(), held);
+  const auto number_anchor = [&](const SlidingStructure::End& end) {
+    for (const Index freedom : end.freedom) {
+      Index& unknown = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
+      if (structure.held_[static_cast<std::size_t>(freedom)] || unknown != held) continue;
+      unknown = unknowns++;
+      freedom_of_unknown_.push_back(freedom);
+    }
+  };
+  for (Index r = 0; r < structure.runs(); ++r) {
+    const SlidingStructure::Run& run = structure.at(r);
+    const std::vector<int>& segments = cut_[static_cast<std::size_t>(r)];
+    MeshedRun meshed{.first_element = first_element};
+    number_anchor(run.ends[0]);
+    const auto last_segment = static_cast<Index>(segments.size()) - 1;
+    for (Index segment = 0; segment <= last_segment; ++segment) {
+      const int n = segments[static_cast<std::size_t>(segment)];
+      assert(n >= 1);
+      const Index a = segment == 0 ? held : first_breakpoint + segment - 1;
+      const Index b = segment == last_segment ? held : first_breakpoint + segment;
+      for (int i = 0; i < n; ++i) meshed.nodes.push_back(interpolated(a, b, run.length, double(i) / n));
+      meshed.elements += n;
+      if (b != held) breakpoints_.emplace_back(r, meshed.elements);
+    }
+    meshed.nodes.push_back({.constant = run.length});
+    first_breakpoint += last_segment;
+    first_element += meshed.elements;
+    meshed.first_inner = unknowns;
+    unknowns += 3 * (meshed.elements - 1);
+    freedom_of_unknown_.resize(static_cast<std::size_t>(unknowns), held);
+    number_anchor(run.ends[1]);
+    node_count += meshed.elements + 1;
+    rotations += meshed.elements + 1;
+    runs_.push_back(std::move(meshed));
+  }
+  std::vector<std::vector<Index>> blocks;
+  for (Index r = 0; r < structure.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) {
+      const NodeUnknowns first = node_unknowns(r, e), second = node_unknowns(r, e + 1);
+      blocks.push_back({first[0], first[1], first[2], second[0], second[1], second[2]});
+    }
+  assembly_ = BlockAssembly(unknowns, blocks);
+
+  // Means over all nodes, held ones included: they count as zeros.
+  const double L = structure.length_scale_;
+  weights_ = Vector::Constant(unknowns, 1.0 / (double(node_count) * L * L));
+  for (Index r = 0; r < structure.runs(); ++r)
+    for (Index i = 0; i < nodes(r); ++i)
+      if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = 1.0 / double(rotations);
+}
+
+SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(Index a, Index b, double length, double r) const {
+  Coordinate place;
+  if (a != held) {
+    place.breakpoint[0] = a;
+    place.weight[0] = 1.0 - r;
+  }
+  if (b != held) {
+    place.breakpoint[1] = b;
+    place.weight[1] = r;
+  } else {
+    place.constant = r * length;
+  }
+  return place;
+}
+
+double SlidingStructureMesh::coordinate(Index run, Index position, const Vector& s) const {
+  return mesh_of(run).nodes[static_cast<std::size_t>(position)].at(s);
+}
+
+NodeUnknowns SlidingStructureMesh::node_unknowns(Index run, Index position) const {
+  const MeshedRun& meshed = mesh_of(run);
+  if (position > 0 && position < meshed.elements) {
+    const Index first = meshed.first_inner + 3 * (position - 1);
+    return {first, first + 1, first + 2};
+  }
+  const auto& freedom = structure_.at(run).ends[position == 0 ? 0 : 1].freedom;
+  return {unknown(freedom[0]), unknown(freedom[1]), unknown(freedom[2])};
+}
+
+// Position or rotation of a joint's freedom.
+double SlidingStructureMesh::anchor(Index freedom, const Vector& x) const {
+  if (const Index i = unknown(freedom); i != held) return x[i];
+  const Structure::Meaning& meaning = structure_.freedoms_[static_cast<std::size_t>(freedom)];
+  const Vec2& position = structure_.positions_[static_cast<std::size_t>(meaning.node)];
+  switch (meaning.freedom) {
+    case Freedom::x:
+      return position.x();
+    case Freedom::z:
+      return position.y();
+    case Freedom::rotation:
+    case Freedom::thickness:
+    case Freedom::thickness2:
+      return 0.0;
+  }
+  return 0.0;
+}
+
+AxisPlace SlidingStructureMesh::node(Index run, Index position, const Vector& x) const {
+  const MeshedRun& meshed = mesh_of(run);
+  if (position > 0 && position < meshed.elements) {
+    const Index first = meshed.first_inner + 3 * (position - 1);
+    return {.position = {x[first], x[first + 1]}, .angle = x[first + 2]};
+  }
+  const SlidingStructure::Run& described = structure_.at(run);
+  const auto& end = described.ends[position == 0 ? 0 : 1];
+  return {.position = {anchor(end.freedom[0], x), anchor(end.freedom[1], x)},
+          .angle = end.angle + anchor(end.freedom[2], x)};
+}
+
+SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index run, Index position, const Vector& x) const {
+  const AxisPlace a = node(run, position, x), b = node(run, position + 1, x);
+  return {.first = a.position, .second = b.position, .angle1 = a.angle, .angle2 = b.angle};
+}
+
+StretchReference SlidingStructureMesh::reference(Index run, Index position, const Vector& s) const {
+  const SlidingStructure::Run& described = structure_.at(run);
+  return stretch_reference(*described.shape, described.offset + coordinate(run, position, s),
+                           described.offset + coordinate(run, position + 1, s));
+}
+
+template <typename Visit>
+void SlidingStructureMesh::with_beam(Index run, Index position, const Vector& s, const Visit& visit) const {
+  const SlidingStructure::Run& described = structure_.at(run);
+  const StretchReference stretch = reference(run, position, s);
+  const double EA = described.section.EA(), EI = described.section.EI();
+  if (described.theory == Theory::elastica) {
+    visit(ElasticaBeam(stretch, EA, EI, described.order == 6 ? ElasticaOrder::six : ElasticaOrder::four));
+  } else {
+    visit(ClassicBeam(stretch, EA, EI));
+  }
+}
+
+SlidingStructureMesh::Response SlidingStructureMesh::respond(Index run, Index position, const Vector& x,
+                                                             const Vector& s, double lambda, bool with_rates) const {
+  const SlidingStructure::Run& described = structure_.at(run);
+  const Ends at = ends(run, position, x);
+  BeamResponse beam_response;
+  with_beam(run, position, s, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
+  Response out{.energy = beam_response.energy,
+               .force = spread(beam_response.force),
+               .stiffness = spread(beam_response.stiffness),
+               .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
+  if (described.load.isZero() && described.constant_load.isZero()) return out;
+  const StretchReference stretch = reference(run, position, s);
+  const auto add = [&](const Vec2& load, double factor) {
+    const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
+    out.energy += factor * response.energy;
+    out.force += factor * response.force;
+    out.stiffness += factor * response.stiffness;
+    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
+    return response.force;
+  };
+  out.force_lambda = add(described.load, lambda);
+  add(described.constant_load, 1.0);
+  return out;
+}
+
+// visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
+template <typename Visit>
+void SlidingStructureMesh::for_each_rate(Index run, Index position, const Response& response,
+                                         const Visit& visit) const {
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Coordinate& place = mesh_of(run).nodes[static_cast<std::size_t>(position) + end];
+    for (std::size_t j = 0; j < 2; ++j)
+      if (place.breakpoint[j] != held && place.weight[j] != 0.0)
+        visit(place.breakpoint[j], Six(place.weight[j] * response.force_rate[end]));
+  }
+}
+
+void SlidingStructureMesh::residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const {
+  F.setZero();
+  for (Index i = 0; i < F.size(); ++i)
+    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
+      F[i] = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) {
+      const Six f = respond(r, e, x, s, lambda, false).force;
+      const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held) F[to[i]] += f[static_cast<Index>(i)];
+    }
+}
+
+void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const {
+  const Index n = unknowns(), m = breakpoints();
+  if (out.K.cols() != n || !out.pattern_of) out.K = assembly_.pattern();
+  std::fill(out.K.valuePtr(), out.K.valuePtr() + out.K.nonZeros(), 0.0);
+  out.F.setZero(n);
+  out.F_lambda.setZero(n);
+  out.B.setZero(n, m);
+  for (Index i = 0; i < n; ++i)
+    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held) {
+      out.F_lambda[i] = -structure_.load_[freedom];
+      out.F[i] = lambda * out.F_lambda[i] - structure_.constant_load_[freedom];
+    }
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) {
+      const Response response = respond(r, e, x, s, lambda, m > 0);
+      const Index block = mesh_of(r).first_element + e;
+      const auto to = assembly_.unknowns(block);
+      for (std::size_t i = 0; i < 6; ++i) {
+        if (to[i] == held) continue;
+        out.F[to[i]] += response.force[static_cast<Index>(i)];
+        out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
+      }
+      assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
+      for_each_rate(r, e, response, [&](Index k, const Six& rate) {
+        for (std::size_t i = 0; i < 6; ++i)
+          if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];
+      });
+    }
+}
+
+double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lambda) const {
+  double energy = 0.0;
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, x, s, lambda, false).energy;
+  for (Index i = 0; i < unknowns(); ++i)
+    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
+      energy -= (lambda * structure_.load_[freedom] + structure_.constant_load_[freedom]) *
+                structure_.value(*this, x, freedom);
+  return energy;
+}
+
+// Of the element on that side: its end moment M, loads included, and the force along the axis N there, with the sign ±
+// of what the element does to the node before or behind it.
+//
+//   curvature = κ₀ ± M/EI,   stretch = 1 ± N/EA,   N = f·t
+AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const {
+  const auto [run, position] = breakpoint(k);
+  const bool before = side == At::before;
+  const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();
+  const Index place = before ? 3 : 0, turn = place + 2;  // of the node among the element's freedoms
+  const SlidingStructure::Run& described = structure_.at(run);
+  const double sign = before ? 1.0 : -1.0;
+  const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
+  const Response response = respond(run, e, x, s, lambda, true);
+  const Vec2 t = tangent(node(run, position, x).angle);
+  const double S = coordinate(run, position, s), step = 1e-5 * described.length;
+  const auto natural = [&](double at) { return structure_.natural_curvature({.run = run, .s = at}); };
+  const auto force = response.force.segment<2>(place);
+  AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI, .stretch = 1.0 + force.dot(t) / EA};
+
+  const Six curvature_dx = response.stiffness.col(turn) / EI;
+  Six stretch_dx = response.stiffness.middleCols<2>(place) * t / EA;
+  stretch_dx[turn] += force.dot(perp(t)) / EA;
+  strain.curvature_dx = strain.stretch_dx = Vector::Zero(n);
+  strain.curvature_ds = strain.stretch_ds = Vector::Zero(m);
+  const auto to = assembly_.unknowns(mesh_of(run).first_element + e);
+  for (std::size_t i = 0; i < 6; ++i)
+    if (to[i] != held) {
+      strain.curvature_dx[to[i]] += curvature_dx[static_cast<Index>(i)];
+      strain.stretch_dx[to[i]] += stretch_dx[static_cast<Index>(i)];
+    }
+  for_each_rate(run, e, response, [&](Index j, const Six& rate) {
+    strain.curvature_ds[j] += rate[turn] / EI;
+    strain.stretch_ds[j] += rate.segment<2>(place).dot(t) / EA;
+  });
+  strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
+  strain.curvature_dlambda = response.force_lambda[turn] / EI;
+  strain.stretch_dlambda = response.force_lambda.segment<2>(place).dot(t) / EA;
+  return strain;
+}
+
+Index SlidingStructureMesh::element_at(const MaterialPoint& point, const Vector& s) const {
+  const auto& places = mesh_of(point.run).nodes;
+  Index low = 0, high = static_cast<Index>(places.size()) - 1;
+  while (high - low > 1) {
+    const Index middle = (low + high) / 2;
+    (places[static_cast<std::size_t>(middle)].at(s) <= point.s ? low : high) = middle;
+  }
+  return low;
+}
+
+AxisPlace SlidingStructureMesh::place(const MaterialPoint& point, const Vector& x, const Vector& s) const {
+  const Index e = element_at(point, s);
+  const double S1 = coordinate(point.run, e, s), S2 = coordinate(point.run, e + 1, s);
+  return inside(point.run, e, (point.s - S1) / (S2 - S1), x, s);
+}
+
+AxisPlace SlidingStructureMesh::inside(Index run, Index position, double fraction, const Vector& x,
+                                       const Vector& s) const {
+  if (fraction <= 0.0) return node(run, position, x);
+  if (fraction >= 1.0) return node(run, position + 1, x);
+  const Ends at = ends(run, position, x);
+  AxisPlace place;
+  with_beam(run, position, s, [&](const auto& beam) {
+    const BeamPlace local = beam.place(at.between(), fraction);
+    place = {.position = at.first + local.offset, .angle = local.angle};
+  });
+  return place;
+}
+
+SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPoint& point, const Vector& x,
+                                                                const Vector& s) const {
+  const Index e = element_at(point, s), m = breakpoints();
+  const double S1 = coordinate(point.run, e, s), S2 = coordinate(point.run, e + 1, s);
+  PlaceGradient gradient;
+  gradient.dx.setZero(3, unknowns());
+  gradient.ds.setZero(3, m);
+  const Ends at = ends(point.run, e, x);
+  const auto to = assembly_.unknowns(mesh_of(point.run).first_element + e);
+  with_beam(point.run, e, s, [&](const auto& beam) {
+    const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
+    for (int row = 0; row < 3; ++row) {
+      StretchLoad::Vector6 d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
+      if (row < 2) d[row] += 1.0;
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held) gradient.dx(row, to[i]) += d[static_cast<Index>(i)];
+    }
+  });
+  // By s the mesh moves under the place: differences, as the element may be another one.
+  for (Index k = 0; k < m; ++k) {
+    const double step = 1e-6 * structure_.at(point.run).length;
+    Vector forward = s, backward = s;
+    forward[k] += step;
+    backward[k] -= step;
+    const AxisPlace a = place(point, x, forward), b = place(point, x, backward);
+    gradient.ds.col(k) << (a.position - b.position) / (2.0 * step), (a.angle - b.angle) / (2.0 * step);
+  }
+  return gradient;
+}
+
+Vector SlidingStructureMesh::transferred(const Vector& x, const Vector& s, const SlidingMesh& to,
+                                         const Vector& s_to) const {
+  Vector moved(to.unknowns());
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (Index i = 0; i < to.nodes(r); ++i) {
+      const NodeUnknowns unknowns = to.node_unknowns(r, i);
+      const bool first = i == 0, last = i + 1 == to.nodes(r);
+      if (first || last) {
+        const auto& freedom = structure_.at(r).ends[first ? 0 : 1].freedom;
+        for (std::size_t j = 0; j < 3; ++j)
+          if (unknowns[j] != held) moved[unknowns[j]] = anchor(freedom[j], x);
+      } else {
+        const AxisPlace at = place({.run = r, .s = to.coordinate(r, i, s_to)}, x, s);
+        moved[unknowns[0]] = at.position.x();
+        moved[unknowns[1]] = at.position.y();
+        moved[unknowns[2]] = at.angle;
+      }
+    }
+  return moved;
+}
+
+SlidingStructure::Reaction SlidingStructureMesh::reaction(const Vector& x, const Vector& s, double lambda,
+                                                          Index freedom) const {
+  SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
+  if (unknown(freedom) != held) return reaction;
+  reaction.value = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
+  reaction.dlambda = -structure_.load_[freedom];
+  for (Index r = 0; r < structure_.runs(); ++r)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto& freedoms = structure_.at(r).ends[end].freedom;
+      const auto here = std::find(freedoms.begin(), freedoms.end(), freedom);
+      if (here == freedoms.end()) continue;
+      const Index row = (end == 0 ? 0 : 3) + static_cast<Index>(here - freedoms.begin());
+      const Index e = end == 0 ? 0 : mesh_of(r).elements - 1;
+      const Response response = respond(r, e, x, s, lambda, true);
+      reaction.value += response.force[row];
+      reaction.dlambda += response.force_lambda[row];
+      const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held) reaction.dx[to[i]] += response.stiffness(row, static_cast<Index>(i));
+      for_each_rate(r, e, response, [&](Index k, const Six& rate) { reaction.ds[k] += rate[row]; });
+    }
+  return reaction;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/assembly.hpp"
+#include "elements/distributed_load.hpp"
+#include "elements/sliding_structure.hpp"
+
+namespace arcwall {
+
+/// The mesh of one cut. Elements are numbered along the runs; each lies between two places that are fixed or move with
+/// breakpoints.
+class SlidingStructureMesh final : public SlidingMesh {
+ public:
+  SlidingStructureMesh(const SlidingStructure& structure, Cut cut);
+
+  const Cut& cut() const override { return cut_; }
+  Index unknowns() const override { return assembly_.pattern().cols(); }
+  Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
+  const Vector& weights() const override { return weights_; }
+  void residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const override;
+  void linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const override;
+  double energy(const Vector& x, const Vector& s, double lambda) const override;
+
+  Index nodes(Index run) const override { return mesh_of(run).elements + 1; }
+  double coordinate(Index run, Index position, const Vector& s) const override;
+  NodeUnknowns node_unknowns(Index run, Index position) const override;
+  AxisPlace node(Index run, Index position, const Vector& x) const override;
+  std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
+  AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const override;
+  AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
+  PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
+  AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const override;
+  Vector transferred(const Vector& x, const Vector& s, const SlidingMesh& to, const Vector& s_to) const override;
+
+  Index unknown(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
+
+  SlidingStructure::Reaction reaction(const Vector& x, const Vector& s, double lambda, Index freedom) const;
+
+ private:
+  // A place that is fixed, or moves: S = constant + Σ weight_j s_j over two breakpoints at most.
+  struct Coordinate {
+    double constant = 0.0;
+    std::array<Index, 2> breakpoint{-1, -1};  // −1: none
+    std::array<double, 2> weight{};
+
+    double at(const Vector& s) const {
+      double S = constant;
+      for (std::size_t j = 0; j < 2; ++j)
+        if (breakpoint[j] >= 0) S += weight[j] * s[breakpoint[j]];
+      return S;
+    }
+  };
+  struct MeshedRun {
+    Index first_element = 0, elements = 0;
+    Index first_inner = 0;  // unknown of the first inner node
+    std::vector<Coordinate> nodes{};
+  };
+  // Where the ends of an element are, and the load that it carries with them.
+  struct Ends {
+    Vec2 first, second;
+    double angle1, angle2;
+    BeamEnds between() const { return {.chord = second - first, .angle1 = angle1, .angle2 = angle2}; }
+  };
+
+  const MeshedRun& mesh_of(Index run) const { return runs_[static_cast<std::size_t>(run)]; }
+  Coordinate interpolated(Index a, Index b, double length, double r) const;
+  Ends ends(Index run, Index position, const Vector& x) const;
+  double anchor(Index freedom, const Vector& x) const;
+  StretchReference reference(Index run, Index position, const Vector& s) const;
+  Index element_at(const MaterialPoint& point, const Vector& s) const;
+
+  using Six = StretchLoad::Vector6;
+  using SixBySix = StretchLoad::Matrix6;
+  // Of an element and the load along it, in x1, z1, angle1, x2, z2, angle2.
+  struct Response {
+    double energy = 0.0;
+    Six force{}, force_lambda = Six::Zero();
+    SixBySix stiffness{};
+    std::array<Six, 2> force_rate{};
+  };
+  Response respond(Index run, Index position, const Vector& x, const Vector& s, double lambda, bool with_rates) const;
+
+  // visit(beam) with the beam of an element, by value.
+  template <typename Visit>
+  void with_beam(Index run, Index position, const Vector& s, const Visit& visit) const;
+  template <typename Visit>
+  void for_each_rate(Index run, Index position, const Response& response, const Visit& visit) const;
+
+  const SlidingStructure& structure_;
+  Cut cut_;
+  std::vector<std::pair<Index, Index>> breakpoints_;
+  std::vector<MeshedRun> runs_;
+  std::vector<Index> unknown_of_freedom_;  // of the anchors
+  std::vector<Index> freedom_of_unknown_;  // −1 for inner nodes
+  BlockAssembly assembly_{0, {}};
+  Vector weights_;
+};
+
+}  // namespace arcwall

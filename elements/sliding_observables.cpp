@@ -1,0 +1,99 @@
+// What is read off places and joints of a sliding structure.
+#include <cmath>
+
+#include "elements/sliding_structure.hpp"
+
+namespace arcwall {
+
+namespace {
+
+Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
+
+}  // namespace
+
+PlaceObservable::PlaceObservable(const SlidingStructure& structure, const MaterialPoint& point,
+                                 MemberObservable::Component component)
+    : point_(point), component_(component) {
+  using Component = MemberObservable::Component;
+  if (component == Component::face_above_z) offset_ = structure.half_height(point.run);
+  if (component == Component::face_below_z) offset_ = -structure.half_height(point.run);
+  const AxisPlace perfect = structure.undeformed(point, false);
+  switch (component) {
+    case Component::x:
+      origin_ = perfect.position.x();
+      break;
+    case Component::z:
+    case Component::face_above_z:
+    case Component::face_below_z:
+      origin_ = perfect.position.y() + offset_ * normal(perfect.angle).y();
+      break;
+    case Component::rotation:
+      origin_ = perfect.angle;
+      break;
+  }
+}
+
+double PlaceObservable::value(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const AxisPlace at = mesh.place(point_, state.x.head(mesh.unknowns()), state.x.tail(mesh.breakpoints()));
+  switch (component_) {
+    case MemberObservable::Component::x:
+      return at.position.x() - origin_;
+    case MemberObservable::Component::z:
+    case MemberObservable::Component::face_above_z:
+    case MemberObservable::Component::face_below_z:
+      return at.position.y() + offset_ * normal(at.angle).y() - origin_;
+    case MemberObservable::Component::rotation:
+      return at.angle - origin_;
+  }
+  return 0.0;
+}
+
+Row PlaceObservable::gradient(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
+  const auto gradient = mesh.place_gradient(point_, x, s);
+  Eigen::RowVector3d row = Eigen::RowVector3d::Zero();
+  switch (component_) {
+    case MemberObservable::Component::x:
+      row[0] = 1.0;
+      break;
+    case MemberObservable::Component::z:
+    case MemberObservable::Component::face_above_z:
+    case MemberObservable::Component::face_below_z:
+      row[1] = 1.0;
+      row[2] = -offset_ * std::sin(mesh.place(point_, x, s).angle);
+      break;
+    case MemberObservable::Component::rotation:
+      row[2] = 1.0;
+      break;
+  }
+  Row result{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  result.dx.head(x.size()) = (row * gradient.dx).transpose();
+  result.dx.tail(s.size()) = (row * gradient.ds).transpose();
+  return result;
+}
+
+double JointObservable::value(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const Vector x = state.x.head(mesh.unknowns());
+  if (what_ == What::motion) return structure_.value(mesh, x, freedom_);
+  return structure_.reaction(mesh, x, state.x.tail(mesh.breakpoints()), state.lambda, freedom_).value;
+}
+
+Row JointObservable::gradient(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (what_ == What::motion) {
+    if (const auto i = structure_.unknown(mesh, freedom_)) row.dx[*i] = 1.0;
+    return row;
+  }
+  const auto reaction = structure_.reaction(mesh, state.x.head(mesh.unknowns()), state.x.tail(mesh.breakpoints()),
+                                            state.lambda, freedom_);
+  row.dx.head(mesh.unknowns()) = reaction.dx;
+  row.dx.tail(mesh.breakpoints()) = reaction.ds;
+  row.dlambda = reaction.dlambda;
+  return row;
+}
+
+}  // namespace arcwall
