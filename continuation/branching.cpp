@@ -1,12 +1,10 @@
 #include "continuation/branching.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/near_null.hpp"
-#include "core/root_find.hpp"
 
 namespace arcwall {
 

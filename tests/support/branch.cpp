@@ -54,6 +54,7 @@ void expect_same_events(const std::vector<Event>& found, const std::vector<Event
     EXPECT_EQ(found[i].kind, expected[i].kind);
     EXPECT_EQ(found[i].label, expected[i].label);
     EXPECT_EQ(found[i].guards, expected[i].guards);
+    EXPECT_EQ(found[i].suspected, expected[i].suspected);
     EXPECT_EQ(found[i].unstable_before, expected[i].unstable_before);
     EXPECT_EQ(found[i].unstable_after, expected[i].unstable_after);
     const bool turns = expected[i].kind == EventKind::displacement_limit;
