@@ -92,10 +92,11 @@ TEST_P(WrappedStrip, HasTheTurnOfTheElastica) {
 
 // A classic beam of half length 1 above the parabola z = −h/2 − d + ½ k x² under small end moments conforms to it for M
 // > EI k + 6 EI (d − k/2), over |x| < c with 1 − c = √(6 EI (d − k/2)/(M − EI k)); each edge bears (M − EI k)/(1 − c).
-// Nodes know the edge to an element.
+// Inside the pressure is EI κ″, next to nothing: springs settle it, and rigid contact at nodes does not always. Nodes
+// know the edge to an element.
 TEST(ClassicBeamOnAParabola, ConformsToIt) {
   constexpr double EI = 2.8, h = 0.2, d = 8e-5, k = 5e-5;
-  constexpr int elements = 20;
+  constexpr int elements = 80;
   StructureBuilder builder;
   const Vec2 middle(0.0, 0.0), end(1.0, 0.0);
   builder.add_joint(middle);
@@ -112,7 +113,7 @@ TEST(ClassicBeamOnAParabola, ConformsToIt) {
   builder.add_load(builder.shared_rotation(1).value(), 1e-3, LoadKind::proportional);
   const test::ContactModel model(
       builder.build(), {{.name = "wall", .side = Side::below, .profile = parabola_profile({0.0, -0.5 * h - d}, k)}},
-      0.05);
+      0.05, {.method = ContactLaw::Method::penalty, .stiffness = 1e8});
   TraceOptions options;
   options.step.first = 0.05;
   options.landmarks.push_back(test::stop_at_lambda(5.0));
