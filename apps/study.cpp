@@ -190,6 +190,22 @@ Study::ContactPlace Study::contact_place(const State& state, Index j) const {
   return {.label = candidate.label(), .x = candidate.point().position(state.x).x()};
 }
 
+std::vector<Study::ContactForce> Study::contact_forces(const State& state) const {
+  std::vector<ContactForce> forces;
+  for (std::size_t i = 0; i < state.piece.size(); ++i) {
+    if (!state.piece[i]) continue;
+    const auto j = static_cast<Index>(i);
+    forces.push_back({.place = contact_place(state, j)});
+    if (sliding_) {
+      forces.back().force = sliding_->force(state, j);
+    } else {
+      forces.back().force = contact_->force(state, j);
+      forces.back().pressure = contact_->pressure(state, j);
+    }
+  }
+  return forces;
+}
+
 Index Study::closed_contacts(const State& state) const { return state.piece.closed_count(); }
 
 }  // namespace arcwall

@@ -54,6 +54,14 @@ class Study {
   };
   ContactPlace contact_place(const State& state, Index j) const;
 
+  /// The closed contacts of a state.
+  struct ContactForce {
+    ContactPlace place{};
+    double force = 0.0;                ///< of the wall on the structure, along its normal [force]
+    std::optional<double> pressure{};  ///< force over the length of axis it stands for; not of a point force
+  };
+  std::vector<ContactForce> contact_forces(const State& state) const;
+
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
   const TraceOptions& options() const { return options_; }
   const std::vector<Watch>& watched() const { return watched_; }

@@ -13,6 +13,7 @@
 #include "apps/deck/reader.hpp"
 #include "apps/deck/toml_source.hpp"
 #include "apps/deck/writer.hpp"
+#include "apps/output/contacts_csv.hpp"
 #include "apps/output/event_names.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
@@ -116,8 +117,9 @@ RunRequest request_from(const Options& options) {
 ExitStatus dry_run(const RunRequest& request, const Study& study) {
   require_usable(request.folder, empty_record(study).deck, request.foreign);
   if (request.report != Report::table) return ExitStatus::success;
-  std::cout << summary(study) << "\nwould write into " << request.folder.string()
-            << ": path.csv, events.json, events.txt, deck.toml, result.json\n";
+  std::cout << summary(study) << "\nwould write into " << request.folder.string() << ": path.csv, "
+            << (study.contact() != nullptr ? "contacts.csv, " : "")
+            << "events.json, events.txt, deck.toml, result.json\n";
   return ExitStatus::success;
 }
 
@@ -255,6 +257,7 @@ const BranchEnd& decisive_end(const Record& record) {
 void write_files(const OutputFolder& folder, const RunRequest& request, const Study& study, const Record& record,
                  const RunSeconds& seconds, ExitStatus status) {
   folder.write_whole("path.csv", path_csv(record, request.units));
+  if (record.has_walls) folder.write_whole("contacts.csv", contacts_csv(record, request.units));
   folder.write_whole("events.json", to_text(events_json(record), JsonLayout::lines));
   folder.write_whole("events.txt", events_text(record));
   folder.write_whole("deck.toml", deck::to_toml(study.deck()));

@@ -7,26 +7,10 @@ namespace arcwall {
 
 namespace {
 
-// RFC 4180: a cell with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
-std::string titled(const std::string& name, const std::string& unit, UnitLabels labels) {
-  const bool with_unit = labels == UnitLabels::shown && !unit.empty();
-  return cell(with_unit ? name + " [" + unit + "]" : name);
-}
-
 std::string header(const Record& record, UnitLabels labels) {
   std::string text = "branch,step,arc,lambda";
-  for (const RecordColumn& column : record.columns) text += "," + titled(column.name, column.unit, labels);
-  text += ",unstable,stability,contacts," + titled("energy", record.energy_unit, labels) + ",iterations,event\n";
+  for (const RecordColumn& column : record.columns) text += "," + csv_title(column.name, column.unit, labels);
+  text += ",unstable,stability,contacts," + csv_title("energy", record.energy_unit, labels) + ",iterations,event\n";
   return text;
 }
 

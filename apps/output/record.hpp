@@ -17,6 +17,14 @@ struct RecordColumn {
   std::string unit{};  ///< without brackets; may be empty
 };
 
+/// A closed contact of a point: a row of contacts.csv.
+struct RecordForce {
+  ContactLabel label{};
+  double x = 0.0;                    ///< present [length]
+  double force = 0.0;                ///< along the wall's normal [force]
+  std::optional<double> pressure{};  ///< [force/length]; empty of a point force
+};
+
 /// A row of path.csv.
 struct RecordPoint {
   Index branch = 0;
@@ -29,6 +37,7 @@ struct RecordPoint {
   double energy = 0.0;
   int iterations = 0;
   std::optional<EventKind> event{};  ///< of several the last that is no change of contact, else the last
+  std::vector<RecordForce> forces{};
 };
 
 /// A contact that changes.
@@ -72,7 +81,8 @@ struct RecordBranch {
 struct Record {
   std::string deck{};  ///< file name without folder
   std::string title{};
-  std::string energy_unit{};
+  std::string energy_unit{}, length_unit{}, force_unit{};
+  bool has_walls = false;
   std::vector<RecordColumn> columns{};
   std::vector<RecordBranch> branches{};
   std::vector<RecordPoint> points{};

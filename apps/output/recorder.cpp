@@ -16,6 +16,13 @@ std::vector<double> values(const std::vector<MonitorColumn>& monitors, const Sta
   return result;
 }
 
+std::vector<RecordForce> forces_at(const Study& study, const State& state) {
+  std::vector<RecordForce> forces;
+  for (const auto& [place, force, pressure] : study.contact_forces(state))
+    forces.push_back({.label = place.label, .x = place.x, .force = force, .pressure = pressure});
+  return forces;
+}
+
 // The critical mode has no λ, and only that of a smooth crossing is known.
 std::vector<double> mode_rates(const std::vector<MonitorColumn>& monitors, const BranchPoint& point) {
   std::vector<double> result;
@@ -32,7 +39,10 @@ Record empty_record(const Study& study) {
   const std::string between = deck.units.force.empty() || deck.units.length.empty() ? "" : " ";
   Record record{.deck = std::filesystem::path(deck.source.file).filename().string(),
                 .title = deck.title,
-                .energy_unit = deck.units.force + between + deck.units.length};
+                .energy_unit = deck.units.force + between + deck.units.length,
+                .length_unit = deck.units.length,
+                .force_unit = deck.units.force,
+                .has_walls = !deck.walls.empty()};
   for (const MonitorColumn& monitor : study.monitors()) record.columns.push_back({monitor.name, monitor.unit});
   return record;
 }
@@ -58,7 +68,8 @@ void Recorder::add(const Arc& arc) {
                             .count = to.count,
                             .contacts = study_.closed_contacts(to.state),
                             .energy = study_.system().energy(to.state),
-                            .iterations = to.iterations});
+                            .iterations = to.iterations,
+                            .forces = forces_at(study_, to.state)});
   ++branch().points;
   branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);
   branch().greatest_lambda = std::max(branch().greatest_lambda, to.state.lambda);

@@ -58,6 +58,18 @@ std::vector<Json> lines(const std::string& text) {
   return result;
 }
 
+// Cells of a table without quotes.
+std::vector<std::vector<std::string>> table(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line + ",");
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
 void expect_in(const std::string& part, const std::string& text) {
   EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in\n" << text;
 }
@@ -74,6 +86,32 @@ TEST_F(ProgramTest, RunWritesAFolderNamedAfterTheDeckAndPrintsTheEvents) {
   // The first peak, 2 EA h³/(3 √3 L³).
   EXPECT_NEAR(events[1]["lambda"].get<double>(), 2.0 * 1e5 * 0.125 / (3.0 * std::sqrt(3.0) * std::pow(25.25, 1.5)),
               1e-8);
+}
+
+// On a flat foundation the forces of the wall and the reactions of both supports sum to zero.
+TEST_F(ProgramTest, ContactsAreListedWithForcesAndPressures) {
+  ASSERT_EQ(run("examples foundation --out foundation.toml").status, 0);
+  for (const bool nodes : {false, true}) {
+    ASSERT_EQ(run("foundation.toml --no-units --force --set contact.points='\"" +
+                  std::string(nodes ? "nodes" : "sliding") + "\"'")
+                  .status,
+              0);
+    EXPECT_EQ(names_in(work() / "foundation").count("contacts.csv"), 1u);
+    const auto rows = table(content(work() / "foundation" / "contacts.csv"));
+    const auto path = table(content(work() / "foundation" / "path.csv"));
+    double force = 0.0;
+    for (std::size_t i = rows.size(); i-- > 1 && rows[i][1] == path.back()[1];) {
+      EXPECT_EQ(rows[i][3], "foundation");
+      force += std::stod(rows[i][7]);
+      if (nodes) {  // 40 elements of 0.05
+        EXPECT_NEAR(std::stod(rows[i][8]) * 0.05, std::stod(rows[i][7]), 1e-12);
+      } else {
+        EXPECT_EQ(rows[i][8], "");
+      }
+    }
+    EXPECT_GT(force, 1.0);
+    EXPECT_NEAR(force + 2.0 * std::stod(path.back()[5]), 0.0, 1e-7);
+  }
 }
 
 TEST_F(ProgramTest, ADeckAloneIsRun) {

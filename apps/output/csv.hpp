@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace arcwall {
+
+/// Whether the header of a table names units, as in `mid [cm]`.
+enum class UnitLabels { shown, left_out };
+
+/// RFC 4180: a cell with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
+std::string csv_cell(const std::string& text);
+
+/// A column's name, with its unit where there is one and labels are shown.
+std::string csv_title(const std::string& name, const std::string& unit, UnitLabels labels);
+
+}  // namespace arcwall
