@@ -261,6 +261,9 @@ foundation: of the axis in the classic theory, of the lower face in Essenburg's.
 - *First contact* is printed as 0.4480 (classic) and 0.4493 (Essenburg): both belong to the linear theories, 8 EI d/L² and
   8 EI d/(L² − ν h²). With large rotations it is at 0.448961 and 0.450377. A code that follows them is still free at the
   paper's 0.4485 (C*) and 0.4495 (E*).
+- *The free rows* of Essenburg's column (0.4 to 0.4485) are those of linear elements with full integration, 40 on the half, which
+  lock: −0.07066, −0.07902 and −0.07919. One point along the axis cures that. With those elements contact would begin at 0.453,
+  not between 0.4485 and 0.4495 as printed.
 - *Separation* is printed at 3.4874. The five fields of (15), used consistently, give 3.9007 in the linear theory and 3.8275
   with large rotations and a true end moment.
 - *After separation* the printed lift (0.0002 to 0.0097) is 50 to 160 times the converged one (2·10⁻⁵ to 2·10⁻⁴). Only very

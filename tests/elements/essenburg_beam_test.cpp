@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -171,6 +172,47 @@ TEST(EssenburgBeam, FullIntegrationOfOrderOneLocksByItsLaw) {
     EXPECT_NEAR(moment(2, 2) / (EI * kappa), 1.0, 1e-12);
     EXPECT_NEAR(moment(1, 2) / (EI * kappa), 1.0 + std::pow(length / height, 2) / (2.0 * (1.0 + nu)), 1e-12);
   }
+}
+
+// Where the lower face of Selke & Kikuchi's first beam [kN, cm] has gone in its middle under end moments, before it
+// touches: the right half, upright at x = 0 and on a roller at x = 1, in equal elements of order 1.
+double bottom(int elements, int axial_points, double moment) {
+  constexpr double h = 0.2;
+  const auto n = static_cast<Index>(5 * (elements + 1));
+  const auto at = [&](int a) { return Vec2(double(a) / elements, 0.0); };
+  const EssenburgStiffness steel{.E = 21000.0, .nu = 0.29, .points = rectangle_points(h, h)};
+  const EssenburgBeam beam({.nodes = {at(0), at(1)}, .sections = {EssenburgNode{}, EssenburgNode{}}}, steel,
+                           axial_points);
+  Vector u = Vector::Zero(n);
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    Vector F = -moment * Vector::Unit(n, n - 3);
+    Matrix K = Matrix::Zero(n, n);
+    for (Index k = 0; k < elements; ++k) {
+      const auto element = evaluated(beam, u.segment<10>(5 * k));
+      F.segment<10>(5 * k) += element.f;
+      K.block<10, 10>(5 * k, 5 * k) += element.K;
+    }
+    for (const Index held : {Index{0}, Index{2}, n - 4}) {
+      F[held] = 0.0;
+      K.row(held).setZero();
+      K.col(held).setZero();
+      K(held, held) = 1.0;
+    }
+    u -= K.ldlt().solve(F);
+  }
+  return u[1] - 0.5 * h * u[3] + 0.25 * h * h * u[4];
+}
+
+// The free rows of their Table 1, −0.0706, −0.0790 and −0.0792, are those of linear elements with full integration, 40
+// on the half. The other values are those of an independent program with the same elements.
+TEST(EssenburgBeam, FullIntegrationHasTheFreeRowsOfTable1) {
+  for (const auto& [elements, expected] :
+       {std::pair{5, -0.05127959}, {10, -0.06482912}, {20, -0.06941206}, {40, -0.07066070}, {80, -0.07097991}})
+    EXPECT_NEAR(bottom(elements, 2, 0.4), expected, 1e-8) << elements;
+  for (const auto& [moment, printed] : {std::pair{0.4, -0.0706}, {0.4475, -0.0790}, {0.4485, -0.0792}})
+    EXPECT_NEAR(bottom(40, 2, moment), printed, 1e-4) << moment;
+  for (const auto& [elements, expected] : {std::pair{5, -0.07108215}, {10, -0.07108567}, {40, -0.07108687}})
+    EXPECT_NEAR(bottom(elements, 1, 0.4), expected, 1e-8) << "one point along the axis, " << elements;
 }
 
 // A bar pulled along its axis contracts freely by λ3: S33 = 0 gives λ3² = 1 − ν (λ1² − 1), and the force is
