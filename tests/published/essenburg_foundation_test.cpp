@@ -175,7 +175,7 @@ TEST(EssenburgFoundation, LargeRotationsAgreeWithTheConvergedSolutionSlow) {
 }
 
 // The same moments of separation as the other program finds on the same meshes, 4 digits printed; they rise to 3.8275.
-TEST(EssenburgFoundation, TheMiddleLiftsOffWhereItDoesOnTheSameMeshesElsewhere) {
+TEST(EssenburgFoundation, TheMiddleLiftsOffWhereItDoesOnTheSameMeshesElsewhereSlow) {
   struct Mesh {
     int order, elements;
     double separation;
@@ -210,7 +210,7 @@ TEST(EssenburgFoundation, ThePathKeepsItsContract) {
 // A thin beam, 0.02 high, on the parabola z = −h/2 − d + ½ k x² under small end moments. A classic beam conforms to it
 // for M > EI k + 6 EI (d − k/2), over |x| < c with 1 − c = √(6 EI (d − k/2)/(M − EI k)), and the forces at the edges
 // are (M − EI k)/(1 − c) each. Thickness and mesh shift that by some h.
-TEST(EssenburgFoundation, AThinBeamConformsToAParabola) {
+TEST(EssenburgFoundation, AThinBeamConformsToAParabolaSlow) {
   constexpr double h = 0.02, d = 8e-4, k = 5e-4, EI = 21000.0 * 0.2 * h * h * h / 12.0;
   StructureBuilder builder;
   builder.add_joint({0.0, 0.0});
