@@ -114,6 +114,26 @@ TEST_F(ProgramTest, ContactsAreListedWithForcesAndPressures) {
   }
 }
 
+TEST_F(ProgramTest, LoadIncrementsMeetTheLevelsOfTheDeck) {
+  ASSERT_EQ(run("examples foundation --out foundation.toml").status, 0);
+  const std::string increments =
+      " --set path.method='\"incremental\"' --set path.step=0.1 --set path.land='{lambda=[0.25, 0.5]}'";
+  ASSERT_EQ(run("foundation.toml --no-units --set contact.method='\"penalty\"' --set contact.penalty=1e8" + increments)
+                .status,
+            0);
+  const auto path = table(content(work() / "foundation" / "path.csv"));
+  ASSERT_EQ(path.size(), 8u);  // header, start, three increments to 0.25, three to 0.5
+  EXPECT_EQ(path[4][3], "0.25");
+  EXPECT_EQ(path[7][3], "0.5");
+  EXPECT_EQ(path[7].back(), "end");
+  // The beam lies on the foundation, 0.08 below.
+  EXPECT_NEAR(std::stod(path[7][4]), -0.08, 1e-6);
+
+  const Outcome refused = run("truss.toml" + increments);
+  EXPECT_EQ(refused.status, 2);
+  expect_in("path.method: method \"incremental\" needs members of theory", refused.err);
+}
+
 TEST_F(ProgramTest, ADeckAloneIsRun) {
   EXPECT_EQ(run("truss.toml --quiet").status, 0);
   EXPECT_EQ(names_in(work() / "truss"), outputs);
