@@ -8,7 +8,7 @@
 #include "contact/candidate.hpp"
 #include "continuation/path_point.hpp"
 
-/// What the outputs say of a run: plain values, without the states they were read off.
+/// What the outputs say of a run: plain values, and the states they were read off.
 namespace arcwall {
 
 /// A monitor's name and unit.
@@ -38,6 +38,7 @@ struct RecordPoint {
   int iterations = 0;
   std::optional<EventKind> event{};  ///< of several the last that is no change of contact, else the last
   std::vector<RecordForce> forces{};
+  State state{};
 };
 
 /// A contact that changes.

@@ -69,7 +69,8 @@ void Recorder::add(const Arc& arc) {
                             .contacts = study_.closed_contacts(to.state),
                             .energy = study_.system().energy(to.state),
                             .iterations = to.iterations,
-                            .forces = forces_at(study_, to.state)});
+                            .forces = forces_at(study_, to.state),
+                            .state = to.state});
   ++branch().points;
   branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);
   branch().greatest_lambda = std::max(branch().greatest_lambda, to.state.lambda);
