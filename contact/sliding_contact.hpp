@@ -133,7 +133,11 @@ class SlidingContact final : public System {
   void for_each_force(const State& state, const Visit& visit) const;
   void lay_out(const State& state, Linearization& out) const;
 
-  std::optional<MaterialPoint> lifting_place(const State& state, Index j) const;
+  struct Lifting {
+    std::size_t obstacle = 0;
+    MaterialPoint at{};
+  };
+  std::optional<Lifting> lifting(const State& state, Index j) const;
   Index held_force(const State& state, std::size_t node) const;
   std::optional<std::size_t> touching_end(const State& state, std::size_t which) const;
   LeastPressure least_pressure(const State& state, std::size_t node) const;

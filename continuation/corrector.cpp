@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "continuation/stability.hpp"
-
 #include "core/test_function.hpp"
 
 namespace arcwall {
@@ -112,8 +111,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
     if (const auto negative = negative_by_pivots(solver_.inner(), metric.weights(), result.nearest))
       result.negative = *negative - system_.multiplier_count(result.state.piece);
   }
-  const double load = metric.dual_norm(now_.F_lambda) * std::max(std::abs(result.state.lambda), load_floor_);
-  result.residual = metric.dual_norm(now_.F) / std::max(load, 1e-300);
+  result.residual = relative_residual(metric, now_, result.state.lambda, load_floor_);
   return result;
 }
 

@@ -157,6 +157,7 @@ class Tracer {
   void add_branch_point_at_limit(const PathPoint& before, const PathPoint& after, double half_width, Singular& limit);
   std::optional<PathPoint> beside(const Segment& segment, double t);
   bool made_by_nodes(const State& state) const;
+  PathPoint point_at(const SingularPlace& place);
   Singular singular_at(const SingularPlace& place, double chord_dlambda);
   bool dips(const Segment& segment);
   bool dips(const Segment& segment, Index here, Index there);
