@@ -72,6 +72,10 @@ class SlidingContact final : public System {
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
+  /// The layout with this cut and these points that began at these places; null if they do not belong together.
+  std::shared_ptr<const SlidingContactLayout> layout_of(const Cut& cut, std::vector<SlidingContactLayout::Point> points,
+                                                        const Vector& origin) const;
+
   /// Where contact j of a piece is, and its force. The number of a guard on the pressure of a part on a wall stands for
   /// the place where the pressure is least.
   ContactLabel label(const State& state, Index j) const;

@@ -27,11 +27,12 @@ CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint
   while (result.iterations < options_.max_iterations) {
     if (const auto status = look(result.state); status != CorrectorStatus::converged) return ended(status);
     if (!find_line(metric, along)) return ended(CorrectorStatus::singular);
-    const auto tau = constraint.advance(result.state, line_.particular, line_.tangent);
-    if (!tau) return ended(CorrectorStatus::complex_roots);
+    result.roots = constraint.advance(result.state, line_.particular, line_.tangent);
+    if (!result.roots) return ended(CorrectorStatus::complex_roots);
+    const double tau = result.roots->taken;
     Direction& step = line_.particular;
-    step.dx += *tau * line_.tangent.dx;
-    step.dlambda += *tau * line_.tangent.dlambda;
+    step.dx += tau * line_.tangent.dx;
+    step.dlambda += tau * line_.tangent.dlambda;
     result.state.x += step.dx;
     result.state.lambda += step.dlambda;
     ++result.iterations;

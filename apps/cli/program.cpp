@@ -15,7 +15,7 @@ namespace arcwall {
 
 namespace {
 
-std::vector<Command> commands() { return {run_command(), check_command(), examples_command()}; }
+std::vector<Command> commands() { return {run_command(), resume_command(), check_command(), examples_command()}; }
 
 std::string top_help() {
   std::string text =

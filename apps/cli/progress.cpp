@@ -42,13 +42,12 @@ void ProgressLine::show(const Record& record) {
   constexpr auto pause = std::chrono::milliseconds(100);
   const Clock::time_point now = Clock::now();
   if (visible_ && now - last_ < pause) return;
-  std::cerr << "\r" << cut(progress_text(record), terminal_columns()) << "\x1b[K" << std::flush;
+  std::cerr << "\r" << cut(progress_text(record, record.points.back()), terminal_columns()) << "\x1b[K" << std::flush;
   last_ = now;
   visible_ = true;
 }
 
-std::string progress_text(const Record& record) {
-  const RecordPoint& point = record.points.back();
+std::string progress_text(const Record& record, const RecordPoint& point) {
   std::string text = fmt::format("branch {}  {} points  λ={:.6g}", point.branch, point.step + 1, point.lambda);
   for (std::size_t i = 0; i < point.monitors.size(); ++i)  // −0 + 0 is 0
     text += fmt::format("  {}={:.5g}", record.columns[i].name, point.monitors[i] + 0.0);
