@@ -9,6 +9,10 @@
 
 namespace arcwall {
 
+/// Where a wall is, and its surface.
+Side side_of(const deck::Wall& wall);
+std::unique_ptr<Profile> profile_of(const deck::Wall& wall);
+
 /// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
 /// each wall that a member penetrates at the start.
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
