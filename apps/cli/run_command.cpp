@@ -18,6 +18,7 @@
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/files.hpp"
+#include "apps/output/paraview.hpp"
 #include "apps/output/path_csv.hpp"
 #include "apps/output/recorder.hpp"
 #include "apps/output/result_json.hpp"
@@ -119,7 +120,7 @@ ExitStatus dry_run(const RunRequest& request, const Study& study) {
   if (request.report != Report::table) return ExitStatus::success;
   std::cout << summary(study) << "\nwould write into " << request.folder.string() << ": path.csv, "
             << (study.contact() != nullptr ? "contacts.csv, " : "")
-            << "events.json, events.txt, deck.toml, result.json\n";
+            << "events.json, events.txt, deck.toml, result.json, shapes.pvd, shapes/\n";
   return ExitStatus::success;
 }
 
@@ -253,7 +254,7 @@ const BranchEnd& decisive_end(const Record& record) {
               ->end;
 }
 
-// result.json comes last: where it is, the others are.
+// result.json comes last: where it is, the others are, but for the pictures, which can be many.
 void write_files(const OutputFolder& folder, const RunRequest& request, const Study& study, const Record& record,
                  const RunSeconds& seconds, ExitStatus status) {
   folder.write_whole("path.csv", path_csv(record, request.units));
@@ -263,6 +264,7 @@ void write_files(const OutputFolder& folder, const RunRequest& request, const St
   folder.write_whole("deck.toml", deck::to_toml(study.deck()));
   const auto result = result_json(study, request.deck_text, record, seconds, static_cast<int>(status));
   folder.write_whole("result.json", to_text(result, JsonLayout::lines));
+  write_shapes(folder, study, record);
 }
 
 void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolder& folder) {
