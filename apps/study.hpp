@@ -38,6 +38,9 @@ class Study {
   /// Contact points that slide; null where contact is tied to nodes.
   const SlidingContact* sliding() const { return sliding_.get(); }
 
+  /// The structure of those; null likewise.
+  const SlidingStructure* sliding_structure() const { return sliding_structure_.get(); }
+
   /// What is traced: the structure with its contacts.
   const System& system() const;
 

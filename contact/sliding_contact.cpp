@@ -505,4 +505,22 @@ double SlidingContact::force(const State& state, Index j) const {
   return p ? state.x[*p] : 0.0;
 }
 
+std::vector<SlidingContact::HeldNode> SlidingContact::held_nodes(const State& state) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  std::vector<HeldNode> nodes;
+  Index force = on.mesh().unknowns() + state.piece.closed_count();
+  for (const SlidingContactLayout::Held& held : on.held()) {
+    const auto coordinate = [&](Index position) { return on.mesh().coordinate(held.run, position, s); };
+    const auto [member, fraction] = body_.label({.run = held.run, .s = coordinate(held.position)});
+    nodes.push_back({.label = {.wall = obstacles_[held.obstacle].name,
+                               .member = member,
+                               .fraction = fraction,
+                               .tributary = 0.5 * (coordinate(held.position + 1) - coordinate(held.position - 1))},
+                     .place = face(normal_offset(held.obstacle, held.run), on.mesh().node(held.run, held.position, x)),
+                     .force = state.x[force++]});
+  }
+  return nodes;
+}
+
 }  // namespace arcwall

@@ -82,6 +82,14 @@ class SlidingContact final : public System {
   Vec2 place(const State& state, Index j) const;
   double force(const State& state, Index j) const;
 
+  /// A node inside a pressed part, which the wall holds.
+  struct HeldNode {
+    ContactLabel label{};  ///< tributary: half the way to the nodes beside it
+    Vec2 place = Vec2::Zero();
+    double force = 0.0;
+  };
+  std::vector<HeldNode> held_nodes(const State& state) const;
+
   /// The least gap at `places` points of each element against every obstacle, flat parts included [length].
   double least_gap(const State& state, int places) const;
 

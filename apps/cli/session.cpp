@@ -12,6 +12,7 @@
 #include "apps/output/event_names.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
+#include "apps/output/paraview.hpp"
 #include "apps/output/result_json.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -113,7 +114,7 @@ const RecordBranch& decisive_branch(const Record& record) {
                            [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); });
 }
 
-// result.json comes last: where it is, the others are.
+// result.json comes last: where it is, the others are, but for the pictures, which can be many.
 void write_files(const OutputFolder& folder, const RunUnderWay& run, const RunSeconds& seconds, ExitStatus status) {
   const Record& record = run.record();
   const RunDescription& description = run.description();
@@ -125,6 +126,7 @@ void write_files(const OutputFolder& folder, const RunUnderWay& run, const RunSe
   folder.write_whole("deck.toml", deck::to_toml(run.study().deck()));
   const auto result = result_json(run.study(), description.deck_text, record, seconds, static_cast<int>(status));
   folder.write_whole("result.json", to_text(result, JsonLayout::lines));
+  write_shapes(folder, run.study(), record);
 }
 
 // An early end in full: the reason, the last good point, and what to try.
