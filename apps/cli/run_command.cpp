@@ -20,6 +20,7 @@
 #include "apps/output/files.hpp"
 #include "apps/output/path_csv.hpp"
 #include "apps/output/recorder.hpp"
+#include "apps/output/report_html.hpp"
 #include "apps/output/result_json.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -119,7 +120,7 @@ ExitStatus dry_run(const RunRequest& request, const Study& study) {
   if (request.report != Report::table) return ExitStatus::success;
   std::cout << summary(study) << "\nwould write into " << request.folder.string() << ": path.csv, "
             << (study.contact() != nullptr ? "contacts.csv, " : "")
-            << "events.json, events.txt, deck.toml, result.json\n";
+            << "events.json, events.txt, report.html, deck.toml, result.json\n";
   return ExitStatus::success;
 }
 
@@ -260,6 +261,7 @@ void write_files(const OutputFolder& folder, const RunRequest& request, const St
   if (record.has_walls) folder.write_whole("contacts.csv", contacts_csv(record, request.units));
   folder.write_whole("events.json", to_text(events_json(record), JsonLayout::lines));
   folder.write_whole("events.txt", events_text(record));
+  folder.write_whole("report.html", report_html(record, report_content(study, record)));
   folder.write_whole("deck.toml", deck::to_toml(study.deck()));
   const auto result = result_json(study, request.deck_text, record, seconds, static_cast<int>(status));
   folder.write_whole("result.json", to_text(result, JsonLayout::lines));

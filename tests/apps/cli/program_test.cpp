@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-const Names outputs{"deck.toml", "events.json", "events.txt", "path.csv", "result.json"};
+const Names outputs{"deck.toml", "events.json", "events.txt", "path.csv", "report.html", "result.json"};
 
 struct Outcome {
   int status = -1;
