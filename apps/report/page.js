@@ -97,7 +97,9 @@
     };
     const mark = (point) => {
       marked = point;
-      Plotly.restyle(plot, { x: [[across(monitor)[point]]], y: [[points.lambda[point]]] }, [traces - 1]);
+      const here = { x: [across(monitor)[point]], y: [points.lambda[point]] };
+      const at_once = { mode: 'immediate', transition: { duration: 0 }, frame: { duration: 0, redraw: false } };
+      Plotly.animate(plot, { data: [here], traces: [traces - 1] }, at_once);
     };
     draw();
     plot.on('plotly_click', (click) => {
