@@ -13,6 +13,7 @@
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/paraview.hpp"
+#include "apps/output/report_html.hpp"
 #include "apps/output/result_json.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -122,6 +123,7 @@ void write_files(const OutputFolder& folder, const RunUnderWay& run, const RunSe
   if (record.has_walls) folder.write_whole("contacts.csv", contacts_csv(record, description.units));
   folder.write_whole("events.json", to_text(events_json(record), JsonLayout::lines));
   folder.write_whole("events.txt", events_text(record));
+  folder.write_whole("report.html", report_html(record, report_content(run.study(), record)));
   if (description.ledger == StepLedger::kept) folder.write_whole("steps.jsonl", record.steps);
   folder.write_whole("deck.toml", deck::to_toml(run.study().deck()));
   const auto result = result_json(run.study(), description.deck_text, record, seconds, static_cast<int>(status));

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-const Names outputs{"checkpoint", "deck.toml",   "events.json", "events.txt",
-                    "path.csv",   "result.json", "shapes",      "shapes.pvd"};
+const Names outputs{"checkpoint",  "deck.toml",   "events.json", "events.txt", "path.csv",
+                    "report.html", "result.json", "shapes",      "shapes.pvd"};
 
 struct Outcome {
   int status = -1;
