@@ -250,6 +250,15 @@ TEST_F(SweepProgramTest, WrongCommandLinesAreErrorsThatProposeTheNearest) {
   expect_error("sweep collect study --over material.bar.nu", "varied are material.bar.E");
 }
 
+TEST_F(SweepProgramTest, TheExampleIsListedAndRight) {
+  expect_in("\nsweep-channel ", run("examples").out);
+  ASSERT_EQ(run("examples sweep-channel --out sweep-channel.toml").status, 0);
+  ASSERT_EQ(run("examples channel --out channel.toml").status, 0);
+  EXPECT_EQ(run("sweep plan sweep-channel.toml").status, 0);
+  expect_in("20 of 20 cases have results, 20 of them new",
+            run("sweep run sweep-channel --jobs 2 -- --set member.column.elements=10 --max-points 20").out);
+}
+
 TEST_F(SweepProgramTest, HelpBeginsWithAnExample) {
   for (const char* command : {"sweep", "sweep plan", "sweep run", "sweep emit", "sweep collect"}) {
     const Outcome outcome = run(std::string(command) + " --help");
