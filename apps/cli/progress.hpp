@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "apps/output/record.hpp"
 
@@ -22,8 +23,12 @@ class ProgressLine {
   /// Shows the last point of the record.
   void show(const Record& record);
 
+  void show(const std::string& text);
+
  private:
   using Clock = std::chrono::steady_clock;
+
+  bool is_due() const;
 
   Progress progress_;
   Clock::time_point last_{};  // when it was written

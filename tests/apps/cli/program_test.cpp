@@ -1,15 +1,12 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/apps/output/temporary_folder.hpp"
+#include "tests/apps/cli/program_fixture.hpp"
 
-// The built program, as a user runs it.
 namespace arcwall {
 namespace {
 
@@ -21,58 +18,11 @@ using Names = std::set<std::string>;
 const Names outputs{"checkpoint",  "deck.toml",   "events.json", "events.txt", "path.csv",
                     "report.html", "result.json", "shapes",      "shapes.pvd"};
 
-struct Outcome {
-  int status = -1;
-  std::string out{}, err{};
-};
-
-class ProgramTest : public testing::Test {
- protected:
-  // Arguments as in a shell, in the folder `work`.
-  Outcome run(const std::string& arguments) const { return shell("\"$PROGRAM\" " + arguments); }
-
-  Outcome shell(const std::string& script) const {
-    const std::string command = "cd '" + (folder_ / "work").string() + "' && PROGRAM='" TRACE_PATH_PROGRAM "' && { " +
-                                script + "; } >../out 2>../err </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ / "out"), content(folder_ / "err")};
-  }
-
-  void SetUp() override {
-    fs::create_directory(folder_ / "work");
-    ASSERT_EQ(run("examples truss --out truss.toml").status, 0);
-    before_ = names_in(work());
-  }
-
-  fs::path work() const { return folder_ / "work"; }
-  bool wrote_nothing() const { return names_in(work()) == before_; }
-
- private:
-  TemporaryFolder folder_;
-  Names before_;
-};
-
 std::vector<Json> lines(const std::string& text) {
   std::vector<Json> result;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) result.push_back(Json::parse(line));
   return result;
-}
-
-// Cells of a table without quotes.
-std::vector<std::vector<std::string>> table(const std::string& text) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    rows.emplace_back();
-    std::istringstream cells(line + ",");
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-  }
-  return rows;
-}
-
-void expect_in(const std::string& part, const std::string& text) {
-  EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in\n" << text;
 }
 
 TEST_F(ProgramTest, RunWritesAFolderNamedAfterTheDeckAndPrintsTheEvents) {
