@@ -302,9 +302,13 @@ def trace(program: str, deck: Path, values: list) -> Run:
         result = subprocess.run(command, capture_output=True, text=True)
         if result.returncode not in RUN_IS_USABLE:
             sys.exit(f"{' '.join(command)}\nended with status {result.returncode}:\n{result.stderr}")
-        events = json.loads(Path(folder, "events.json").read_text())["events"]
-        with open(Path(folder, "path.csv"), newline="") as table:
-            return Run(events=events, points=list(csv.DictReader(table)), early=result.returncode == ENDED_EARLY)
+        return read_run(folder, result.returncode)
+
+
+def read_run(folder: str, status: int) -> Run:
+    events = json.loads(Path(folder, "events.json").read_text())["events"]
+    with open(Path(folder, "path.csv"), newline="") as table:
+        return Run(events=events, points=list(csv.DictReader(table)), early=status == ENDED_EARLY)
 
 
 def order(errors: list) -> str:
