@@ -75,6 +75,9 @@ class SlidingMesh {
   /// Just before or behind breakpoint k.
   virtual AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const = 0;
 
+  /// Energy of the element behind a node, the potential of the load along it included.
+  virtual double element_energy(Index run, Index position, const Vector& x, const Vector& s, double lambda) const = 0;
+
   /// What the nodes exert on the element behind a node: x, z and moment at its first and at its second end, the load
   /// along it included.
   using EndForces = std::array<Eigen::Vector3d, 2>;

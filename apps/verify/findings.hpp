@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace arcwall::verify {
+
+/// What does not hold.
+struct Offence {
+  std::string file{};
+  Index branch = 0, step = 0;
+  std::string what{};
+  double value = 0.0, bound = 0.0;
+};
+
+/// The worst of one kind of check.
+struct CheckSummary {
+  std::string name{};
+  Index count = 0;                  ///< of values that were compared
+  double value = 0.0, bound = 0.0;  ///< where value/bound is largest
+  Index branch = 0, step = 0;       ///< likewise
+};
+
+/// What was compared, and the first that does not hold.
+class Findings {
+ public:
+  /// Where the values that follow belong.
+  void at(std::string file, Index branch, Index step);
+
+  /// A value that must not exceed its bound; NaN does. `what` says which of the check's values it is.
+  void compare(const std::string& check, double value, double bound, const std::string& what = {});
+
+  /// Something that is or is not so.
+  void require(const std::string& check, bool holds, const std::string& what);
+
+  const std::vector<CheckSummary>& checks() const { return checks_; }
+  const std::optional<Offence>& first() const { return first_; }
+  Index offences() const { return offences_; }
+
+ private:
+  CheckSummary& summary(const std::string& check);
+
+  std::string file_{};
+  Index branch_ = 0, step_ = 0, offences_ = 0;
+  std::vector<CheckSummary> checks_{};
+  std::optional<Offence> first_{};
+};
+
+}  // namespace arcwall::verify

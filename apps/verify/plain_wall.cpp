@@ -1,0 +1,93 @@
+#include "apps/verify/plain_wall.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall::verify {
+
+namespace {
+
+// Second derivatives at the knots of the cubic spline through the points, not-a-knot at both ends: the third derivative
+// is continuous at the second knot and at the last but one. A line through two points, a parabola through three.
+std::vector<double> spline_second_derivatives(const std::vector<double>& x, const std::vector<double>& z) {
+  const auto n = static_cast<Index>(x.size());
+  Matrix A = Matrix::Zero(n, n);
+  Vector b = Vector::Zero(n);
+  const auto width = [&](Index i) { return x[static_cast<std::size_t>(i + 1)] - x[static_cast<std::size_t>(i)]; };
+  const auto slope = [&](Index i) {
+    return (z[static_cast<std::size_t>(i + 1)] - z[static_cast<std::size_t>(i)]) / width(i);
+  };
+  for (Index i = 1; i + 1 < n; ++i) {
+    A.row(i).segment<3>(i - 1) << width(i - 1) / 6.0, (width(i - 1) + width(i)) / 3.0, width(i) / 6.0;
+    b[i] = slope(i) - slope(i - 1);
+  }
+  if (n <= 3) {  // all alike
+    A(0, 0) = A(n - 1, n - 1) = 1.0;
+    if (n == 3) A(0, 1) = A(2, 1) = -1.0;
+  } else {
+    A.row(0).head<3>() << -1.0 / width(0), 1.0 / width(0) + 1.0 / width(1), -1.0 / width(1);
+    A.row(n - 1).tail<3>() << -1.0 / width(n - 3), 1.0 / width(n - 3) + 1.0 / width(n - 2), -1.0 / width(n - 2);
+  }
+  const Vector second = Eigen::FullPivLU<Matrix>(A).solve(b);
+  return {second.begin(), second.end()};
+}
+
+}  // namespace
+
+PlainWall::PlainWall(const deck::Wall& wall) : wall_(wall) {
+  if (const auto* spline = std::get_if<deck::SplineProfile>(&wall.profile))
+    second_ = spline_second_derivatives(spline->x, spline->z);
+}
+
+bool PlainWall::covers(double x) const {
+  if (const auto* circle = std::get_if<deck::CircleProfile>(&wall_.profile))
+    return std::abs(x - circle->centre.x) < circle->radius * (1.0 - 1e-6);
+  if (const auto* spline = std::get_if<deck::SplineProfile>(&wall_.profile))
+    return x >= spline->x.front() && x <= spline->x.back();
+  return true;
+}
+
+PlainWall::Surface PlainWall::at(double x) const {
+  if (const auto* flat = std::get_if<deck::FlatProfile>(&wall_.profile)) return {flat->z, 0.0, 0.0};
+  if (const auto* line = std::get_if<deck::LineProfile>(&wall_.profile))
+    return {line->z + line->slope * x, line->slope, 0.0};
+  if (const auto* parabola = std::get_if<deck::ParabolaProfile>(&wall_.profile)) {
+    const double d = x - parabola->apex.x, c = parabola->curvature;
+    return {parabola->apex.z + 0.5 * c * d * d, c * d, c};
+  }
+  if (const auto* circle = std::get_if<deck::CircleProfile>(&wall_.profile)) {
+    // (x − x₀)² + (z − z₀)² = R²: z′ = −(x − x₀)/(z − z₀), z″ = −(1 + z′²)/(z − z₀)
+    const double d = x - circle->centre.x;
+    const double up = side() * std::sqrt((circle->radius - d) * (circle->radius + d)), slope = -d / up;
+    return {circle->centre.z + up, slope, -(1.0 + slope * slope) / up};
+  }
+  const auto& spline = std::get<deck::SplineProfile>(wall_.profile);
+  const auto above = std::upper_bound(spline.x.begin() + 1, spline.x.end() - 1, x);
+  const auto i = static_cast<std::size_t>(above - spline.x.begin()) - 1;
+  const double h = spline.x[i + 1] - spline.x[i], a = (spline.x[i + 1] - x) / h, b = (x - spline.x[i]) / h;
+  const double m = second_[i], n = second_[i + 1];
+  return {a * spline.z[i] + b * spline.z[i + 1] + h * h / 6.0 * ((a * a * a - a) * m + (b * b * b - b) * n),
+          (spline.z[i + 1] - spline.z[i]) / h + h / 6.0 * ((1.0 - 3.0 * a * a) * m + (3.0 * b * b - 1.0) * n),
+          a * m + b * n};
+}
+
+double PlainWall::height(double x) const { return at(x).height; }
+double PlainWall::slope(double x) const { return at(x).slope; }
+double PlainWall::slope_angle(double x) const { return std::atan(slope(x)); }
+
+double PlainWall::curvature(double x) const {
+  const Surface surface = at(x);
+  return surface.second / std::pow(1.0 + surface.slope * surface.slope, 1.5);
+}
+
+double PlainWall::gap(const Vec2& point) const {
+  const Surface surface = at(point.x());
+  return side() * (point.y() - surface.height) * std::cos(std::atan(surface.slope));
+}
+
+bool PlainWall::concerns(const std::string& member) const {
+  return wall_.members.empty() || std::find(wall_.members.begin(), wall_.members.end(), member) != wall_.members.end();
+}
+
+}  // namespace arcwall::verify

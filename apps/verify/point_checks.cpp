@@ -1,0 +1,218 @@
+#include "apps/verify/point_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/text.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// Distance that the corrector may leave, in the path metric: its tolerance is 10⁻¹², of an estimate.
+constexpr double distance_left = 4e-12;
+
+std::string named(const ContactLabel& label) {
+  return label.wall + " at " + label.member + ":" + round_trip(label.fraction);
+}
+
+void add_to(Vector& sum, const std::vector<Index>& unknowns, const Vector& part) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i] >= 0) sum[unknowns[i]] += part[static_cast<Index>(i)];
+}
+
+// What the wall exerts: p, less the spring of the augmented Lagrangian.
+double wall_force(const Touch& touch) { return touch.force - touch.stiffness * touch.gap.value(); }
+
+// Where a position, an angle or a change of thickness may still move: the metric's mean over the nodes.
+Vector uncertainty(const PointAtHand& at) {
+  const State& state = at.point.state;
+  const Index n = structure_unknowns(at.study, state);
+  const Vector weights = at.study.system().weights(state.piece).head(n);
+  Vector off(n);
+  for (Index i = 0; i < n; ++i)
+    off[i] = (weights[i] > 0.0 ? distance_left / std::sqrt(weights[i]) : 0.0) + 16.0 * epsilon * std::abs(state.x[i]);
+  return off;
+}
+
+}  // namespace
+
+bool is_well_formed(const Study& study, const State& state) {
+  return study.system().size(state.piece) == state.x.size() && state.x.allFinite() && std::isfinite(state.lambda);
+}
+
+PointAtHand at_hand(const Study& study, const RecordPoint& point, const std::vector<PlainWall>& walls,
+                    const Scales& scales) {
+  PointAtHand at{.study = study, .point = point, .scales = scales};
+  at.touches = touches(study, walls, point.state);
+  at.potentials = potentials(study, point.state);
+  for (const Potential& potential : at.potentials) at.stiffness.push_back(stiffness(potential));
+  return at;
+}
+
+void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, Findings& findings) {
+  const double length = 1e-10 * at.scales.length, force = 1e-11 * at.scales.force;
+  for (const Touch& touch : at.touches.all) {
+    const double gap = touch.gap.value();
+    if (touch.closed) {
+      findings.compare("contact forces push", -touch.force, force, named(touch.label));
+      findings.compare("closed contacts touch", std::abs(gap + touch.compliance * touch.force), length,
+                       named(touch.label));
+    } else if (std::isfinite(gap)) {
+      findings.compare("open contacts are outside", -gap, length, named(touch.label));
+    }
+  }
+  if (at.study.sliding() == nullptr || walls.empty()) return;
+  constexpr int places = 10;
+  const LeastGap least = least_gap(at.study, walls, at.point.state, places);
+  if (std::isfinite(least.value))
+    findings.compare("no wall is entered between nodes", -least.value, 2e-9 * at.scales.length + least.allowance,
+                     least.wall);
+  for (const Tangency& tangency : at.touches.tangencies) {
+    findings.compare("contacts that slide are tangent", std::abs(tangency.tilt.value()), 1e-9, named(tangency.label));
+    if (!tangency.end_of_pressed)
+      findings.compare("no moment holds a contact", std::abs(tangency.moment), force * at.scales.length,
+                       named(tangency.label));
+  }
+}
+
+// Forces by differences of energies; what may be left is the stiffness times what the unknowns may be off by, and what
+// differences are off by.
+void check_equilibrium(const PointAtHand& at, Findings& findings) {
+  constexpr double differences = 1e-10;  // of the sum of the parts, measured
+  Vector F = -point_loads(at.study, at.point.state);
+  Vector parts = F.cwiseAbs(), allowed = Vector::Zero(F.size());
+  const Vector off = uncertainty(at);
+  for (std::size_t e = 0; e < at.potentials.size(); ++e) {
+    const Potential& potential = at.potentials[e];
+    const Vector f = forces(potential);
+    add_to(F, potential.unknowns, f);
+    add_to(parts, potential.unknowns, f.cwiseAbs());
+    Vector here(f.size());
+    for (Index i = 0; i < f.size(); ++i) {
+      const Index unknown = potential.unknowns[static_cast<std::size_t>(i)];
+      here[i] = unknown >= 0 ? off[unknown] : 0.0;
+    }
+    add_to(allowed, potential.unknowns, at.stiffness[e].cwiseAbs() * here);
+  }
+  for (const Touch& touch : at.touches.all) {
+    if (!touch.closed) continue;
+    const Vector push = wall_force(touch) * touch.gap.gradient();
+    add_to(F, touch.gap.unknowns, -push);
+    add_to(parts, touch.gap.unknowns, push.cwiseAbs());
+  }
+  for (const Tangency& tangency : at.touches.tangencies)
+    add_to(F, tangency.tilt.unknowns, -tangency.moment * tangency.tilt.gradient());
+  allowed += differences * parts;
+
+  // At a contact first: what F would have to be without its force is along the wall's normal.
+  for (const Touch& touch : at.touches.all) {
+    if (!touch.closed) continue;
+    const Vector normal = touch.gap.gradient();
+    double left = 0.0, square = 0.0, bound = 0.0;
+    for (Index i = 0; i < 2; ++i)
+      if (const Index unknown = touch.gap.unknowns[static_cast<std::size_t>(i)]; unknown >= 0) {
+        left += normal[i] * F[unknown];
+        bound += std::abs(normal[i]) * allowed[unknown];
+        square += normal[i] * normal[i];
+      }
+    if (square > 0.0)
+      findings.compare("contact forces balance", std::abs(left) / square, bound / square, named(touch.label));
+  }
+  for (Index i = 0; i < F.size(); ++i)
+    findings.compare("forces balance at nodes", std::abs(F[i]), allowed[i], fmt::format("unknown {}", i));
+}
+
+Energy energy(const PointAtHand& at) {
+  Energy sum;
+  const auto add = [&](double part) {
+    sum.value += part;
+    sum.magnitude += std::abs(part);
+  };
+  for (const Potential& potential : at.potentials) add(potential.energy(potential.at));
+  add(-work_of_point_loads(at.study, at.point.state));
+  for (const Touch& touch : at.touches.all) add(0.5 * touch.compliance * touch.force * touch.force);
+  return sum;
+}
+
+namespace {
+
+// Columns that are orthogonal to all rows of G.
+Matrix null_space(const Matrix& G, Index n) {
+  if (G.rows() == 0) return Matrix::Identity(n, n);
+  const Eigen::ColPivHouseholderQR<Matrix> factors(G.transpose());
+  const Matrix Q = factors.householderQ();
+  return Q.rightCols(n - factors.rank());
+}
+
+struct Eigencount {
+  Index negative = 0, zero = 0;
+};
+
+Eigencount eigencount(const Matrix& K, const Matrix& G, double zero) {
+  const Matrix Z = null_space(G, K.rows());
+  if (Z.cols() == 0) return {};
+  const Vector values =
+      Eigen::SelfAdjointEigenSolver<Matrix>(Z.transpose() * K * Z, Eigen::EigenvaluesOnly).eigenvalues();
+  return {.negative = (values.array() < -zero).count(), .zero = (values.array().abs() <= zero).count()};
+}
+
+void add_block(Matrix& K, const std::vector<Index>& unknowns, const Matrix& block) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      if (unknowns[i] >= 0 && unknowns[j] >= 0)
+        K(unknowns[i], unknowns[j]) += block(static_cast<Index>(i), static_cast<Index>(j));
+}
+
+void add_row(Matrix& G, const std::vector<Index>& unknowns, const Vector& gradient) {
+  G.conservativeResize(G.rows() + 1, Eigen::NoChange);
+  G.row(G.rows() - 1).setZero();
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i] >= 0) G(G.rows() - 1, unknowns[i]) = gradient[static_cast<Index>(i)];
+}
+
+}  // namespace
+
+// K of the elements, less p ∂²g of the contacts, plus their springs; on the motions that leave closed contacts closed.
+// Lengths and angles are made comparable: D K D has a unit diagonal.
+CountRange unstable_range(const PointAtHand& at, double zero) {
+  const Index n = structure_unknowns(at.study, at.point.state);
+  Matrix K = Matrix::Zero(n, n), strong(0, n), all(0, n);
+  for (std::size_t e = 0; e < at.potentials.size(); ++e) add_block(K, at.potentials[e].unknowns, at.stiffness[e]);
+  for (const Touch& touch : at.touches.all) {
+    if (!touch.closed) continue;
+    const Vector gradient = touch.gap.gradient();
+    Matrix block = -wall_force(touch) * touch.gap.hessian() + touch.stiffness * gradient * gradient.transpose();
+    const bool carries = touch.force > 1e-11 * at.scales.force;
+    if (touch.compliance > 0.0) {
+      if (carries) block += gradient * gradient.transpose() / touch.compliance;
+    } else {
+      add_row(all, touch.gap.unknowns, gradient);
+      if (carries || !touch.listed) add_row(strong, touch.gap.unknowns, gradient);
+    }
+    add_block(K, touch.gap.unknowns, block);
+  }
+  for (const Tangency& tangency : at.touches.tangencies) {
+    const Vector gradient = tangency.tilt.gradient();
+    if (tangency.spring) {
+      add_block(K, tangency.tilt.unknowns, *tangency.spring * gradient * gradient.transpose());
+    } else {
+      add_row(all, tangency.tilt.unknowns, gradient);
+      add_row(strong, tangency.tilt.unknowns, gradient);
+    }
+  }
+  const Vector scale = K.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  K = scale.asDiagonal() * K * scale.asDiagonal();
+  const Eigencount held = eigencount(K, all * scale.asDiagonal(), zero);
+  const Eigencount free = all.rows() == strong.rows() ? held : eigencount(K, strong * scale.asDiagonal(), zero);
+  return {.least = held.negative, .most = free.negative + free.zero};
+}
+
+}  // namespace arcwall::verify

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "apps/output/record.hpp"
+#include "apps/verify/findings.hpp"
+#include "apps/verify/potentials.hpp"
+#include "apps/verify/touches.hpp"
+
+namespace arcwall::verify {
+
+/// Sizes of the study that bounds are relative to.
+struct Scales {
+  double length = 1.0;  ///< of the structure
+  double force = 1.0;   ///< of contact forces
+};
+
+/// A point of the record with what is known of it.
+struct PointAtHand {
+  const Study& study;
+  const RecordPoint& point;
+  const Scales& scales;
+  Touches touches{};
+  std::vector<Potential> potentials{};
+  std::vector<Matrix> stiffness{};  ///< of each potential
+};
+
+/// Whether the state has as many finite unknowns as its piece asks for.
+bool is_well_formed(const Study& study, const State& state);
+
+PointAtHand at_hand(const Study& study, const RecordPoint& point, const std::vector<PlainWall>& walls,
+                    const Scales& scales);
+
+/// Gaps and forces: g ≥ 0 of open contacts, p ≥ 0 and g + c p = 0 of closed ones, nothing inside a wall between nodes;
+/// tangency of contact that slides.
+void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, Findings& findings);
+
+/// ∂Π/∂u − Σ p ∂g/∂u = 0, and the contact forces that this leaves at each node.
+void check_equilibrium(const PointAtHand& at, Findings& findings);
+
+/// The total potential at the state.
+struct Energy {
+  double value = 0.0;
+  double magnitude = 0.0;  ///< sum of the sizes of its parts
+};
+Energy energy(const PointAtHand& at);
+
+/// How many negative eigenvalues the second variation may have: some are zero within `zero` (of a stiffness whose
+/// diagonal is one), some contacts carry nothing.
+struct CountRange {
+  Index least = 0, most = 0;
+};
+CountRange unstable_range(const PointAtHand& at, double zero);
+
+}  // namespace arcwall::verify

@@ -1,0 +1,219 @@
+#include "apps/verify/potentials.hpp"
+
+#include <memory>
+#include <set>
+
+#include "apps/verify/differences.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+// Differences are taken over this part of an element's length, or this angle: truncation is then of the order 10⁻¹⁶,
+// and round-off of the energy over the step of the order 10⁻¹² of the forces.
+constexpr double relative_step = 1e-4;
+
+double step_of(Freedom freedom, double length) {
+  switch (freedom) {
+    case Freedom::x:
+    case Freedom::z:
+      return relative_step * length;
+    case Freedom::rotation:
+    case Freedom::thickness:
+      return relative_step;
+    case Freedom::thickness2:
+      return relative_step / length;
+  }
+  return relative_step;
+}
+
+const SlidingMesh& sliding_mesh(const State& state) { return mesh_of(state); }
+
+Vector coordinates(const State& state) { return state.x.tail(sliding_mesh(state).breakpoints()); }
+
+// --- fixed nodes ----------------------------------------------------------------------------------------------------
+
+// Length of each element, by its member.
+std::vector<double> element_lengths(const Structure& structure) {
+  std::vector<double> lengths;
+  for (const MemberMesh& mesh : structure.members())
+    lengths.insert(lengths.end(), mesh.nodes.size() - 1, mesh.length / double(mesh.nodes.size() - 1));
+  return lengths;
+}
+
+// The kind of each local unknown, by how many a node has: x, z, then a rotation, then changes of thickness.
+Freedom kind_of(std::size_t local, std::size_t stride) {
+  constexpr Freedom kinds[] = {Freedom::x, Freedom::z, Freedom::rotation, Freedom::thickness, Freedom::thickness2};
+  return kinds[local % stride];
+}
+
+std::size_t unknowns_a_node(const MemberMesh& mesh) {
+  if (!mesh.thickness.empty()) return 5;
+  return mesh.rotations.front() ? 3 : 2;
+}
+
+struct LoadedElement {
+  const Element* element;
+  std::vector<std::pair<const Element*, double>> loads;  // with their factors
+
+  double energy(const Vector& u) const {
+    double sum = element->evaluate(u.data(), nullptr, nullptr);
+    for (const auto& [load, factor] : loads) sum += factor * load->evaluate(u.data(), nullptr, nullptr);
+    return sum;
+  }
+  Vector gradient(const Vector& u) const {
+    Vector sum(u.size()), part(u.size());
+    element->evaluate(u.data(), sum.data(), nullptr);
+    for (const auto& [load, factor] : loads) {
+      load->evaluate(u.data(), part.data(), nullptr);
+      sum += factor * part;
+    }
+    return sum;
+  }
+};
+
+Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride, double length) {
+  const std::vector<Index>& freedoms = structure.element_freedoms(e);
+  const auto n = static_cast<Index>(freedoms.size());
+  LoadedElement loaded{.element = &structure.element(e), .loads = {}};
+  for (const std::size_t i : structure.loads_of_element(e)) {
+    const Structure::ElementLoad& load = structure.element_loads()[i];
+    loaded.loads.emplace_back(load.potential.get(), load.kind == LoadKind::proportional ? state.lambda : 1.0);
+  }
+  Potential potential{.at = Vector(n), .steps = Vector(n)};
+  for (std::size_t i = 0; i < freedoms.size(); ++i) {
+    potential.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
+    potential.at[static_cast<Index>(i)] = structure.value(state.x, freedoms[i]);
+    potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, stride), length);
+  }
+  potential.energy = [loaded](const Vector& u) { return loaded.energy(u); };
+  potential.gradient = [loaded](const Vector& u) { return loaded.gradient(u); };
+  return potential;
+}
+
+std::vector<Potential> fixed_potentials(const Structure& structure, const State& state) {
+  std::vector<Potential> all;
+  const std::vector<double> lengths = element_lengths(structure);
+  for (const MemberMesh& mesh : structure.members())
+    for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
+      const auto e = static_cast<Index>(all.size());
+      all.push_back(fixed_potential(structure, e, state, unknowns_a_node(mesh), lengths[all.size()]));
+    }
+  return all;
+}
+
+// --- nodes that slide -----------------------------------------------------------------------------------------------
+
+Potential sliding_potential(const State& state, Index run, Index position) {
+  const SlidingMesh& mesh = sliding_mesh(state);
+  const Vector s = coordinates(state);
+  const NodeUnknowns first = mesh.node_unknowns(run, position), second = mesh.node_unknowns(run, position + 1);
+  const double length = mesh.coordinate(run, position + 1, s) - mesh.coordinate(run, position, s);
+  Potential potential{.at = Vector::Zero(6), .steps = Vector(6)};
+  for (const NodeUnknowns& node : {first, second})
+    for (const Index unknown : node) potential.unknowns.push_back(unknown);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Index unknown = potential.unknowns[i];
+    if (unknown >= 0) potential.at[static_cast<Index>(i)] = state.x[unknown];
+    potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, 3), length);
+  }
+  const auto x = std::make_shared<Vector>(state.x.head(mesh.unknowns()));
+  const auto with = [x, unknowns = potential.unknowns](const Vector& u, const auto& visit) {
+    Vector moved = *x;
+    for (std::size_t i = 0; i < 6; ++i)
+      if (unknowns[i] >= 0) moved[unknowns[i]] = u[static_cast<Index>(i)];
+    return visit(moved);
+  };
+  potential.energy = [=, &mesh, lambda = state.lambda](const Vector& u) {
+    return with(u, [&](const Vector& moved) { return mesh.element_energy(run, position, moved, s, lambda); });
+  };
+  potential.gradient = [=, &mesh, lambda = state.lambda](const Vector& u) {
+    return with(u, [&](const Vector& moved) {
+      const SlidingMesh::EndForces ends = mesh.end_forces(run, position, moved, s, lambda);
+      Vector gradient(6);
+      gradient << ends[0], ends[1];
+      return gradient;
+    });
+  };
+  return potential;
+}
+
+std::vector<Potential> sliding_potentials(const Study& study, const State& state) {
+  std::vector<Potential> all;
+  for (Index run = 0; run < study.sliding_structure()->runs(); ++run)
+    for (Index position = 0; position + 1 < sliding_mesh(state).nodes(run); ++position)
+      all.push_back(sliding_potential(state, run, position));
+  return all;
+}
+
+// visit(unknown, load, displacement) for each freedom that carries one.
+template <class Visit>
+void for_each_point_load(const Study& study, const State& state, const Visit& visit) {
+  const Structure& structure = study.structure();
+  std::set<Index> freedoms;
+  for (Index e = 0; e < structure.element_count(); ++e)
+    freedoms.insert(structure.element_freedoms(e).begin(), structure.element_freedoms(e).end());
+  for (const Index freedom : freedoms) {
+    const double load = state.lambda * structure.point_load(freedom, LoadKind::proportional) +
+                        structure.point_load(freedom, LoadKind::constant);
+    if (load == 0.0) continue;
+    if (study.sliding() == nullptr) {
+      if (const auto i = structure.unknown(freedom)) visit(*i, load, structure.value(state.x, freedom));
+    } else if (const auto i = study.sliding_structure()->unknown(sliding_mesh(state), freedom)) {
+      visit(*i, load, study.sliding_structure()->value(sliding_mesh(state), state.x, freedom));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Potential> potentials(const Study& study, const State& state) {
+  return study.sliding() != nullptr ? sliding_potentials(study, state) : fixed_potentials(study.structure(), state);
+}
+
+Index structure_unknowns(const Study& study, const State& state) {
+  return study.sliding() != nullptr ? sliding_mesh(state).unknowns() : study.structure().size({});
+}
+
+Vector point_loads(const Study& study, const State& state) {
+  Vector loads = Vector::Zero(structure_unknowns(study, state));
+  for_each_point_load(study, state, [&](Index i, double load, double) { loads[i] += load; });
+  return loads;
+}
+
+double work_of_point_loads(const Study& study, const State& state) {
+  double work = 0.0;
+  for_each_point_load(study, state, [&](Index, double load, double displacement) { work += load * displacement; });
+  return work;
+}
+
+Vector forces(const Potential& potential) {
+  Vector f = Vector::Zero(potential.at.size());
+  for (Index i = 0; i < f.size(); ++i)
+    if (potential.unknowns[static_cast<std::size_t>(i)] >= 0)
+      f[i] = derivative(
+          [&](double step) {
+            Vector u = potential.at;
+            u[i] += step;
+            return potential.energy(u);
+          },
+          potential.steps[i]);
+  return f;
+}
+
+Matrix stiffness(const Potential& potential) {
+  const Index n = potential.at.size();
+  Matrix K = Matrix::Zero(n, n);
+  for (Index i = 0; i < n; ++i)
+    if (potential.unknowns[static_cast<std::size_t>(i)] >= 0)
+      K.col(i) = derivative(
+          [&](double step) {
+            Vector u = potential.at;
+            u[i] += step;
+            return potential.gradient(u);
+          },
+          potential.steps[i]);
+  return 0.5 * (K + K.transpose());
+}
+
+}  // namespace arcwall::verify

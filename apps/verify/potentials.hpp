@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "apps/study.hpp"
+
+namespace arcwall::verify {
+
+/// A part of the total potential, of one element and the loads along it, at a state.
+struct Potential {
+  std::vector<Index> unknowns{};                    ///< −1: a support holds it
+  Vector at{};                                      ///< their values; those of held ones do not vary
+  Vector steps{};                                   ///< with which differences are taken
+  std::function<double(const Vector&)> energy{};    ///< [force·length]
+  std::function<Vector(const Vector&)> gradient{};  ///< as the element has it
+};
+
+/// All of them, whether the mesh slides or not.
+std::vector<Potential> potentials(const Study& study, const State& state);
+
+/// Point loads on the unknowns.
+Vector point_loads(const Study& study, const State& state);
+
+/// Their work: loads times displacements from rest.
+double work_of_point_loads(const Study& study, const State& state);
+
+/// Number of unknowns of the structure, which stand first in a state's.
+Index structure_unknowns(const Study& study, const State& state);
+
+/// ∂U/∂u of a potential by differences of its energy alone.
+Vector forces(const Potential& potential);
+
+/// ∂²U/∂u² by differences of its gradient.
+Matrix stiffness(const Potential& potential);
+
+}  // namespace arcwall::verify

@@ -1,0 +1,240 @@
+#include "apps/verify/stored_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/output/event_names.hpp"
+#include "core/text.hpp"
+
+namespace arcwall::verify {
+
+using Json = nlohmann::json;
+using Row = std::vector<std::string>;
+
+namespace {
+
+// As read, or NaN where it is no number.
+double number(const std::string& cell) {
+  char* end = nullptr;
+  const double value = std::strtod(cell.c_str(), &end);
+  return !cell.empty() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+double number(const Json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+// A value of this size written and read again, and computed on another machine.
+double rounding(double size) { return 1e-12 * size; }
+
+void expect_same(const std::string& check, const std::string& cell, const std::string& expected,
+                 const std::string& what, Findings& findings) {
+  findings.require(check, cell == expected, what + " is \"" + cell + "\" instead of \"" + expected + "\"");
+}
+
+}  // namespace
+
+std::vector<Row> csv_rows(const std::string& text) {
+  std::vector<Row> rows(1, Row(1));
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      if (quoted && i + 1 < text.size() && text[i + 1] == '"')
+        rows.back().back() += text[++i];
+      else
+        quoted = !quoted;
+    } else if (quoted || (c != ',' && c != '\n')) {
+      rows.back().back() += c;
+    } else if (c == ',') {
+      rows.back().emplace_back();
+    } else {
+      rows.emplace_back(1);
+    }
+  }
+  if (rows.back() == Row(1)) rows.pop_back();
+  if (!rows.empty()) rows.erase(rows.begin());
+  return rows;
+}
+
+// branch, step, arc, lambda, monitors …, unstable, stability, contacts, energy, iterations, event
+void check_path_row(const Row& row, const RecordPoint& point, const PathExpectation& expected, Findings& findings) {
+  const std::size_t monitors = expected.monitors.size();
+  findings.require("path.csv has its columns", row.size() == monitors + 10, "number of cells");
+  if (row.size() != monitors + 10) return;
+  const auto same = [&](std::size_t cell, const std::string& what, const std::string& value) {
+    expect_same("path.csv tells the states", row[cell], value, what, findings);
+  };
+  same(0, "branch", std::to_string(point.branch));
+  same(1, "step", std::to_string(point.step));
+  findings.compare("path.csv tells the states", std::abs(number(row[2]) - point.arc), 0.0, "arc");
+  findings.compare("path.csv tells the states", std::abs(number(row[3]) - point.state.lambda), 0.0, "lambda");
+  for (std::size_t i = 0; i < monitors; ++i)
+    if (std::isfinite(expected.allowed[i]))
+      findings.compare("path.csv tells the states", std::abs(number(row[4 + i]) - expected.monitors[i]),
+                       expected.allowed[i], "monitor " + std::to_string(i));
+  const Row rest(row.begin() + 4 + static_cast<std::ptrdiff_t>(monitors), row.end());
+  if (expected.unstable && !rest[0].empty()) {
+    const double count = number(rest[0]);
+    const auto [least, most] = *expected.unstable;
+    findings.compare("unstable directions", std::max(double(least) - count, count - double(most)), 0.0,
+                     fmt::format("unstable is {}, dense eigenvalues say {}{}", rest[0], least,
+                                 least == most ? "" : fmt::format(" to {}", most)));
+    findings.require("unstable directions", rest[1] != "stable" || count == 0.0, "stability is stable");
+    findings.require("unstable directions", rest[1] != "unstable" || most > 0, "stability is unstable");
+  }
+  expect_same("path.csv tells the states", rest[2], std::to_string(expected.contacts), "contacts", findings);
+  if (expected.energy)
+    findings.compare("path.csv tells the states", std::abs(number(rest[3]) - expected.energy->value),
+                     rounding(expected.energy->magnitude), "energy");
+  expect_same("path.csv tells the states", rest[4], std::to_string(point.iterations), "iterations", findings);
+  expect_same("path.csv tells the states", rest[5], point.event ? std::string(to_text(*point.event)) : "", "event",
+              findings);
+}
+
+// branch, step, lambda, wall, member, fraction, x, force, pressure
+void check_contact_rows(const std::vector<Row>& rows, std::size_t& next, const RecordPoint& point,
+                        const Touches& touches, double length, Findings& findings) {
+  const std::string check = "contacts.csv tells the states";
+  for (const Touch& touch : touches.all) {
+    if (!touch.closed || !touch.listed) continue;
+    const std::string name = touch.label.wall + " at " + touch.label.member + ":" + round_trip(touch.label.fraction);
+    findings.require(check, next < rows.size() && rows[next].size() == 9, "no row of " + name);
+    if (next >= rows.size() || rows[next].size() != 9) return;
+    const Row& row = rows[next++];
+    expect_same(check, row[0], std::to_string(point.branch), "branch of " + name, findings);
+    expect_same(check, row[1], std::to_string(point.step), "step of " + name, findings);
+    expect_same(check, row[3], touch.label.wall, "wall of " + name, findings);
+    expect_same(check, row[4], touch.label.member, "member of " + name, findings);
+    const auto near = [&](std::size_t cell, double value, double bound, const char* what) {
+      findings.compare(check, std::abs(number(row[cell]) - value), bound, std::string(what) + " of " + name);
+    };
+    near(2, point.state.lambda, 0.0, "lambda");
+    near(5, touch.label.fraction, rounding(1.0), "fraction");
+    near(6, touch.place.x(), rounding(length), "x");
+    near(7, touch.force, rounding(std::abs(touch.force)), "force");
+    if (const double tributary = touch.label.tributary; tributary > 0.0)
+      near(8, touch.force / tributary, rounding(std::abs(touch.force / tributary)), "pressure");
+    else
+      expect_same(check, row[8], "", "pressure of " + name, findings);
+  }
+}
+
+namespace {
+
+const std::string events_check = "events.json tells the states";
+
+using PointIndex = std::map<std::pair<Index, Index>, const RecordPoint*>;
+
+PointIndex by_branch_and_step(const Record& record) {
+  PointIndex index;
+  for (const RecordPoint& point : record.points) index[{point.branch, point.step}] = &point;
+  return index;
+}
+
+void check_branches(const Json& branches, const Record& record, Findings& findings) {
+  for (const Json& branch : branches) {
+    const Index id = branch.value("id", Index{-1});
+    findings.at("events.json", id, 0);
+    Index points = 0;
+    double least = infinity, greatest = -infinity;
+    for (const RecordPoint& point : record.points) {
+      if (point.branch != id) continue;
+      ++points;
+      least = std::min(least, point.state.lambda);
+      greatest = std::max(greatest, point.state.lambda);
+    }
+    findings.require(events_check, branch.value("points", Index{-1}) == points, "points of the branch");
+    if (points == 0) continue;
+    findings.compare(events_check, std::abs(number(branch["lambda"][0]) - least), 0.0, "least lambda of the branch");
+    findings.compare(events_check, std::abs(number(branch["lambda"][1]) - greatest), 0.0, "greatest lambda");
+  }
+}
+
+void check_monitors(const Json& monitors, const Record& record, const RecordPoint& point, Findings& findings) {
+  for (std::size_t i = 0; i < record.columns.size(); ++i) {
+    const std::string& name = record.columns[i].name;
+    const double value = point.monitors[i];
+    if (!std::isfinite(value)) continue;
+    findings.compare(events_check, std::abs(number(monitors.value(name, Json())) - value), rounding(std::abs(value)),
+                     "monitor " + name);
+  }
+}
+
+// Where a contact that is named stands in the state at all, it is where it is said to be, and touches.
+void check_named_contacts(const Json& contacts, const Study& study, const Touches& touches, Findings& findings) {
+  const double length = study.structure().length_scale();
+  for (const Json& contact : contacts) {
+    const std::string wall = contact.value("wall", ""), member = contact.value("member", "");
+    const double fraction = number(contact.value("fraction", Json())), x = number(contact.value("x", Json()));
+    const auto meant = [&](const Touch& touch) {
+      return touch.label.wall == wall && touch.label.member == member &&
+             std::abs(touch.label.fraction - fraction) <= 1e-9;
+    };
+    const auto found = std::find_if(touches.all.begin(), touches.all.end(), meant);
+    const std::string name = wall + " at " + member + ":" + round_trip(fraction);
+    findings.require(events_check, study.sliding() != nullptr || found != touches.all.end(), "no contact is " + name);
+    if (found == touches.all.end()) continue;
+    findings.compare(events_check, std::abs(x - found->place.x()), 1e-9 * length, "x of " + name);
+  }
+}
+
+// Counts hold from an event to the next, and at the points between.
+void check_counts(const Json& events, const Record& record, Findings& findings) {
+  std::map<Index, std::vector<const Json*>> of_branch;
+  for (const Json& event : events) of_branch[event.value("branch", Index{-1})].push_back(&event);
+  for (const auto& [branch, list] : of_branch)
+    for (std::size_t i = 0; i + 1 < list.size(); ++i) {
+      const Json &after = (*list[i])["unstable_after"], &before = (*list[i + 1])["unstable_before"];
+      const Index from = list[i]->value("step", Index{-1}), to = list[i + 1]->value("step", Index{-1});
+      findings.at("events.json", branch, to);
+      if (after.is_number() && before.is_number())
+        findings.require(
+            events_check, after == before,
+            fmt::format("unstable_before is {} and the event before it left {}", before.dump(), after.dump()));
+      for (const RecordPoint& point : record.points)
+        if (point.branch == branch && point.step > from && point.step < to && point.count.unstable &&
+            after.is_number()) {
+          findings.at("events.json", branch, from);
+          findings.require(events_check, after.get<Index>() == *point.count.unstable,
+                           fmt::format("unstable_after is {} and step {} of path.csv has {}", after.dump(), point.step,
+                                       *point.count.unstable));
+        }
+    }
+}
+
+}  // namespace
+
+void check_events(const std::string& text, const Record& record, const Study& study,
+                  const std::vector<PlainWall>& walls, Findings& findings) {
+  findings.at("events.json", 0, 0);
+  const Json json = Json::parse(text, nullptr, false);
+  const bool readable = json.is_object() && json.contains("branches") && json.contains("events");
+  findings.require(events_check, readable, "it cannot be read");
+  if (!readable) return;
+  check_branches(json["branches"], record, findings);
+  const PointIndex points = by_branch_and_step(record);
+  Index id = 0;
+  for (const Json& event : json["events"]) {
+    const Index branch = event.value("branch", Index{-1}), step = event.value("step", Index{-1});
+    findings.at("events.json", branch, step);
+    findings.require(events_check, event.value("id", Index{-1}) == id++, "id");
+    const auto found = points.find({branch, step});
+    findings.require(events_check, found != points.end(), "the event is at no point");
+    if (found == points.end()) continue;
+    const RecordPoint& point = *found->second;
+    findings.compare(events_check, std::abs(number(event["lambda"]) - point.state.lambda), 0.0, "lambda");
+    findings.compare(events_check, std::abs(number(event["arc"]) - point.arc), 0.0, "arc");
+    check_monitors(event["monitors"], record, point, findings);
+    if (event.contains("contact"))
+      check_named_contacts(event["contact"], study, touches(study, walls, point.state), findings);
+  }
+  check_counts(json["events"], record, findings);
+}
+
+}  // namespace arcwall::verify

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/verify/point_checks.hpp"
+#include "apps/verify/verify.hpp"
+
+namespace arcwall::verify {
+
+/// Rows of a CSV file without its header, cells without quotes.
+std::vector<std::vector<std::string>> csv_rows(const std::string& text);
+
+/// What a row of path.csv is held against.
+struct PathExpectation {
+  std::vector<double> monitors{},
+      allowed{};                         ///< recomputed, and how far the cells may be from it; infinite: not checked
+  std::optional<Energy> energy{};        ///< empty: not checked
+  std::optional<CountRange> unstable{};  ///< empty: not checked
+  Index contacts = 0;
+};
+
+/// A row of path.csv against its point.
+void check_path_row(const std::vector<std::string>& row, const RecordPoint& point, const PathExpectation& expected,
+                    Findings& findings);
+
+/// The rows of contacts.csv that belong to a point, from `next` on, which moves behind them.
+void check_contact_rows(const std::vector<std::vector<std::string>>& rows, std::size_t& next, const RecordPoint& point,
+                        const Touches& touches, double length, Findings& findings);
+
+/// events.json against the points.
+void check_events(const std::string& text, const Record& record, const Study& study,
+                  const std::vector<PlainWall>& walls, Findings& findings);
+
+}  // namespace arcwall::verify

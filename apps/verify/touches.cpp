@@ -1,0 +1,299 @@
+#include "apps/verify/touches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/verify/differences.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+using Span = SlidingContactLayout::Span;
+
+constexpr double relative_step = 1e-4;  // of the structure's length, or an angle
+
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string& name) {
+  return *std::find_if(walls.begin(), walls.end(), [&](const PlainWall& wall) { return wall.deck().name == name; });
+}
+
+double gap_of(const PlainWall& wall, const Vec2& place) { return wall.covers(place.x()) ? wall.gap(place) : infinity; }
+
+// --- contact at nodes -----------------------------------------------------------------------------------------------
+
+// A point of a section at a node: r + o d + o² q with d = (1 + e) t, t the stress-free normal turned by φ, and q = ξ t
+// or ξ n, n the normal of the axis without imperfection (Selke and Kikuchi's eq. 15). e = ξ = 0 elsewhere.
+struct SectionPoint {
+  Vec2 node = Vec2::Zero();  // stress-free
+  double shape_angle = 0.0, axis_angle = 0.0;
+  double offset = 0.0;
+  bool along_director = false;
+
+  Vec2 at(const Vector& u) const {
+    const double turned = u.size() > 2 ? u[2] : 0.0, e = u.size() > 3 ? u[3] : 0.0, xi = u.size() > 4 ? u[4] : 0.0;
+    const Vec2 t = perp(direction(shape_angle + turned)), n = perp(direction(axis_angle));
+    return node + u.head<2>() + offset * (1.0 + e) * t + offset * offset * xi * (along_director ? t : n);
+  }
+};
+
+// The section that a label means.
+MemberSection section_of(const Structure& structure, const ContactLabel& label) {
+  const auto& members = structure.members();
+  const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == label.member; });
+  const std::vector<MemberSection> sections = mesh->contact_sections();
+  return *std::min_element(sections.begin(), sections.end(), [&](const MemberSection& a, const MemberSection& b) {
+    return std::abs(a.fraction - label.fraction) < std::abs(b.fraction - label.fraction);
+  });
+}
+
+NodeFunction node_unknowns(const Structure& structure, const MemberSection& section, const State& state) {
+  std::vector<Index> freedoms{structure.freedom(section.node, Freedom::x), structure.freedom(section.node, Freedom::z)};
+  if (section.rotation) freedoms.push_back(*section.rotation);
+  if (section.thickness) freedoms.insert(freedoms.end(), {section.thickness->e, section.thickness->xi});
+  NodeFunction function{.at = Vector(static_cast<Index>(freedoms.size()))};
+  function.steps = Vector::Constant(function.at.size(), relative_step);
+  function.steps.head<2>() *= structure.length_scale();
+  for (std::size_t i = 0; i < freedoms.size(); ++i) {
+    function.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
+    function.at[static_cast<Index>(i)] = structure.value(state.x, freedoms[i]);
+  }
+  if (section.thickness) function.steps[4] /= structure.length_scale();
+  return function;
+}
+
+// Which face touches is part of the model: of both the one that the study names.
+double offset_of(const Study& study, const PlainWall& wall, Index j, SectionPoint point) {
+  if (wall.deck().acts_on == deck::ActsOn::axis) return 0.0;
+  const Candidate& candidate = study.contact()->candidate(j);
+  const std::string& name = candidate.label().member;
+  const auto& members = study.structure().members();
+  const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == name; });
+  const Vec2 meant = candidate.point().position(Vector::Zero(study.structure().size({})));
+  const double half = 0.5 * mesh->height.value();
+  const auto distance = [&](double offset) {
+    point.offset = offset;
+    return (point.at(Vector::Zero(2)) - meant).norm();
+  };
+  return distance(half) < distance(-half) ? half : -half;
+}
+
+Touch node_touch(const Study& study, const std::vector<PlainWall>& walls, const State& state, Index j) {
+  const Structure& structure = study.structure();
+  const ContactLabel& label = study.contact()->candidate(j).label();
+  const PlainWall& wall = wall_of(walls, label.wall);
+  const MemberSection section = section_of(structure, label);
+  SectionPoint point{.node = structure.position(section.node),
+                     .shape_angle = section.shape.angle,
+                     .axis_angle = section.axis.angle,
+                     .along_director = section.quadratic == QuadraticTerm::director};
+  point.offset = offset_of(study, wall, j, point);
+  Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
+  touch.gap.of = [point, &wall](const Vector& u) { return gap_of(wall, point.at(u)); };
+  touch.place = point.at(touch.gap.at);
+  const deck::Contact& contact = study.deck().contact;
+  const double spring = contact.penalty.value_or(0.0) * label.tributary;
+  if (contact.method == deck::ContactMethod::penalty) touch.compliance = 1.0 / spring;
+  if (contact.method == deck::ContactMethod::augmented) touch.stiffness = spring;
+  return touch;
+}
+
+Touches node_touches(const Study& study, const std::vector<PlainWall>& walls, const State& state) {
+  Touches touches;
+  Index force = study.structure().size({});
+  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+    touches.all.push_back(node_touch(study, walls, state, static_cast<Index>(j)));
+    touches.all.back().closed = state.piece[j] != 0;
+    if (touches.all.back().closed) touches.all.back().force = state.x[force++];
+  }
+  return touches;
+}
+
+// --- contact that slides --------------------------------------------------------------------------------------------
+
+struct SlidingNode {
+  Index run = 0, position = 0;
+};
+
+// A sliding state with what stands in it.
+struct Sliding {
+  const Study& study;
+  const State& state;
+  const SlidingStructure& body = *study.sliding_structure();
+  const SlidingContactLayout& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
+  const SlidingMesh& mesh = on.mesh();
+  Vector x = on.x_of(state), s = on.s_of(state);
+
+  // Where the node's unknowns are held its place is still known.
+  AxisPlace place(const SlidingNode& node, const NodeFunction& function, const Vector& u) const {
+    Vector moved = x;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (function.unknowns[i] >= 0) moved[function.unknowns[i]] = u[static_cast<Index>(i)];
+    return mesh.node(node.run, node.position, moved);
+  }
+
+  NodeFunction unknowns(const SlidingNode& node) const {
+    const NodeUnknowns indices = mesh.node_unknowns(node.run, node.position);
+    NodeFunction function{.unknowns = {indices.begin(), indices.end()}, .at = Vector::Zero(3)};
+    function.steps = Vector::Constant(3, relative_step);
+    function.steps.head<2>() *= body.length_scale();
+    for (std::size_t i = 0; i < 3; ++i)
+      if (indices[i] >= 0) function.at[static_cast<Index>(i)] = x[indices[i]];
+    return function;
+  }
+};
+
+// Of the axis or the face that looks at the wall: its normal along the wall's or against it, with the direction of
+// travel.
+Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& place) {
+  if (wall.deck().acts_on == deck::ActsOn::axis) return place.position;
+  const Vec2 normal = perp(direction(place.angle));
+  return place.position - (normal.y() >= 0.0 ? 1.0 : -1.0) * wall.side() * half_height * normal;
+}
+
+Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const SlidingNode& node) {
+  const auto [member, fraction] =
+      at->body.label({.run = node.run, .s = at->mesh.coordinate(node.run, node.position, at->s)});
+  Touch touch{.label = {.wall = wall.deck().name, .member = member, .fraction = fraction}, .gap = at->unknowns(node)};
+  const double half = at->body.half_height(node.run);
+  const auto face = [=, &wall, function = touch.gap](const Vector& u) {
+    return face_towards(wall, half, at->place(node, function, u));
+  };
+  touch.place = face(touch.gap.at);
+  touch.gap.of = [face, &wall](const Vector& u) { return gap_of(wall, face(u)); };
+  return touch;
+}
+
+// The spring p λ / g″ on the tilt, g″/λ = ±(κ − λ κ̂) by what the element on the free side carries: κ = κ₀ + M/EI, λ = 1
+// + N/EA; κ̂ is the curvature of the line on which the axis would lie (docs/theory.md, section 8).
+std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, const SlidingNode& node,
+                                     std::size_t point, double force) {
+  const bool before = at.on.span_before(point) == Span::free;
+  const double sign = before ? 1.0 : -1.0;
+  const auto ends =
+      at.mesh.end_forces(node.run, before ? node.position - 1 : node.position, at.x, at.s, at.state.lambda);
+  const Eigen::Vector3d& end = ends[before ? 1 : 0];
+  const AxisPlace place = at.mesh.node(node.run, node.position, at.x);
+  const double s = at.mesh.coordinate(node.run, node.position, at.s), half = at.body.half_height(node.run);
+  const double curvature =
+      at.body.natural_curvature({.run = node.run, .s = s}) + sign * end[2] / at.body.bending_stiffness(node.run);
+  const double stretch = 1.0 + sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.run);
+  const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
+  const double offset = wall.deck().acts_on == deck::ActsOn::face ? -wall.side() * half : 0.0;
+  const double surface = wall.curvature(face_towards(wall, half, place).x());
+  const double opening = wall.side() * (travel * curvature - stretch * surface / (1.0 + offset * surface));
+  constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
+  if (opening * at.body.length_scale() <= touching) return std::nullopt;
+  return force * stretch / opening;
+}
+
+Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
+                  const SlidingNode& node, std::size_t point) {
+  Tangency tangency{.label = touch.label, .tilt = at->unknowns(node)};
+  const double half = at->body.half_height(node.run);
+  tangency.tilt.of = [=, &wall, function = tangency.tilt](const Vector& u) {
+    const AxisPlace place = at->place(node, function, u);
+    return std::remainder(place.angle - wall.slope_angle(face_towards(wall, half, place).x()), pi);
+  };
+  tangency.end_of_pressed = at->on.lies_pressed(point);
+  if (at->on.lies_beside(point)) return tangency;
+  tangency.spring = touch.closed ? contact_spring(*at, wall, node, point, touch.force) : 0.0;
+  return tangency;
+}
+
+// Free ends of runs, walls outside: the order in which a piece has them behind its points.
+std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& at,
+                                                                const std::vector<PlainWall>& walls) {
+  std::vector<std::pair<SlidingNode, const PlainWall*>> ends;
+  for (Index run = 0; run < at.body.runs(); ++run)
+    for (const PlainWall& wall : walls)
+      for (const bool last : {false, true})
+        if (wall.concerns(at.body.label({.run = run, .s = 0.0}).first) && !at.body.end_is_held(run, last))
+          ends.push_back({{.run = run, .position = last ? at.mesh.nodes(run) - 1 : 0}, &wall});
+  return ends;
+}
+
+Touches sliding_touches(const Study& study, const std::vector<PlainWall>& walls, const State& state) {
+  const auto at = std::make_shared<const Sliding>(Sliding{.study = study, .state = state});
+  Touches touches;
+  Index force = at->mesh.unknowns();
+  const auto add = [&](const PlainWall& wall, const SlidingNode& node, bool closed) -> const Touch& {
+    touches.all.push_back(sliding_touch(at, wall, node));
+    touches.all.back().closed = closed;
+    if (closed) touches.all.back().force = state.x[force++];
+    return touches.all.back();
+  };
+  const auto& points = at->on.points();
+  const Index moments = state.x.size() - 2 * at->mesh.breakpoints();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto [run, position] = at->mesh.breakpoint(static_cast<Index>(k));
+    const SlidingNode node{.run = run, .position = position};
+    const PlainWall& wall = walls[points[k].obstacle];
+    const Touch& touch = add(wall, node, state.piece[k] != 0);
+    touches.tangencies.push_back(tangency(at, wall, touch, node, k));
+    touches.tangencies.back().moment = state.x[moments + static_cast<Index>(k)];
+  }
+  const auto ends = free_ends(*at, walls);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    add(*ends[i].second, ends[i].first, state.piece[points.size() + i] != 0);
+  for (const SlidingContactLayout::Held& held : at->on.held()) {
+    add(walls[held.obstacle], {.run = held.run, .position = held.position}, true);
+    touches.all.back().listed = false;
+  }
+  return touches;
+}
+
+}  // namespace
+
+Vector NodeFunction::gradient() const {
+  Vector gradient = Vector::Zero(at.size());
+  for (Index i = 0; i < at.size(); ++i)
+    if (unknowns[static_cast<std::size_t>(i)] >= 0)
+      gradient[i] = derivative([&](double step) { return of(at + step * Vector::Unit(at.size(), i)); }, steps[i]);
+  return gradient;
+}
+
+Matrix NodeFunction::hessian() const {
+  const Index n = at.size();
+  Matrix hessian = Matrix::Zero(n, n);
+  const auto varied = [&](Index i, double by) {
+    NodeFunction moved = *this;
+    moved.at[i] += by;
+    return moved.gradient();
+  };
+  for (Index i = 0; i < n; ++i)
+    if (unknowns[static_cast<std::size_t>(i)] >= 0)
+      hessian.col(i) = derivative([&](double step) { return varied(i, step); }, steps[i]);
+  return 0.5 * (hessian + hessian.transpose());
+}
+
+Touches touches(const Study& study, const std::vector<PlainWall>& walls, const State& state) {
+  if (study.sliding() != nullptr) return sliding_touches(study, walls, state);
+  return study.contact() != nullptr ? node_touches(study, walls, state) : Touches{};
+}
+
+// Gaps between nodes are taken for cubics; an element's own shape differs from that by some hundredth of its length
+// times the cube of its end slopes.
+LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, const State& state, int places) {
+  LeastGap least;
+  if (study.sliding() == nullptr) return least;
+  const Sliding at{.study = study, .state = state};
+  for (Index run = 0; run < at.body.runs(); ++run)
+    for (Index e = 0; e + 1 < at.mesh.nodes(run); ++e)
+      for (int i = 0; i <= places; ++i) {
+        const AxisPlace place = at.mesh.inside(run, e, double(i) / places, at.x, at.s);
+        for (const PlainWall& wall : walls) {
+          if (!wall.concerns(at.body.label({.run = run, .s = 0.0}).first)) continue;
+          const double gap = gap_of(wall, face_towards(wall, at.body.half_height(run), place));
+          if (gap >= least.value) continue;
+          const AxisPlace a = at.mesh.node(run, e, at.x), b = at.mesh.node(run, e + 1, at.x);
+          const Vec2 chord = b.position - a.position;
+          const double bend = std::abs(b.angle - a.angle);
+          least = {.value = gap, .allowance = 0.01 * chord.norm() * bend * bend * bend, .wall = wall.deck().name};
+        }
+      }
+  return least;
+}
+
+}  // namespace arcwall::verify

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/study.hpp"
+#include "apps/verify/plain_wall.hpp"
+
+namespace arcwall::verify {
+
+/// A function of the unknowns of one node.
+struct NodeFunction {
+  std::vector<Index> unknowns{};  ///< x, z, rotation and changes of thickness; −1: a support holds it
+  Vector at{};                    ///< their values
+  Vector steps{};                 ///< with which differences are taken
+  std::function<double(const Vector&)> of{};
+
+  double value() const { return of(at); }
+  Vector gradient() const;  ///< by differences, 0 for what is held
+  Matrix hessian() const;
+};
+
+/// A point of the structure against a wall.
+struct Touch {
+  ContactLabel label{};
+  Vec2 place = Vec2::Zero();  ///< of the point that may touch
+  NodeFunction gap{};         ///< infinite where the wall has no surface
+  bool closed = false;
+  double force = 0.0;       ///< as stored [force]
+  double compliance = 0.0;  ///< gap of a spring per force [length/force]
+  double stiffness = 0.0;   ///< spring beside the force, of the augmented Lagrangian [force/length]
+  bool listed = true;       ///< in contacts.csv: nodes inside a pressed part are not
+};
+
+/// A point of a mesh that slides, where the structure is tangent to the wall.
+struct Tangency {
+  ContactLabel label{};
+  NodeFunction tilt{};          ///< angle between the axis and the wall [rad]
+  double moment = 0.0;          ///< that holds it, as stored [force·length]
+  bool end_of_pressed = false;  ///< where bending is continuous instead of the moment zero
+  std::optional<double>
+      spring{};  ///< second variation of a contact that slides; empty: the tilt is held [force·length]
+};
+
+struct Touches {
+  std::vector<Touch> all{};
+  std::vector<Tangency> tangencies{};
+};
+
+Touches touches(const Study& study, const std::vector<PlainWall>& walls, const State& state);
+
+/// The least gap of members on meshes that slide, at `places` points of each element, with where it is.
+struct LeastGap {
+  double value = infinity;
+  double allowance = 0.0;  ///< for the shapes of the elements there, which gaps between nodes only approximate
+  std::string wall{};
+};
+LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, const State& state, int places);
+
+}  // namespace arcwall::verify

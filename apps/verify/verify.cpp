@@ -1,0 +1,186 @@
+#include "apps/verify/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/output/text_table.hpp"
+#include "apps/verify/point_checks.hpp"
+#include "apps/verify/stored_files.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+Scales scales_of(const Study& study) {
+  return {.length = study.structure().length_scale(),
+          .force = study.contact() != nullptr ? study.contact()->scales().force : study.structure().force_scale()};
+}
+
+// Dense eigenvalues cost the cube of the unknowns: of long runs every so many points are counted, besides those with
+// events.
+struct CountPlan {
+  Index every = 1;
+  bool none = false;
+
+  CountPlan(Index unknowns, std::size_t points) {
+    constexpr double most_work = 2e10;
+    constexpr Index most_unknowns = 2000;
+    none = unknowns > most_unknowns;
+    const double cube = double(unknowns) * double(unknowns) * double(unknowns);
+    every = std::max(Index{1}, static_cast<Index>(std::ceil(double(points) * cube / most_work)));
+  }
+
+  bool counts(const RecordPoint& point, std::size_t number) const {
+    return !none && (point.event.has_value() || static_cast<Index>(number) % every == 0);
+  }
+};
+
+bool is_reaction(deck::Component component) {
+  return component == deck::Component::reaction_x || component == deck::Component::reaction_z ||
+         component == deck::Component::reaction_moment;
+}
+
+// Monitors are differences of places, or sums of nodal forces: their round-off is that of these. Reactions of a run in
+// increments are of stresses that no state tells.
+void add_monitors(const Study& study, const State& state, PathExpectation& expected) {
+  const Structure& structure = study.structure();
+  for (std::size_t i = 0; i < study.monitors().size(); ++i) {
+    const bool reaction = is_reaction(study.deck().monitors[i].component);
+    if (reaction && study.in_increments()) {
+      expected.monitors.push_back(0.0);
+      expected.allowed.push_back(infinity);
+      continue;
+    }
+    const double value = study.monitors()[i].quantity->value(state);
+    const double roundoff = reaction ? 10.0 * structure.force_roundoff() : 1e-14 * structure.length_scale();
+    expected.monitors.push_back(value);
+    expected.allowed.push_back(1e-12 * std::abs(value) + roundoff);
+  }
+}
+
+// At located limit and branch points eigenvalues are as near to zero as the place is sure.
+double zero_eigenvalue(const RecordPoint& point) {
+  const bool singular = point.event == EventKind::limit_point || point.event == EventKind::branch_point;
+  return singular ? 1e-6 : 1e-11;
+}
+
+Index listed_contacts(const Touches& touches) {
+  return std::count_if(touches.all.begin(), touches.all.end(),
+                       [](const Touch& touch) { return touch.closed && touch.listed; });
+}
+
+std::vector<std::string> left_out(const Study& study, const CountPlan& plan, Index unknowns) {
+  std::vector<std::string> sentences;
+  if (study.in_increments())
+    sentences.emplace_back(
+        "equilibrium, gaps, contact forces, energies, reactions and unstable directions: load increments leave a "
+        "residue, and their stresses are those of the increments before");
+  else if (plan.none)
+    sentences.push_back(fmt::format("unstable directions: {} unknowns are too many for dense eigenvalues", unknowns));
+  else if (plan.every > 1)
+    sentences.push_back(fmt::format(
+        "unstable directions between events at all but every {}th point: dense eigenvalues are slow", plan.every));
+  if (study.sliding() != nullptr) sentences.emplace_back("how a member bends at the ends of parts pressed on a wall");
+  sentences.emplace_back(
+      "arc lengths, iterations, residuals, modes and types of branch points, and whether all events were found: they "
+      "are not told by single states");
+  return sentences;
+}
+
+class Verifier {
+ public:
+  Verifier(const Study& study, const Record& record, const StoredFiles& files, const std::string& states_file)
+      : study_(study),
+        record_(record),
+        states_file_(states_file),
+        scales_(scales_of(study)),
+        path_rows_(csv_rows(files.path_csv)),
+        contact_rows_(csv_rows(files.contacts_csv)) {
+    for (const deck::Wall& wall : study.deck().walls) walls_.emplace_back(wall);
+  }
+
+  Verdict run(const StoredFiles& files) {
+    const Index unknowns = study_.structure().size({});
+    const CountPlan plan(unknowns, record_.points.size());
+    Findings& findings = verdict_.findings;
+    findings.at("path.csv", 0, 0);
+    findings.require("path.csv has a row a point", path_rows_.size() == record_.points.size(),
+                     fmt::format("{} rows, {} points", path_rows_.size(), record_.points.size()));
+    for (std::size_t i = 0; i < record_.points.size(); ++i)
+      if (!check_point(i, plan.counts(record_.points[i], i))) return verdict_;  // nothing else can be told
+    findings.at("contacts.csv", 0, 0);
+    findings.require("contacts.csv has a row a contact", next_contact_ == contact_rows_.size(),
+                     fmt::format("{} rows, {} closed contacts", contact_rows_.size(), next_contact_));
+    check_events(files.events_json, record_, study_, walls_, findings);
+    verdict_.not_checked = left_out(study_, plan, unknowns);
+    return verdict_;
+  }
+
+ private:
+  bool check_point(std::size_t number, bool count) {
+    const RecordPoint& point = record_.points[number];
+    Findings& findings = verdict_.findings;
+    findings.at(states_file_, point.branch, point.step);
+    const bool well_formed = is_well_formed(study_, point.state);
+    findings.require("states are finite and whole", well_formed, "its unknowns");
+    if (!well_formed) return false;
+    const PointAtHand at = at_hand(study_, point, walls_, scales_);
+    PathExpectation expected{.contacts = listed_contacts(at.touches)};
+    add_monitors(study_, point.state, expected);
+    if (!study_.in_increments()) {
+      check_contacts(at, walls_, findings);
+      check_equilibrium(at, findings);
+      expected.energy = energy(at);
+      if (count) expected.unstable = unstable_range(at, zero_eigenvalue(point));
+    }
+    if (number < path_rows_.size()) {
+      findings.at("path.csv", point.branch, point.step);
+      check_path_row(path_rows_[number], point, expected, findings);
+    }
+    findings.at("contacts.csv", point.branch, point.step);
+    check_contact_rows(contact_rows_, next_contact_, point, at.touches, scales_.length, findings);
+    return true;
+  }
+
+  const Study& study_;
+  const Record& record_;
+  std::string states_file_;
+  Scales scales_;
+  std::vector<PlainWall> walls_;
+  std::vector<std::vector<std::string>> path_rows_, contact_rows_;
+  std::size_t next_contact_ = 0;
+  Verdict verdict_;
+};
+
+}  // namespace
+
+Verdict verify(const Study& study, const Record& record, const StoredFiles& files, const std::string& states_file) {
+  return Verifier(study, record, files, states_file).run(files);
+}
+
+std::string to_text(const Verdict& verdict) {
+  using Side = TableColumn::Side;
+  std::vector<std::vector<std::string>> rows;
+  for (const CheckSummary& check : verdict.findings.checks())
+    rows.push_back({check.name, std::to_string(check.count), fmt::format("{:.3g}", check.value),
+                    fmt::format("{:.3g}", check.bound), std::to_string(check.branch), std::to_string(check.step)});
+  std::string text = text_table({{"check", Side::left},
+                                 {"values", Side::right},
+                                 {"worst", Side::right},
+                                 {"bound", Side::right},
+                                 {"branch", Side::right},
+                                 {"step", Side::right}},
+                                rows);
+  text += "\nnot checked:\n";
+  for (const std::string& sentence : verdict.not_checked) text += "- " + sentence + "\n";
+  return text;
+}
+
+std::string to_text(const Offence& offence) {
+  return fmt::format("{}: branch {}, step {}: {}: {:.6g} exceeds {:.6g}", offence.file, offence.branch, offence.step,
+                     offence.what, offence.value, offence.bound);
+}
+
+}  // namespace arcwall::verify

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/output/record.hpp"
+#include "apps/study.hpp"
+#include "apps/verify/findings.hpp"
+
+/// Checks a run again by plain formulas: potentials differentiated by differences, walls evaluated from the deck, dense
+/// eigenvalues. Nothing that tracing computes with takes part but the elements' energies and the mesh's interpolation.
+namespace arcwall::verify {
+
+/// The files of a run as texts; contacts_csv is empty of decks without walls.
+struct StoredFiles {
+  std::string path_csv{}, contacts_csv{}, events_json{};
+};
+
+struct Verdict {
+  Findings findings{};
+  std::vector<std::string> not_checked{};  ///< one sentence each
+};
+
+/// `record` holds the states, `states_file` is the name under which messages speak of them.
+Verdict verify(const Study& study, const Record& record, const StoredFiles& files, const std::string& states_file);
+
+/// The table of worst figures, and what was not checked.
+std::string to_text(const Verdict& verdict);
+
+/// The first offender: file, branch, step, what, value and bound.
+std::string to_text(const Offence& offence);
+
+}  // namespace arcwall::verify
