@@ -22,10 +22,6 @@ std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, cons
   return {up > 0.0 ? half : -half};
 }
 
-bool concerns(const deck::Wall& wall, const std::string& member) {
-  return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
-}
-
 // The deepest penetration of one wall at rest.
 struct Penetration {
   double depth = 0.0;
@@ -50,6 +46,10 @@ std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
     std::unique_ptr<Profile> operator()(const deck::SplineProfile& p) const { return spline_profile(p.x, p.z); }
   };
   return std::visit(Maker{side_of(wall)}, wall.profile);
+}
+
+bool concerns(const deck::Wall& wall, const std::string& member) {
+  return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
 }
 
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {

@@ -81,6 +81,7 @@ class Study {
   Index closed_contacts(const State& state) const;
 
  private:
+  std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
   void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
 
   deck::Deck deck_;

@@ -12,9 +12,9 @@ packages_of() {
   case "$1" in
     build)
       echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libboost-program-options-dev libboost-math-dev \
-        libtomlplusplus-dev nlohmann-json3-dev libfmt-dev zlib1g-dev
+        libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev
       ;;
-    test) echo libgtest-dev python3 ;;
+    test) echo libgtest-dev python3 python3-meshio parallel groff-base ;;
     report)
       echo chromium
       command -v node >/dev/null || echo nodejs

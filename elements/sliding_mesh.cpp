@@ -275,7 +275,7 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   const Response response = respond(run, e, x, s, lambda, true);
   const Vec2 t = tangent(node(run, position, x).angle);
   const double S = coordinate(run, position, s), step = 1e-5 * described.length;
-  const auto natural = [&](double at) { return structure_.natural_curvature({.run = run, .s = at}); };
+  const auto natural = [&, run = run](double at) { return structure_.natural_curvature({.run = run, .s = at}); };
   const auto force = response.force.segment<2>(place);
   AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI, .stretch = 1.0 + force.dot(t) / EA};
 

@@ -1,7 +1,6 @@
 #include "apps/output/member_stretch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace arcwall {
@@ -12,18 +11,6 @@ Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double angle_of(const Vec2& v, double near) { return near + std::remainder(std::atan2(v.y(), v.x()) - near, 2.0 * pi); }
-
-// Derivatives of the cubic at its ends: as long as an inextensible axis with an angle that is quadratic along it, to
-// the second order in its slopes against the chord.
-std::array<Vec2, 2> end_derivatives(const AxisCurve& curve) {
-  const double chord = curve.chord_angle();
-  const double t1 = curve.angle1 - chord, t2 = std::remainder(curve.angle2 - chord, 2.0 * pi);
-  const double bend = t2 - t1, skew = 3.0 * (t1 + t2);
-  const double length = (curve.second - curve.first).norm() * (1.0 + bend * bend / 24.0 + skew * skew / 360.0);
-  return {length * direction(curve.angle1), length * direction(curve.angle2)};
-}
-
 // Forces differ, beyond what equilibrium leaves open.
 bool jumps(const ShapePoint& before, const ShapePoint& behind, double force, double moment) {
   constexpr double relative = 1e-6;
@@ -33,25 +20,38 @@ bool jumps(const ShapePoint& before, const ShapePoint& behind, double force, dou
 
 }  // namespace
 
-double AxisCurve::chord_angle() const { return angle_of(second - first, angle1); }
-
-Vec2 AxisCurve::position(double xi) const {
-  const auto [d1, d2] = end_derivatives(*this);
-  const double x2 = xi * xi, x3 = x2 * xi, h = 3.0 * x2 - 2.0 * x3;
-  return first + h * (second - first) + (xi - 2.0 * x2 + x3) * d1 + (x3 - x2) * d2;
+double angle_near(const Vec2& v, double other) {
+  return other + std::remainder(std::atan2(v.y(), v.x()) - other, 2.0 * pi);
 }
 
-double AxisCurve::angle(double xi) const {
-  const auto [d1, d2] = end_derivatives(*this);
-  const double x2 = xi * xi;
-  return angle_of(6.0 * (xi - x2) * (second - first) + (1.0 - 4.0 * xi + 3.0 * x2) * d1 + (3.0 * x2 - 2.0 * xi) * d2,
-                  angle1);
+// The derivatives at the ends are as long as an inextensible axis with an angle that is quadratic along it, to the
+// second order in its slopes against the chord.
+AxisCurve::AxisCurve(const Vec2& first, const Vec2& second, double angle1, double angle2)
+    : first_(first), chord_(second - first), angle1_(angle1) {
+  const double chord = angle_near(chord_, angle1);
+  const double t1 = angle1 - chord, t2 = std::remainder(angle2 - chord, 2.0 * pi);
+  const double bend = t2 - t1, skew = 3.0 * (t1 + t2);
+  const double length = chord_.norm() * (1.0 + bend * bend / 24.0 + skew * skew / 360.0);
+  derivative1_ = length * direction(angle1);
+  derivative2_ = length * direction(angle2);
+}
+
+Vec2 AxisCurve::position(double xi) const {
+  const double x2 = xi * xi, x3 = x2 * xi;
+  return first_ + (3.0 * x2 - 2.0 * x3) * chord_ + (xi - 2.0 * x2 + x3) * derivative1_ + (x3 - x2) * derivative2_;
 }
 
 Vec2 AxisCurve::integral_to(double xi) const {
-  const auto [d1, d2] = end_derivatives(*this);
-  const double x2 = xi * xi, x3 = x2 * xi, x4 = x2 * x2, h = x3 - 0.5 * x4;
-  return xi * first + h * (second - first) + (0.5 * x2 - 2.0 / 3.0 * x3 + 0.25 * x4) * d1 + (0.25 * x4 - x3 / 3.0) * d2;
+  const double x2 = xi * xi, x3 = x2 * xi, x4 = x2 * x2;
+  return xi * first_ + (x3 - 0.5 * x4) * chord_ + (0.5 * x2 - 2.0 / 3.0 * x3 + 0.25 * x4) * derivative1_ +
+         (0.25 * x4 - x3 / 3.0) * derivative2_;
+}
+
+double AxisCurve::angle(double xi) const {
+  const double x2 = xi * xi;
+  return angle_near(
+      6.0 * (xi - x2) * chord_ + (1.0 - 4.0 * xi + 3.0 * x2) * derivative1_ + (3.0 * x2 - 2.0 * xi) * derivative2_,
+      angle1_);
 }
 
 // With the force R = R1 + ξ (R2 − R1) the balance dM/dξ = −r′ × R gives
@@ -59,20 +59,17 @@ Vec2 AxisCurve::integral_to(double xi) const {
 //   M(ξ) = M1 − (r − r1) × R1 − (ξ r − ∫ r dξ) × (R2 − R1)                                               (1)
 double MemberStretch::balanced_moment(double xi) const {
   const Vec2 r = now.position(xi);
-  return first.moment - cross(r - now.first, first.force) -
+  return first.moment - cross(r - now.first(), first.force) -
          cross(xi * r - now.integral_to(xi), second.force - first.force);
 }
 
 // What the interpolation leaves open at the second end is shared out evenly.
 ShapePoint MemberStretch::at(double fraction) const {
   const double xi = std::clamp((fraction - from) / (to - from), 0.0, 1.0);
-  const auto section = [xi](const AxisCurve& curve, const std::array<double, 2>& against) {
-    return curve.angle(xi) - (1.0 - xi) * against[0] - xi * against[1];
-  };
-  const double angle = section(now, shear);
-  ShapePoint point{.fraction = fraction, .position = now.position(xi)};
+  const double angle = now.angle(xi) - shear;
+  ShapePoint point{.fraction = fraction, .position = now.position(xi), .angle = angle};
   point.displacement = point.position - rest.position(xi);
-  point.rotation = angle - section(rest, rest_shear);
+  point.rotation = angle - (rest.angle(xi) - rest_shear);
   point.axial_force = ((1.0 - xi) * first.force + xi * second.force).dot(direction(angle));
   point.moment = balanced_moment(xi) + xi * (second.moment - balanced_moment(1.0));
   return point;

@@ -70,6 +70,7 @@ std::string outcome(const Record& record) {
                   counted(record.points.size(), "point", "points"), counted(record.events.size(), "event", "events"));
   if (record.branches.size() == 1 && record.branches.front().end)
     text += ". It ended: " + plain(how_it_ended(*record.branches.front().end), 400);
+  if (!record.branches.empty() && !record.branches.back().end) text += ". It is under way or was cut off";
   return text;
 }
 

@@ -68,19 +68,12 @@ bool flexible_in_shear(deck::Theory theory) {
   return false;
 }
 
-// The axis between two nodes, and its angles against the sections. Shear is constant between them; a bar is straight.
-std::pair<AxisCurve, std::array<double, 2>> axis_between(const ElementNode& a, const ElementNode& b,
-                                                         deck::Theory theory) {
-  AxisCurve curve{.first = a.position, .second = b.position, .angle1 = a.angle, .angle2 = b.angle};
-  std::array<double, 2> shear{};
-  if (theory == deck::Theory::truss) curve.angle1 = curve.angle2 = curve.chord_angle();
-  if (flexible_in_shear(theory)) {
-    const double angle = mean(a.angle, b.angle);
-    shear.fill(std::remainder(curve.chord_angle() - angle, 2.0 * pi));
-    curve.angle1 += shear[0];
-    curve.angle2 += shear[1];
-  }
-  return {curve, shear};
+// The axis between two nodes, and its angle against the sections: shear is constant between them. A bar is straight.
+std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNode& b, deck::Theory theory) {
+  const double angle = mean(a.angle, b.angle), chord = angle_near(b.position - a.position, angle);
+  if (theory == deck::Theory::truss) return {{a.position, b.position, chord, chord}, 0.0};
+  const double shear = flexible_in_shear(theory) ? chord - angle : 0.0;
+  return {{a.position, b.position, a.angle + shear, b.angle + shear}, shear};
 }
 
 // What the nodes exert on an element, per local unknown. Loads along a bar act at its ends.
@@ -182,8 +175,8 @@ MemberStretch sliding_stretch(const SlidingStructure& body, const SlidingMesh& m
   const SlidingMesh::EndForces forces = mesh.end_forces(run, position, x, s, state.lambda);
   return {.from = S1,
           .to = S2,
-          .now = {.first = a.position, .second = b.position, .angle1 = a.angle, .angle2 = b.angle},
-          .rest = {.first = a0.position, .second = b0.position, .angle1 = a0.angle, .angle2 = b0.angle},
+          .now = {a.position, b.position, a.angle, b.angle},
+          .rest = {a0.position, b0.position, a0.angle, b0.angle},
           .first = {.force = -forces[0].head<2>(), .moment = -forces[0][2]},
           .second = {.force = forces[1].head<2>(), .moment = forces[1][2]}};
 }
