@@ -37,6 +37,7 @@ if [[ $status == 0 || $status == 3 || $status == 6 ]]; then
   cat <<END
 
 The results are in $out:
+  report.html  open this in a browser: the curve, the events and the deformed shapes, to play and click
   events.txt   the table above: where the column touches the walls, snaps and lets go
   path.csv     one row a point; plot the column lambda (the load) over mid or over shortening
   events.json  the same events for programs

@@ -70,6 +70,7 @@ std::string outcome(const Record& record) {
                   counted(record.points.size(), "point", "points"), counted(record.events.size(), "event", "events"));
   if (record.branches.size() == 1 && record.branches.front().end)
     text += ". It ended: " + plain(how_it_ended(*record.branches.front().end), 400);
+  if (!record.branches.empty() && !record.branches.back().end) text += ". It is under way or was cut off";
   return text;
 }
 
@@ -260,7 +261,7 @@ std::string event_rows(const Record& record) {
     text += figure_cell(std::to_string(event.branch)) + figure_cell(std::to_string(event.step));
     text += figure_cell(shown_number(event.lambda, 10));
     text += fmt::format("<td class=\"kind\">{}{}</td>", svg_mark(event.kind), words(event.kind));
-    text += cell(plain(event_detail(event), 400));
+    text += "<td class=\"what\">" + escaped(plain(event_detail(event), 400)) + "</td>";
     for (std::size_t i = 0; i < size.size(); ++i) {
       const double value = event.monitors[i];
       text += figure_cell(shown_number(std::abs(value) < roundoff * size[i] ? 0.0 : value, 6));
@@ -271,7 +272,9 @@ std::string event_rows(const Record& record) {
 }
 
 std::string event_titles(const Record& record) {
-  std::string text = "<tr><th>id</th><th>branch</th><th>step</th><th class=\"figure\">λ</th><th>kind</th><th>what</th>";
+  std::string text = "<tr>";
+  for (const char* number : {"id", "branch", "step", "λ"}) text += fmt::format("<th class=\"figure\">{}</th>", number);
+  text += "<th>kind</th><th>what</th>";
   for (const RecordColumn& column : record.columns)
     text += fmt::format("<th class=\"figure\">{}</th>", escaped(shown_title(column)));
   return text + "<th>unstable</th></tr>";
@@ -344,6 +347,7 @@ std::string report_html(const Record& record, const ReportContent& content) {
                  {"legend", legend(record)},
                  {"stage", stage(content.shapes)},
                  {"shape_notes", shape_notes(record, content.shapes)},
+                 {"touching", record.has_walls ? "touching" : "without-walls"},
                  {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
                  {"strip", strip(record, content.shapes)},
                  {"event_titles", event_titles(record)},

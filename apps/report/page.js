@@ -91,7 +91,8 @@
         font: { family: 'system-ui, "Segoe UI", Roboto, Arial, sans-serif', size: 13, color: ink },
         paper_bgcolor: '#fff', plot_bgcolor: '#fff' };
       const config = { responsive: true, displaylogo: false, doubleClick: 'reset',
-        modeBarButtonsToRemove: ['lasso2d', 'select2d', 'autoScale2d'] };
+        modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', 'resetScale2d']],
+        toImageButtonOptions: { filename: 'load', scale: 2 } };
       Plotly.react(plot, all, layout, config);
       mark(marked);
     };
@@ -316,5 +317,6 @@
   make_list([...document.querySelectorAll('#events tbody tr')]);
   make_list([...document.querySelectorAll('#strip figure')]);
   make_list([...document.querySelectorAll('.tree [data-point]')]);
-  show(0);
+  const asked_for = /^#point=(\d+)$/.exec(window.location.hash);  // report.html#point=30
+  show(asked_for ? shape_near(Number(asked_for[1])) : 0);
 })();

@@ -41,7 +41,7 @@ after(async () => {
 });
 
 // A page, and what it complains about or asks for.
-const open = async (file, options = {}) => {
+const open = async (file, options = {}, fragment = '') => {
   const context = await browser.newContext({ viewport: desktop, ...options });
   const page = await context.newPage();
   const complaints = [], requests = [];
@@ -52,10 +52,10 @@ const open = async (file, options = {}) => {
   page.on('dialog', (dialog) => { complaints.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
   page.on('request', (request) => requests.push(request.url()));
   const address = pathToFileURL(file).href;
-  await page.goto(address);
+  await page.goto(address + fragment);
   const finish = async () => {
     assert.deepEqual(complaints, [], 'the console is quiet');
-    assert.deepEqual(requests.filter((url) => url !== address && !url.startsWith('data:')), [], 'nothing is fetched');
+    assert.deepEqual(requests.filter((url) => url !== address && !/^(data|blob):/.test(url)), [], 'nothing is fetched');
     await context.close();
   };
   return { page, finish };
@@ -166,6 +166,26 @@ test('play goes to the end, and again from the start', async () => {
   await page.waitForFunction(() => Number(document.getElementById('slider').value) < 10);
   await page.keyboard.press(' ');  // the button has the focus
   assert.equal((await page.textContent('#play')).trim(), 'Play');
+  await finish();
+});
+
+test('the curve can be saved as a picture, and its buttons send nothing anywhere', async () => {
+  const { page, finish } = await open(channel);
+  if (await has_plotly(page)) {
+    const titles = await page.$$eval('.modebar-btn', (buttons) => buttons.map((button) => button.getAttribute('data-title') ?? ''));
+    assert.equal(titles.length, 6, titles.join(', '));
+    assert.ok(!titles.some((title) => /cloud|share|studio|link/i.test(title)), titles.join(', '));
+    await page.hover('#plot');
+    const download = page.waitForEvent('download');
+    await page.click('.modebar-btn >> nth=0');
+    assert.equal((await download).suggestedFilename(), 'load.png');
+  }
+  await finish();
+});
+
+test('an address can name a point', async () => {
+  const { page, finish } = await open(channel, {}, '#point=30');
+  assert.equal(await page.inputValue('#slider'), '30');
   await finish();
 });
 

@@ -225,6 +225,8 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
                                 "run truss.toml --verbose=2",
                                 "run truss.toml --threads 2",
                                 "resume",
+                                "report",
+                                "report a b",
                                 "''",
                                 "run ''",
                                 "--quiet truss.toml",
@@ -240,7 +242,7 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
 }
 
 TEST_F(ProgramTest, HelpBeginsWithAnExample) {
-  for (const char* command : {"", "run", "resume", "check", "examples"}) {
+  for (const char* command : {"", "run", "resume", "report", "check", "examples"}) {
     const Outcome outcome = run(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.out.find("  trace-path " + std::string(command)), 0u) << outcome.out;
@@ -274,8 +276,32 @@ TEST_F(ProgramTest, ResumeGoesOnBehindALimit) {
   EXPECT_EQ(ended.status, 0);
   EXPECT_EQ(ended.out, content(work() / "whole" / "events.txt"));
   EXPECT_EQ(run("resume truss --quiet").status, 0) << "nothing is left to trace";
-  for (const char* name : {"path.csv", "events.json", "deck.toml", "checkpoint"})
+  for (const char* name : {"path.csv", "events.json", "deck.toml", "checkpoint", "report.html"})
     EXPECT_EQ(content(work() / "truss" / name), content(work() / "whole" / name)) << name;
+}
+
+// Whether the run ended or was stopped, byte for byte.
+TEST_F(ProgramTest, ReportIsWrittenAgainAsItWas) {
+  for (const char* more : {"", " --max-points 3", " --set path.step=0.2"}) {
+    run(std::string("truss.toml --quiet") + more);
+    const std::string page = content(work() / "truss" / "report.html");
+    ASSERT_NE(page, "");
+    std::filesystem::remove(work() / "truss" / "report.html");
+
+    const Outcome outcome = run("report truss");
+
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    expect_in("wrote truss/report.html", outcome.err);
+    EXPECT_TRUE(content(work() / "truss" / "report.html") == page) << more;
+  }
+}
+
+TEST_F(ProgramTest, ReportOfWhatIsNoRunGivesStatus5) {
+  EXPECT_EQ(run("report nowhere").status, 5);
+  expect_in("no such folder", run("report nowhere").err);
+  expect_in("checkpoint: there is none", run("report .").err);
+  EXPECT_FALSE(std::filesystem::exists(work() / "report.html"));
 }
 
 TEST_F(ProgramTest, ResumeWithoutAWholeCheckpointGivesStatus5) {

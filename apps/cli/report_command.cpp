@@ -1,0 +1,33 @@
+#include <iostream>
+
+#include "apps/cli/commands.hpp"
+#include "apps/output/files.hpp"
+#include "apps/output/report_html.hpp"
+#include "apps/run/run_under_way.hpp"
+
+namespace arcwall {
+
+namespace {
+
+ExitStatus write_report(const Options& options) {
+  const std::filesystem::path folder = options.words().front();
+  const RunUnderWay run = stored_run(folder, RunUnderWay::Resume::as_ended);
+  const std::filesystem::path file = folder / "report.html";
+  write_whole(file, report_html(run.record(), report_content(run.study(), run.record())));
+  std::cerr << "wrote " << file.string() << "\n";
+  return ExitStatus::success;
+}
+
+}  // namespace
+
+Command report_command() {
+  return {.description = {.name = "report",
+                          .example = "trace-path report results",
+                          .usage = "DIR",
+                          .summary = "writes report.html of a run again",
+                          .least_words = 1,
+                          .most_words = 1},
+          .run = write_report};
+}
+
+}  // namespace arcwall
