@@ -12,7 +12,7 @@ packages_of() {
       echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libboost-program-options-dev libboost-math-dev \
         libtomlplusplus-dev nlohmann-json3-dev libfmt-dev zlib1g-dev
       ;;
-    test) echo libgtest-dev python3 parallel groff-base ;;
+    test) echo libgtest-dev python3 parallel groff-base dpkg-dev ;;
     format) echo clang-format git ;;
     benchmark) echo libbenchmark-dev ;;
     *)
