@@ -137,7 +137,7 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
   const Layout_& on = layout(state.piece);
   const Vector s = on.s_of(state);
   const auto [bound, which] = on.limits()[limit];
-  const auto asked = [&] {
+  const auto asked = [&, which = which] {
     const Layout_::Segment& segment = on.segments()[which];
     const auto [from, to] = on.ends(body_, segment, s);
     return body_.elements_between(segment.run, from, to);
@@ -198,7 +198,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
   const auto [bound, which] = on.limits()[limit];
   const Index n = on.mesh().unknowns(), first_s = state.x.size() - s.size();
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  const auto by_ends = [&](double factor) {
+  const auto by_ends = [&, which = which](double factor) {
     const Layout_::Segment& segment = on.segments()[which];
     const auto [from, to] = on.ends(body_, segment, s);
     const double step = 1e-6 * body_.length(segment.run);

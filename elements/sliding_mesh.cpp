@@ -275,7 +275,7 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   const Response response = respond(run, e, x, s, lambda, true);
   const Vec2 t = tangent(node(run, position, x).angle);
   const double S = coordinate(run, position, s), step = 1e-5 * described.length;
-  const auto natural = [&](double at) { return structure_.natural_curvature({.run = run, .s = at}); };
+  const auto natural = [&, run = run](double at) { return structure_.natural_curvature({.run = run, .s = at}); };
   const auto force = response.force.segment<2>(place);
   AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI, .stretch = 1.0 + force.dot(t) / EA};
 
@@ -298,6 +298,12 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   strain.curvature_dlambda = response.force_lambda[turn] / EI;
   strain.stretch_dlambda = response.force_lambda.segment<2>(place).dot(t) / EA;
   return strain;
+}
+
+SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index run, Index position, const Vector& x, const Vector& s,
+                                                        double lambda) const {
+  const Six force = respond(run, position, x, s, lambda, false).force;
+  return {force.head<3>(), force.tail<3>()};
 }
 
 Index SlidingStructureMesh::element_at(const MaterialPoint& point, const Vector& s) const {

@@ -71,7 +71,7 @@ EssenburgElement::Response UpdatedEssenburgBeam::respond(std::size_t i, const Sq
   const Square dual = F.inverse().transpose();  // columns g1, g3
   const Square P = weight * stresses_[i] * dual, S = dual.transpose() * P;
   const auto [t1, t3] = axes(F);
-  const auto strains = [&](const Vec2& g) {
+  const auto strains = [&, t1 = t1, t3 = t3](const Vec2& g) {
     Eigen::Matrix<double, 3, 2> rows;
     rows << g.dot(t1) * t1.transpose(), g.dot(t3) * t3.transpose(), (g.dot(t3) * t1 + g.dot(t1) * t3).transpose();
     return rows;

@@ -15,6 +15,7 @@ struct Command {
 };
 
 Command run_command();
+Command resume_command();
 Command check_command();
 Command examples_command();
 

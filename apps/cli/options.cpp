@@ -108,13 +108,19 @@ std::optional<int> Options::whole_number(const std::string& name, int least) con
   return number;
 }
 
-std::optional<double> Options::seconds(const std::string& name) const {
+std::optional<double> Options::pause(const std::string& name) const {
   const auto value = text(name);
   if (!value) return std::nullopt;
   double number = 0.0;
   const auto [end, error] = std::from_chars(value->data(), value->data() + value->size(), number);
-  if (error != std::errc{} || end != value->data() + value->size() || !std::isfinite(number) || number <= 0.0)
-    throw InputError(fmt::format("--{} is {}; it must be a number of seconds above 0", name, *value));
+  if (error != std::errc{} || end != value->data() + value->size() || !std::isfinite(number) || number < 0.0)
+    throw InputError(fmt::format("--{} is {}; it must be a number of seconds, at least 0", name, *value));
+  return number;
+}
+
+std::optional<double> Options::seconds(const std::string& name) const {
+  const auto number = pause(name);
+  if (number && *number == 0.0) throw InputError(fmt::format("--{} is {}; it must be above 0", name, *text(name)));
   return number;
 }
 

@@ -47,6 +47,9 @@ class Options {
   /// A finite number above 0, or InputError.
   std::optional<double> seconds(const std::string& name) const;
 
+  /// A finite number of at least 0, or InputError.
+  std::optional<double> pause(const std::string& name) const;
+
   /// A whole number of at least 0, or InputError.
   std::optional<int> number(const std::string& name) const;
 

@@ -43,7 +43,7 @@ bool ProgressLine::is_due() const {
 }
 
 void ProgressLine::show(const Record& record) {
-  if (is_due() && !record.points.empty()) show(progress_text(record));
+  if (is_due() && !record.points.empty()) show(progress_text(record, record.points.back()));
 }
 
 void ProgressLine::show(const std::string& text) {
@@ -53,8 +53,7 @@ void ProgressLine::show(const std::string& text) {
   visible_ = true;
 }
 
-std::string progress_text(const Record& record) {
-  const RecordPoint& point = record.points.back();
+std::string progress_text(const Record& record, const RecordPoint& point) {
   std::string text = fmt::format("branch {}  {} points  λ={:.6g}", point.branch, point.step + 1, point.lambda);
   for (std::size_t i = 0; i < point.monitors.size(); ++i)  // −0 + 0 is 0
     text += fmt::format("  {}={:.5g}", record.columns[i].name, point.monitors[i] + 0.0);

@@ -35,7 +35,7 @@ class ProgressLine {
   bool visible_ = false;
 };
 
-/// `branch 0  123 points  λ=1.25  mid=0.1  unstable 0  contacts 3`
-std::string progress_text(const Record& record);
+/// `branch 0  123 points  λ=1.25  mid=0.1  unstable 0  contacts 3`, of the record up to one of its points.
+std::string progress_text(const Record& record, const RecordPoint& point);
 
 }  // namespace arcwall

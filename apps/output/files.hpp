@@ -34,6 +34,9 @@ class OutputFolder {
   /// Writes one file whole. Throws OutputError.
   void write_whole(const std::string& name, std::string_view text) const;
 
+  /// The same, and the file is on the disk when this returns, whatever happens to the machine then.
+  void write_durably(const std::string& name, std::string_view text) const;
+
  private:
   std::filesystem::path folder_;
   bool made_ = false;

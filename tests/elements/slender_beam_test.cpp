@@ -117,7 +117,7 @@ TEST(StretchReference, IsThatOfTheDeviatedCurve) {
     EXPECT_EQ(stretch.length, curve.length(0.4, 0.7));
     EXPECT_EQ(stretch.angles[0], curve.at(0.4).angle);
     EXPECT_EQ(stretch.angles[3], curve.at(0.7).angle);
-    for (std::size_t k : {1, 2}) {
+    for (const std::size_t k : {1u, 2u}) {
       double low = 0.4, high = 0.7;
       for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
