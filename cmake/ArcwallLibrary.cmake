@@ -13,6 +13,6 @@ function(arcwall_library)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/arcwall>)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:arcwall_warnings>)
-  install(TARGETS ${target} EXPORT arcwallTargets
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/arcwall)
+  install(TARGETS ${target} EXPORT arcwallTargets COMPONENT development
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/arcwall COMPONENT development)
 endfunction()

@@ -14,7 +14,7 @@ packages_of() {
       echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libboost-program-options-dev libboost-math-dev \
         libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev
       ;;
-    test) echo libgtest-dev python3 python3-meshio parallel groff-base ;;
+    test) echo libgtest-dev python3 python3-meshio parallel groff-base dpkg-dev ;;
     report)
       echo chromium
       command -v node >/dev/null || echo nodejs

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Installs a built tree into a prefix of its own and builds and runs the project beside this script against it:
+# Builds and runs the project beside this script against what a built tree installs:
 #
 #   bash tests/package/run.sh BUILD_FOLDER
+#
+# On Debian that is what the packages hold, which are made, looked at and unpacked; elsewhere an installed tree.
 set -euo pipefail
 
 build=$(cd "${1:?the build folder}" && pwd)
@@ -9,8 +11,66 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
-cmake -S . -B "$scratch/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_PREFIX_PATH="$scratch/prefix"
+fail() {
+  echo "error: $1" >&2
+  exit 1
+}
+
+# has FILE: the unpacked packages have it, readable by all.
+has() {
+  [[ -e $scratch/root$1 ]] || fail "the packages have no $1"
+}
+
+# depends PACKAGE ON
+depends() {
+  dpkg-deb --field "$scratch/$1.deb" Depends | grep -qF -- "$2" || fail "$1 does not depend on $2"
+}
+
+make_packages() {
+  # Only the place of the libraries depends on the prefix; nothing is compiled again.
+  cmake -S ../.. -B "$build" --log-level=WARNING -DCMAKE_INSTALL_PREFIX=/usr
+  cmake --build "$build" --parallel 2 --target trace-path shell_files arcwall_core arcwall_continuation \
+    arcwall_elements arcwall_contact >/dev/null
+  rm -rf "$build/packages"
+  cpack --config "$build/CPackConfig.cmake" >/dev/null
+  local name
+  for name in arcwall libarcwall-dev; do
+    cp "$build/packages/${name}"_*.deb "$scratch/$name.deb" || fail "there is no package $name"
+    dpkg-deb --extract "$scratch/$name.deb" "$scratch/root"
+    has "/usr/share/doc/$name/copyright"
+    has "/usr/share/doc/$name/changelog.Debian.gz"
+    gzip --test "$scratch/root/usr/share/doc/$name/changelog.Debian.gz"
+  done
+}
+
+look_at_packages() {
+  local libraries
+  libraries=/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
+  for file in /usr/bin/trace-path /usr/share/man/man1/trace-path.1.gz /usr/share/bash-completion/completions/trace-path \
+    /usr/include/arcwall/core/system.hpp "$libraries/libarcwall_core.a" "$libraries/cmake/arcwall/arcwallConfig.cmake"; do
+    has "$file"
+  done
+  # All below /usr, owned by root, folders and programs 755, other files 644.
+  for name in arcwall libarcwall-dev; do
+    dpkg-deb --contents "$scratch/$name.deb" | awk '
+      $2 != "root/root" || ($1 != "drwxr-xr-x" && $1 != "-rw-r--r--" && !($1 == "-rwxr-xr-x" && $6 ~ "^./usr/bin/")) ||
+      $6 !~ "^./usr/" || $6 ~ "^./usr/local" { print; wrong = 1 } END { exit wrong }' || fail "wrong owner, mode or place"
+  done
+  depends arcwall libc6
+  depends arcwall libumfpack
+  depends libarcwall-dev libsuitesparse-dev
+  depends libarcwall-dev libeigen3-dev
+  "$scratch/root/usr/bin/trace-path" --version
+}
+
+if command -v dpkg-deb >/dev/null; then
+  make_packages
+  look_at_packages
+  prefix=$scratch/root/usr
+else
+  prefix=$scratch/prefix
+  cmake --install "$build" --prefix "$prefix" >/dev/null
+fi
+cmake -S . -B "$scratch/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix"
 cmake --build "$scratch/build"
 "$scratch/build/limit_load"
