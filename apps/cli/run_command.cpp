@@ -90,7 +90,7 @@ ExitStatus run(const Options& options) {
     std::cerr << "error: there is no equilibrium at the start: " << explanation(end.reason) << "\n";
     return ExitStatus::no_start;
   }
-  const ExitStatus status = exit_status(end.reason);
+  const ExitStatus status = std::cout ? exit_status(end.reason) : ExitStatus::file_error;
   const RunSeconds seconds{.total = since_begin.seconds(), .tracing = since_start.seconds()};
   write_files(folder, request, study, record, seconds, status);
   if (request.report == Report::table) std::cout << events_text(record);
@@ -139,6 +139,11 @@ void print_lines(const Record& record, std::size_t& events_printed) {
   std::cout << std::flush;
 }
 
+// What reads the lines has gone, or its disk is full.
+BranchEnd nobody_reads() {
+  return {.reason = EndReason::interrupted, .detail = "standard output can no longer be written"};
+}
+
 // Every branch, one after the other; the record says how each ended.
 void trace(const RunRequest& request, const Study& study, State start, const InterruptGuard& interrupts,
            Record& record) {
@@ -165,6 +170,8 @@ void trace(const RunRequest& request, const Study& study, State start, const Int
     if (request.report == Report::json_lines) print_lines(record, events_printed);
     if (interrupts.interrupted()) {
       explorer.stop({.reason = EndReason::interrupted, .detail = "by a signal"});
+    } else if (!std::cout) {
+      explorer.stop(nobody_reads());
     } else if (request.max_seconds && watch.seconds() >= *request.max_seconds) {
       explorer.stop({.reason = EndReason::max_time, .detail = round_trip(*request.max_seconds) + " s"});
     }
@@ -217,6 +224,7 @@ void trace_increments(const RunRequest& request, Study& study, State start, cons
       if (static_cast<int>(record.points.size()) >= most_points)
         return {.reason = EndReason::max_points, .detail = std::to_string(most_points)};
       if (interrupts.interrupted()) return {.reason = EndReason::interrupted, .detail = "by a signal"};
+      if (!std::cout) return nobody_reads();
       if (request.max_seconds && watch.seconds() >= *request.max_seconds)
         return {.reason = EndReason::max_time, .detail = round_trip(*request.max_seconds) + " s"};
     }
@@ -256,13 +264,15 @@ const BranchEnd& decisive_end(const Record& record) {
 // result.json comes last: where it is, the others are.
 void write_files(const OutputFolder& folder, const RunRequest& request, const Study& study, const Record& record,
                  const RunSeconds& seconds, ExitStatus status) {
-  folder.write_whole("path.csv", path_csv(record, request.units));
-  if (record.has_walls) folder.write_whole("contacts.csv", contacts_csv(record, request.units));
-  folder.write_whole("events.json", to_text(events_json(record), JsonLayout::lines));
-  folder.write_whole("events.txt", events_text(record));
-  folder.write_whole("deck.toml", deck::to_toml(study.deck()));
+  FileSet files(folder);
+  files.write("path.csv", path_csv(record, request.units));
+  if (record.has_walls) files.write("contacts.csv", contacts_csv(record, request.units));
+  files.write("events.json", to_text(events_json(record), JsonLayout::lines));
+  files.write("events.txt", events_text(record));
+  files.write("deck.toml", deck::to_toml(study.deck()));
   const auto result = result_json(study, request.deck_text, record, seconds, static_cast<int>(status));
-  folder.write_whole("result.json", to_text(result, JsonLayout::lines));
+  files.write("result.json", to_text(result, JsonLayout::lines));
+  files.put_in_place();
 }
 
 void say_how_it_ended(const BranchEnd& end, ExitStatus status, const OutputFolder& folder) {

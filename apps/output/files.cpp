@@ -22,50 +22,6 @@ namespace {
   throw OutputError(file.string() + ": " + what + ": " + reason);
 }
 
-// A file under a hidden name that goes away unless it is renamed.
-class Temporary {
- public:
-  explicit Temporary(const fs::path& target)
-      : target_(target),
-        path_(target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()))),
-        descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) give_up(errno);
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-
-  void write(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t written = ::write(descriptor_, text.data(), text.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) give_up(errno);
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-
-  // Some file systems report a full disk only when the file is closed.
-  void rename() {
-    if (::close(std::exchange(descriptor_, -1)) != 0) give_up(errno);
-    std::error_code error;
-    fs::rename(path_, target_, error);
-    if (error) give_up(error.value());
-    path_.clear();
-  }
-
- private:
-  [[noreturn]] void give_up(int error) const {
-    fail(target_, "cannot be written", std::generic_category().message(error));
-  }
-
-  fs::path target_;
-  fs::path path_;
-  int descriptor_;
-};
-
 // The deck that filled a folder, by its result.json; empty if that cannot be told.
 std::string filled_by(const fs::path& folder) {
   std::ifstream stream(folder / "result.json", std::ios::binary);
@@ -78,10 +34,46 @@ std::string filled_by(const fs::path& folder) {
 
 }  // namespace
 
+StagedFile::StagedFile(fs::path target)
+    : target_(std::move(target)),
+      path_(target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()))),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) give_up(errno);
+}
+
+StagedFile::~StagedFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+// Some file systems report a full disk only when the data go out to it, or when the file is closed. And after a crash
+// of the machine the new name must not stand for data that never went out.
+void StagedFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor_, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) give_up(errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fsync(descriptor_) != 0) give_up(errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) give_up(errno);
+}
+
+void StagedFile::put_in_place() {
+  std::error_code error;
+  fs::rename(path_, target_, error);
+  if (error) give_up(error.value());
+  path_.clear();
+}
+
+void StagedFile::give_up(int error) const {
+  fail(target_, "cannot be written", std::generic_category().message(error));
+}
+
 void write_whole(const fs::path& file, std::string_view text) {
-  Temporary temporary(file);
-  temporary.write(text);
-  temporary.rename();
+  StagedFile staged(file);
+  staged.write(text);
+  staged.put_in_place();
 }
 
 void require_usable(const fs::path& folder, const std::string& deck, Foreign foreign) {
@@ -107,7 +99,7 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& deck, Foreign for
   std::error_code error;
   made_ = fs::create_directories(folder_, error);
   if (error) fail(folder_, "cannot be made", error.message());
-  const Temporary probe(folder_ / "probe");
+  const StagedFile probe(folder_ / "probe");
 }
 
 OutputFolder::~OutputFolder() {
@@ -116,6 +108,12 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::write_whole(const std::string& name, std::string_view text) const {
   arcwall::write_whole(folder_ / name, text);
+}
+
+void FileSet::write(const std::string& name, std::string_view text) { files_.emplace_back(folder_ / name).write(text); }
+
+void FileSet::put_in_place() {
+  for (StagedFile& file : files_) file.put_in_place();
 }
 
 }  // namespace arcwall

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -19,6 +20,9 @@ using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
 const Names outputs{"deck.toml", "events.json", "events.txt", "path.csv", "result.json"};
+
+// Steps so small that the run would take minutes.
+const std::string endless = " --set path.max_step=1e-8 --set path.min_step=1e-12 --set path.max_points=100000000";
 
 struct Outcome {
   int status = -1;
@@ -352,12 +356,49 @@ TEST_F(ProgramTest, WhatCannotBeWrittenGivesStatus5) {
   EXPECT_TRUE(wrote_nothing());
 }
 
+// Files may grow to a block of 512 bytes: that is enough for path.csv, not for events.json.
+TEST_F(ProgramTest, ADiskThatIsFullKeepsTheFilesOfTheEarlierRun) {
+  ASSERT_EQ(run("truss.toml --max-points 4").status, 6);
+  ASSERT_LT(content(work() / "truss" / "path.csv").size(), 512u);
+  ASSERT_GT(content(work() / "truss" / "events.json").size(), 512u);
+  const auto contents = [&] {
+    std::map<std::string, std::string> result;
+    for (const std::string& name : names_in(work() / "truss")) result[name] = content(work() / "truss" / name);
+    return result;
+  };
+  const auto before = contents();
+
+  const Outcome outcome = shell("ulimit -f 1; \"$PROGRAM\" truss.toml --max-points 4 --set path.step=2.5");
+
+  EXPECT_EQ(outcome.status, 5);
+  expect_in("truss/events.json: cannot be written: File too large", outcome.err);
+  EXPECT_EQ(contents(), before);
+}
+
+TEST_F(ProgramTest, LinesThatNobodyReadsEndTheRunWithStatus5AndWhatWasTraced) {
+  const Outcome outcome = shell("{ \"$PROGRAM\" truss.toml --json" + endless + "; echo $? >status; } | head -n 1");
+
+  EXPECT_EQ(content(work() / "status"), "5\n");
+  expect_in("error: standard output cannot be written\n", outcome.err);
+  EXPECT_EQ(lines(outcome.out).size(), 1u);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  const Json end = Json::parse(content(work() / "truss" / "events.json"))["events"].back();
+  EXPECT_EQ(end["reason"], "interrupted");
+  EXPECT_EQ(end["detail"], "standard output can no longer be written");
+  EXPECT_EQ(Json::parse(content(work() / "truss" / "result.json"))["status"], 5);
+}
+
+TEST_F(ProgramTest, LinesForAFullDeviceEndTheRunWithStatus5AndWhatWasTraced) {
+  const Outcome outcome = shell("\"$PROGRAM\" truss.toml --json" + endless + " >/dev/full");
+
+  EXPECT_EQ(outcome.status, 5);
+  expect_in("error: standard output cannot be written\n", outcome.err);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+}
+
 TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
-  // Steps so small that the run would take minutes.
-  const Outcome outcome = shell(
-      "\"$PROGRAM\" truss.toml --quiet --set path.max_step=1e-8 --set path.min_step=1e-12 --set "
-      "path.max_points=100000000 & "
-      "child=$!; sleep 0.5; kill -TERM $child; wait $child");
+  const Outcome outcome =
+      shell("\"$PROGRAM\" truss.toml --quiet" + endless + " & child=$!; sleep 0.5; kill -TERM $child; wait $child");
   EXPECT_EQ(outcome.status, 130);
   EXPECT_EQ(names_in(work() / "truss"), outputs);
   EXPECT_EQ(Json::parse(content(work() / "truss" / "events.json"))["events"].back()["reason"], "interrupted");
