@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs those Debian 12 packages of the named groups that are missing:
 #
-#   bash cmake/install_debian_packages.sh build [test] [format] [benchmark]
+#   bash cmake/install_debian_packages.sh build [test] [sanitize] [format] [benchmark]
 #
 # Needs root or sudo only if something is missing. Works without HOME, USER and TERM.
 set -euo pipefail
@@ -12,12 +12,13 @@ packages_of() {
       echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libboost-program-options-dev libboost-math-dev \
         libtomlplusplus-dev nlohmann-json3-dev libfmt-dev zlib1g-dev
       ;;
-    test) echo libgtest-dev python3 ;;
+    test) echo libgtest-dev librapidcheck-dev python3 ;;
+    sanitize) echo clang libclang-rt-14-dev ;;
     format) echo clang-format git ;;
     benchmark) echo libbenchmark-dev ;;
     *)
-      echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, format and" \
-        "benchmark" >&2
+      echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, sanitize," \
+        "format and benchmark" >&2
       return 2
       ;;
   esac
@@ -38,7 +39,7 @@ as_root() {
 }
 
 if [[ $# == 0 ]]; then
-  echo "usage: bash cmake/install_debian_packages.sh build [test] [format] [benchmark]" >&2
+  echo "usage: bash cmake/install_debian_packages.sh build [test] [sanitize] [format] [benchmark]" >&2
   exit 2
 fi
 
