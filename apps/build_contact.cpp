@@ -11,7 +11,28 @@ namespace arcwall {
 
 namespace {
 
-std::shared_ptr<const Profile> make_profile(const deck::Wall& wall, Side side) {
+// Offsets from the axis of the points that may touch: 0, or the face whose normal looks at the wall; both of a section
+// that stands across it.
+std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
+  if (wall.acts_on == deck::ActsOn::axis) return {0.0};
+  const double up = std::cos(section.shape.angle) * (wall.side == deck::Side::above ? 1.0 : -1.0);
+  const double half = 0.5 * mesh.height.value();
+  constexpr double level = 1e-9;
+  if (std::abs(up) <= level) return {half, -half};
+  return {up > 0.0 ? half : -half};
+}
+
+// The deepest penetration of one wall at rest.
+struct Penetration {
+  double depth = 0.0;
+  ContactLabel label{};
+};
+
+}  // namespace
+
+Side side_of(const deck::Wall& wall) { return wall.side == deck::Side::above ? Side::above : Side::below; }
+
+std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
   struct Maker {
     Side side;
     std::unique_ptr<Profile> operator()(const deck::FlatProfile& p) const { return flat_profile(p.z); }
@@ -24,38 +45,19 @@ std::shared_ptr<const Profile> make_profile(const deck::Wall& wall, Side side) {
     }
     std::unique_ptr<Profile> operator()(const deck::SplineProfile& p) const { return spline_profile(p.x, p.z); }
   };
-  return std::visit(Maker{side}, wall.profile);
-}
-
-// Offsets from the axis of the points that may touch: 0, or the face whose normal looks at the wall; both of a section
-// that stands across it.
-std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
-  if (wall.acts_on == deck::ActsOn::axis) return {0.0};
-  const double up = std::cos(section.shape.angle) * (wall.side == deck::Side::above ? 1.0 : -1.0);
-  const double half = 0.5 * mesh.height.value();
-  constexpr double level = 1e-9;
-  if (std::abs(up) <= level) return {half, -half};
-  return {up > 0.0 ? half : -half};
+  return std::visit(Maker{side_of(wall)}, wall.profile);
 }
 
 bool concerns(const deck::Wall& wall, const std::string& member) {
   return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
 }
 
-// The deepest penetration of one wall at rest.
-struct Penetration {
-  double depth = 0.0;
-  ContactLabel label{};
-};
-
-}  // namespace
-
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
   std::vector<Candidate> candidates;
   const Vector rest = Vector::Zero(structure.size({}));
   for (const deck::Wall& wall : deck.walls) {
-    const Side side = wall.side == deck::Side::above ? Side::above : Side::below;
-    const auto profile = make_profile(wall, side);
+    const Side side = side_of(wall);
+    const std::shared_ptr<const Profile> profile = profile_of(wall);
     std::vector<std::pair<Index, Vec2>> taken;  // node and place: members that meet share a point
     Penetration deepest;
     for (const MemberMesh& mesh : structure.members()) {
@@ -100,10 +102,9 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
 std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
   std::vector<Obstacle> obstacles;
   for (const deck::Wall& wall : deck.walls) {
-    const Side side = wall.side == deck::Side::above ? Side::above : Side::below;
     Obstacle obstacle{.name = wall.name,
-                      .profile = make_profile(wall, side),
-                      .side = side,
+                      .profile = profile_of(wall),
+                      .side = side_of(wall),
                       .on_face = wall.acts_on == deck::ActsOn::face};
     for (Index run = 0; run < structure.runs(); ++run)
       obstacle.runs.push_back(concerns(wall, structure.label({.run = run, .s = 0.0}).first) ? 1 : 0);

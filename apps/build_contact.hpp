@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "apps/build_structure.hpp"
@@ -8,6 +10,13 @@
 #include "elements/sliding_structure.hpp"
 
 namespace arcwall {
+
+/// Where a wall is, and its surface.
+Side side_of(const deck::Wall& wall);
+std::unique_ptr<Profile> profile_of(const deck::Wall& wall);
+
+/// Whether a wall stands in the way of a member.
+bool concerns(const deck::Wall& wall, const std::string& member);
 
 /// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
 /// each wall that a member penetrates at the start.

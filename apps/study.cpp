@@ -66,9 +66,11 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblem
   return false;
 }
 
-void check_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
-  if (!increments_of(deck)) return;
-  if (!structure.can_be_updated())
+// Whether increments can be taken where the deck wants them.
+bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
+  if (!increments_of(deck)) return false;
+  const bool possible = structure.can_be_updated();
+  if (!possible)
     problems.add(deck.path.position, "path.method",
                  "method \"incremental\" needs members of theory \"classic\" or \"essenburg\" throughout",
                  "use \"spherical\"");
@@ -76,6 +78,7 @@ void check_increments(const deck::Deck& deck, const Structure& structure, DeckPr
     if (load.constant)
       problems.add(load.position, "load", "method \"incremental\" has no constant loads",
                    "multiply all loads by lambda, or use method \"spherical\"");
+  return possible;
 }
 
 }  // namespace
@@ -91,13 +94,11 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   if (!moves_something(*structure_))
     problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
                  "the loads that λ multiplies act on supports only: nothing moves", "load a free direction");
-  check_increments(deck_, *structure_, problems);
+  if (takes_increments(deck_, *structure_, problems))
+    incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
   auto candidates = contact_candidates(deck_, *structure_, problems);
   const bool sliding = slides(deck_, model.builder, problems);
-  const auto alike = [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); };
-  if (sliding) sliding_structure_ = model.builder.build_sliding(false, alike);
-  if (increments_of(deck_) && structure_->can_be_updated())
-    incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
+  if (sliding) sliding_structure_ = sliding_structure(model.builder, false);
   const Model read_off{.structure = *structure_,
                        .sliding = sliding_structure_.get(),
                        .incremental = incremental_structure_.get(),
@@ -129,14 +130,18 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }
 
+std::unique_ptr<SlidingStructure> Study::sliding_structure(const StructureBuilder& builder, bool ramp) const {
+  return builder.build_sliding(ramp,
+                               [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
+}
+
 void Study::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
   const auto on = [&](const SlidingStructure& structure) {
     return std::make_unique<SlidingContact>(structure, obstacles(deck_, structure), scales);
   };
   sliding_ = on(*sliding_structure_);
   if (!ramp) return;
-  sliding_ramp_structure_ = builder.build_sliding(
-      true, [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
+  sliding_ramp_structure_ = sliding_structure(builder, true);
   sliding_ramp_ = on(*sliding_ramp_structure_);
 }
 
@@ -192,16 +197,15 @@ Study::ContactPlace Study::contact_place(const State& state, Index j) const {
 
 std::vector<Study::ContactForce> Study::contact_forces(const State& state) const {
   std::vector<ContactForce> forces;
+  if (state.piece.closed_count() == 0) return forces;
+  const Vector at_nodes = sliding_ ? Vector() : contact_->closed_forces(state);
   for (std::size_t i = 0; i < state.piece.size(); ++i) {
     if (!state.piece[i]) continue;
-    const auto j = static_cast<Index>(i);
-    forces.push_back({.place = contact_place(state, j)});
-    if (sliding_) {
-      forces.back().force = sliding_->force(state, j);
-    } else {
-      forces.back().force = contact_->force(state, j);
-      forces.back().pressure = contact_->pressure(state, j);
-    }
+    const auto j = static_cast<Index>(i), k = static_cast<Index>(forces.size());
+    ContactPlace place = contact_place(state, j);
+    const double force = sliding_ ? sliding_->force(state, j) : at_nodes[k];
+    const auto pressure = pressure_of(place.label, force);
+    forces.push_back({.place = std::move(place), .force = force, .pressure = pressure});
   }
   return forces;
 }

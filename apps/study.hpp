@@ -38,6 +38,9 @@ class Study {
   /// Contact points that slide; null where contact is tied to nodes.
   const SlidingContact* sliding() const { return sliding_.get(); }
 
+  /// The structure of those; null likewise.
+  const SlidingStructure* sliding_structure() const { return sliding_structure_.get(); }
+
   /// What is traced: the structure with its contacts.
   const System& system() const;
 
@@ -78,6 +81,7 @@ class Study {
   Index closed_contacts(const State& state) const;
 
  private:
+  std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
   void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
 
   deck::Deck deck_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "contact/profile.hpp"
@@ -15,6 +16,11 @@ struct ContactLabel {
   double fraction = 0.0;   ///< of the member's arc length
   double tributary = 0.0;  ///< part of the axis whose pressure the contact stands for; 0 if not given [length]
 };
+
+/// A contact force over the length of axis it stands for; empty where that is not given: a point force.
+inline std::optional<double> pressure_of(const ContactLabel& label, double force) {
+  return label.tributary > 0.0 ? std::optional(force / label.tributary) : std::nullopt;
+}
 
 /// A gap with its derivatives in the tracked point's unknowns (sizes as in PointKinematics).
 struct Gap {

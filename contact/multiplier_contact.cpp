@@ -216,8 +216,7 @@ double MultiplierContact::force(const State& state, Index j) const {
 }
 
 std::optional<double> MultiplierContact::pressure(const State& state, Index j) const {
-  const double length = candidate(j).label().tributary;
-  return length > 0.0 ? std::optional(force(state, j) / length) : std::nullopt;
+  return pressure_of(candidate(j).label(), force(state, j));
 }
 
 }  // namespace arcwall

@@ -68,6 +68,9 @@ class MultiplierContact final : public System {
   /// The same over the length of axis it stands for [force/length]; empty where it is a point force.
   std::optional<double> pressure(const State& state, Index j) const;
 
+  /// Forces of all closed contacts, in their order [force].
+  Vector closed_forces(const State& state) const { return state.x.tail(multiplier_count(state.piece)); }
+
  private:
   State inner_state(const State& state) const {
     return {.x = state.x.head(inner_.size({})), .lambda = state.lambda, .piece = {}};

@@ -470,36 +470,32 @@ std::optional<std::string> SlidingContact::obstruction(const State& state) const
   return std::nullopt;
 }
 
-std::optional<MaterialPoint> SlidingContact::lifting_place(const State& state, Index j) const {
+// Where the pressure is least that the number of a guard stands for; empty for a contact.
+std::optional<SlidingContact::Lifting> SlidingContact::lifting(const State& state, Index j) const {
   const SlidingContactLayout& on = layout(state.piece);
   if (j < static_cast<Index>(state.piece.size())) return std::nullopt;
   const auto limit = on.limits()[static_cast<std::size_t>(j) - state.piece.size()];
   assert(limit.bound == Bound::pressure);
-  return MaterialPoint{.run = on.held()[limit.which].run, .s = least_pressure_place(state, limit.which)};
+  const SlidingContactLayout::Held& held = on.held()[limit.which];
+  return Lifting{.obstacle = held.obstacle, .at = {.run = held.run, .s = least_pressure_place(state, limit.which)}};
 }
 
 ContactLabel SlidingContact::label(const State& state, Index j) const {
+  const auto named = [this](std::size_t obstacle, const MaterialPoint& at) -> ContactLabel {
+    const auto [member, fraction] = body_.label(at);
+    return {.wall = obstacles_[obstacle].name, .member = member, .fraction = fraction};
+  };
+  if (const auto least = lifting(state, j)) return named(least->obstacle, least->at);
   const SlidingContactLayout& on = layout(state.piece);
-  std::size_t obstacle = 0;
-  std::optional<MaterialPoint> place = lifting_place(state, j);
-  if (place) {
-    obstacle = on.held()[on.limits()[static_cast<std::size_t>(j) - state.piece.size()].which].obstacle;
-  } else {
-    const Touch at = touch(on, static_cast<std::size_t>(j));
-    obstacle = at.obstacle;
-    place = {.run = at.run, .s = on.mesh().coordinate(at.run, at.position, on.s_of(state))};
-  }
-  const auto [member, fraction] = body_.label(*place);
-  return {.wall = obstacles_[obstacle].name, .member = member, .fraction = fraction};
+  const Touch at = touch(on, static_cast<std::size_t>(j));
+  return named(at.obstacle, {.run = at.run, .s = on.mesh().coordinate(at.run, at.position, on.s_of(state))});
 }
 
 Vec2 SlidingContact::place(const State& state, Index j) const {
   const SlidingContactLayout& on = layout(state.piece);
-  if (const auto at = lifting_place(state, j)) {
-    const std::size_t obstacle =
-        on.held()[on.limits()[static_cast<std::size_t>(j) - state.piece.size()].which].obstacle;
-    return face(normal_offset(obstacle, at->run), on.mesh().place(*at, on.x_of(state), on.s_of(state)));
-  }
+  if (const auto least = lifting(state, j))
+    return face(normal_offset(least->obstacle, least->at.run),
+                on.mesh().place(least->at, on.x_of(state), on.s_of(state)));
   const Touch at = touch(on, static_cast<std::size_t>(j));
   return face(at.offset, on.mesh().node(at.run, at.position, on.x_of(state)));
 }
@@ -507,6 +503,24 @@ Vec2 SlidingContact::place(const State& state, Index j) const {
 double SlidingContact::force(const State& state, Index j) const {
   const auto p = multiplier_index(state.piece, j);
   return p ? state.x[*p] : 0.0;
+}
+
+std::vector<SlidingContact::HeldNode> SlidingContact::held_nodes(const State& state) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  std::vector<HeldNode> nodes;
+  Index force = on.mesh().unknowns() + state.piece.closed_count();
+  for (const SlidingContactLayout::Held& held : on.held()) {
+    const auto coordinate = [&](Index position) { return on.mesh().coordinate(held.run, position, s); };
+    const auto [member, fraction] = body_.label({.run = held.run, .s = coordinate(held.position)});
+    nodes.push_back({.label = {.wall = obstacles_[held.obstacle].name,
+                               .member = member,
+                               .fraction = fraction,
+                               .tributary = 0.5 * (coordinate(held.position + 1) - coordinate(held.position - 1))},
+                     .place = face(normal_offset(held.obstacle, held.run), on.mesh().node(held.run, held.position, x)),
+                     .force = state.x[force++]});
+  }
+  return nodes;
 }
 
 }  // namespace arcwall

@@ -72,11 +72,23 @@ class SlidingContact final : public System {
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
+  /// The layout with this cut and these points that began at these places; null if they do not belong together.
+  std::shared_ptr<const SlidingContactLayout> layout_of(const Cut& cut, std::vector<SlidingContactLayout::Point> points,
+                                                        const Vector& origin) const;
+
   /// Where contact j of a piece is, and its force. The number of a guard on the pressure of a part on a wall stands for
   /// the place where the pressure is least.
   ContactLabel label(const State& state, Index j) const;
   Vec2 place(const State& state, Index j) const;
   double force(const State& state, Index j) const;
+
+  /// A node inside a pressed part, which the wall holds.
+  struct HeldNode {
+    ContactLabel label{};  ///< tributary: half the way to the nodes beside it
+    Vec2 place = Vec2::Zero();
+    double force = 0.0;
+  };
+  std::vector<HeldNode> held_nodes(const State& state) const;
 
   /// The least gap at `places` points of each element against every obstacle, flat parts included [length].
   double least_gap(const State& state, int places) const;
@@ -133,7 +145,11 @@ class SlidingContact final : public System {
   void for_each_force(const State& state, const Visit& visit) const;
   void lay_out(const State& state, Linearization& out) const;
 
-  std::optional<MaterialPoint> lifting_place(const State& state, Index j) const;
+  struct Lifting {
+    std::size_t obstacle = 0;
+    MaterialPoint at{};
+  };
+  std::optional<Lifting> lifting(const State& state, Index j) const;
   Index held_force(const State& state, std::size_t node) const;
   std::optional<std::size_t> touching_end(const State& state, std::size_t which) const;
   LeastPressure least_pressure(const State& state, std::size_t node) const;

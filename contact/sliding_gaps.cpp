@@ -59,15 +59,15 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
       const double offset = normal_offset(w, run);
       struct Sample {
         double gap;
-        Vec2 place, slope;  // slope: gap per place moved along the tangent
-        double rate;
+        Vec2 place;
+        double rate;  // of the gap, by the place moved along the tangent
       };
       const auto sample = [&](Index position) {
         const AxisPlace place = mesh.node(run, position, x);
         const Vec2 t = Vec2(std::cos(place.angle), std::sin(place.angle));
         const double o = t.x() >= 0.0 ? offset : -offset;
         const Vec2 face = place.position + o * perp(t);
-        Sample out{.gap = infinity, .place = place.position, .slope = Vec2::Zero(), .rate = 0.0};
+        Sample out{.gap = infinity, .place = place.position, .rate = 0.0};
         if (!obstacles_[w].profile->covers(face.x())) return out;
         const SurfaceGap g = surface_gap(*obstacles_[w].profile, obstacles_[w].side, face);
         out.gap = g.value;

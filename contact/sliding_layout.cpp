@@ -4,7 +4,7 @@ namespace arcwall {
 
 SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh,
                                            std::vector<Point> points, const Vector& s)
-    : mesh_(std::move(mesh)), points_(std::move(points)) {
+    : mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
   Index point = 0;
   for (Index run = 0; run < body.runs(); ++run) {
     const std::vector<int>& elements = mesh_->cut()[static_cast<std::size_t>(run)];

@@ -66,6 +66,9 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<Limit>& limits() const { return limits_; }
 
+  /// `s` where it began.
+  const Vector& origin() const { return origin_; }
+
   /// A free end as a limit's `which`: 2 run + 1 for the last.
   static std::pair<Index, bool> end_of(std::size_t which) { return {static_cast<Index>(which / 2), which % 2 == 1}; }
 
@@ -97,6 +100,7 @@ class SlidingContactLayout final : public SlidingLayout {
   std::vector<Held> held_;
   std::vector<Segment> segments_;
   std::vector<Limit> limits_;
+  Vector origin_;
 };
 
 /// Sizes of elements, relative to those asked for, at which a segment is meshed anew.

@@ -83,6 +83,27 @@ std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const Slid
   return std::make_shared<Layout_>(body_, body_.mesh(draft.cut), draft.points, draft.s);
 }
 
+std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const Cut& cut, std::vector<Point> points,
+                                                                      const Vector& origin) const {
+  if (static_cast<Index>(cut.size()) != body_.runs() || static_cast<Index>(points.size()) != origin.size())
+    return nullptr;
+  Index k = 0;
+  for (Index run = 0; run < body_.runs(); ++run) {
+    const std::vector<int>& elements = cut[static_cast<std::size_t>(run)];
+    const double most = 1000.0 + 100.0 * body_.elements_between(run, 0.0, body_.length(run));  // of a segment
+    const auto wrong = [most](int n) { return n < 1 || n > most; };
+    if (elements.empty() || std::any_of(elements.begin(), elements.end(), wrong)) return nullptr;
+    double before = 0.0;
+    for (std::size_t i = 0; i + 1 < elements.size(); ++i, ++k) {
+      if (k == origin.size() || !(origin[k] >= before && origin[k] <= body_.length(run))) return nullptr;
+      before = origin[k];
+    }
+  }
+  const auto unknown = [&](const Point& point) { return point.obstacle >= obstacles_.size(); };
+  if (k != origin.size() || std::any_of(points.begin(), points.end(), unknown)) return nullptr;
+  return std::make_shared<Layout_>(body_, body_.mesh(cut), std::move(points), origin);
+}
+
 State SlidingContact::redrawn(const State& state, const SlidingDraft& by,
                               const std::shared_ptr<const SlidingContactLayout>& on) const {
   const Layout_& from = layout(state.piece);

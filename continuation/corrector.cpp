@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "continuation/stability.hpp"
-
 #include "core/test_function.hpp"
 
 namespace arcwall {
@@ -28,11 +27,12 @@ CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint
   while (result.iterations < options_.max_iterations) {
     if (const auto status = look(result.state); status != CorrectorStatus::converged) return ended(status);
     if (!find_line(metric, along)) return ended(CorrectorStatus::singular);
-    const auto tau = constraint.advance(result.state, line_.particular, line_.tangent);
-    if (!tau) return ended(CorrectorStatus::complex_roots);
+    result.roots = constraint.advance(result.state, line_.particular, line_.tangent);
+    if (!result.roots) return ended(CorrectorStatus::complex_roots);
+    const double tau = result.roots->taken;
     Direction& step = line_.particular;
-    step.dx += *tau * line_.tangent.dx;
-    step.dlambda += *tau * line_.tangent.dlambda;
+    step.dx += tau * line_.tangent.dx;
+    step.dlambda += tau * line_.tangent.dlambda;
     result.state.x += step.dx;
     result.state.lambda += step.dlambda;
     ++result.iterations;
@@ -112,8 +112,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
     if (const auto negative = negative_by_pivots(solver_.inner(), metric.weights(), result.nearest))
       result.negative = *negative - system_.multiplier_count(result.state.piece);
   }
-  const double load = metric.dual_norm(now_.F_lambda) * std::max(std::abs(result.state.lambda), load_floor_);
-  result.residual = metric.dual_norm(now_.F) / std::max(load, 1e-300);
+  result.residual = relative_residual(metric, now_, result.state.lambda, load_floor_);
   return result;
 }
 

@@ -28,7 +28,8 @@ struct CorrectorResult {
                                     ///< not tell, StabilityCounter::negative_on may
   NearNull nearest{};               ///< estimates of the eigenpairs nearest zero, at most two; none where K is singular
   int iterations = 0;
-  double residual = 0.0;  ///< ‖F‖ over the load's norm at max(|λ|, load_floor) [-]
+  std::optional<ConstraintRoots> roots{};  ///< of the last correction
+  double residual = 0.0;                   ///< ‖F‖ over the load's norm at max(|λ|, load_floor) [-]
 
   bool converged() const { return status == CorrectorStatus::converged; }
 };

@@ -54,10 +54,27 @@ class Explorer {
   /// Ends everything where it is.
   void stop(const BranchEnd& end);
 
+  /// Visits all that changes, as Tracer::keep().
+  template <typename Archive>
+  void keep(Archive& archive) {
+    bool under_way = tracer_ != nullptr;
+    archive(lambda_scale_, current_, before_, last_, queue_, branches_, known_, stopped_, under_way);
+    if (!under_way) return;
+    if constexpr (Archive::reads)
+      tracer_ = std::make_unique<Tracer>(system_, BranchStart{.state = last_, .lambda_scale = lambda_scale_}, trace_,
+                                         watched_);
+    tracer_->keep(archive);
+  }
+
  private:
   struct Queued {
     BranchStart start;
     BranchRecord record;
+
+    template <typename Archive>
+    void keep(Archive& archive) {
+      archive(start, record);
+    }
   };
   // A way off a branch point that was tried.
   struct Way {

@@ -99,8 +99,7 @@ PathPoint LoadIncrements::point(const Increment& increment, double lambda) {
   advance_(point.state);
   // What is left unbalanced is the residue that the next increment takes over.
   system_.linearize(point.state, now_);
-  const double load = metric.dual_norm(now_.F_lambda) * std::max(std::abs(lambda), 1e-3 * lambda_scale_);
-  point.residual = metric.dual_norm(now_.F) / std::max(load, 1e-300);
+  point.residual = relative_residual(metric, now_, lambda, 1e-3 * lambda_scale_);
   point.guards = system_.guards(point.state);
   return point;
 }

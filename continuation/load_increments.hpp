@@ -33,6 +33,15 @@ class LoadIncrements {
   /// Increments whose contacts found no set that fulfils the side conditions.
   int unsettled() const { return unsettled_; }
 
+  /// Takes an increment that was taken before as taken, in the order in which they were.
+  void repeat(const State& state) { advance_(state); }
+
+  /// Visits what else changes, as Tracer::keep().
+  template <typename Archive>
+  void keep(Archive& archive) {
+    archive(last_, unsettled_, end_);
+  }
+
  private:
   struct Increment {
     State from{};  // on the piece that holds behind the increment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/system.hpp"
@@ -55,6 +56,13 @@ inline Direction unit(const Metric& metric, Direction direction) {
   direction.dx *= scale;
   direction.dlambda *= scale;
   return direction;
+}
+
+/// ‖F‖ over the norm of the load at max(|λ|, load_floor): the relative residual [-].
+inline double relative_residual(const Metric& metric, const Linearization& equations, double lambda,
+                                double load_floor) {
+  const double load = metric.dual_norm(equations.F_lambda) * std::max(std::abs(lambda), load_floor);
+  return metric.dual_norm(equations.F) / std::max(load, 1e-300);
 }
 
 inline Direction reversed(Direction direction) {

@@ -12,12 +12,12 @@ const ParameterValue parameter;
 }  // namespace
 
 // c + ∇c · (particular + τ tangent) = 0
-std::optional<double> PathConstraint::advance(const State& at, const Direction& particular,
-                                              const Direction& tangent) const {
+std::optional<ConstraintRoots> PathConstraint::advance(const State& at, const Direction& particular,
+                                                       const Direction& tangent) const {
   const Row row = gradient(at);
   const double slope = apply(row, tangent);
   const double tau = -(value(at) + apply(row, particular)) / slope;
-  return std::isfinite(tau) ? std::optional(tau) : std::nullopt;
+  return std::isfinite(tau) ? std::optional(ConstraintRoots{.taken = tau}) : std::nullopt;
 }
 
 PlaneConstraint::PlaneConstraint(const Metric& metric, const State& origin, const Direction& normal, double offset)
@@ -38,8 +38,8 @@ Row SphereConstraint::gradient(const State& state) const {
 }
 
 // With D = X − origin + particular:  |D + τ t|² = radius²,  a τ² + 2 b τ + c = 0
-std::optional<double> SphereConstraint::advance(const State& at, const Direction& particular,
-                                                const Direction& t) const {
+std::optional<ConstraintRoots> SphereConstraint::advance(const State& at, const Direction& particular,
+                                                         const Direction& t) const {
   Direction D = difference(at, origin_);
   D.dx += particular.dx;
   D.dlambda += particular.dlambda;
@@ -50,7 +50,8 @@ std::optional<double> SphereConstraint::advance(const State& at, const Direction
   const double roots[2] = {q / a, q != 0.0 ? c / q : 0.0};
   // Nearer the previous tangent: the greater component of D + τ t along it.
   const double along = inner(tangent_, t);
-  return roots[0] * along >= roots[1] * along ? roots[0] : roots[1];
+  const bool first = roots[0] * along >= roots[1] * along;
+  return ConstraintRoots{.taken = roots[first ? 0 : 1], .other = roots[first ? 1 : 0]};
 }
 
 std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric& metric, const State& from,

@@ -9,6 +9,12 @@
 
 namespace arcwall {
 
+/// Where a constraint meets a line: the root that is taken and, of a quadratic, the one that is not.
+struct ConstraintRoots {
+  double taken = 0.0;
+  std::optional<double> other{};
+};
+
 /// One scalar equation c(x, λ) = 0 that closes F(x, λ) = 0 in a step.
 ///
 /// `value` and `gradient` are consistent, as for every Observable; the updated normal plane alone has no value, as it
@@ -17,7 +23,8 @@ class PathConstraint : public Observable {
  public:
   /// τ such that the state moved by particular + τ · tangent fulfils the constraint: linearised, unless a constraint
   /// knows better. Empty if there is none (complex roots).
-  virtual std::optional<double> advance(const State& at, const Direction& particular, const Direction& tangent) const;
+  virtual std::optional<ConstraintRoots> advance(const State& at, const Direction& particular,
+                                                 const Direction& tangent) const;
 };
 
 /// The quantity has a given value: load and displacement control, stop rules, values to land on.
@@ -82,7 +89,8 @@ class SphereConstraint final : public PathConstraint {
       : metric_(metric), form_(form), origin_(origin), tangent_(tangent), radius_(radius) {}
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
-  std::optional<double> advance(const State& at, const Direction& particular, const Direction& tangent) const override;
+  std::optional<ConstraintRoots> advance(const State& at, const Direction& particular,
+                                         const Direction& tangent) const override;
 
  private:
   double inner(const Direction& a, const Direction& b) const {

@@ -46,6 +46,12 @@ double least_at(const std::function<double(double)>& f, double a, double b) {
   return f_left < f_right ? left : right;
 }
 
+// Directions that Q of (1) below makes of columns, with t_λ taken not negative.
+Matrix without_fold(const Matrix& columns, const Metric& metric, const Direction& t) {
+  const double along = std::abs(t.dlambda) / metric.lambda_scale();
+  return columns - t.dx * (metric.weights().cwiseProduct(t.dx).transpose() * columns) / (1.0 + along);
+}
+
 }  // namespace
 
 // Four points of the path around a place and, by the cubic through its values there, a smooth symmetric matrix S that
@@ -252,8 +258,7 @@ std::optional<std::vector<SingularPlace>> SingularLocator::touches(const Segment
     return none;
 
   const auto place_at = [&](double t) {
-    SingularPlace place{.point = level->point(t, metric), .t = t, .half_width = 1e-12};
-    return place;
+    return SingularPlace{.point = level->point(t, metric), .t = t, .half_width = 1e-12};
   };
   std::vector<SingularPlace> places;
   const auto value = [&](double t) -> std::optional<double> { return side(t); };
@@ -303,7 +308,7 @@ std::optional<SingularLocator::Level> SingularLocator::level_at(const Segment& s
   constexpr double margin = 2e-3;  // the ends may be singular
   const double half = 1.5 * spread + margin, middle = std::clamp(centre, half, 1.0 - half);
   const std::array<double, Level::nodes> offsets{-1.5, -0.5, 0.5, 1.5};
-  std::array<std::size_t, Level::nodes> inner_first{1, 2, 0, 3};  // the modes are those of the first
+  const std::array<std::size_t, Level::nodes> inner_first{1, 2, 0, 3};  // the modes are those of the first
   std::vector<std::optional<Sample>> samples(Level::nodes);
   std::array<Matrix, Level::nodes> values;
   Matrix modes;
@@ -317,12 +322,6 @@ std::optional<SingularLocator::Level> SingularLocator::level_at(const Segment& s
   std::vector<Sample> all;
   for (auto& sample : samples) all.push_back(std::move(*sample));
   return Level(middle, spread, std::move(all), std::move(values));
-}
-
-// Directions that Q of (1) makes of columns, with t_λ taken not negative.
-Matrix without_fold(const Matrix& columns, const Metric& metric, const Direction& t) {
-  const double along = std::abs(t.dlambda) / metric.lambda_scale();
-  return columns - t.dx * (metric.weights().cwiseProduct(t.dx).transpose() * columns) / (1.0 + along);
 }
 
 // S of (1) at the sample reached last; `modes` are set if they are empty.

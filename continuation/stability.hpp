@@ -34,6 +34,9 @@ class StabilityCounter {
   /// Negative eigenvalues with all contacts of the state's piece held; empty where K is singular.
   std::optional<Index> negative_on(const State& state);
 
+  /// From where the eigenpairs nearest zero are followed, instead of the state counted last.
+  void track_from(const NearNull& nearest) { tracker_.start_from(nearest.vectors); }
+
  private:
   const System& system_;
   double force_tolerance_;

@@ -38,6 +38,12 @@ class StepControl {
   void failed(double taken) { length_ = 0.5 * taken; }
   void restart(double length) { length_ = std::clamp(length, options_.min, options_.max); }
 
+  /// Visits what changes, as Tracer::keep().
+  template <typename Archive>
+  void keep(Archive& archive) {
+    archive(length_);
+  }
+
  private:
   StepOptions options_;
   double length_;

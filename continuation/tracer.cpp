@@ -17,6 +17,24 @@ constexpr double between = 1e-9;      // penetration between contacts, in the sc
 constexpr double near_corner = 1e-4;  // likewise, gaps between contacts that are followed before a corner is left
 constexpr double passing = 1e-5;      // likewise, of points on a path near which it is singular
 
+StepOutcome outcome_of(CorrectorStatus failure) {
+  switch (failure) {
+    case CorrectorStatus::converged:
+      return StepOutcome::accepted;
+    case CorrectorStatus::too_many_iterations:
+      return StepOutcome::too_many_iterations;
+    case CorrectorStatus::diverged:
+      return StepOutcome::diverged;
+    case CorrectorStatus::complex_roots:
+      return StepOutcome::complex_roots;
+    case CorrectorStatus::singular:
+      return StepOutcome::singular;
+    case CorrectorStatus::not_finite:
+      return StepOutcome::not_finite;
+  }
+  return StepOutcome::accepted;
+}
+
 double angle_between(const Metric& metric, const Direction& a, const Direction& b) {
   const double cosine = metric.inner(a, b) / (metric.norm(a) * metric.norm(b));
   return std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -62,9 +80,16 @@ std::optional<Arc> Tracer::next() {
     end_ = {.reason = EndReason::max_points, .detail = std::to_string(points_) + " points"};
     return std::nullopt;
   }
+  if (here_.nearest.values.size() > 0) nearest_ = here_.nearest;
   while (!step_.too_short()) {
     const double s = step_.length();
-    if (auto arc = advance(s)) return arc;
+    // What is followed begins where the point says, so that the path does not depend on what was tried before.
+    corrector_.track_from(nearest_);
+    counter_.track_from(nearest_);
+    attempt_ = {.arc = here_.arc, .radius = s};
+    auto arc = advance(s);
+    tell_ledger(arc);
+    if (arc) return arc;
     if (end_) return std::nullopt;
     if (!std::exchange(refined_, false)) step_.failed(s);
   }
@@ -135,7 +160,8 @@ std::optional<Arc> Tracer::advance(double s) {
   if (!step) return std::nullopt;
   if (step->family) step->to.held = std::nullopt;
   const PathPoint beyond = step->to;
-  if (singular.empty() && options_.events != EventSearch::none && !find_singular(beyond, singular)) return std::nullopt;
+  if (singular.empty() && options_.events != EventSearch::none && !find_singular(beyond, singular))
+    return rejected(StepOutcome::events_unclear);
 
   std::optional<Found> found;
   if (!singular.empty()) {
@@ -148,7 +174,7 @@ std::optional<Arc> Tracer::advance(double s) {
       constexpr double same = 1e-9;  // what was located lies at the end itself
       if (found && next->t >= 1.0 - same) break;
       auto at = locate(*next, step->to);
-      if (!at) return std::nullopt;
+      if (!at) return rejected(StepOutcome::events_unclear);
       singular.clear();
       step->to = std::move(*at);
       step->corner = false;
@@ -246,24 +272,30 @@ std::optional<Tracer::Step> Tracer::take(double s) {
       leaves ? std::make_unique<PlaneConstraint>(metric_, here_.state, start_.mode,
                                                  s * metric_.inner(here_.tangent, start_.mode))
              : step_constraint(options_.method, metric_, here_.state, here_.tangent, s, options_.control.get());
-  if (here_.nearest.values.size() > 0) corrector_.track_from(here_.nearest);
+  corrector_.track_from(nearest_);
   CorrectorResult result = corrector_.correct(predicted(s), *constraint, metric_, here_.tangent, s);
   if (!result.converged() && before_)
     result = corrector_.correct(moved(here_.state, here_.tangent, s), *constraint, metric_, here_.tangent, s);
   last_failure_ = result.status;
-  if (!result.converged()) return std::nullopt;
+  attempt_.iterations = result.iterations;
+  attempt_.residual = result.residual;
+  attempt_.roots = result.roots;
+  if (!result.converged()) return rejected(outcome_of(result.status));
   obstruction_ = system_.obstruction(result.state);
-  if (obstruction_) return std::nullopt;
+  if (obstruction_) return rejected(StepOutcome::obstructed);
 
   Step step{.to = point_of(std::move(result), here_.tangent)};
-  if (!trustworthy(step.to, s, step.turn)) return std::nullopt;
+  const bool trusted = trustworthy(step.to, s, step.turn);
+  attempt_.turn = step.turn;
+  if (!trusted) return rejected(step.turn > options_.step.max_turn ? StepOutcome::turned : StepOutcome::strayed);
   if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)))
-    if (!land(step, *crossing)) return std::nullopt;
+    if (!land(step, *crossing)) return rejected(StepOutcome::not_landed);
   // What vanishes with the guard that was landed on belongs to the corner.
   const double margin = step.corner ? near_corner : -between;
   if (!system_.admissible(step.to.state, margin)) {
     refine(step.to.state, margin);
-    if (refined_ || !step.corner || !system_.admissible(step.to.state, -between)) return std::nullopt;
+    if (refined_) return rejected(StepOutcome::refined);
+    if (!step.corner || !system_.admissible(step.to.state, -between)) return rejected(StepOutcome::penetrates);
   }
   decide_count(step.to);
   return step;
@@ -412,6 +444,22 @@ std::optional<BranchEnd> Tracer::end_where_known(const PathPoint& to, State* pla
                        .partner = known.branch};
     }
   return std::nullopt;
+}
+
+std::nullopt_t Tracer::rejected(StepOutcome outcome) {
+  attempt_.outcome = outcome;
+  return std::nullopt;
+}
+
+void Tracer::tell_ledger(const std::optional<Arc>& arc) {
+  if (!options_.ledger) return;
+  if (arc) {
+    attempt_.outcome = StepOutcome::accepted;
+    attempt_.accepted = &*arc;
+  } else if (end_) {
+    attempt_.outcome = StepOutcome::ended;
+  }
+  options_.ledger(attempt_);
 }
 
 void Tracer::give_up() {

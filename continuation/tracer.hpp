@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "continuation/path_point.hpp"
 #include "continuation/segment.hpp"
 #include "continuation/stability.hpp"
+#include "continuation/step_attempt.hpp"
 #include "continuation/step_control.hpp"
 
 namespace arcwall {
@@ -47,7 +49,8 @@ struct TraceOptions {
   double localisation = 1e-12;     ///< bracket of an event as a part of its step
   int max_points = 5000;
   bool every_ray = false;  ///< report a corner that several rays leave also where one alone of them is stable
-  bool stay = false;       ///< at a corner that only unstable rays leave: keep the old contacts where one does
+  std::function<void(const StepAttempt&)> ledger{};  ///< is told of every attempted step
+  bool stay = false;  ///< at a corner that only unstable rays leave: keep the old contacts where one does
 };
 
 /// λ′ of the unit tangent, scaled to [−1, 1]: its zeros are limit points.
@@ -103,13 +106,29 @@ class Tracer {
   /// The last accepted point.
   const PathPoint& here() const { return here_; }
 
+  /// Visits all that changes while the branch is traced: `archive(values…)` writes or reads them, `Archive::reads` says
+  /// which. A tracer of the same system and options into which they are read goes on to the same last bit.
+  template <typename Archive>
+  void keep(Archive& archive) {
+    double lambda_scale = metric_.lambda_scale();
+    archive(lambda_scale, start_, step_, here_, before_, signs_, held_, after_, near_, vanishing_, nearest_, visited_,
+            ahead_, others_, end_, last_failure_, obstruction_, refined_, points_, standing_);
+    if constexpr (Archive::reads) metric_ = Metric(system_.weights(here_.state.piece), lambda_scale);
+  }
+
  private:
   // Something that happens inside a step.
   struct Found {
     enum class What { branch_point, detector, landmark } what;
+    friend constexpr std::int64_t greatest(What) { return static_cast<std::int64_t>(What::landmark); }
     std::size_t which;
     double t;  // estimate, then place, as a fraction of the step
     double half_width;
+
+    template <typename Archive>
+    void keep(Archive& archive) {
+      archive(what, which, t, half_width);
+    }
   };
 
   // A step that was taken: its end, and whether that lies on a corner.
@@ -129,6 +148,11 @@ class Tracer {
     Index change;                                            // of the number of negative eigenvalues, held, across it
     std::shared_ptr<const BranchPoint> branching = nullptr;  // empty: a limit point alone
     bool suspected = false;
+
+    template <typename Archive>
+    void keep(Archive& archive) {
+      archive(found, at, change, branching, suspected);
+    }
   };
 
   std::optional<Arc> begin();
@@ -157,6 +181,7 @@ class Tracer {
   void add_branch_point_at_limit(const PathPoint& before, const PathPoint& after, double half_width, Singular& limit);
   std::optional<PathPoint> beside(const Segment& segment, double t);
   bool made_by_nodes(const State& state) const;
+  PathPoint point_at(const SingularPlace& place);
   Singular singular_at(const SingularPlace& place, double chord_dlambda);
   bool dips(const Segment& segment);
   bool dips(const Segment& segment, Index here, Index there);
@@ -188,6 +213,8 @@ class Tracer {
   std::vector<int> signs_at(const PathPoint& point) const;
   bool passes(const PathPoint& to, const State& place);
   std::optional<BranchEnd> end_where_known(const PathPoint& to, State* place = nullptr);
+  std::nullopt_t rejected(StepOutcome outcome);
+  void tell_ledger(const std::optional<Arc>& arc);
   void give_up();
 
   const System& system_;
@@ -205,12 +232,18 @@ class Tracer {
   StabilityCount after_;             // the count just after here_
   std::vector<Singular> near_;       // located with the singular point here_ and just behind it
   Index vanishing_ = 0;              // eigenvalues that are zero at here_
+  NearNull nearest_;                 // the pairs nearest zero that were known last
   Linearization beside_;             // workspace
   BranchStart start_;
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
   struct Visited {
     State corner;
     std::vector<Direction> ways;
+
+    template <typename Archive>
+    void keep(Archive& archive) {
+      archive(corner, ways);
+    }
   };
   std::vector<Visited> visited_;
   std::optional<Arc> ahead_;  // the first point of a piece, behind a corner that was just passed
@@ -218,6 +251,7 @@ class Tracer {
   std::optional<BranchEnd> end_;
   CorrectorStatus last_failure_ = CorrectorStatus::converged;
   std::optional<std::string> obstruction_;
+  StepAttempt attempt_;   // under way
   bool refined_ = false;  // the last attempt ended with a finer description of its start
   int points_ = 0;
   int standing_ = 0;  // corners in a row at one place

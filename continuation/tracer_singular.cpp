@@ -158,10 +158,11 @@ bool Tracer::find_touching_limit(const Segment& segment, std::vector<Singular>& 
   const auto places = locator.touches(segment, metric_, SingularLocator::What::turning, vanishing_ > 0, detector_noise);
   if (!places || places->size() == 2) return segment.length() <= short_step;
   if (places->empty()) return true;
-  Singular singular = singular_at(places->front(), segment.chord().dlambda);
-  singular.found = {.what = Found::What::detector, .which = 0, .t = places->front().t, .half_width = 0.0};
-  singular.branching = nullptr;
-  found.push_back(std::move(singular));
+  const SingularPlace& place = places->front();
+  found.push_back({.found = {.what = Found::What::detector, .which = 0, .t = place.t, .half_width = 0.0},
+                   .at = point_at(place),
+                   .change = place.change,
+                   .suspected = place.touches});
   return true;
 }
 
@@ -170,15 +171,21 @@ bool Tracer::made_by_nodes(const State& state) const {
   return options_.tied_contacts && system_.multiplier_count(state.piece) > 0;
 }
 
-Tracer::Singular Tracer::singular_at(const SingularPlace& place, double chord_dlambda) {
-  auto branching = std::make_shared<BranchPoint>(branch_point_at(system_, corrector_, metric_, place));
-  branching->localised = place.half_width * std::abs(chord_dlambda);
+// With the interpolated tangent: its own may be any where K is singular.
+PathPoint Tracer::point_at(const SingularPlace& place) {
   CorrectorResult result = corrector_.inspect(place.point.state, metric_, place.point.tangent);
   result.state = place.point.state;
   result.tangent = place.point.tangent;
   result.iterations = place.point.iterations;
-  branching->discretisation = made_by_nodes(result.state);
-  if (system_.multiplier_count(result.state.piece) > 0 && branching->type == BranchType::asymmetric &&
+  return point_of(std::move(result), here_.tangent);
+}
+
+Tracer::Singular Tracer::singular_at(const SingularPlace& place, double chord_dlambda) {
+  auto branching = std::make_shared<BranchPoint>(branch_point_at(system_, corrector_, metric_, place));
+  branching->localised = place.half_width * std::abs(chord_dlambda);
+  PathPoint at = point_at(place);
+  branching->discretisation = made_by_nodes(at.state);
+  if (system_.multiplier_count(at.state.piece) > 0 && branching->type == BranchType::asymmetric &&
       branching->mode.dx.size() > 0) {
     // A contact may forbid one side.
     const auto open = [&](int sign) {
@@ -188,7 +195,7 @@ Tracer::Singular Tracer::singular_at(const SingularPlace& place, double chord_dl
     if (open(1) != open(-1)) branching->type = BranchType::one_sided;
   }
   return {.found = {.what = Found::What::branch_point, .which = 0, .t = place.t, .half_width = 0.0},
-          .at = point_of(std::move(result), here_.tangent),
+          .at = std::move(at),
           .change = place.change,
           .branching = std::move(branching),
           .suspected = place.touches};

@@ -75,6 +75,11 @@ class SlidingMesh {
   /// Just before or behind breakpoint k.
   virtual AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const = 0;
 
+  /// What the nodes exert on the element behind a node: x, z and moment at its first and at its second end, the load
+  /// along it included.
+  using EndForces = std::array<Eigen::Vector3d, 2>;
+  virtual EndForces end_forces(Index run, Index position, const Vector& x, const Vector& s, double lambda) const = 0;
+
   /// Any place, by interpolation consistent with the elements.
   virtual AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
 

@@ -300,6 +300,12 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   return strain;
 }
 
+SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index run, Index position, const Vector& x, const Vector& s,
+                                                        double lambda) const {
+  const Six force = respond(run, position, x, s, lambda, false).force;
+  return {force.head<3>(), force.tail<3>()};
+}
+
 Index SlidingStructureMesh::element_at(const MaterialPoint& point, const Vector& s) const {
   const auto& places = mesh_of(point.run).nodes;
   Index low = 0, high = static_cast<Index>(places.size()) - 1;

@@ -29,6 +29,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   AxisPlace node(Index run, Index position, const Vector& x) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
   AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const override;
+  EndForces end_forces(Index run, Index position, const Vector& x, const Vector& s, double lambda) const override;
   AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
   PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
   AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const override;

@@ -52,6 +52,21 @@ MaterialPoint SlidingStructure::find(const std::string& member, double fraction)
   return {};
 }
 
+std::vector<SlidingStructure::MemberPart> SlidingStructure::parts_of(const std::string& member) const {
+  std::vector<MemberPart> parts;
+  for (Index r = 0; r < runs(); ++r)
+    for (const Part& part : at(r).parts)
+      if (part.member == member)
+        parts.push_back({.run = r,
+                         .from = part.from,
+                         .to = part.to,
+                         .first_fraction = part.first_fraction,
+                         .last_fraction = part.last_fraction});
+  std::sort(parts.begin(), parts.end(),
+            [](const MemberPart& a, const MemberPart& b) { return a.first_fraction < b.first_fraction; });
+  return parts;
+}
+
 AxisPlace SlidingStructure::undeformed(const MaterialPoint& point, bool imperfect) const {
   const Run& run = at(point.run);
   const AxisPoint place = imperfect ? run.shape->at(run.offset + point.s) : run.axis->at(run.offset + point.s);

@@ -43,6 +43,16 @@ class SlidingStructure final : public SlidingBody {
   /// The place of a member at a fraction of its length.
   MaterialPoint find(const std::string& member, double fraction) const;
 
+  /// A member, or a part of it, as a stretch of a run.
+  struct MemberPart {
+    Index run = 0;
+    double from = 0.0, to = 0.0;                       ///< arc length along the run
+    double first_fraction = 0.0, last_fraction = 1.0;  ///< of the member
+  };
+
+  /// All of a member, from end to end.
+  std::vector<MemberPart> parts_of(const std::string& member) const;
+
   /// Stress-free place and direction of the axis, with or without imperfection.
   AxisPlace undeformed(const MaterialPoint& point, bool imperfect) const;
 

@@ -77,7 +77,7 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
     elements_[static_cast<std::size_t>(e)]->evaluate(local.u, local.f, nullptr);
     scatter(assembly_.unknowns(e), local.f, 1.0, F.data());
   }
-  for (const LoadedElement& loaded : loaded_elements_) {
+  for (const ElementLoad& loaded : element_loads_) {
     gather(loaded.element, state.x, local.u);
     loaded.potential->evaluate(local.u, local.f, nullptr);
     scatter(assembly_.unknowns(loaded.element), local.f, loaded.kind == LoadKind::proportional ? state.lambda : 1.0,
@@ -107,7 +107,7 @@ void Structure::linearize(const State& state, Linearization& out) const {
     scatter(assembly_.unknowns(e), local.f, 1.0, out.F.data());
     assembly_.add(e, local.K, 1.0, values);
   }
-  for (const LoadedElement& loaded : loaded_elements_) {
+  for (const ElementLoad& loaded : element_loads_) {
     const bool proportional = loaded.kind == LoadKind::proportional;
     const double factor = proportional ? state.lambda : 1.0;
     gather(loaded.element, state.x, local.u);
@@ -125,7 +125,7 @@ double Structure::energy(const State& state) const {
     gather(e, state.x, local.u);
     energy += elements_[static_cast<std::size_t>(e)]->evaluate(local.u, nullptr, nullptr);
   }
-  for (const LoadedElement& loaded : loaded_elements_) {
+  for (const ElementLoad& loaded : element_loads_) {
     gather(loaded.element, state.x, local.u);
     energy += (loaded.kind == LoadKind::proportional ? state.lambda : 1.0) *
               loaded.potential->evaluate(local.u, nullptr, nullptr);
@@ -194,7 +194,7 @@ double Structure::reaction(const State& state, Index freedom) const {
   };
   for (std::size_t e = 0; e < elements_.size(); ++e)
     add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
-  for (const LoadedElement& loaded : loaded_elements_)
+  for (const ElementLoad& loaded : element_loads_)
     add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],
         loaded.kind == LoadKind::proportional ? state.lambda : 1.0);
   return force;
@@ -219,7 +219,7 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
   };
   for (std::size_t e = 0; e < elements_.size(); ++e)
     add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
-  for (const LoadedElement& loaded : loaded_elements_) {
+  for (const ElementLoad& loaded : element_loads_) {
     const bool proportional = loaded.kind == LoadKind::proportional;
     const double f = add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],
                          proportional ? state.lambda : 1.0);

@@ -141,6 +141,33 @@ class Structure final : public System {
   double reaction(const State& state, Index freedom) const;
   Row reaction_gradient(const State& state, Index freedom) const;
 
+  // --- what it is made of, for those who sum it themselves ---------------------------------------------------------
+
+  /// Elements are numbered member by member, along each.
+  Index element_count() const { return static_cast<Index>(elements_.size()); }
+  const Element& element(Index e) const { return *elements_[static_cast<std::size_t>(e)]; }
+
+  /// Of the local unknowns of an element.
+  const std::vector<Index>& element_freedoms(Index e) const { return element_freedoms_[static_cast<std::size_t>(e)]; }
+
+  /// A load along an element, whose unknowns its potential has.
+  struct ElementLoad {
+    std::shared_ptr<const Element> potential;
+    LoadKind kind;
+    Index element;  ///< also its block of the assembly
+  };
+  const std::vector<ElementLoad>& element_loads() const { return element_loads_; }
+
+  /// Which of them act on an element.
+  const std::vector<std::size_t>& loads_of_element(Index e) const {
+    return loads_of_element_[static_cast<std::size_t>(e)];
+  }
+
+  /// Force or moment on a freedom.
+  double point_load(Index freedom, LoadKind kind) const {
+    return kind == LoadKind::proportional ? load_[freedom] : constant_load_[freedom];
+  }
+
   /// The structure with the updated form of its elements after an increment that led to x: see IncrementalStructure.
   std::unique_ptr<Structure> updated(const Vector& x) const;
 
@@ -149,12 +176,6 @@ class Structure final : public System {
 
  private:
   friend class StructureBuilder;
-
-  struct LoadedElement {
-    std::shared_ptr<const Element> potential;
-    LoadKind kind;
-    Index element;  // whose unknowns it has: also its block of the assembly
-  };
 
   Structure(const Structure&) = default;
   Structure(Index unknowns, const std::vector<std::vector<Index>>& blocks) : assembly_(unknowns, blocks) {}
@@ -168,7 +189,8 @@ class Structure final : public System {
   std::vector<Index> freedom_of_unknown_;
   std::vector<std::shared_ptr<const Element>> elements_;  // element e is block e of the assembly
   std::vector<std::vector<Index>> element_freedoms_;
-  std::vector<LoadedElement> loaded_elements_;
+  std::vector<ElementLoad> element_loads_;
+  std::vector<std::vector<std::size_t>> loads_of_element_;
   Vector load_, constant_load_;  // point loads per freedom
   BlockAssembly assembly_;
   Vector weights_;

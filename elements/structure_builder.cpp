@@ -316,13 +316,17 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     const MemberDescription& member = descriptions_[m];
     const ImperfectAxis shape(*member.axis, member.imperfection);
     for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
-      structure->loaded_elements_.push_back(
+      structure->element_loads_.push_back(
           {.potential = make_load({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, load.load),
            .kind = proportional(load.kind) ? LoadKind::proportional : LoadKind::constant,
            .element = first_element[m] + static_cast<Index>(k)});
     if (proportional(load.kind))
       structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
   }
+
+  structure->loads_of_element_.resize(structure->elements_.size());
+  for (std::size_t i = 0; i < structure->element_loads_.size(); ++i)
+    structure->loads_of_element_[static_cast<std::size_t>(structure->element_loads_[i].element)].push_back(i);
 
   // Means over all nodes and all rotations, held ones included: they count as zeros.
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };

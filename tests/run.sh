@@ -18,7 +18,7 @@ if [[ ${1:-} == --sanitize ]]; then
   sanitize=ON
 fi
 
-bash cmake/install_debian_packages.sh build test
+bash cmake/install_debian_packages.sh build test report
 launcher=()
 if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 # Without a home ccache needs another place for its files.

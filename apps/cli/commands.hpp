@@ -15,8 +15,18 @@ struct Command {
 };
 
 Command run_command();
+Command resume_command();
 Command check_command();
 Command examples_command();
+
+/// The commands of one word, in the order of the help.
+std::vector<Command> commands();
+
+/// The commands that follow the word `sweep`; their names begin with it.
+std::vector<Command> sweep_commands();
+
+/// What `sweep` does, for the list of commands.
+extern const char* const sweep_summary;
 
 /// The option `--set`, which several commands take.
 OptionDescription set_option();

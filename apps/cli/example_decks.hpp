@@ -5,7 +5,7 @@
 
 namespace arcwall {
 
-/// A deck that comes with the program.
+/// A deck, or a sweep over one, that comes with the program.
 struct ExampleDeck {
   std::string_view name{};
   std::string_view text{};
@@ -13,5 +13,8 @@ struct ExampleDeck {
 
 /// In the order of their names; made from the files of examples/ when the program is built.
 const std::vector<ExampleDeck>& example_decks();
+
+/// The sweeps, likewise.
+const std::vector<ExampleDeck>& example_sweeps();
 
 }  // namespace arcwall

@@ -7,6 +7,7 @@
 #include "apps/deck/reader.hpp"
 #include "apps/output/files.hpp"
 #include "apps/output/text_table.hpp"
+#include "apps/sweep/sweep_file.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -20,15 +21,20 @@ void list_examples() {
     const std::string name(example.name);
     rows.push_back({name, deck::read_deck_text(example.text, name + ".toml").title});
   }
+  for (const ExampleDeck& example : example_sweeps()) {
+    const std::string name(example.name);
+    rows.push_back({name, sweep::read_sweep_text(example.text, name + ".toml").title});
+  }
   std::cout << text_table({{"name"}, {"title"}}, rows);
 }
 
 const ExampleDeck& example_named(const std::string& name) {
   std::vector<std::string> names;
-  for (const ExampleDeck& example : example_decks()) {
-    if (example.name == name) return example;
-    names.emplace_back(example.name);
-  }
+  for (const auto* list : {&example_decks(), &example_sweeps()})
+    for (const ExampleDeck& example : *list) {
+      if (example.name == name) return example;
+      names.emplace_back(example.name);
+    }
   const std::string near = nearest(name, names);
   throw InputError("there is no example " + name + (near.empty() ? "" : " (did you mean " + near + "?)") +
                    "; trace-path examples lists them");
@@ -59,7 +65,7 @@ Command examples_command() {
   return {.description = {.name = "examples",
                           .example = "trace-path examples channel --out channel.toml",
                           .usage = "[NAME] [options]",
-                          .summary = "lists the decks that come with the program; writes one",
+                          .summary = "lists the decks and sweeps that come with the program; writes one",
                           .options = {{"out", "FILE", "write the deck into a new file (default: standard output)"}},
                           .least_words = 0,
                           .most_words = 1},

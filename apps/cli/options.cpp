@@ -62,7 +62,10 @@ po::parsed_options parsed(const CommandDescription& command, const std::vector<O
 
 Options::Options(const CommandDescription& command, const std::vector<std::string>& arguments) {
   const std::vector<OptionDescription> known = all_options(command);
-  for (const po::option& option : parsed(command, known, arguments).options) {
+  auto own_end = arguments.end();
+  if (command.passes_on) own_end = std::find(arguments.begin(), arguments.end(), "--");
+  if (own_end != arguments.end()) passed_on_.assign(own_end + 1, arguments.end());
+  for (const po::option& option : parsed(command, known, {arguments.begin(), own_end}).options) {
     if (option.position_key >= 0) {
       words_.insert(words_.end(), option.value.begin(), option.value.end());
       continue;
@@ -91,23 +94,33 @@ std::vector<std::string> Options::texts(const std::string& name) const {
   return found == values_.end() ? std::vector<std::string>{} : found->second;
 }
 
-std::optional<int> Options::count(const std::string& name) const {
+std::optional<int> Options::count(const std::string& name) const { return whole_number(name, 1); }
+
+std::optional<int> Options::number(const std::string& name) const { return whole_number(name, 0); }
+
+std::optional<int> Options::whole_number(const std::string& name, int least) const {
   const auto value = text(name);
   if (!value) return std::nullopt;
   int number = 0;
   const auto [end, error] = std::from_chars(value->data(), value->data() + value->size(), number);
-  if (error != std::errc{} || end != value->data() + value->size() || number < 1)
-    throw InputError(fmt::format("--{} is {}; it must be a whole number from 1 to {}", name, *value, INT_MAX));
+  if (error != std::errc{} || end != value->data() + value->size() || number < least)
+    throw InputError(fmt::format("--{} is {}; it must be a whole number from {} to {}", name, *value, least, INT_MAX));
   return number;
 }
 
-std::optional<double> Options::seconds(const std::string& name) const {
+std::optional<double> Options::pause(const std::string& name) const {
   const auto value = text(name);
   if (!value) return std::nullopt;
   double number = 0.0;
   const auto [end, error] = std::from_chars(value->data(), value->data() + value->size(), number);
-  if (error != std::errc{} || end != value->data() + value->size() || !std::isfinite(number) || number <= 0.0)
-    throw InputError(fmt::format("--{} is {}; it must be a number of seconds above 0", name, *value));
+  if (error != std::errc{} || end != value->data() + value->size() || !std::isfinite(number) || number < 0.0)
+    throw InputError(fmt::format("--{} is {}; it must be a number of seconds, at least 0", name, *value));
+  return number;
+}
+
+std::optional<double> Options::seconds(const std::string& name) const {
+  const auto number = pause(name);
+  if (number && *number == 0.0) throw InputError(fmt::format("--{} is {}; it must be above 0", name, *text(name)));
   return number;
 }
 

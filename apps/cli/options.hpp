@@ -23,6 +23,7 @@ struct CommandDescription {
   std::string summary{};  ///< one line for the list of commands
   std::vector<OptionDescription> options{};
   std::size_t least_words = 0, most_words = 0;  ///< arguments that are no options
+  bool passes_on = false;                       ///< what stands behind `--` is for another program
 };
 
 /// A command line taken apart.
@@ -46,11 +47,23 @@ class Options {
   /// A finite number above 0, or InputError.
   std::optional<double> seconds(const std::string& name) const;
 
+  /// A finite number of at least 0, or InputError.
+  std::optional<double> pause(const std::string& name) const;
+
+  /// A whole number of at least 0, or InputError.
+  std::optional<int> number(const std::string& name) const;
+
   const std::vector<std::string>& words() const { return words_; }
 
+  /// What stands behind `--` and is passed on.
+  const std::vector<std::string>& passed_on() const { return passed_on_; }
+
  private:
+  std::optional<int> whole_number(const std::string& name, int least) const;
+
   std::map<std::string, std::vector<std::string>> values_;
   std::vector<std::string> words_;
+  std::vector<std::string> passed_on_;
 };
 
 /// The text of --help: an example first.

@@ -15,20 +15,39 @@ namespace arcwall {
 
 namespace {
 
-std::vector<Command> commands() { return {run_command(), check_command(), examples_command()}; }
+// A title, then what each command does.
+std::string listed(const std::vector<std::pair<std::string, std::string>>& commands) {
+  std::string text = "\ncommands\n";
+  for (const auto& [name, summary] : commands) text += fmt::format("  {:<8}  {}\n", name, summary);
+  return text;
+}
+
+std::string last_word(const std::string& name) { return name.substr(name.rfind(' ') + 1); }
 
 std::string top_help() {
   std::string text =
       "  trace-path run deck.toml --out results\n\n"
       "Follows equilibrium paths of beams, frames and trusses among rigid obstacles.\n"
-      "usage: trace-path COMMAND …, or trace-path DECK, which is trace-path run DECK\n\ncommands\n";
-  for (const Command& command : commands())
-    text += fmt::format("  {:<8}  {}\n", command.description.name, command.description.summary);
-  text +=
-      "\n"
-      "trace-path COMMAND --help says more; trace-path --version shows the version.\n"
-      "trace-path examples lists decks to begin with.\n";
+      "usage: trace-path COMMAND …, or trace-path DECK, which is trace-path run DECK\n";
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const Command& command : commands()) rows.emplace_back(command.description.name, command.description.summary);
+  rows.emplace_back("sweep", sweep_summary);
+  text += listed(rows) +
+          "\n"
+          "trace-path COMMAND --help says more; trace-path --version shows the version.\n"
+          "trace-path examples lists decks to begin with.\n";
   return text;
+}
+
+std::string sweep_help() {
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const Command& command : sweep_commands())
+    rows.emplace_back(last_word(command.description.name), command.description.summary);
+  return fmt::format(
+      "  trace-path sweep plan sweep.toml --out study\n  trace-path sweep run study --jobs 4\n"
+      "  trace-path sweep collect study\n\n{}\nusage: trace-path sweep COMMAND …\n{}\n"
+      "trace-path sweep COMMAND --help says more.\n",
+      sweep_summary, listed(rows));
 }
 
 std::string version_text() { return "trace-path " + program_version() + "\n"; }
@@ -53,6 +72,7 @@ bool looks_like_a_deck(const std::string& word) {
 [[noreturn]] void fail_on_word(const std::string& word) {
   std::vector<std::string> names;
   for (const Command& command : commands()) names.push_back(command.description.name);
+  names.emplace_back("sweep");
   const std::string near = nearest(word, names);
   throw InputError(fmt::format("{} is no command and no deck{}; commands are {}", word.empty() ? "\"\"" : word,
                                near.empty() ? "" : " (did you mean " + near + "?)", fmt::join(names, ", ")));
@@ -71,6 +91,31 @@ ExitStatus run(const Command& command, const std::vector<std::string>& arguments
   return command.run(options);
 }
 
+// `sweep` and what follows it.
+ExitStatus run_sweep(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) {
+    std::cerr << sweep_help();
+    return ExitStatus::wrong_input;
+  }
+  const std::string& word = arguments.front();
+  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  std::vector<std::string> names;
+  for (const Command& command : sweep_commands()) {
+    names.push_back(last_word(command.description.name));
+    if (names.back() == word) return run(command, rest);
+  }
+  if (word == "--help" || word == "--version") {
+    if (!rest.empty()) throw InputError("unexpected argument " + rest.front() + " after " + word);
+    std::cout << (word == "--help" ? sweep_help() : version_text());
+    return ExitStatus::success;
+  }
+  if (word.starts_with("-"))
+    throw InputError(
+        fmt::format("{} stands before the command; write trace-path sweep {} …", word, fmt::join(names, "|")));
+  throw InputError(fmt::format("{} is no command of sweep{}; commands are {}", word.empty() ? "\"\"" : word,
+                               suggestion(word, names), fmt::join(names, ", ")));
+}
+
 ExitStatus dispatch(const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     std::cerr << top_help();
@@ -81,6 +126,7 @@ ExitStatus dispatch(const std::vector<std::string>& arguments) {
   for (const Command& command : commands()) {
     if (command.description.name == word) return run(command, rest);
   }
+  if (word == "sweep") return run_sweep(rest);
   if (word == "--help" || word == "--version") {
     if (!rest.empty()) throw InputError("unexpected argument " + rest.front() + " after " + word);
     std::cout << (word == "--help" ? top_help() : version_text());
@@ -92,6 +138,8 @@ ExitStatus dispatch(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
+
+std::vector<Command> commands() { return {run_command(), resume_command(), check_command(), examples_command()}; }
 
 ExitStatus run_program(const std::vector<std::string>& arguments) {
   const ExitStatus status = dispatch(arguments);

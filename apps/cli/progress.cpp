@@ -37,18 +37,23 @@ ProgressLine::~ProgressLine() {
   if (visible_) std::cerr << "\r\x1b[K" << std::flush;
 }
 
-void ProgressLine::show(const Record& record) {
-  if (progress_ == Progress::hidden || record.points.empty()) return;
+bool ProgressLine::is_due() const {
   constexpr auto pause = std::chrono::milliseconds(100);
-  const Clock::time_point now = Clock::now();
-  if (visible_ && now - last_ < pause) return;
-  std::cerr << "\r" << cut(progress_text(record), terminal_columns()) << "\x1b[K" << std::flush;
-  last_ = now;
+  return progress_ == Progress::shown && !(visible_ && Clock::now() - last_ < pause);
+}
+
+void ProgressLine::show(const Record& record) {
+  if (is_due() && !record.points.empty()) show(progress_text(record, record.points.back()));
+}
+
+void ProgressLine::show(const std::string& text) {
+  if (!is_due()) return;
+  std::cerr << "\r" << cut(text, terminal_columns()) << "\x1b[K" << std::flush;
+  last_ = Clock::now();
   visible_ = true;
 }
 
-std::string progress_text(const Record& record) {
-  const RecordPoint& point = record.points.back();
+std::string progress_text(const Record& record, const RecordPoint& point) {
   std::string text = fmt::format("branch {}  {} points  λ={:.6g}", point.branch, point.step + 1, point.lambda);
   for (std::size_t i = 0; i < point.monitors.size(); ++i)  // −0 + 0 is 0
     text += fmt::format("  {}={:.5g}", record.columns[i].name, point.monitors[i] + 0.0);

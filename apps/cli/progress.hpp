@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "apps/output/record.hpp"
 
@@ -22,15 +23,19 @@ class ProgressLine {
   /// Shows the last point of the record.
   void show(const Record& record);
 
+  void show(const std::string& text);
+
  private:
   using Clock = std::chrono::steady_clock;
+
+  bool is_due() const;
 
   Progress progress_;
   Clock::time_point last_{};  // when it was written
   bool visible_ = false;
 };
 
-/// `branch 0  123 points  λ=1.25  mid=0.1  unstable 0  contacts 3`
-std::string progress_text(const Record& record);
+/// `branch 0  123 points  λ=1.25  mid=0.1  unstable 0  contacts 3`, of the record up to one of its points.
+std::string progress_text(const Record& record, const RecordPoint& point);
 
 }  // namespace arcwall

@@ -189,4 +189,38 @@ std::string_view explanation(EndReason reason) {
   return {};
 }
 
+std::string_view what_to_try(EndReason reason) {
+  switch (reason) {
+    case EndReason::stop:
+    case EndReason::closed_loop:
+    case EndReason::joined:
+    case EndReason::branched:
+    case EndReason::max_points:
+    case EndReason::max_time:
+    case EndReason::interrupted:
+      return {};
+    case EndReason::min_step:
+      return "a finer mesh (member.NAME.elements), or a smaller path.max_step; --verbose writes steps.jsonl, which "
+             "says "
+             "why each step was cut back";
+    case EndReason::singular:
+      return "a small imperfection, so that the path has one way on; or a finer mesh";
+    case EndReason::not_finite:
+      return "a smaller path.max_step; look whether a stiffness or a load of the deck is off by powers of ten";
+    case EndReason::no_ray:
+      return "a finer mesh, or a small imperfection: several contacts change at one place and none of the ways on "
+             "holds";
+    case EndReason::turning_control:
+      return "path.method = \"spherical\", which follows the path through turning points";
+    case EndReason::wall_end:
+      return "a longer wall, or a bound in path.stop before its end";
+    case EndReason::family:
+      return "a small imperfection, which singles one equilibrium of the continuum out; or contact.points = \"nodes\"";
+    case EndReason::unsupported:
+      return "contact.points = \"nodes\" or contact.method = \"penalty\", which have no such limit";
+  }
+  assert(false);
+  return {};
+}
+
 }  // namespace arcwall

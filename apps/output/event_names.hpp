@@ -32,4 +32,7 @@ bool changes_contact(EventKind kind);
 /// What a reason means, in a sentence without a full stop.
 std::string_view explanation(EndReason reason);
 
+/// What a user can try where a branch ended early for a reason; empty where it did not end early.
+std::string_view what_to_try(EndReason reason);
+
 }  // namespace arcwall

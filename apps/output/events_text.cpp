@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::size_t most_contacts = 3;  // named in one row
 
-std::string unstable(const RecordEvent& event) {
-  const auto text = [](const std::optional<Index>& count) { return count ? std::to_string(*count) : "?"; };
-  if (event.unstable_before == event.unstable_after) return text(event.unstable_after);
-  return text(event.unstable_before) + " → " + text(event.unstable_after);
-}
-
 std::string contacts(const std::vector<RecordContact>& list) {
   std::string text;
   for (std::size_t i = 0; i < std::min(list.size(), most_contacts); ++i) {
@@ -31,20 +25,6 @@ std::string contacts(const std::vector<RecordContact>& list) {
   if (list.size() > most_contacts) text += fmt::format(" and {} more", list.size() - most_contacts);
   return text;
 }
-
-std::string what(const RecordEvent& event) {
-  if (event.branch_end) return std::string(to_text(event.branch_end->reason));
-  if (event.branch_type)
-    return std::string(to_text(*event.branch_type)) +
-           (event.multiplicity > 1 ? fmt::format(", {} modes", event.multiplicity) : "") +
-           (event.suspected ? ", suspected" : "") + (event.discretisation ? ", of the node contact" : "");
-  if (event.suspected) return "suspected";
-  if (event.monitor) return *event.monitor;
-  return contacts(event.contacts);
-}
-
-// −0 is a number that people take for a mistake.
-std::string number(double value, int digits) { return fmt::format("{:.{}g}", value == 0.0 ? 0.0 : value, digits); }
 
 std::string table(const Record& record) {
   using Side = TableColumn::Side;
@@ -62,11 +42,11 @@ std::string table(const Record& record) {
     row.push_back(std::to_string(event.id));
     if (!one_branch) row.push_back(std::to_string(event.branch));
     row.push_back(std::to_string(event.step));
-    row.push_back(number(event.lambda, 10));
+    row.push_back(shown_number(event.lambda, 10));
     row.emplace_back(to_text(event.kind));
-    row.push_back(what(event));
-    for (const double value : event.monitors) row.push_back(number(value, 6));
-    row.push_back(unstable(event));
+    row.push_back(event_detail(event));
+    for (const double value : event.monitors) row.push_back(shown_number(value, 6));
+    row.push_back(unstable_change(event));
   }
   return text_table(columns, rows);
 }
@@ -85,8 +65,9 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
     if (branch.parent != parent) continue;
     text += std::string(static_cast<std::size_t>(2 * depth), ' ');
     if (branch.origin)
-      text += fmt::format("at λ = {} (event {}): ",
-                          number(record.events[static_cast<std::size_t>(*branch.origin)].lambda, 10), *branch.origin);
+      text += fmt::format(
+          "at λ = {} (event {}): ", shown_number(record.events[static_cast<std::size_t>(*branch.origin)].lambda, 10),
+          *branch.origin);
     text += ending(branch);
     if (branch.mirrored)
       text +=
@@ -97,6 +78,28 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
 }
 
 }  // namespace
+
+std::string event_detail(const RecordEvent& event) {
+  if (event.branch_end) return std::string(to_text(event.branch_end->reason));
+  if (event.branch_type)
+    return std::string(to_text(*event.branch_type)) +
+           (event.multiplicity > 1 ? fmt::format(", {} modes", event.multiplicity) : "") +
+           (event.suspected ? ", suspected" : "") + (event.discretisation ? ", of the node contact" : "");
+  if (event.suspected) return "suspected";
+  if (event.monitor) return *event.monitor;
+  return contacts(event.contacts);
+}
+
+// −0 is a number that people take for a mistake.
+std::string shown_number(double value, int digits) {
+  return fmt::format("{:.{}g}", value == 0.0 ? 0.0 : value, digits);
+}
+
+std::string unstable_change(const RecordEvent& event) {
+  const auto text = [](const std::optional<Index>& count) { return count ? std::to_string(*count) : "?"; };
+  if (event.unstable_before == event.unstable_after) return text(event.unstable_after);
+  return text(event.unstable_before) + " → " + text(event.unstable_after);
+}
 
 std::string how_it_ended(const BranchEnd& end) {
   return fmt::format("{} ({})", end.detail.empty() ? explanation(end.reason) : end.detail, to_text(end.reason));

@@ -7,9 +7,11 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <system_error>
 #include <utility>
 
+#include "apps/checkpoint/checkpoint_file.hpp"
 #include "core/error.hpp"
 
 namespace arcwall {
@@ -22,14 +24,33 @@ namespace {
   throw OutputError(file.string() + ": " + what + ": " + reason);
 }
 
-// The deck that filled a folder, by its result.json; empty if that cannot be told.
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// The deck that filled a folder, by its result.json, or of a run that has not ended by its checkpoint; empty if that
+// cannot be told.
 std::string filled_by(const fs::path& folder) {
-  std::ifstream stream(folder / "result.json", std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (std::error_code ignored; !fs::exists(folder / "result.json", ignored))
+    return deck_of_checkpoint(bytes_of(folder / "checkpoint"));
+  const std::string text = bytes_of(folder / "result.json");
   const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
   const auto file = nlohmann::json::json_pointer("/deck/file");
   if (!result.is_object() || !result.contains(file) || !result.at(file).is_string()) return {};
   return result.at(file).get<std::string>();
+}
+
+// Files that a killed process was writing: see StagedFile.
+void remove_leftovers(const fs::path& folder) {
+  static const std::regex hidden(
+      R"(\.(path\.csv|contacts\.csv|events\.json|events\.txt|deck\.toml|result\.json|report\.html|shapes\.pvd|)"
+      R"(steps\.jsonl|checkpoint|probe)\.[0-9]+)");
+  const auto is_leftover = [](const std::string& name) { return std::regex_match(name, hidden); };
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (is_leftover(entry.path().filename().string()) && entry.is_regular_file(ignored))
+      fs::remove(entry.path(), ignored);
 }
 
 }  // namespace
@@ -46,8 +67,6 @@ StagedFile::~StagedFile() {
   if (!path_.empty()) ::unlink(path_.c_str());
 }
 
-// Some file systems report a full disk only when the data go out to it, or when the file is closed. And after a crash
-// of the machine the new name must not stand for data that never went out.
 void StagedFile::write(std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor_, text.data(), text.size());
@@ -55,7 +74,14 @@ void StagedFile::write(std::string_view text) {
     if (written < 0) give_up(errno);
     text.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+void StagedFile::flush_to_disk() const {
   if (::fsync(descriptor_) != 0) give_up(errno);
+}
+
+// Some file systems report a full disk only here.
+void StagedFile::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) give_up(errno);
 }
 
@@ -73,6 +99,7 @@ void StagedFile::give_up(int error) const {
 void write_whole(const fs::path& file, std::string_view text) {
   StagedFile staged(file);
   staged.write(text);
+  staged.close();
   staged.put_in_place();
 }
 
@@ -99,6 +126,7 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& deck, Foreign for
   std::error_code error;
   made_ = fs::create_directories(folder_, error);
   if (error) fail(folder_, "cannot be made", error.message());
+  remove_leftovers(folder_);
   const StagedFile probe(folder_ / "probe");
 }
 
@@ -110,7 +138,26 @@ void OutputFolder::write_whole(const std::string& name, std::string_view text) c
   arcwall::write_whole(folder_ / name, text);
 }
 
-void FileSet::write(const std::string& name, std::string_view text) { files_.emplace_back(folder_ / name).write(text); }
+void OutputFolder::write_durably(const std::string& name, std::string_view text) const {
+  StagedFile staged(folder_ / name);
+  staged.write(text);
+  staged.flush_to_disk();
+  staged.close();
+  staged.put_in_place();
+  // The new name, too. Not every file system can do this, and none needs it for the file to be whole.
+  const int folder = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
+
+// After a crash of the machine the new names must not stand for data that never went out.
+void FileSet::write(const std::string& name, std::string_view text) {
+  StagedFile& file = files_.emplace_back(folder_ / name);
+  file.write(text);
+  file.flush_to_disk();
+  file.close();
+}
 
 void FileSet::put_in_place() {
   for (StagedFile& file : files_) file.put_in_place();

@@ -16,10 +16,15 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
   ~StagedFile();
 
-  /// The whole text, at most once; it is on the disk when this returns.
   void write(std::string_view text);
 
-  /// Replaces what stands at the target.
+  /// What was written is on the disk when this returns.
+  void flush_to_disk() const;
+
+  /// No more is written.
+  void close();
+
+  /// Replaces what stands at the target. It is closed.
   void put_in_place();
 
  private:
@@ -57,6 +62,9 @@ class OutputFolder {
 
   /// Writes one file whole. Throws OutputError.
   void write_whole(const std::string& name, std::string_view text) const;
+
+  /// The same, and the file is on the disk when this returns, whatever happens to the machine then.
+  void write_durably(const std::string& name, std::string_view text) const;
 
  private:
   std::filesystem::path folder_;

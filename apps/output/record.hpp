@@ -1,6 +1,6 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +36,7 @@ struct RecordPoint {
   Index contacts = 0;  ///< closed
   double energy = 0.0;
   int iterations = 0;
+  double residual = 0.0;             ///< relative
   std::optional<EventKind> event{};  ///< of several the last that is no change of contact, else the last
   std::vector<RecordForce> forces{};
   State state{};
@@ -79,6 +80,12 @@ struct RecordBranch {
   std::optional<BranchEnd> end{};                               ///< empty while it goes on
 };
 
+/// A branch point and its event, for the branches that leave it.
+struct RecordBranchPoint {
+  std::shared_ptr<const BranchPoint> point{};
+  Index event = 0;
+};
+
 struct Record {
   std::string deck{};  ///< file name without folder
   std::string title{};
@@ -88,7 +95,8 @@ struct Record {
   std::vector<RecordBranch> branches{};
   std::vector<RecordPoint> points{};
   std::vector<RecordEvent> events{};
-  std::map<const BranchPoint*, Index> branch_points{};  ///< event of each; for the branches that leave it
+  std::vector<RecordBranchPoint> branch_points{};
+  std::string steps{};  ///< lines of steps.jsonl; empty unless they are wanted
 };
 
 }  // namespace arcwall

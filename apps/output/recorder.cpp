@@ -51,9 +51,11 @@ Recorder::Recorder(const Study& study, Record& record, const BranchRecord& branc
     : study_(study), record_(record), branch_(record.branches.size()) {
   RecordBranch added{.id = static_cast<Index>(branch_), .mirrored = branch.mirrored};
   if (branch.parent) added.parent = *branch.parent;
-  if (const auto origin = record.branch_points.find(branch.origin.get()); origin != record.branch_points.end()) {
-    added.origin = origin->second;
-    record.events[static_cast<std::size_t>(origin->second)].branches.push_back(added.id);
+  const auto same = [&](const RecordBranchPoint& known) { return known.point == branch.origin; };
+  const auto origin = std::find_if(record.branch_points.begin(), record.branch_points.end(), same);
+  if (branch.origin && origin != record.branch_points.end()) {
+    added.origin = origin->event;
+    record.events[static_cast<std::size_t>(origin->event)].branches.push_back(added.id);
   }
   record_.branches.push_back(std::move(added));
 }
@@ -69,14 +71,15 @@ void Recorder::add(const Arc& arc) {
                             .contacts = study_.closed_contacts(to.state),
                             .energy = study_.system().energy(to.state),
                             .iterations = to.iterations,
+                            .residual = to.residual,
                             .forces = forces_at(study_, to.state),
                             .state = to.state});
   ++branch().points;
   branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);
   branch().greatest_lambda = std::max(branch().greatest_lambda, to.state.lambda);
-  residual_ = to.residual;
   for (const Event& event : arc.events) {
-    if (event.branching) record_.branch_points[event.branching.get()] = static_cast<Index>(record_.events.size());
+    if (event.branching)
+      record_.branch_points.push_back({.point = event.branching, .event = static_cast<Index>(record_.events.size())});
     add_event(recorded(event));
   }
 }
@@ -91,7 +94,7 @@ void Recorder::end(const BranchEnd& end) {
              .monitors = last.monitors,
              .unstable_before = last.count.unstable,
              .unstable_after = last.count.unstable,
-             .residual = residual_,
+             .residual = last.residual,
              .branch_end = end});
 }
 

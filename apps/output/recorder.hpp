@@ -16,6 +16,11 @@ class Recorder {
   /// `study` and `record` must outlive this. `branch` says where the branch leaves another; without it, it leaves none.
   Recorder(const Study& study, Record& record, const BranchRecord& branch = {});
 
+  /// Goes on with the last branch of a record.
+  static Recorder last_branch(const Study& study, Record& record) {
+    return {study, record, record.branches.size() - 1};
+  }
+
   /// The arc's end as a point, and its events.
   void add(const Arc& arc);
 
@@ -23,6 +28,8 @@ class Recorder {
   void end(const BranchEnd& end);
 
  private:
+  Recorder(const Study& study, Record& record, std::size_t branch) : study_(study), record_(record), branch_(branch) {}
+
   RecordBranch& branch() { return record_.branches[branch_]; }
   RecordEvent recorded(const Event& event) const;
   void add_event(RecordEvent event);
@@ -30,7 +37,6 @@ class Recorder {
   const Study& study_;
   Record& record_;
   std::size_t branch_;
-  double residual_ = 0.0;  // of the last point
 };
 
 }  // namespace arcwall

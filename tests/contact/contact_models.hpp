@@ -7,23 +7,26 @@
 
 namespace arcwall::test {
 
-/// A clamped, slightly curved beam of height 0.2 from (0, 0) to (2, 0.1), four elements, loaded across at its tip.
-inline std::unique_ptr<Structure> contact_beam() {
+/// A clamped, slightly curved beam from (0, 0) to (2, 0.1), loaded across at its tip: the described member between
+/// these.
+inline std::unique_ptr<Structure> contact_beam(MemberDescription member) {
   StructureBuilder builder;
   const Vec2 a(0.0, 0.0), b(2.0, 0.1);
-  builder.add_joint(a);
-  builder.add_joint(b);
-  builder.add_member({.name = "beam",
-                      .from = 0,
-                      .to = 1,
-                      .axis = arc_axis(a, {1.0, 0.2}, b),
-                      .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
-                      .elements = 4});
+  member.name = "beam";
+  member.from = builder.add_joint(a);
+  member.to = builder.add_joint(b);
+  member.axis = arc_axis(a, {1.0, 0.2}, b);
+  builder.add_member(std::move(member));
   builder.fix(builder.freedom(0, Freedom::x));
   builder.fix(builder.freedom(0, Freedom::z));
   builder.fix(builder.shared_rotation(0).value());
   builder.add_load(builder.freedom(1, Freedom::z), 1.0, LoadKind::proportional);
   return builder.build();
+}
+
+/// The same, classic, of height 0.2, four elements.
+inline std::unique_ptr<Structure> contact_beam() {
+  return contact_beam({.section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2}, .elements = 4});
 }
 
 /// All kinds of walls on both sides, over x from −0.5 to 3.5.

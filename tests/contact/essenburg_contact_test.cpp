@@ -13,26 +13,13 @@ namespace {
 
 constexpr double height = 0.3;
 
-// A clamped, slightly curved beam of two elements from (0, 0) to (2, 0.1), loaded across at its tip.
+// Two elements.
 std::unique_ptr<Structure> beam(const test::EssenburgBeams& beams) {
-  StructureBuilder builder;
-  const Vec2 a(0.0, 0.0), b(2.0, 0.1);
-  builder.add_joint(a);
-  builder.add_joint(b);
-  builder.add_member({.name = "beam",
-                      .from = 0,
-                      .to = 1,
-                      .axis = arc_axis(a, {1.0, 0.2}, b),
-                      .theory = Theory::essenburg,
-                      .order = beams.order,
-                      .quadratic = beams.quadratic,
-                      .section = test::essenburg_section(1.0, 0.29, 1.0, height),
-                      .elements = 2});
-  builder.fix(builder.freedom(0, Freedom::x));
-  builder.fix(builder.freedom(0, Freedom::z));
-  builder.fix(builder.shared_rotation(0).value());
-  builder.add_load(builder.freedom(1, Freedom::z), 1.0, LoadKind::proportional);
-  return builder.build();
+  return test::contact_beam({.theory = Theory::essenburg,
+                             .order = beams.order,
+                             .quadratic = beams.quadratic,
+                             .section = test::essenburg_section(1.0, 0.29, 1.0, height),
+                             .elements = 2});
 }
 
 // Every contact closed, forces and displacements of the size of the model.

@@ -49,7 +49,7 @@ TEST(PathConstraint, AdvancesToWhereTheLinearisedConstraintVanishes) {
   const PlaneConstraint plane(metric, origin, tangent, 0.2);
   const auto tau = plane.advance(nearby, particular, tangent);
   ASSERT_TRUE(tau.has_value());
-  EXPECT_NEAR(plane.value(moved(moved(nearby, particular, 1.0), tangent, *tau)), 0.0, 1e-14);
+  EXPECT_NEAR(plane.value(moved(moved(nearby, particular, 1.0), tangent, tau->taken)), 0.0, 1e-14);
 }
 
 TEST(PathConstraint, AConstraintThatTheLineRunsAlongIsNotMet) {
@@ -68,14 +68,15 @@ TEST(SphereConstraint, TheRootIsOnTheSphereAndTheOneNearerThePreviousTangent) {
       const State at = moved(origin, tangent, 0.9);
       const auto tau = sphere.advance(at, particular, line);
       if (!tau) continue;
-      const State there = moved(moved(at, particular, 1.0), line, *tau);
+      const State there = moved(moved(at, particular, 1.0), line, tau->taken);
       EXPECT_NEAR(sphere.value(there), 0.0, 1e-10);
       // The other root is −2 (D·t)/(t·t) − τ away; it is no farther along the tangent.
       const auto inner = [&](const Direction& a, const Direction& b) {
         return form == Form::spherical ? metric.inner(a, b) : metric.inner_x(a, b);
       };
       const Direction D = difference(there, origin);
-      const double other = *tau - 2.0 * inner(D, line) / inner(line, line);
+      const double other = tau->taken - 2.0 * inner(D, line) / inner(line, line);
+      EXPECT_NEAR(tau->other.value(), other, 1e-8 * (1.0 + std::abs(other)));
       const State across = moved(moved(at, particular, 1.0), line, other);
       EXPECT_NEAR(sphere.value(across), 0.0, 1e-8);
       EXPECT_GE(inner(tangent, D), inner(tangent, difference(across, origin)) - 1e-12);

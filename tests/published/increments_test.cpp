@@ -3,70 +3,26 @@
 #include <cmath>
 #include <utility>
 
-#include "continuation/load_increments.hpp"
-#include "elements/incremental_structure.hpp"
 #include "elements/updated_classic_beam.hpp"
 #include "tests/support/dense.hpp"
-#include "tests/support/models.hpp"
+#include "tests/support/in_increments.hpp"
 
 // The incremental updated Lagrangian scheme of Selke & Kikuchi against the equations it approximates.
 namespace arcwall {
 
 namespace {
 
-// The beam above the foundation in increments.
-class Incremental {
- public:
-  Incremental(const test::ContactModel& model, double stiffness)
-      : structure_(model.structure()), springs_(springs(structure_, model.structure(), stiffness)) {
-    const MemberMesh& mesh = model.structure().members()[0];
-    middle_ = std::make_unique<MemberPoint>(model.structure(), mesh, mesh.nodes.size() / 2, 0.0);
-    const Index n = structure_.size({});
-    scheme_ =
-        std::make_unique<LoadIncrements>(*springs_, State{.x = Vector::Zero(n), .piece = springs_->open_piece()}, 1.0,
-                                         [this, n](const State& state) { structure_.advance(state.x.head(n)); });
-    last_ = scheme_->start().to;
-  }
+using test::InIncrements;
 
-  // Equal increments from where it is to a moment.
-  void bend(double moment, int increments) {
-    const double from = last_.state.lambda;
-    for (int i = 1; i <= increments; ++i) {
-      const auto arc = scheme_->to(i < increments ? from + (moment - from) * i / increments : moment);
-      ASSERT_TRUE(arc) << "increment " << i << " fails";
-      last_ = arc->to;
-    }
-    EXPECT_EQ(scheme_->unsettled(), 0);
-  }
+constexpr int elements = 80;
 
-  const PathPoint& last() const { return last_; }
-  double depth() const { return -middle_->position(last_.state.x).y(); }
+InIncrements foundation_beam() {
+  return {test::foundation_structure(elements),
+          test::foundation_wall(),
+          {.method = ContactLaw::Method::penalty, .stiffness = 1e9}};
+}
 
- private:
-  static constexpr double half_height = 0.1, floor = -0.18;
-
-  static std::unique_ptr<MultiplierContact> springs(const IncrementalStructure& inner, const Structure& structure,
-                                                    double stiffness) {
-    std::vector<Candidate> candidates;
-    for (const MemberMesh& mesh : structure.members())
-      for (const MemberSection& section : mesh.contact_sections())
-        candidates.emplace_back(std::make_unique<MemberPoint>(structure, section, -half_height), flat_profile(floor),
-                                Side::below,
-                                ContactLabel{.wall = "foundation",
-                                             .member = mesh.name,
-                                             .fraction = section.fraction,
-                                             .tributary = section.tributary});
-    return std::make_unique<MultiplierContact>(
-        inner, std::move(candidates), ContactScales{.length = 2.0, .force = 1.0},
-        ContactLaw{.method = ContactLaw::Method::penalty, .stiffness = stiffness});
-  }
-
-  IncrementalStructure structure_;
-  std::unique_ptr<MultiplierContact> springs_;
-  std::unique_ptr<MemberPoint> middle_;
-  std::unique_ptr<LoadIncrements> scheme_;
-  PathPoint last_{};
-};
+double depth_of_middle(const InIncrements& beam) { return -beam.z_of(elements / 2); }
 
 }  // namespace
 
@@ -76,11 +32,11 @@ TEST(LoadIncrements, BendABeamWithAnErrorOfFirstOrderInTheIncrement) {
   const double k = 0.4 / 2.8, exact = (1.0 - std::cos(k)) / k;
   std::vector<double> sizes, errors;
   for (const int increments : {5, 10, 20, 40}) {
-    const test::ContactModel model = test::foundation_beam(80);
     sizes.push_back(1.0 / increments);
-    Incremental beam(model, 1e9);
-    beam.bend(0.4, increments);
-    errors.push_back(beam.depth() - exact);
+    InIncrements beam = foundation_beam();
+    beam.load_to(0.4, 0.4 / increments);
+    errors.push_back(depth_of_middle(beam) - exact);
+    EXPECT_EQ(beam.unsettled(), 0);
   }
   EXPECT_GE(test::observed_order(sizes, errors), 1.0);
   EXPECT_LE(std::abs(errors.back()), 1e-5);
@@ -89,9 +45,7 @@ TEST(LoadIncrements, BendABeamWithAnErrorOfFirstOrderInTheIncrement) {
 
 // Their Table 1, classic theory: the printed depth of the middle before contact and on the foundation.
 TEST(LoadIncrements, FindTheClassicColumnOfTable1) {
-  const test::ContactModel model = test::foundation_beam(80);
-  Incremental beam(model, 1e9);
-  double from = 0.0;
+  InIncrements beam = foundation_beam();
   for (const auto& [moment, printed] : {std::pair{0.4, 0.0715},
                                         {0.4475, 0.0799},
                                         {0.4485, 0.0800},
@@ -102,27 +56,22 @@ TEST(LoadIncrements, FindTheClassicColumnOfTable1) {
                                         {3.5, 0.0800},
                                         {5.0, 0.0800},
                                         {5.18, 0.0800}}) {
-    beam.bend(moment, static_cast<int>(std::ceil((moment - from) / 0.0125)));
-    EXPECT_NEAR(beam.depth(), printed, 2e-4) << moment;
-    from = moment;
+    beam.load_to(moment, 0.0125);
+    EXPECT_NEAR(depth_of_middle(beam), printed, 2e-4) << moment;
   }
+  EXPECT_EQ(beam.unsettled(), 0);
 }
 
 TEST(LoadIncrements, CarryTheirResidueIntoTheNextIncrement) {
-  const test::ContactModel model = test::foundation_beam(20);
-  Incremental once(model, 1e9);
-  once.bend(0.3, 1);
-  EXPECT_GE(once.last().residual, 1e-3);
+  InIncrements beam = foundation_beam();
+  beam.load_to(0.3, 0.3);
+  double before = beam.last().residual;
+  EXPECT_GE(before, 1e-3);
   // Increments without load relax what is left.
-  IncrementalStructure structure(model.structure());
-  LoadIncrements relaxing(structure, {.x = Vector::Zero(structure.size({}))}, 1.0,
-                          [&](const State& state) { structure.advance(state.x); });
-  double before = infinity;
-  for (int i = 0; i < 4; ++i) {
-    const auto arc = relaxing.to(0.3);
-    ASSERT_TRUE(arc);
-    EXPECT_LE(arc->to.residual, 0.1 * before);
-    before = arc->to.residual;
+  for (int i = 0; i < 3; ++i) {
+    beam.relax(1);
+    EXPECT_LE(beam.last().residual, 0.1 * before);
+    before = beam.last().residual;
   }
 }
 

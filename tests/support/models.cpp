@@ -250,7 +250,7 @@ ContactModel::ContactModel(std::unique_ptr<Structure> structure, const std::vect
                                           ContactScales{.length = structure_->length_scale(), .force = force}, law);
 }
 
-ContactModel foundation_beam(int elements, const ContactLaw& law) {
+std::unique_ptr<Structure> foundation_structure(int elements) {
   StructureBuilder builder;
   const auto at = add_joints(builder, {{0.0, 0.0}, {2.0, 0.0}});
   constexpr double h = 0.2;
@@ -260,7 +260,15 @@ ContactModel foundation_beam(int elements, const ContactLaw& law) {
   builder.fix(builder.freedom(1, Freedom::z));
   builder.add_load(builder.shared_rotation(0).value(), -1.0, LoadKind::proportional);
   builder.add_load(builder.shared_rotation(1).value(), 1.0, LoadKind::proportional);
-  return {builder.build(), {{.name = "foundation", .side = Side::below, .profile = flat_profile(-0.18)}}, 0.05, law};
+  return builder.build();
+}
+
+std::vector<TestWall> foundation_wall() {
+  return {{.name = "foundation", .side = Side::below, .profile = flat_profile(-0.18)}};
+}
+
+ContactModel foundation_beam(int elements, const ContactLaw& law) {
+  return {foundation_structure(elements), foundation_wall(), 0.05, law};
 }
 
 ContactModel Channel::model() const {

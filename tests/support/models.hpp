@@ -153,6 +153,8 @@ class ContactModel {
 /// Selke & Kikuchi's first example [kN, cm]: a beam of length 2 and square section 0.2 (E = 21000, EI = 2.8), 0.08
 /// above a flat foundation, bent down by end moments λ; its right end slides.
 ContactModel foundation_beam(int elements, const ContactLaw& law = {});
+std::unique_ptr<Structure> foundation_structure(int elements);
+std::vector<TestWall> foundation_wall();
 
 /// The channel of Selke & Kikuchi's second example [kN, cm]: a pinned column of length 2 and square section 0.1 (E =
 /// 2.1e4, so EA = 210, EI = 0.175) between walls 0.15 from its axis, λ pushes its right end to the left.

@@ -1,16 +1,13 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/apps/output/temporary_folder.hpp"
+#include "tests/apps/cli/program_fixture.hpp"
 
-// The built program, as a user runs it.
 namespace arcwall {
 namespace {
 
@@ -19,63 +16,17 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-const Names outputs{"deck.toml", "events.json", "events.txt", "path.csv", "result.json"};
+const Names outputs{"checkpoint",  "deck.toml",   "events.json", "events.txt", "path.csv",
+                    "report.html", "result.json", "shapes",      "shapes.pvd"};
 
 // Steps so small that the run would take minutes.
 const std::string endless = " --set path.max_step=1e-8 --set path.min_step=1e-12 --set path.max_points=100000000";
-
-struct Outcome {
-  int status = -1;
-  std::string out{}, err{};
-};
-
-class ProgramTest : public testing::Test {
- protected:
-  // Arguments as in a shell, in the folder `work`.
-  Outcome run(const std::string& arguments) const { return shell("\"$PROGRAM\" " + arguments); }
-
-  Outcome shell(const std::string& script) const {
-    const std::string command = "cd '" + (folder_ / "work").string() + "' && PROGRAM='" TRACE_PATH_PROGRAM "' && { " +
-                                script + "; } >../out 2>../err </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ / "out"), content(folder_ / "err")};
-  }
-
-  void SetUp() override {
-    fs::create_directory(folder_ / "work");
-    ASSERT_EQ(run("examples truss --out truss.toml").status, 0);
-    before_ = names_in(work());
-  }
-
-  fs::path work() const { return folder_ / "work"; }
-  bool wrote_nothing() const { return names_in(work()) == before_; }
-
- private:
-  TemporaryFolder folder_;
-  Names before_;
-};
 
 std::vector<Json> lines(const std::string& text) {
   std::vector<Json> result;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) result.push_back(Json::parse(line));
   return result;
-}
-
-// Cells of a table without quotes.
-std::vector<std::vector<std::string>> table(const std::string& text) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    rows.emplace_back();
-    std::istringstream cells(line + ",");
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-  }
-  return rows;
-}
-
-void expect_in(const std::string& part, const std::string& text) {
-  EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in\n" << text;
 }
 
 TEST_F(ProgramTest, RunWritesAFolderNamedAfterTheDeckAndPrintsTheEvents) {
@@ -275,9 +226,9 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
                                 "run truss.toml --max-time 1s",
                                 "run truss.toml --set",
                                 "run truss.toml --set x",
-                                "run truss.toml --verbose",
+                                "run truss.toml --verbose=2",
                                 "run truss.toml --threads 2",
-                                "resume truss",
+                                "resume",
                                 "''",
                                 "run ''",
                                 "--quiet truss.toml",
@@ -293,7 +244,7 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
 }
 
 TEST_F(ProgramTest, HelpBeginsWithAnExample) {
-  for (const char* command : {"", "run", "check", "examples"}) {
+  for (const char* command : {"", "run", "resume", "check", "examples"}) {
     const Outcome outcome = run(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.out.find("  trace-path " + std::string(command)), 0u) << outcome.out;
@@ -315,10 +266,79 @@ TEST_F(ProgramTest, LimitsOnPointsAndTimeGiveStatus6AndWhatWasTraced) {
   EXPECT_EQ(result["branches"][0]["end"]["reason"], "max_time");
 }
 
+TEST_F(ProgramTest, ResumeGoesOnBehindALimit) {
+  ASSERT_EQ(run("truss.toml --out whole").status, 0);
+  const Outcome stopped = run("truss.toml --quiet --max-points 3");
+  EXPECT_EQ(stopped.status, 6);
+  expect_in("trace-path resume truss", stopped.err);
+  EXPECT_EQ(run("resume truss --max-points 4 --quiet").status, 6);
+  const std::string csv = content(work() / "truss" / "path.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 7);
+  const Outcome ended = run("resume truss");
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_EQ(ended.out, content(work() / "whole" / "events.txt"));
+  EXPECT_EQ(run("resume truss --quiet").status, 0) << "nothing is left to trace";
+  for (const char* name : {"path.csv", "events.json", "deck.toml", "checkpoint"})
+    EXPECT_EQ(content(work() / "truss" / name), content(work() / "whole" / name)) << name;
+}
+
+TEST_F(ProgramTest, ResumeWithoutAWholeCheckpointGivesStatus5) {
+  expect_in("no such folder", run("resume nowhere").err);
+  EXPECT_EQ(run("resume nowhere").status, 5);
+  EXPECT_EQ(run("resume .").status, 5);
+  ASSERT_EQ(run("truss.toml --quiet").status, 0);
+  const std::string bytes = content(work() / "truss" / "checkpoint");
+  put(work() / "truss" / "checkpoint", bytes.substr(0, bytes.size() / 2));
+  const Outcome outcome = run("resume truss");
+  EXPECT_EQ(outcome.status, 5);
+  expect_in("truss/checkpoint: is damaged", outcome.err);
+}
+
+// Each point once, in whichever call it was traced.
+TEST_F(ProgramTest, JsonOfAResumedRunGoesOnBehindThatBefore) {
+  const Outcome whole = run("truss.toml --json --out whole");
+  const Outcome first = run("truss.toml --json --max-points 5"), second = run("resume truss --json");
+  std::vector<Json> parts = lines(first.out), expected = lines(whole.out);
+  std::erase_if(parts, [](const Json& line) {
+    return line.contains("end") || (line.contains("event") && line["event"]["kind"] == "end");
+  });
+  for (const Json& line : lines(second.out)) parts.push_back(line);
+  EXPECT_EQ(parts, expected);
+}
+
+// Every accepted step is a row of path.csv; what was cut back says why.
+TEST_F(ProgramTest, VerboseWritesTheLedgerOfSteps) {
+  ASSERT_EQ(run("truss.toml --verbose --quiet").status, 0);
+  const std::vector<Json> steps = lines(content(work() / "truss" / "steps.jsonl"));
+  const auto rows = table(content(work() / "truss" / "path.csv"));
+  std::size_t accepted = 0;
+  for (const Json& step : steps) {
+    EXPECT_GT(step["radius"].get<double>(), 0.0);
+    if (step["outcome"] != "accepted") continue;
+    ++accepted;
+    EXPECT_EQ(step["lambda"].get<double>(), std::stod(rows[accepted + 1][3]));
+    EXPECT_LT(std::abs(step["root"].get<double>()), std::abs(step["other_root"].get<double>()));
+    EXPECT_LE(step["residual"].get<double>(), 1e-9);
+  }
+  EXPECT_EQ(accepted + 2, rows.size());  // a header and the start
+
+  // Under load control the branch ends at the limit point, by steps that fail and are halved.
+  ASSERT_EQ(run("truss.toml --verbose --quiet --out load --set path.method='\"load\"'").status, 3);
+  const std::vector<Json> failing = lines(content(work() / "load" / "steps.jsonl"));
+  EXPECT_NE(failing.back()["outcome"], "accepted");
+  EXPECT_NEAR(failing.back()["radius"].get<double>(), 0.5 * failing[failing.size() - 2]["radius"].get<double>(), 1e-12);
+
+  ASSERT_EQ(run("truss.toml --verbose --quiet --out parts --max-points 4").status, 6);
+  ASSERT_EQ(run("resume parts --quiet").status, 0);
+  EXPECT_EQ(content(work() / "parts" / "steps.jsonl"), content(work() / "truss" / "steps.jsonl"));
+}
+
 TEST_F(ProgramTest, ABranchThatEndsEarlyGivesStatus3AndWhatWasTraced) {
   const Outcome outcome = run("truss.toml --set path.method='\"load\"'");
   EXPECT_EQ(outcome.status, 3);
   expect_in("turning_control", outcome.err);
+  expect_in("last point: branch 0", outcome.err);
+  expect_in("try: path.method = \"spherical\"", outcome.err);
   EXPECT_EQ(names_in(work() / "truss"), outputs);
 }
 
@@ -356,11 +376,9 @@ TEST_F(ProgramTest, WhatCannotBeWrittenGivesStatus5) {
   EXPECT_TRUE(wrote_nothing());
 }
 
-// Files may grow to a block of 512 bytes: that is enough for path.csv, not for events.json.
+// No file may grow beyond 512 bytes.
 TEST_F(ProgramTest, ADiskThatIsFullKeepsTheFilesOfTheEarlierRun) {
-  ASSERT_EQ(run("truss.toml --max-points 4").status, 6);
-  ASSERT_LT(content(work() / "truss" / "path.csv").size(), 512u);
-  ASSERT_GT(content(work() / "truss" / "events.json").size(), 512u);
+  ASSERT_EQ(run("truss.toml --max-points 3").status, 6);
   const auto contents = [&] {
     std::map<std::string, std::string> result;
     for (const std::string& name : names_in(work() / "truss")) result[name] = content(work() / "truss" / name);
@@ -368,10 +386,10 @@ TEST_F(ProgramTest, ADiskThatIsFullKeepsTheFilesOfTheEarlierRun) {
   };
   const auto before = contents();
 
-  const Outcome outcome = shell("ulimit -f 1; \"$PROGRAM\" truss.toml --max-points 4 --set path.step=2.5");
+  const Outcome outcome = shell("ulimit -f 1; \"$PROGRAM\" truss.toml --max-points 4");
 
   EXPECT_EQ(outcome.status, 5);
-  expect_in("truss/events.json: cannot be written: File too large", outcome.err);
+  expect_in("cannot be written: File too large", outcome.err);
   EXPECT_EQ(contents(), before);
 }
 
@@ -402,6 +420,23 @@ TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
   EXPECT_EQ(outcome.status, 130);
   EXPECT_EQ(names_in(work() / "truss"), outputs);
   EXPECT_EQ(Json::parse(content(work() / "truss" / "events.json"))["events"].back()["reason"], "interrupted");
+  expect_in("trace-path resume truss goes on", outcome.err);
+}
+
+// A killed run leaves a checkpoint and perhaps what it was writing.
+TEST_F(ProgramTest, AFolderOfAKilledRunOfTheSameDeckIsUsedAgain) {
+  const Outcome killed = shell(
+      "\"$PROGRAM\" truss.toml --quiet --checkpoint-pause 0 --set path.max_step=1e-8 --set path.min_step=1e-12 & "
+      "child=$!; until [ -e truss/checkpoint ]; do sleep 0.01; done; kill -KILL $child; wait $child");
+  EXPECT_EQ(killed.status, 128 + 9);
+  put(work() / "truss" / ".checkpoint.1234", "half");
+  put(work() / "truss" / ".mine.1234", "kept");
+  ASSERT_EQ(shell("cp truss.toml other.toml").status, 0);
+  EXPECT_EQ(run("other.toml --out truss").status, 5);
+  EXPECT_EQ(run("truss.toml --quiet").status, 0);
+  Names expected = outputs;
+  expected.insert(".mine.1234");
+  EXPECT_EQ(names_in(work() / "truss"), expected);
 }
 
 TEST_F(ProgramTest, ExamplesAreListedAndRight) {

@@ -1,0 +1,111 @@
+#include "apps/checkpoint/checkpoint_file.hpp"
+
+#include <zlib.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "apps/checkpoint/archive.hpp"
+#include "core/error.hpp"
+
+namespace arcwall {
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr std::string_view first_line = "arcwall checkpoint 1\n";
+constexpr std::size_t length_bytes = 8, crc_bytes = 4;
+
+// Little-endian whatever the machine.
+std::string to_bytes(std::uint64_t number, std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes.push_back(static_cast<char>((number >> (8 * i)) & 0xff));
+  return bytes;
+}
+
+std::uint32_t crc32_of(std::string_view a, std::string_view b) {
+  const auto next = [](uLong crc, std::string_view text) {
+    return ::crc32_z(crc, reinterpret_cast<const Bytef*>(text.data()), text.size());
+  };
+  return static_cast<std::uint32_t>(next(next(0, a), b));
+}
+
+// Whether CBOR nests no deeper than `most`, as far as it can be read: the parser calls itself for each level.
+bool is_shallow(std::string_view bytes, std::size_t most) {
+  constexpr unsigned byte_string = 2, text = 3, array = 4, map = 5, tag = 6;  // major types (RFC 8949, 3.1)
+  std::vector<std::uint64_t> left;                                            // items still to come, a level each
+  for (std::size_t at = 0; at < bytes.size();) {
+    const auto head = static_cast<std::uint8_t>(bytes[at++]);
+    const unsigned kind = head >> 5, size = head & 31;
+    std::uint64_t value = size;
+    if (size >= 24 && size <= 27) {
+      value = 0;
+      for (std::size_t i = 0; i < (std::size_t{1} << (size - 24)) && at < bytes.size(); ++i)
+        value = (value << 8) | static_cast<std::uint8_t>(bytes[at++]);
+    } else if (size > 27) {
+      return false;  // of indefinite length: never written
+    }
+    if (kind == tag) return false;
+    if (kind == byte_string || kind == text) {
+      if (value > bytes.size() - at) return true;  // the parser says what is wrong
+      at += static_cast<std::size_t>(value);
+    }
+    const bool opens = (kind == array || kind == map) && value > 0;
+    if (opens) {
+      if (value > bytes.size()) return true;
+      left.push_back(kind == map ? 2 * value : value);
+      if (left.size() > most) return false;
+      continue;
+    }
+    while (!left.empty() && --left.back() == 0) left.pop_back();
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string to_checkpoint(const Json& content) {
+  std::string payload;
+  Json::to_cbor(content, payload);
+  const std::string length = to_bytes(payload.size(), length_bytes);
+  return std::string(first_line) + length + to_bytes(crc32_of(length, payload), crc_bytes) + payload;
+}
+
+Json from_checkpoint(std::string_view bytes, const std::string& file) {
+  const auto refuse = [&](const std::string& what) -> Json {
+    throw OutputError(file + ": " + what + "; run the deck again");
+  };
+  constexpr std::size_t head = first_line.size() + length_bytes + crc_bytes;
+  if (!bytes.starts_with(first_line)) return refuse("is no checkpoint of this program's format");
+  if (bytes.size() < head) return refuse("is damaged: it is not whole");
+  const std::string_view length = bytes.substr(first_line.size(), length_bytes), payload = bytes.substr(head);
+  const std::string_view crc = bytes.substr(first_line.size() + length_bytes, crc_bytes);
+  if (length != to_bytes(payload.size(), length_bytes)) return refuse("is damaged: it is not whole");
+  if (crc != to_bytes(crc32_of(length, payload), crc_bytes)) return refuse("is damaged: its bytes have changed");
+  try {
+    return from_cbor(payload);
+  } catch (const BadArchive& problem) {
+    return refuse(std::string("is no checkpoint: ") + problem.what());
+  }
+}
+
+std::string deck_of_checkpoint(std::string_view bytes) try {
+  const Json content = from_checkpoint(bytes, "");
+  const auto deck = Json::json_pointer("/1/0");
+  if (!content.contains(deck) || !content.at(deck).is_string()) return {};
+  return std::filesystem::path(content.at(deck).get<std::string>()).filename().string();
+} catch (const OutputError&) {
+  return {};
+}
+
+Json from_cbor(std::string_view bytes) {
+  constexpr std::size_t deepest = 100;
+  if (!is_shallow(bytes, deepest)) throw BadArchive("content that is no checkpoint's");
+  Json content = Json::from_cbor(bytes, true, false);
+  if (content.is_discarded()) throw BadArchive("content that is no CBOR");
+  return content;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,31 @@
+#include <iostream>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/session.hpp"
+
+namespace arcwall {
+
+namespace {
+
+ExitStatus resume(const Options& options) {
+  const Stopwatch since_begin;
+  const std::filesystem::path where = options.words().front();
+  RunUnderWay run = stored_run(where, RunUnderWay::Resume::go_on);
+  const OutputFolder folder(where, run.record().deck, Foreign::overwrite);
+  return trace_and_write(run, folder, session_options(options), since_begin);
+}
+
+}  // namespace
+
+Command resume_command() {
+  return {.description = {.name = "resume",
+                          .example = "trace-path resume results --max-time 3600",
+                          .usage = "DIR [options]",
+                          .summary = "goes on with a run that was interrupted or met a limit",
+                          .options = session_options(),
+                          .least_words = 1,
+                          .most_words = 1},
+          .run = resume};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/progress.hpp"
+#include "apps/deck/cursor.hpp"
+#include "apps/output/files.hpp"
+#include "apps/output/text_table.hpp"
+#include "apps/sweep/case_folder.hpp"
+#include "apps/sweep/job_script.hpp"
+#include "apps/sweep/planner.hpp"
+#include "apps/sweep/runner.hpp"
+#include "apps/sweep/sweep_report.hpp"
+#include "core/error.hpp"
+
+namespace arcwall {
+
+namespace fs = std::filesystem;
+
+const char* const sweep_summary = "parameter studies: many runs of one deck, with other values in each";
+
+namespace {
+
+constexpr const char* this_program = "/proc/self/exe";
+
+// --- plan
+
+ExitStatus plan(const Options& options) {
+  const std::string& file = options.words().front();
+  const fs::path folder = options.text("out").value_or(fs::path(file).stem().string());
+  const sweep::Plan plan = sweep::plan(file);
+  sweep::write(plan, folder);
+  std::vector<std::string> keys;
+  for (const sweep::Key& key : plan.sweep.keys) keys.push_back(key.name);
+  std::cout << fmt::format("{} cases of {} planned in {}; varied: {}\nnext: trace-path sweep run {}\n",
+                           plan.cases.size(), plan.cases.front().deck, folder.string(), fmt::join(keys, ", "),
+                           sweep::shell_word(folder.string()));
+  return ExitStatus::success;
+}
+
+// --- run
+
+// Options of `run` that the sweep gives itself.
+constexpr std::array owned_options{"out", "force", "json", "quiet", "dry-run", "max-time"};
+
+// Wrong options are told before anything runs.
+void check_passed_on(const std::vector<std::string>& words) {
+  std::vector<std::string> whole{"DECK"};
+  whole.insert(whole.end(), words.begin(), words.end());
+  const Options options(run_command().description, whole);
+  for (const char* name : owned_options)
+    if (options.has(name))
+      throw InputError(fmt::format("--{} cannot be passed on to the cases{}", name,
+                                   name == std::string("max-time") ? "; give it before --" : ""));
+  for (const char* name : {"help", "version"})
+    if (options.has(name)) throw InputError(fmt::format("--{} cannot be passed on to the cases", name));
+}
+
+std::vector<sweep::Case> chosen(const std::vector<sweep::Case>& cases, const std::optional<int>& number) {
+  if (!number) return cases;
+  if (static_cast<std::size_t>(*number) >= cases.size())
+    throw InputError(fmt::format("--case is {}; the sweep has the cases 0 to {}", *number, cases.size() - 1));
+  return {cases[static_cast<std::size_t>(*number)]};
+}
+
+void forget_results(const Options& options, const fs::path& folder, const std::vector<sweep::Case>& cases) {
+  for (const sweep::Case& one : cases) {
+    const bool failed = options.has("failed") && sweep::read_result(folder, one.number).failed();
+    if (options.has("force") || failed) sweep::forget(folder, one.number);
+  }
+}
+
+std::string text(const sweep::RunCounts& counts, std::size_t cases) {
+  std::string line =
+      fmt::format("{} of {} cases have results, {} of them new", counts.ran + counts.complete, cases, counts.ran);
+  if (counts.failed > 0) line += fmt::format(", {} of the new ones failed", counts.failed);
+  if (counts.busy > 0) line += fmt::format("; another process is running {}", counts.busy);
+  return line;
+}
+
+ExitStatus run_sweep(const Options& options) {
+  sweep::RunRequest request{.folder = options.words().front(),
+                            .program = this_program,
+                            .jobs = options.count("jobs").value_or(1),
+                            .options = options.passed_on(),
+                            .most_seconds = options.seconds("max-time")};
+  check_passed_on(request.options);
+  const auto cases = chosen(sweep::read_cases(request.folder), options.number("case"));
+  forget_results(options, request.folder, cases);
+  sweep::RunCounts counts;
+  {
+    ProgressLine line(options.has("quiet") ? Progress::hidden : progress_wanted());
+    counts = sweep::run_cases(request, cases, [&](const sweep::RunCounts& now) { line.show(text(now, cases.size())); });
+  }
+  if (!options.has("quiet")) std::cout << text(counts, cases.size()) << "\n";
+  if (counts.interrupted) {
+    std::cerr << "note: interrupted; the same command goes on\n";
+    return ExitStatus::interrupted;
+  }
+  return counts.failed > 0 ? ExitStatus::ended_early : ExitStatus::success;
+}
+
+// --- emit
+
+constexpr deck::Words<sweep::Engine, 2> engine_words{
+    {{"parallel", sweep::Engine::parallel}, {"slurm", sweep::Engine::slurm}}};
+
+ExitStatus emit(const Options& options) {
+  const std::vector<std::string> engines = deck::texts(engine_words);
+  const auto name = options.text("engine");
+  if (!name) throw InputError(fmt::format("--engine is missing; it is {}", fmt::join(engines, " or ")));
+  const auto engine = deck::from_text(engine_words, *name);
+  if (!engine)
+    throw InputError(fmt::format("there is no engine {}{}; there are {}", *name, suggestion(*name, engines),
+                                 fmt::join(engines, " and ")));
+  const fs::path& folder = options.words().front();
+  std::cout << sweep::script(*engine, {.program = fs::read_symlink(this_program),
+                                       .folder = fs::absolute(folder),
+                                       .cases = static_cast<int>(sweep::read_cases(folder).size()),
+                                       .jobs = options.count("jobs")});
+  return ExitStatus::success;
+}
+
+// --- collect
+
+std::vector<std::string> map_keys(const sweep::Sweep& sweep, const std::vector<std::string>& wanted) {
+  constexpr std::size_t most = 2;
+  std::vector<std::string> names;
+  for (const sweep::Key& key : sweep.keys) names.push_back(key.name);
+  for (const std::string& name : wanted)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("--over is {}, which is not varied{}; varied are {}", name, suggestion(name, names),
+                                   fmt::join(names, ", ")));
+  if (wanted.size() > most) throw InputError("--over is given more than twice; a map has two axes");
+  if (!wanted.empty()) return wanted;
+  names.resize(std::min(names.size(), most));
+  return names;
+}
+
+void print_failures(const sweep::Collection& collection) {
+  std::vector<std::vector<std::string>> rows;
+  for (const sweep::Failure& failure : sweep::failures(collection))
+    rows.push_back({failure.reason, std::to_string(failure.cases.size()), sweep::listed(failure.cases)});
+  if (!rows.empty())
+    std::cout << "\n" << text_table({{"reason"}, {"cases", TableColumn::Side::right}, {"which"}}, rows);
+}
+
+ExitStatus collect(const Options& options) {
+  const fs::path folder = options.words().front();
+  const sweep::Collection collection = sweep::collect(folder);
+  const std::vector<std::string> keys = map_keys(collection.sweep, options.texts("over"));
+  write_whole(folder / "cases.csv", sweep::cases_csv(collection));
+  write_whole(folder / "sweep.csv", sweep::sweep_csv(collection));
+  write_whole(folder / "report.html", sweep::report_html(collection, keys));
+  const auto failed = std::count_if(collection.results.begin(), collection.results.end(),
+                                    [](const sweep::CaseResult& result) { return result.failed(); });
+  std::cout << fmt::format("{} cases, {} as their deck says; written: cases.csv, sweep.csv, report.html in {}\n",
+                           collection.cases.size(), collection.cases.size() - static_cast<std::size_t>(failed),
+                           folder.string());
+  print_failures(collection);
+  return ExitStatus::success;
+}
+
+}  // namespace
+
+std::vector<Command> sweep_commands() {
+  return {{.description = {.name = "sweep plan",
+                           .example = "trace-path sweep plan sweep.toml --out study",
+                           .usage = "SWEEP [options]",
+                           .summary = "reads a sweep, checks every case, and writes a folder that stands alone",
+                           .options = {{"out", "DIR",
+                                        "folder to write into (default: the sweep's name without its ending)"}},
+                           .least_words = 1,
+                           .most_words = 1},
+           .run = plan},
+          {.description = {.name = "sweep run",
+                           .example = "trace-path sweep run study --jobs 4 -- --max-points 2000",
+                           .usage = "DIR [options] [-- options of run]",
+                           .summary = "runs the cases that have no results yet; may be stopped and goes on",
+                           .options = {{"case", "K", "this case alone; cases count from 0"},
+                                       {"jobs", "N", "processes at a time (default: 1)"},
+                                       {"max-time", "SECONDS", "end a case after that time; it counts as failed"},
+                                       {"failed", "", "run the cases that failed again"},
+                                       {"force", "", "run all cases again"},
+                                       {"quiet", "", "no progress and no counts"}},
+                           .least_words = 1,
+                           .most_words = 1,
+                           .passes_on = true},
+           .run = run_sweep},
+          {.description = {.name = "sweep emit",
+                           .example = "trace-path sweep emit study --engine parallel --jobs 8 >study.sh",
+                           .usage = "DIR --engine parallel|slurm [options]",
+                           .summary = "prints a script that runs the cases by GNU parallel or Slurm",
+                           .options = {{"engine", "parallel|slurm", "what runs the cases"},
+                                       {"jobs", "N", "cases at a time (default: what the engine takes)"}},
+                           .least_words = 1,
+                           .most_words = 1},
+           .run = emit},
+          {.description = {.name = "sweep collect",
+                           .example = "trace-path sweep collect study",
+                           .usage = "DIR [options]",
+                           .summary = "writes cases.csv, sweep.csv and report.html with maps of the loads",
+                           .options = {{.name = "over",
+                                        .value = "KEY",
+                                        .help = "varied key that the maps go over, one or two (default: the first two)",
+                                        .repeatable = true}},
+                           .least_words = 1,
+                           .most_words = 1},
+           .run = collect}};
+}
+
+}  // namespace arcwall

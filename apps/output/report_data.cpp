@@ -1,0 +1,127 @@
+#include "apps/output/report_data.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "apps/output/event_marks.hpp"
+#include "apps/output/event_names.hpp"
+#include "apps/output/events_text.hpp"
+#include "apps/output/markup.hpp"
+#include "apps/output/path_lines.hpp"
+
+namespace arcwall {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Ten digits are more than a picture shows, and half as long as all of them.
+Json number(double value, int digits = 10) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+}
+
+Json count(const std::optional<Index>& value) { return value ? Json(*value) : Json(nullptr); }
+
+template <class Value>
+Json of_points(const Record& record, Value value) {
+  Json list = Json::array();
+  for (const RecordPoint& point : record.points) list.push_back(value(point));
+  return list;
+}
+
+Json points_json(const Record& record) {
+  Json monitors = Json::array();
+  for (std::size_t i = 0; i < record.columns.size(); ++i)
+    monitors.push_back(of_points(record, [i](const RecordPoint& point) { return number(point.monitors[i]); }));
+  return {{"branch", of_points(record, [](const RecordPoint& point) { return Json(point.branch); })},
+          {"step", of_points(record, [](const RecordPoint& point) { return Json(point.step); })},
+          {"arc", of_points(record, [](const RecordPoint& point) { return number(point.arc); })},
+          {"lambda", of_points(record, [](const RecordPoint& point) { return number(point.lambda); })},
+          {"monitors", std::move(monitors)},
+          {"unstable", of_points(record, [](const RecordPoint& point) { return count(point.count.unstable); })},
+          {"stability", of_points(record, [](const RecordPoint& point) { return to_text(point.count.stability); })},
+          {"energy", of_points(record, [](const RecordPoint& point) { return number(point.energy); })}};
+}
+
+Json columns_json(const Record& record) {
+  Json columns = Json::array();
+  for (const RecordColumn& column : record.columns)
+    columns.push_back({{"name", shown_name(column.name)}, {"title", shown_title(column)}});
+  return columns;
+}
+
+Json lines_json(const Record& record) {
+  Json lines = Json::array();
+  for (const PathLine& line : path_lines(record))
+    lines.push_back({{"branch", line.branch},
+                     {"colour", branch_colour(line.branch)},
+                     {"stability", to_text(line.stability)},
+                     {"first", line.first},
+                     {"last", line.last}});
+  return lines;
+}
+
+Json events_json(const Record& record) {
+  const std::vector<std::size_t> first = first_points(record);
+  Json events = Json::array();
+  for (const RecordEvent& event : record.events) {
+    const EventMark mark = mark_of(event.kind);
+    events.push_back({{"point", point_of(event, first)},
+                      {"kind", to_text(event.kind)},
+                      {"what", plain(event_detail(event), 200)},
+                      {"symbol", mark.symbol},
+                      {"size", 11.0 * mark.size},
+                      {"filled", mark.filled}});
+  }
+  return events;
+}
+
+Json contact_json(const ContactMark& contact) {
+  return Json::array({shown_name(contact.label.wall), shown_name(contact.label.member),
+                      number(contact.label.fraction, 6), number(contact.force.norm(), 6),
+                      contact.pressure ? number(*contact.pressure, 6) : Json(nullptr)});
+}
+
+Json shapes_json(const ShapePictures& shapes) {
+  Json list = Json::array();
+  for (const ShapePicture& picture : shapes.pictures) {
+    Json contacts = Json::array();
+    for (const ContactMark& contact : picture.contacts) contacts.push_back(contact_json(contact));
+    list.push_back({{"point", picture.point}, {"paths", picture.paths}, {"contacts", std::move(contacts)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string branch_colour(Index branch) {
+  constexpr std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                               "#E69F00", "#56B4E9", "#000000"};
+  return colours[static_cast<std::size_t>(branch) % colours.size()];
+}
+
+std::string shown_name(const std::string& name) {
+  constexpr std::size_t most = 40;
+  return plain(name, most);
+}
+
+std::string shown_title(const RecordColumn& column) {
+  return shown_name(column.name) + (column.unit.empty() ? "" : " [" + shown_name(column.unit) + "]");
+}
+
+Json report_data(const Record& record, const ShapePictures& shapes) {
+  return {{"columns", columns_json(record)},
+          {"force_unit", shown_name(record.force_unit)},
+          {"length_unit", shown_name(record.length_unit)},
+          {"energy_unit", shown_name(record.energy_unit)},
+          {"points", points_json(record)},
+          {"lines", lines_json(record)},
+          {"events", events_json(record)},
+          {"shapes", shapes_json(shapes)}};
+}
+
+}  // namespace arcwall

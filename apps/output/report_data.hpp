@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/output/record.hpp"
+#include "apps/output/shape_pictures.hpp"
+
+namespace arcwall {
+
+/// The colour of a branch, from Okabe and Ito's palette for readers with any colour vision.
+std::string branch_colour(Index branch);
+
+/// A name or a unit of the deck as pictures and tables show it: plain, cut where it is very long.
+std::string shown_name(const std::string& name);
+
+/// `mid [cm]`.
+std::string shown_title(const RecordColumn& column);
+
+/// What the script of report.html knows of a run: the curves, the events and the shapes.
+nlohmann::ordered_json report_data(const Record& record, const ShapePictures& shapes);
+
+}  // namespace arcwall

@@ -1,0 +1,357 @@
+#include "apps/output/report_html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "apps/deck/writer.hpp"
+#include "apps/output/event_marks.hpp"
+#include "apps/output/event_names.hpp"
+#include "apps/output/events_text.hpp"
+#include "apps/output/markup.hpp"
+#include "apps/output/path_lines.hpp"
+#include "apps/output/report_data.hpp"
+#include "apps/output/report_parts.hpp"
+#include "apps/output/svg_chart.hpp"
+#include "apps/output/version.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using Fields = std::map<std::string, std::string, std::less<>>;
+
+// The page with `{{name}}` replaced. What is filled in is not looked at again.
+std::string filled(std::string_view page, const Fields& fields) {
+  std::string result;
+  for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
+    const std::size_t close = page.find("}}", open);
+    const auto field = fields.find(page.substr(open + 2, close - open - 2));
+    assert(close != std::string_view::npos && field != fields.end());
+    result += page.substr(0, open);
+    result += field->second;
+    page.remove_prefix(close + 2);
+  }
+  return result += page;
+}
+
+std::string words(EventKind kind) {
+  std::string text(to_text(kind));
+  std::replace(text.begin(), text.end(), '-', ' ');
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& several) {
+  return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
+// --- the head of the page -------------------------------------------------------------------------------------------
+
+std::string title(const Record& record) {
+  constexpr std::size_t most = 200;
+  const std::string text = plain(record.title, most);
+  return text.find_first_not_of(" \t\n") == std::string::npos ? plain(record.deck, most) : text;
+}
+
+std::string description(const ReportContent& content) {
+  if (content.description.empty()) return "";
+  return fmt::format("<p class=\"description\">{}</p>", escaped(plain(content.description, 4000)));
+}
+
+std::string outcome(const Record& record) {
+  std::string text =
+      fmt::format("{}, {}, {}", counted(record.branches.size(), "branch", "branches"),
+                  counted(record.points.size(), "point", "points"), counted(record.events.size(), "event", "events"));
+  if (record.branches.size() == 1 && record.branches.front().end)
+    text += ". It ended: " + plain(how_it_ended(*record.branches.front().end), 400);
+  return text;
+}
+
+// --- load over monitors ---------------------------------------------------------------------------------------------
+
+std::string event_text(const Record& record, const RecordEvent& event) {
+  const std::string detail = plain(event_detail(event), 200);
+  std::string text = fmt::format("{}: {}{}{}, λ = {}", event.id, words(event.kind), detail.empty() ? "" : " – ", detail,
+                                 shown_number(event.lambda, 8));
+  for (std::size_t i = 0; i < record.columns.size(); ++i)
+    text += fmt::format(", {} = {}", shown_name(record.columns[i].name), shown_number(event.monitors[i], 6));
+  return text;
+}
+
+// Load over one monitor; without monitors over the arc length.
+Chart chart(const Record& record, std::optional<std::size_t> monitor) {
+  const auto across = [&](const RecordPoint& point) { return monitor ? point.monitors[*monitor] : point.arc; };
+  const std::string axis = monitor ? shown_title(record.columns[*monitor]) : "arc length";
+  Chart result{.name = "Load factor over " + axis, .across = axis, .up = "load factor λ"};
+  for (const PathLine& line : path_lines(record)) {
+    ChartLine& added = result.lines.emplace_back();
+    added.colour = branch_colour(line.branch);
+    added.stability = line.stability;
+    for (std::size_t i = line.first; i <= line.last; ++i)
+      added.points.emplace_back(across(record.points[i]), record.points[i].lambda);
+  }
+  const std::vector<std::size_t> first = first_points(record);
+  for (const RecordEvent& event : record.events) {
+    const std::size_t point = point_of(event, first);
+    result.marks.push_back({.at = {across(record.points[point]), event.lambda},
+                            .kind = event.kind,
+                            .text = event_text(record, event),
+                            .point = point});
+  }
+  return result;
+}
+
+std::string charts(const Record& record) {
+  if (record.columns.empty()) return "<figure class=\"load\">" + svg_chart(chart(record, std::nullopt)) + "</figure>";
+  std::string text;
+  for (std::size_t i = 0; i < record.columns.size(); ++i)
+    text += "<figure class=\"load\">" + svg_chart(chart(record, i)) + "</figure>";
+  return text;
+}
+
+std::string monitor_choices(const Record& record) {
+  if (record.columns.empty()) return "<option>arc length</option>";
+  std::string text;
+  for (const RecordColumn& column : record.columns)
+    text += fmt::format("<option>{}</option>", escaped(shown_title(column)));
+  return text;
+}
+
+std::string legend(const Record& record) {
+  std::string text = "<ul class=\"legend\">";
+  std::set<Stability> met;
+  for (const PathLine& line : path_lines(record)) met.insert(line.stability);
+  if (record.branches.size() > 1) {
+    constexpr std::size_t most = 12;
+    for (std::size_t i = 0; i < std::min(record.branches.size(), most); ++i)
+      text += fmt::format("<li>{}branch {}</li>", svg_line(branch_colour(static_cast<Index>(i)), Stability::stable), i);
+    if (record.branches.size() > most) text += "<li>… colours repeat</li>";
+  }
+  for (const Stability stability : met)
+    text += fmt::format("<li>{}{}</li>", svg_line(record.branches.size() > 1 ? "#555" : branch_colour(0), stability),
+                        to_text(stability));
+  text += "</ul><ul class=\"legend\">";
+  std::set<EventKind> kinds;
+  for (const RecordEvent& event : record.events) kinds.insert(event.kind);
+  for (const EventKind kind : kinds)
+    text += fmt::format("<li>{}<span><b>{}</b> {}</span></li>", svg_mark(kind), words(kind), meaning(kind));
+  return text + "</ul>";
+}
+
+// --- deformed shapes ------------------------------------------------------------------------------------------------
+
+std::string view_box(const ShapePictures& shapes) { return fmt::format("0 0 {} {}", shapes.width, shapes.height); }
+
+std::string walls(const ShapePictures& shapes) {
+  std::string text = "<g id=\"walls\">";
+  for (std::size_t i = 0; i < shapes.surfaces.size(); ++i)
+    text += fmt::format("<path class=\"body\" d=\"{}\"/><path class=\"surface\" d=\"{}\"/>", shapes.bodies[i],
+                        shapes.surfaces[i]);
+  return text + "</g>";
+}
+
+// A path may be drawn twice: a member as its body and its axis.
+std::string shape_paths(const ShapePictures& shapes, const ShapePicture& picture) {
+  std::string text;
+  for (std::size_t i = 0; i < picture.paths.size(); ++i) {
+    const std::string data = fmt::format("data-path=\"{}\" d=\"{}\"", i, picture.paths[i]);
+    if (shapes.thickness[i] > 0.0)
+      text += fmt::format("<path class=\"band\" stroke-width=\"{}\" {}/>", shapes.thickness[i], data);
+    text += fmt::format("<path class=\"{}\" {}/>", shapes.classes[i], data);
+  }
+  return text;
+}
+
+std::string first_members(const ShapePictures& shapes) {
+  std::string text;
+  for (std::size_t i = 0; i < shapes.classes.size(); ++i)
+    if (shapes.classes[i] == "member")
+      text += fmt::format("<path class=\"first member\" d=\"{}\"/>", shapes.pictures.front().paths[i]);
+  return text;
+}
+
+// The picture that the script moves: walls, the first shape in grey, and a shape.
+std::string stage(const ShapePictures& shapes) {
+  if (shapes.pictures.empty()) return "";
+  return fmt::format(
+      "<svg id=\"stage\" class=\"shape\" viewBox=\"{}\" role=\"img\" aria-label=\"Deformed shape\">{}<g>{}</g>"
+      "<g id=\"shown\">{}</g></svg>",
+      view_box(shapes), walls(shapes), first_members(shapes), shape_paths(shapes, shapes.pictures.front()));
+}
+
+std::string shape_notes(const Record& record, const ShapePictures& shapes) {
+  std::vector<std::string> notes;
+  if (shapes.stretch > 1.0)
+    notes.push_back(fmt::format("Heights are drawn {} times as large as lengths.", shapes.stretch));
+  if (shapes.greatest_force > 0.0)
+    notes.push_back(fmt::format("Red arrows: forces of the walls on the structure, the longest {}{}{}.",
+                                shown_number(shapes.greatest_force, 4), record.force_unit.empty() ? "" : " ",
+                                shown_name(record.force_unit)));
+  if (shapes.pictures.size() < record.points.size())
+    notes.push_back(fmt::format("Shapes are kept of {} of the {} points; a point without one shows the nearest.",
+                                shapes.pictures.size(), record.points.size()));
+  std::string text;
+  for (const std::string& note : notes) text += (text.empty() ? "" : " ") + escaped(note);
+  return text;
+}
+
+// The events that tell most: changes of contact and turns before starts and ends, spread over the path.
+std::vector<const RecordEvent*> telling_events(const Record& record) {
+  constexpr std::size_t most = 12;
+  std::vector<const RecordEvent*> events;
+  std::set<std::pair<Index, Index>> places;
+  for (const RecordEvent& event : record.events)
+    if (places.insert({event.branch, event.step}).second) events.push_back(&event);
+  if (events.size() <= most) return events;
+  std::vector<const RecordEvent*> chosen;
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(events[i * (events.size() - 1) / (most - 1)]);
+  return chosen;
+}
+
+const ShapePicture* picture_at(const ShapePictures& shapes, std::size_t point) {
+  const auto found = std::lower_bound(shapes.pictures.begin(), shapes.pictures.end(), point,
+                                      [](const ShapePicture& picture, std::size_t at) { return picture.point < at; });
+  return found != shapes.pictures.end() && found->point == point ? &*found : nullptr;
+}
+
+std::string strip(const Record& record, const ShapePictures& shapes) {
+  const std::vector<std::size_t> first = first_points(record);
+  std::string text;
+  for (const RecordEvent* event : telling_events(record)) {
+    const std::size_t point = point_of(*event, first);
+    const ShapePicture* picture = picture_at(shapes, point);
+    if (picture == nullptr) continue;
+    text += fmt::format(
+        "<figure data-point=\"{}\"><svg class=\"shape\" viewBox=\"{}\" role=\"img\" aria-label=\"Shape at event {}\">"
+        "<use href=\"#walls\"/>{}</svg><figcaption>{}<b>{} {}</b><span>λ = {}</span></figcaption></figure>",
+        point, view_box(shapes), event->id, shape_paths(shapes, *picture), svg_mark(event->kind), event->id,
+        words(event->kind), shown_number(event->lambda, 6));
+  }
+  return text;
+}
+
+// --- tables ---------------------------------------------------------------------------------------------------------
+
+std::string cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
+std::string figure_cell(const std::string& text) { return "<td class=\"figure\">" + escaped(text) + "</td>"; }
+
+// The greatest size of each monitor: what is far below it is round-off.
+std::vector<double> sizes(const Record& record) {
+  std::vector<double> result(record.columns.size(), 0.0);
+  for (const RecordPoint& point : record.points)
+    for (std::size_t i = 0; i < result.size(); ++i)
+      if (std::isfinite(point.monitors[i])) result[i] = std::max(result[i], std::abs(point.monitors[i]));
+  return result;
+}
+
+std::string event_rows(const Record& record) {
+  constexpr double roundoff = 1e-12;
+  const std::vector<std::size_t> first = first_points(record);
+  const std::vector<double> size = sizes(record);
+  std::string text;
+  for (const RecordEvent& event : record.events) {
+    text += fmt::format("<tr data-point=\"{}\">", point_of(event, first)) + figure_cell(std::to_string(event.id));
+    text += figure_cell(std::to_string(event.branch)) + figure_cell(std::to_string(event.step));
+    text += figure_cell(shown_number(event.lambda, 10));
+    text += fmt::format("<td class=\"kind\">{}{}</td>", svg_mark(event.kind), words(event.kind));
+    text += cell(plain(event_detail(event), 400));
+    for (std::size_t i = 0; i < size.size(); ++i) {
+      const double value = event.monitors[i];
+      text += figure_cell(shown_number(std::abs(value) < roundoff * size[i] ? 0.0 : value, 6));
+    }
+    text += cell(unstable_change(event)) + "</tr>\n";
+  }
+  return text;
+}
+
+std::string event_titles(const Record& record) {
+  std::string text = "<tr><th>id</th><th>branch</th><th>step</th><th class=\"figure\">λ</th><th>kind</th><th>what</th>";
+  for (const RecordColumn& column : record.columns)
+    text += fmt::format("<th class=\"figure\">{}</th>", escaped(shown_title(column)));
+  return text + "<th>unstable</th></tr>";
+}
+
+// The branches that leave a branch, and those that leave them in turn.
+std::string branch_tree(const Record& record, std::optional<Index> parent) {
+  std::string items;
+  const std::vector<std::size_t> first = first_points(record);
+  for (const RecordBranch& branch : record.branches) {
+    if (branch.parent != parent) continue;
+    items += fmt::format("<li>{}<span data-point=\"{}\"><b>branch {}</b></span>",
+                         svg_line(branch_colour(branch.id), Stability::stable),
+                         first[static_cast<std::size_t>(branch.id)], branch.id);
+    if (branch.origin) {
+      const RecordEvent& origin = record.events[static_cast<std::size_t>(*branch.origin)];
+      items += fmt::format(" leaves at <span data-point=\"{}\">event {}</span>, λ = {};", point_of(origin, first),
+                           origin.id, shown_number(origin.lambda, 10));
+    }
+    items += fmt::format(" {}", counted(static_cast<std::size_t>(branch.points), "point", "points"));
+    if (branch.end) items += "; ended: " + escaped(plain(how_it_ended(*branch.end), 400));
+    if (branch.mirrored) items += "; its mirror image is not traced";
+    items += branch_tree(record, branch.id) + "</li>";
+  }
+  return items.empty() ? "" : "<ul class=\"tree\">" + items + "</ul>";
+}
+
+std::string facts(const ReportContent& content) {
+  std::string text;
+  for (const auto& [name, value] : content.facts)
+    text += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped(plain(name, 200)), escaped(plain(value, 1000)));
+  return text;
+}
+
+}  // namespace
+
+ReportContent report_content(const Study& study, const Record& record) {
+  ReportContent content{.description = study.deck().description,
+                        .deck_text = deck::to_toml(study.deck()),
+                        .shapes = draw_run(study, record)};
+  const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
+  add("deck", record.deck);
+  for (const std::string& assignment : study.deck().source.assignments) add("--set", assignment);
+  add("nodes", std::to_string(study.structure().node_count()));
+  add("unknowns", std::to_string(study.structure().size({})));
+  Index iterations = 0;
+  for (const RecordPoint& point : record.points) iterations += point.iterations;
+  add("iterations", std::to_string(iterations));
+  add("trace-path", program_version());
+  for (const auto& [name, version] : library_versions()) add(name, version);
+  return content;
+}
+
+std::string report_html(const Record& record, const ReportContent& content) {
+  const ReportParts& parts = report_parts();
+  return filled(parts.page,
+                {{"style", std::string(parts.style)},
+                 {"script", std::string(parts.script)},
+                 {"library", std::string(parts.library)},
+                 {"library_note",
+                  parts.library.empty()
+                      ? "This trace-path was built without plotly: the curves are still pictures without zoom."
+                      : "Curves are drawn with plotly.js, whose licence (MIT) stands in the source of this page."},
+                 {"title", escaped(title(record))},
+                 {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
+                 {"description", description(content)},
+                 {"outcome", escaped(outcome(record))},
+                 {"monitors", monitor_choices(record)},
+                 {"charts", charts(record)},
+                 {"legend", legend(record)},
+                 {"stage", stage(content.shapes)},
+                 {"shape_notes", shape_notes(record, content.shapes)},
+                 {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
+                 {"strip", strip(record, content.shapes)},
+                 {"event_titles", event_titles(record)},
+                 {"event_rows", event_rows(record)},
+                 {"branches", branch_tree(record, std::nullopt)},
+                 {"deck", escaped(plain(content.deck_text))},
+                 {"facts", facts(content)},
+                 {"data", script_json(report_data(record, content.shapes))}});
+}
+
+}  // namespace arcwall

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+
+namespace arcwall {
+
+/// What the program carries of report.html; apps/report/ has the sources.
+struct ReportParts {
+  std::string_view page{};     ///< with `{{name}}` where something is to be filled in
+  std::string_view style{};    ///< CSS
+  std::string_view script{};   ///< JavaScript
+  std::string_view library{};  ///< plotly with its licence; empty if the program was built without
+};
+
+const ReportParts& report_parts();
+
+}  // namespace arcwall

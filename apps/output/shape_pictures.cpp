@@ -1,0 +1,369 @@
+#include "apps/output/shape_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "apps/output/path_lines.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double longer_side = 1e5;  // units: coordinates are whole numbers of five digits
+constexpr double margin = 0.08;      // of the longer side
+// Parts of the longer side. What is drawn outwards from the structure stays in the margin.
+constexpr double longest_force = 0.14, longest_load = 0.07;
+constexpr double arrow_head = 0.018;
+constexpr double support_size = 0.02;
+constexpr double wall_band = 0.025;
+constexpr double moment_radius = 0.035;
+constexpr double thinnest_band = 0.006;
+
+struct Box {
+  Vec2 low = Vec2::Constant(infinity), high = Vec2::Constant(-infinity);
+
+  void include(const Vec2& point) {
+    if (!point.allFinite()) return;
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  Vec2 size() const { return high - low; }
+};
+
+// The part of a line, along which x ascends, between two values of x.
+std::vector<Vec2> between(const std::vector<Vec2>& line, double low, double high) {
+  std::vector<Vec2> part;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Vec2 &a = line[i - 1], &b = line[i];
+    if (b.x() < low || a.x() > high || !(b.x() > a.x())) continue;
+    for (const double x : {std::max(a.x(), low), std::min(b.x(), high)})
+      part.emplace_back(x, a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()));
+  }
+  return part;
+}
+
+// What the structure sweeps over, and the walls that are near.
+Box box_of(const std::vector<Scene>& scenes, const Setting& setting) {
+  Box swept;
+  for (const Scene& scene : scenes) {
+    for (std::size_t m = 0; m < scene.shape.members.size(); ++m) {
+      const Vec2 around = Vec2::Constant(m < setting.heights.size() ? 0.5 * setting.heights[m] : 0.0);
+      for (const ShapePoint& point : scene.shape.members[m].points) {
+        swept.include(point.position - around);
+        swept.include(point.position + around);
+      }
+    }
+  }
+  if (swept.low.x() > swept.high.x()) return {.low = Vec2::Zero(), .high = Vec2::Ones()};
+  const double reach = 0.2 * swept.size().norm();
+  Box box = swept;
+  for (const WallShape& wall : setting.walls) {
+    for (const Vec2& point : between(wall.line, swept.low.x(), swept.high.x())) {
+      if (point.y() > swept.low.y() - reach && point.y() < swept.high.y() + reach) box.include(point);
+    }
+  }
+  return box;
+}
+
+// 1, or a round number that makes something to see of what is long and flat.
+double stretch_of(const Vec2& size) {
+  constexpr double flat = 6.0, wanted = 4.0;
+  if (size.y() <= 0.0 || size.x() < flat * size.y()) return 1.0;
+  const double most = size.x() / (wanted * size.y());
+  const double decade = std::pow(10.0, std::floor(std::log10(most)));
+  const double part = most / decade;
+  return decade * (part < 2.0 ? 1.0 : part < 5.0 ? 2.0 : 5.0);
+}
+
+// Forces that have the longest arrows.
+struct Greatest {
+  double wall = 0.0, load = 0.0, moment = 0.0;
+};
+
+Greatest greatest_forces(const std::vector<Scene>& scenes) {
+  Greatest greatest;
+  for (const Scene& scene : scenes) {
+    for (const ContactMark& contact : scene.shape.contacts)
+      greatest.wall = std::max(greatest.wall, contact.force.norm());
+    for (const AppliedLoad& load : scene.loads) {
+      greatest.load = std::max(greatest.load, load.force.norm());
+      greatest.moment = std::max(greatest.moment, std::abs(load.moment));
+    }
+  }
+  return greatest;
+}
+
+// From the plane to the picture.
+class Frame {
+ public:
+  Frame(const Box& box, double stretch) : stretch_(stretch), corner_(box.low.x(), box.high.y()) {
+    const Vec2 size = stretched(box.size());
+    const double longer = std::max({size.x(), size.y(), 1e-300});
+    scale_ = longer_side * (1.0 - 2.0 * margin) / longer;
+    size_ = (scale_ * size).array().round() + 2.0 * margin * longer_side;
+  }
+
+  const Vec2& size() const { return size_; }
+
+  // Of what lies nearly flat; 0 if it cannot be told from a line.
+  double thickness(double height) const {
+    const double drawn = std::round(scale_ * stretch_ * height);
+    return drawn < thinnest_band * longer_side ? 0.0 : drawn;
+  }
+
+  Vec2 place(const Vec2& point) const {
+    const Vec2 offset = scale_ * stretched(point - corner_);
+    return (Vec2(offset.x(), -offset.y()).array() + margin * longer_side).round();
+  }
+
+  // In the picture too a force stands upright on its wall.
+  Vec2 wall_arrow(const Vec2& force, double greatest) const {
+    return arrow({stretch_ * force.x(), -force.y()}, force.norm() / greatest, longest_force);
+  }
+
+  Vec2 load_arrow(const Vec2& force, double greatest) const {
+    return arrow({force.x(), -force.y()}, force.norm() / greatest, longest_load);
+  }
+
+ private:
+  Vec2 stretched(const Vec2& v) const { return {v.x(), stretch_ * v.y()}; }
+
+  static Vec2 arrow(const Vec2& direction, double part, double longest) {
+    if (!(part > 0.0) || !std::isfinite(part)) return Vec2::Zero();
+    return longest * longer_side * part * direction.normalized();
+  }
+
+  double stretch_, scale_ = 1.0;
+  Vec2 corner_, size_;
+};
+
+// `M10 20l5-3`: the first point, then the ways from each to the next.
+std::string path_data(const std::vector<Vec2>& places) {
+  std::string data;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vec2 way = i == 0 ? places[0] : Vec2(places[i] - places[i - 1]);
+    const bool apart = i > 1 && way.x() >= 0.0;
+    data += fmt::format("{}{:.0f}{}{:.0f}",
+                        i == 0   ? "M"
+                        : i == 1 ? "l"
+                        : apart  ? " "
+                                 : "",
+                        way.x() + 0.0, way.y() < 0.0 ? "" : " ", way.y() + 0.0);
+  }
+  return data;
+}
+
+std::string member_data(const Frame& frame, const MemberShape& member) {
+  std::vector<Vec2> places;
+  for (const ShapePoint& point : member.points)
+    if (point.position.allFinite()) places.push_back(frame.place(point.position));
+  return path_data(places);
+}
+
+std::string arrow_data(const Vec2& from, const Vec2& way) {
+  const double length = way.norm();
+  if (length < 1.0) return "";
+  const Vec2 along = way / length, tip = from + way;
+  const double head = std::min(arrow_head * longer_side, length);
+  const Vec2 across = 0.4 * head * perp(along), neck = tip - head * along;
+  const Vec2 one = neck + across, other = neck - across;
+  return fmt::format("M{:.0f} {:.0f}L{:.0f} {:.0f}M{:.0f} {:.0f}L{:.0f} {:.0f}L{:.0f} {:.0f}Z", from.x(), from.y(),
+                     neck.x(), neck.y(), one.x(), one.y(), tip.x(), tip.y(), other.x(), other.y());
+}
+
+// A part of a circle about the point, from its right side on, with an arrow's head: three quarters for the greatest.
+std::string moment_data(const Vec2& at, double part) {
+  if (!(std::abs(part) > 0.0) || !std::isfinite(part)) return "";
+  const double radius = moment_radius * longer_side, angle = 1.5 * pi * part;
+  const Vec2 outwards(std::cos(angle), -std::sin(angle));
+  const Vec2 end = at + radius * outwards;
+  const Vec2 along = (part > 0.0 ? -1.0 : 1.0) * perp(outwards);
+  const double head = arrow_head * longer_side;
+  const auto arc = [&](bool clockwise, const Vec2& to) {
+    return fmt::format("A{:.0f} {:.0f} 0 {} {} {:.0f} {:.0f}", radius, radius, std::abs(angle) > pi ? 1 : 0,
+                       clockwise ? 1 : 0, to.x(), to.y());
+  };
+  const Vec2 begin = at + Vec2(radius, 0.0);  // there and back, or the arc would be filled
+  return fmt::format("M{:.0f} {:.0f}", begin.x(), begin.y()) + arc(part < 0.0, end) + arc(part > 0.0, begin) +
+         arrow_data(end - 0.5 * head * along, head * along);
+}
+
+// A square where the rotation is held, else a triangle with its tip at the point; a line behind it where it can roll.
+std::string support_data(const Vec2& at, const HeldPoint& held) {
+  const double size = support_size * longer_side;
+  if (held.rotation)
+    return fmt::format("M{:.0f} {:.0f}h{:.0f}v{:.0f}h{:.0f}z", at.x() - 0.5 * size, at.y() - 0.5 * size, size, size,
+                       -size);
+  const bool upright = held.z;  // else it lies on its side
+  const auto place = [&](double across, double away) {
+    return upright ? Vec2(at.x() + across * size, at.y() + away * size)
+                   : Vec2(at.x() - away * size, at.y() + across * size);
+  };
+  const Vec2 one = place(-0.6, 1.0), other = place(0.6, 1.0);
+  std::string data = fmt::format("M{:.0f} {:.0f}L{:.0f} {:.0f}L{:.0f} {:.0f}Z", at.x(), at.y(), one.x(), one.y(),
+                                 other.x(), other.y());
+  if (held.x && held.z) return data;
+  const Vec2 first = place(-0.8, 1.35), last = place(0.8, 1.35);
+  return data + fmt::format("M{:.0f} {:.0f}L{:.0f} {:.0f}", first.x(), first.y(), last.x(), last.y());
+}
+
+std::vector<std::string> classes_of(const Scene& scene) {
+  std::vector<std::string> classes(scene.shape.members.size(), "member");
+  classes.insert(classes.end(), {"supports", "loads", "forces", "touches"});
+  return classes;
+}
+
+// The paths in the order of classes_of().
+ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
+  std::string supports, loads, forces, touches;
+  for (const HeldPoint& held : scene.supports) supports += support_data(frame.place(held.at), held);
+  for (const AppliedLoad& load : scene.loads) {
+    const Vec2 place = frame.place(load.at), way = frame.load_arrow(load.force, greatest.load);
+    loads += arrow_data(place - way, way) + moment_data(place, load.moment / greatest.moment);
+  }
+  for (const ContactMark& contact : scene.shape.contacts) {
+    const Vec2 place = frame.place(contact.position);
+    touches += fmt::format("M{:.0f} {:.0f}h0", place.x(), place.y());
+    forces += arrow_data(place, frame.wall_arrow(contact.force, greatest.wall));
+  }
+  ShapePicture picture{.point = point, .contacts = scene.shape.contacts};
+  for (const MemberShape& member : scene.shape.members) picture.paths.push_back(member_data(frame, member));
+  picture.paths.insert(picture.paths.end(), {supports, loads, forces, touches});
+  return picture;
+}
+
+void draw_wall(const Frame& frame, const WallShape& wall, ShapePictures& to) {
+  std::vector<Vec2> places;
+  for (const Vec2& point : wall.line) places.push_back(frame.place(point));
+  to.surfaces.push_back(path_data(places));
+  const Vec2 behind{0.0, (wall.side == Side::above ? -1.0 : 1.0) * wall_band * longer_side};
+  for (std::size_t i = places.size(); i-- > 0;) places.emplace_back(places[i] + behind);
+  to.bodies.push_back(path_data(places) + (places.empty() ? "" : "z"));
+}
+
+// --- what acts from outside -----------------------------------------------------------------------------------------
+
+Vec2 position_at(const MemberShape& member, double fraction) {
+  const auto behind = std::lower_bound(member.points.begin(), member.points.end(), fraction,
+                                       [](const ShapePoint& point, double at) { return point.fraction < at; });
+  if (behind == member.points.begin()) return behind->position;
+  if (behind == member.points.end()) return member.points.back().position;
+  const ShapePoint& before = *(behind - 1);
+  const double part = (fraction - before.fraction) / (behind->fraction - before.fraction);
+  return before.position + part * (behind->position - before.position);
+}
+
+// Where a point of the deck or of a member is; nowhere if no member has it.
+std::optional<Vec2> position_of(const deck::Deck& deck, const Shape& shape, const deck::Place& place) {
+  for (std::size_t m = 0; m < deck.members.size(); ++m) {
+    const deck::Member& member = deck.members[m];
+    if (shape.members[m].points.empty()) continue;
+    if (place.fraction && member.name == place.name) return position_at(shape.members[m], *place.fraction);
+    if (!place.fraction && member.from == place.name) return shape.members[m].points.front().position;
+    if (!place.fraction && member.to == place.name) return shape.members[m].points.back().position;
+  }
+  return std::nullopt;
+}
+
+// What is spread over a member stands at a few of its points.
+void add_load(const deck::Deck& deck, const deck::MemberLoad& load, double factor, Scene& to) {
+  constexpr int arrows = 9;
+  for (std::size_t m = 0; m < deck.members.size(); ++m) {
+    const MemberShape& shape = to.shape.members[m];
+    if (deck.members[m].name != load.member || shape.points.empty()) continue;
+    for (int i = 0; i < arrows; ++i)
+      to.loads.push_back({.at = position_at(shape, (i + 0.5) / arrows),
+                          .force = factor * Vec2(load.distributed.x, load.distributed.z)});
+  }
+}
+
+// Of beams; bars are drawn as lines.
+std::vector<double> section_heights(const deck::Deck& deck) {
+  std::vector<double> heights;
+  for (const deck::Member& member : deck.members) {
+    const deck::Section* section = find(deck.sections, member.section);
+    const bool beam = member.theory != deck::Theory::truss && section != nullptr;
+    heights.push_back(beam ? properties(*section).height.value_or(0.0) : 0.0);
+  }
+  return heights;
+}
+
+}  // namespace
+
+std::vector<std::size_t> points_to_draw(const Record& record, std::size_t most) {
+  const std::size_t count = record.points.size();
+  const std::vector<std::size_t> first = first_points(record);
+  std::set<std::size_t> events;
+  for (const RecordEvent& event : record.events) events.insert(point_of(event, first));
+  std::set<std::size_t> drawn;
+  if (2 * events.size() <= most) drawn = events;
+  const std::size_t room = std::max<std::size_t>(most - drawn.size(), 1);
+  const std::size_t every = count <= most ? 1 : (count + room - 1) / room;
+  for (std::size_t b = 0; b + 1 < first.size(); ++b) {
+    for (std::size_t i = first[b]; i < first[b + 1]; i += every) drawn.insert(i);
+    if (first[b] < first[b + 1]) drawn.insert(first[b + 1] - 1);
+  }
+  return {drawn.begin(), drawn.end()};
+}
+
+Scene scene_of(const Study& study, const State& state) {
+  const deck::Deck& deck = study.deck();
+  Scene scene{.shape = shape_of(study, state)};
+  for (const deck::Load& load : deck.loads) {
+    const double factor = load.constant ? 1.0 : state.lambda;
+    if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(deck, *spread, factor, scene);
+    const auto* single = std::get_if<deck::PointLoad>(&load.action);
+    const auto at = single == nullptr ? std::nullopt : position_of(deck, scene.shape, single->at);
+    if (at)
+      scene.loads.push_back(
+          {.at = *at, .force = factor * Vec2(single->force.x, single->force.z), .moment = factor * single->moment});
+  }
+  for (const deck::Support& support : deck.supports) {
+    const auto at = position_of(deck, scene.shape, {.name = support.point});
+    const auto holds = [&](deck::Direction direction) {
+      return std::find(support.directions.begin(), support.directions.end(), direction) != support.directions.end();
+    };
+    const HeldPoint held{
+        .x = holds(deck::Direction::x), .z = holds(deck::Direction::z), .rotation = holds(deck::Direction::rotation)};
+    if (!at || !(held.x || held.z || held.rotation)) continue;
+    scene.supports.push_back(held);
+    scene.supports.back().at = *at;
+  }
+  return scene;
+}
+
+ShapePictures draw(const std::vector<std::size_t>& points, const std::vector<Scene>& scenes, const Setting& setting) {
+  if (scenes.empty()) return {};
+  const Box box = box_of(scenes, setting);
+  const Greatest greatest = greatest_forces(scenes);
+  const Frame frame(box, stretch_of(box.size()));
+  ShapePictures result{.width = frame.size().x(),
+                       .height = frame.size().y(),
+                       .stretch = stretch_of(box.size()),
+                       .greatest_force = greatest.wall,
+                       .classes = classes_of(scenes.front())};
+  result.thickness.resize(result.classes.size(), 0.0);
+  for (std::size_t m = 0; m < setting.heights.size(); ++m) result.thickness[m] = frame.thickness(setting.heights[m]);
+  for (const WallShape& wall : setting.walls) draw_wall(frame, wall, result);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.pictures.push_back(picture_of(frame, greatest, points[i], scenes[i]));
+  return result;
+}
+
+ShapePictures draw_run(const Study& study, const Record& record) {
+  constexpr std::size_t most_coordinates = 400'000;  // about 4 MB
+  if (record.points.empty()) return {};
+  std::size_t per_shape = 1;
+  for (const MemberShape& member : shape_of(study, record.points.front().state).members)
+    per_shape += member.points.size();
+  const std::vector<std::size_t> points =
+      points_to_draw(record, std::max<std::size_t>(most_coordinates / per_shape, 2));
+  std::vector<Scene> scenes;
+  for (const std::size_t point : points) scenes.push_back(scene_of(study, record.points[point].state));
+  return draw(points, scenes, {.walls = wall_shapes(study), .heights = section_heights(study.deck())});
+}
+
+}  // namespace arcwall

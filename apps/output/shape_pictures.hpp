@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "apps/output/record.hpp"
+#include "apps/output/shape.hpp"
+
+namespace arcwall {
+
+/// A load, on a point or as a part of what is spread over a member.
+struct AppliedLoad {
+  Vec2 at = Vec2::Zero();     ///< [length]
+  Vec2 force = Vec2::Zero();  ///< [force]
+  double moment = 0.0;        ///< positive anticlockwise [force·length]
+};
+
+/// A supported point.
+struct HeldPoint {
+  Vec2 at = Vec2::Zero();  ///< [length]
+  bool x = false, z = false, rotation = false;
+};
+
+/// A structure in a state, with what acts on it from outside.
+struct Scene {
+  Shape shape{};
+  std::vector<AppliedLoad> loads{};
+  std::vector<HeldPoint> supports{};
+};
+
+Scene scene_of(const Study& study, const State& state);
+
+/// What is the same in all scenes.
+struct Setting {
+  std::vector<WallShape> walls{};
+  std::vector<double> heights{};  ///< of the members' sections; 0 if unknown [length]
+};
+
+/// A scene as the data of SVG paths.
+struct ShapePicture {
+  std::size_t point = 0;                ///< of the record
+  std::vector<std::string> paths{};     ///< as many as the pictures have classes
+  std::vector<ContactMark> contacts{};  ///< closed
+};
+
+/// All pictures of a record, to one scale. Lengths are in parts of 10⁻⁵ of the longer side, y points down.
+struct ShapePictures {
+  double width = 0.0, height = 0.0;
+  double stretch = 1.0;                 ///< heights are drawn so many times as large as lengths along x
+  double greatest_force = 0.0;          ///< of a wall: that of the longest arrow [force]
+  std::vector<std::string> surfaces{};  ///< of the walls: an open path each
+  std::vector<std::string> bodies{};    ///< bands behind the surfaces: a closed path each
+  std::vector<double> thickness{};      ///< of the paths; 0: a mere line
+  std::vector<std::string>
+      classes{};  ///< of a picture's paths: `member` for each, `supports`, `loads`, `forces`, `touches`
+  std::vector<ShapePicture> pictures{};
+};
+
+/// Points of a record that get a picture: all if they are at most `most`, else every n-th of a branch with its ends,
+/// and those with events where these are not the most themselves. Ascending.
+std::vector<std::size_t> points_to_draw(const Record& record, std::size_t most);
+
+/// Pictures of these scenes; `points` are those of the record they belong to.
+ShapePictures draw(const std::vector<std::size_t>& points, const std::vector<Scene>& scenes, const Setting& setting);
+
+/// Pictures of a run: of all points, or of fewer where all would need more than some megabytes.
+ShapePictures draw_run(const Study& study, const Record& record);
+
+}  // namespace arcwall

@@ -1,0 +1,168 @@
+#include "apps/output/svg_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/output/event_marks.hpp"
+#include "apps/output/markup.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double width = 720.0, height = 440.0;
+constexpr double left = 84.0, right = 704.0, top = 14.0, bottom = 384.0;  // of the plotted area
+constexpr double mark_radius = 5.5;
+
+// Values on one axis, and where they are drawn.
+struct Scale {
+  double low = 0.0, high = 1.0;
+  double low_place = 0.0, high_place = 1.0;
+
+  double place(double value) const { return low_place + (value - low) / (high - low) * (high_place - low_place); }
+};
+
+struct Scales {
+  Scale across{}, up{};
+
+  Vec2 place(const Vec2& at) const { return {across.place(at.x()), up.place(at.y())}; }
+};
+
+// The range of the values with some room beyond them.
+Scale scale_of(const Chart& chart, int axis, double low_place, double high_place) {
+  double low = infinity, high = -infinity;
+  for (const ChartLine& line : chart.lines) {
+    for (const Vec2& point : line.points) {
+      if (!point.allFinite()) continue;
+      low = std::min(low, point[axis]);
+      high = std::max(high, point[axis]);
+    }
+  }
+  if (low > high) low = high = 0.0;
+  // Of values that are the same to round-off the differences say nothing.
+  const double least_range = 1e-9 * std::max(std::abs(low), std::abs(high));
+  const double room = high - low > least_range ? 0.04 * (high - low) : std::max(0.5 * std::abs(high), 1e-9);
+  return {.low = low - room, .high = high + room, .low_place = low_place, .high_place = high_place};
+}
+
+std::string range_text(const Scale& scale) {
+  return fmt::format("{} {} {} {}", scale.low, scale.high, scale.low_place, scale.high_place);
+}
+
+std::string_view dashes(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "";
+    case Stability::unstable:
+      return " stroke-dasharray=\"8 5\"";
+    case Stability::undecided:
+      return " stroke-dasharray=\"1.5 4\"";
+  }
+  return "";
+}
+
+std::string tick_label(double value) {
+  std::string text = fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
+  return text.starts_with('-') ? "−" + text.substr(1) : text;
+}
+
+std::string grid(const Scales& scales) {
+  std::string lines, labels;
+  for (const double value : ticks(scales.across.low, scales.across.high)) {
+    const double x = scales.across.place(value);
+    lines += fmt::format("M{:.1f} {}V{}", x, top, bottom);
+    labels += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>", x, bottom + 20.0,
+                          tick_label(value));
+  }
+  for (const double value : ticks(scales.up.low, scales.up.high)) {
+    const double y = scales.up.place(value);
+    lines += fmt::format("M{} {:.1f}H{}", left, y, right);
+    labels += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", left - 8.0, y + 4.5,
+                          tick_label(value));
+  }
+  return fmt::format("<path class=\"grid\" d=\"{}\"/>{}", lines, labels);
+}
+
+// Steps that cannot be seen are left out.
+std::string path_data(const std::vector<Vec2>& points, const Scales& scales) {
+  constexpr double least_step = 0.3;
+  std::string data;
+  std::optional<Vec2> last;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) {
+      last.reset();
+      continue;
+    }
+    const Vec2 place = scales.place(points[i]);
+    const bool at_end = i + 1 == points.size();
+    if (last && !at_end && (place - *last).norm() < least_step) continue;
+    data += fmt::format("{}{:.1f} {:.1f}", last ? "L" : "M", place.x(), place.y());
+    last = place;
+  }
+  return data;
+}
+
+std::string mark_outline(const EventMark& mark, const Vec2& place, double radius) {
+  std::string data;
+  for (const Vec2& corner : mark.outline)
+    data += fmt::format("{}{:.1f} {:.1f}", data.empty() ? "M" : "L", place.x() + radius * mark.size * corner.x(),
+                        place.y() - radius * mark.size * corner.y());
+  return fmt::format("class=\"{}\" d=\"{}Z\"", mark.filled ? "mark" : "open mark", data);
+}
+
+std::string marks(const Chart& chart, const Scales& scales) {
+  std::string text;
+  std::vector<ChartMark> by_size = chart.marks;  // a small mark stands on a large one
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [](const ChartMark& a, const ChartMark& b) { return mark_of(a.kind).size > mark_of(b.kind).size; });
+  for (const ChartMark& mark : by_size) {
+    if (!mark.at.allFinite()) continue;
+    text += fmt::format("<path {} data-point=\"{}\"><title>{}</title></path>",
+                        mark_outline(mark_of(mark.kind), scales.place(mark.at), mark_radius), mark.point,
+                        escaped(mark.text));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<double> ticks(double low, double high) {
+  const double rough = (high - low) / 6.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  const double part = rough / decade;
+  const double step = decade * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
+  std::vector<double> result;
+  for (double k = std::ceil(low / step); k * step <= high; k += 1.0) result.push_back(k * step);
+  return result;
+}
+
+std::string svg_chart(const Chart& chart) {
+  const Scales scales{.across = scale_of(chart, 0, left, right), .up = scale_of(chart, 1, bottom, top)};
+  std::string lines;
+  for (const ChartLine& line : chart.lines)
+    lines += fmt::format("<path class=\"line\" stroke=\"{}\"{} d=\"{}\"/>", line.colour, dashes(line.stability),
+                         path_data(line.points, scales));
+  return fmt::format(
+      "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-across=\"{}\" data-up=\"{}\">{}"
+      "<text class=\"axis\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
+      "<text class=\"axis\" transform=\"translate(18 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>{}{}</svg>",
+      width, height, escaped(chart.name), range_text(scales.across), range_text(scales.up), grid(scales),
+      0.5 * (left + right), bottom + 46.0, escaped(chart.across), 0.5 * (top + bottom), escaped(chart.up), lines,
+      marks(chart, scales));
+}
+
+std::string svg_mark(EventKind kind) {
+  return fmt::format("<svg class=\"key\" viewBox=\"0 0 16 16\" aria-hidden=\"true\"><path {}/></svg>",
+                     mark_outline(mark_of(kind), {8.0, 8.0}, mark_of(kind).size > 1.0 ? 4.0 : mark_radius));
+}
+
+std::string svg_line(const std::string& colour, Stability stability) {
+  return fmt::format(
+      "<svg class=\"key wide\" viewBox=\"0 0 40 16\" aria-hidden=\"true\"><path class=\"line\" stroke=\"{}\"{} "
+      "d=\"M1 8H39\"/></svg>",
+      colour, dashes(stability));
+}
+
+}  // namespace arcwall

@@ -1,0 +1,85 @@
+#include "apps/run/step_ledger.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "apps/output/event_names.hpp"
+#include "apps/output/events_json.hpp"
+
+namespace arcwall {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::string_view to_text(StepOutcome outcome) {
+  switch (outcome) {
+    case StepOutcome::accepted:
+      return "accepted";
+    case StepOutcome::too_many_iterations:
+      return "too_many_iterations";
+    case StepOutcome::diverged:
+      return "diverged";
+    case StepOutcome::complex_roots:
+      return "complex_roots";
+    case StepOutcome::singular:
+      return "singular";
+    case StepOutcome::not_finite:
+      return "not_finite";
+    case StepOutcome::obstructed:
+      return "wall_end";
+    case StepOutcome::strayed:
+      return "strayed";
+    case StepOutcome::turned:
+      return "turned";
+    case StepOutcome::not_landed:
+      return "not_landed";
+    case StepOutcome::penetrates:
+      return "penetrates";
+    case StepOutcome::refined:
+      return "refined";
+    case StepOutcome::events_unclear:
+      return "events_unclear";
+    case StepOutcome::ended:
+      return "ended";
+  }
+  assert(false);
+  return {};
+}
+
+// Contacts that change and other events.
+Json events_of(const Study& study, const Arc& arc) {
+  Json events = Json::array();
+  for (const Event& event : arc.events) {
+    Json json{{"kind", to_text(event.kind)}};
+    if (changes_contact(event.kind)) {
+      json["contact"] = Json::array();
+      for (const Index j : event.guards) {
+        const auto [label, x] = study.contact_place(event.state, j);
+        json["contact"].push_back({{"wall", label.wall}, {"member", label.member}, {"fraction", label.fraction}});
+      }
+    }
+    events.push_back(std::move(json));
+  }
+  return events;
+}
+
+}  // namespace
+
+std::string ledger_line(const Study& study, Index branch, const StepAttempt& attempt) {
+  Json json{
+      {"branch", branch}, {"arc", attempt.arc}, {"radius", attempt.radius}, {"outcome", to_text(attempt.outcome)}};
+  json["iterations"] = attempt.iterations;
+  json["residual"] = attempt.residual;
+  json["root"] = attempt.roots ? Json(attempt.roots->taken) : Json(nullptr);
+  json["other_root"] = attempt.roots && attempt.roots->other ? Json(*attempt.roots->other) : Json(nullptr);
+  json["turn"] = attempt.turn ? Json(*attempt.turn) : Json(nullptr);
+  if (attempt.accepted) {
+    json["lambda"] = attempt.accepted->to.state.lambda;
+    json["length"] = attempt.accepted->to.arc - attempt.arc;
+    json["events"] = events_of(study, *attempt.accepted);
+  }
+  return to_text(json, JsonLayout::one_line);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,190 @@
+#include "apps/run/tracing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/build_path.hpp"
+#include "apps/checkpoint/parts.hpp"
+#include "apps/output/recorder.hpp"
+#include "apps/run/step_ledger.hpp"
+#include "core/text.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Every branch, one after the other.
+class PathTracing final : public Tracing {
+ public:
+  PathTracing(const Study& study, Record& record, const State& start, StepLedger ledger)
+      : study_(study),
+        record_(record),
+        explorer_(study.system(), start, options(ledger), study.watched(), study.explore()) {}
+
+  bool advance() override {
+    const std::optional<Explorer::Step> step = explorer_.next();
+    if (!step) {
+      finish();
+      return false;
+    }
+    if (step->branch != branch_) {
+      if (recorder_) end_branch();
+      branch_ = step->branch;
+      recorder_.emplace(study_, record_, branch());
+    }
+    recorder_->add(step->arc);
+    return true;
+  }
+
+  void stop(const BranchEnd& end) override { explorer_.stop(end); }
+
+  void keep(ArchiveWriter& archive) override { visit(archive); }
+  void keep(ArchiveReader& archive) override {
+    visit(archive);
+    archive.require(branch_ < static_cast<int>(record_.branches.size()) &&
+                    branch_ < static_cast<int>(explorer_.branches().size()) &&
+                    (branch_ < 0 || record_.branches.back().id == branch_) && (branch_ >= 0 || record_.points.empty()));
+    if (branch_ >= 0) recorder_.emplace(Recorder::last_branch(study_, record_));
+  }
+
+ private:
+  template <typename Archive>
+  void visit(Archive& archive) {
+    archive(branch_, finished_, explorer_);
+  }
+
+  TraceOptions options(StepLedger ledger) {
+    TraceOptions options = study_.options();
+    if (ledger == StepLedger::kept)
+      options.ledger = [this](const StepAttempt& attempt) {
+        record_.steps += ledger_line(study_, static_cast<Index>(explorer_.branches().size()) - 1, attempt);
+      };
+    return options;
+  }
+
+  const BranchRecord& branch() const { return explorer_.branches()[static_cast<std::size_t>(branch_)]; }
+  void end_branch() { recorder_->end(branch().end.value()); }
+
+  void finish() {
+    if (std::exchange(finished_, true)) return;
+    if (!recorder_) {  // not even a start: the branch has no points, but an end
+      recorder_.emplace(study_, record_);
+      branch_ = 0;
+    }
+    end_branch();
+  }
+
+  const Study& study_;
+  Record& record_;
+  Explorer explorer_;
+  std::optional<Recorder> recorder_;
+  int branch_ = -1;
+  bool finished_ = false;
+};
+
+// Whether the way between two states crosses a bound that stops.
+const Landmark* crossed(const std::vector<Landmark>& landmarks, const State& from, const State& to) {
+  const auto stops = [&](const Landmark& landmark) {
+    const double before = landmark.quantity->value(from) - landmark.value;
+    const double after = landmark.quantity->value(to) - landmark.value;
+    return landmark.stops && before != 0.0 && before * after <= 0.0;
+  };
+  const auto found = std::find_if(landmarks.begin(), landmarks.end(), stops);
+  return found == landmarks.end() ? nullptr : &*found;
+}
+
+// The deck's load increments: one branch.
+class IncrementTracing final : public Tracing {
+ public:
+  IncrementTracing(Study& study, Record& record, const State& start, StepLedger ledger)
+      : study_(study),
+        record_(record),
+        ledger_(ledger),
+        levels_(load_levels(study.deck().path)),
+        increments_(study.increments(start)),
+        recorder_(study, record) {}
+
+  bool advance() override {
+    if (!end_ && record_.points.empty()) {
+      recorder_.add(increments_.start());
+      return true;
+    }
+    if (!end_ && taken_ == levels_.size()) end_ = all_taken();
+    if (!end_) {
+      if (const auto arc = increments_.to(levels_[taken_])) {
+        ++taken_;
+        const RecordPoint before = record_.points.back();
+        recorder_.add(*arc);
+        if (ledger_ == StepLedger::kept)
+          record_.steps += ledger_line(study_, 0,
+                                       {.arc = before.arc,
+                                        .radius = arc->to.arc - before.arc,
+                                        .iterations = 1,
+                                        .residual = arc->to.residual,
+                                        .accepted = &*arc});
+        end_ = bound_met(before.state, arc->to.state);
+        return true;
+      }
+      end_ = increments_.end();
+    }
+    if (!std::exchange(finished_, true)) recorder_.end(*end_);
+    return false;
+  }
+
+  void stop(const BranchEnd& end) override {
+    if (!end_) end_ = end;
+  }
+
+  void keep(ArchiveWriter& archive) override { visit(archive); }
+  void keep(ArchiveReader& archive) override {
+    visit(archive);
+    archive.require(taken_ <= levels_.size() && record_.branches.size() == 1);
+    for (std::size_t i = 1; i < record_.points.size(); ++i) increments_.repeat(record_.points[i].state);
+  }
+
+ private:
+  template <typename Archive>
+  void visit(Archive& archive) {
+    archive(taken_, finished_, end_, increments_);
+  }
+
+  std::optional<BranchEnd> bound_met(const State& before, const State& after) const {
+    const TraceOptions& options = study_.options();
+    if (const Landmark* bound = crossed(options.landmarks, before, after))
+      return BranchEnd{.reason = EndReason::stop, .detail = bound->label};
+    const Index closed = study_.closed_contacts(after);
+    if (options.stop_contacts && closed >= *options.stop_contacts)
+      return BranchEnd{.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
+    if (static_cast<int>(record_.points.size()) >= options.max_points)
+      return BranchEnd{.reason = EndReason::max_points, .detail = std::to_string(options.max_points) + " points"};
+    return std::nullopt;
+  }
+
+  BranchEnd all_taken() const {
+    std::string detail = "lambda = " + round_trip(record_.points.back().lambda);
+    if (increments_.unsettled() > 0)
+      detail += fmt::format("; contacts did not settle in {} increments", increments_.unsettled());
+    return {.reason = EndReason::stop, .detail = detail};
+  }
+
+  Study& study_;
+  Record& record_;
+  StepLedger ledger_;
+  std::vector<double> levels_;
+  LoadIncrements increments_;
+  Recorder recorder_;
+  std::size_t taken_ = 0;
+  std::optional<BranchEnd> end_;
+  bool finished_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Tracing> make_tracing(Study& study, Record& record, const State& start, StepLedger ledger) {
+  if (study.in_increments()) return std::make_unique<IncrementTracing>(study, record, start, ledger);
+  return std::make_unique<PathTracing>(study, record, start, ledger);
+}
+
+}  // namespace arcwall

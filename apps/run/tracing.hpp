@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "apps/checkpoint/archive.hpp"
+#include "apps/output/record.hpp"
+#include "apps/study.hpp"
+
+namespace arcwall {
+
+/// The paths of a study, traced point by point into a record.
+class Tracing {
+ public:
+  virtual ~Tracing() = default;
+
+  /// One more point. False when all branches have ended, and the record says how.
+  virtual bool advance() = 0;
+
+  /// Ends everything where it is; the next advance() records that.
+  virtual void stop(const BranchEnd& end) = 0;
+
+  /// Visits all that changes but the record, which holds what was traced so far.
+  virtual void keep(ArchiveWriter& archive) = 0;
+  virtual void keep(ArchiveReader& archive) = 0;
+};
+
+/// Whether every attempted step is kept in the record.
+enum class StepLedger { kept, none };
+
+/// Along the equations' path, or in the deck's load increments. `study` and `record` must outlive it.
+std::unique_ptr<Tracing> make_tracing(Study& study, Record& record, const State& start, StepLedger ledger);
+
+}  // namespace arcwall

@@ -1,0 +1,103 @@
+#include "apps/sweep/case_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace arcwall::sweep {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& folder, const std::string& what, const std::string& reason) {
+  throw OutputError(folder.string() + ": " + what + ": " + reason);
+}
+
+std::string folder_name(int number) { return fmt::format("{:05}", number); }
+
+// Whether the descriptor is that of the folder with this name: another process may have renamed it before the lock was
+// had.
+bool is_named(int descriptor, const fs::path& path) {
+  struct stat held {
+  }, named{};
+  return ::fstat(descriptor, &held) == 0 && ::stat(path.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
+         held.st_ino == named.st_ino;
+}
+
+void clear(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    fs::remove_all(entry.path(), error);
+    if (error) fail(entry.path(), "cannot be removed", error.message());
+  }
+}
+
+}  // namespace
+
+fs::path case_folder(const fs::path& sweep_folder, int number) { return sweep_folder / "cases" / folder_name(number); }
+
+bool is_complete(const fs::path& sweep_folder, int number) {
+  std::error_code ignored;
+  return fs::exists(case_folder(sweep_folder, number), ignored);
+}
+
+// By way of a hidden name: what has the case's name is whole.
+void forget(const fs::path& sweep_folder, int number) {
+  const fs::path target = case_folder(sweep_folder, number);
+  const fs::path hidden = target.parent_path() / (".old-" + folder_name(number));
+  std::error_code error;
+  fs::remove_all(hidden, error);
+  if (!is_complete(sweep_folder, number)) return;
+  fs::rename(target, hidden, error);
+  if (!error) fs::remove_all(hidden, error);
+  if (error) fail(target, "cannot be removed", error.message());
+}
+
+std::optional<CaseDraft> CaseDraft::claim(const fs::path& sweep_folder, int number) {
+  const fs::path target = case_folder(sweep_folder, number);
+  const fs::path path = target.parent_path() / ("." + folder_name(number));
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) fail(path, "cannot be made", error.message());
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0 && errno == ENOENT) return std::nullopt;
+  if (descriptor < 0) fail(path, "cannot be opened", std::generic_category().message(errno));
+  // File systems that cannot lock a folder say so by other errors; cases are then run unlocked.
+  const bool held_by_another = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  CaseDraft draft(path, target, descriptor);
+  if (held_by_another || !is_named(descriptor, path)) {
+    draft.path_.clear();
+    return std::nullopt;
+  }
+  if (is_complete(sweep_folder, number)) return std::nullopt;
+  clear(path);
+  return draft;
+}
+
+CaseDraft::CaseDraft(CaseDraft&& other) noexcept
+    : path_(std::exchange(other.path_, {})),
+      target_(std::move(other.target_)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+CaseDraft::~CaseDraft() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove_all(path_, ignored);
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void CaseDraft::publish() {
+  std::error_code error;
+  fs::rename(path_, target_, error);
+  if (error) fail(target_, "cannot be made", error.message());
+  path_.clear();
+}
+
+}  // namespace arcwall::sweep

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace arcwall::sweep {
+
+/// The folder with the results of a case, below that of the sweep: `cases/00042`. Where it is, it is whole.
+std::filesystem::path case_folder(const std::filesystem::path& sweep_folder, int number);
+
+/// Whether the case has results.
+bool is_complete(const std::filesystem::path& sweep_folder, int number);
+
+/// Takes the results of a case away, if there are any. Throws OutputError.
+void forget(const std::filesystem::path& sweep_folder, int number);
+
+/// The folder of a case that is being run: hidden, empty at first, held by this process alone, and gone in the end
+/// unless it was published.
+class CaseDraft {
+ public:
+  /// Empty if another process holds the case, or has published it meanwhile. What a process left that was killed is
+  /// cleared away. Throws OutputError.
+  static std::optional<CaseDraft> claim(const std::filesystem::path& sweep_folder, int number);
+
+  CaseDraft(CaseDraft&& other) noexcept;
+  CaseDraft& operator=(CaseDraft&&) = delete;
+  CaseDraft(const CaseDraft&) = delete;
+  ~CaseDraft();
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Gives the folder its name, in one step.
+  void publish();
+
+ private:
+  CaseDraft(std::filesystem::path path, std::filesystem::path target, int descriptor)
+      : path_(std::move(path)), target_(std::move(target)), descriptor_(descriptor) {}
+
+  std::filesystem::path path_, target_;
+  int descriptor_;  // of the folder; carries the lock, which ends with the process whatever ends it
+};
+
+}  // namespace arcwall::sweep

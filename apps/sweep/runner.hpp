@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/sweep/case_list.hpp"
+
+namespace arcwall::sweep {
+
+/// How the cases of a planned sweep are run.
+struct RunRequest {
+  std::filesystem::path folder{};        ///< of the sweep
+  std::filesystem::path program{};       ///< trace-path
+  int jobs = 1;                          ///< processes at a time
+  std::vector<std::string> options{};    ///< of `trace-path run`, besides those of the case
+  std::optional<double> most_seconds{};  ///< of one case
+  double patience = 10.0;                ///< a case that does not stop is killed that long after it should have [s]
+};
+
+/// How far a sweep has got.
+struct RunCounts {
+  int ran = 0;       ///< cases whose results were added, whatever they are
+  int failed = 0;    ///< of these: a status other than 0
+  int complete = 0;  ///< that had results already
+  int busy = 0;      ///< that another process is running
+  bool interrupted = false;
+};
+
+/// Runs the cases that have no results yet, each in a process of its own, so that a crash costs one case. SIGINT and
+/// SIGTERM end it: what is being run is given up and will be run again. `progress` is called when something has
+/// changed. Throws OutputError.
+RunCounts run_cases(const RunRequest& request, const std::vector<Case>& cases,
+                    const std::function<void(const RunCounts&)>& progress);
+
+/// What is known of a case's run besides its outputs; in the case's folder.
+inline constexpr const char* case_file_name = "case.json";
+inline constexpr const char* messages_file_name = "messages.txt";
+
+}  // namespace arcwall::sweep

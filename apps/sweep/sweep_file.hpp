@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/sweep/design.hpp"
+
+namespace arcwall::sweep {
+
+/// A key of the deck, as of `--set`, and where the sweep names it.
+struct Key {
+  std::string name{};
+  deck::Position position{};
+};
+
+/// A key that follows a varied one: offset + factor · value.
+struct Tie {
+  Key key{};
+  std::size_t to = 0;  ///< which of the varied keys
+  double factor = 1.0;
+  double offset = 0.0;
+};
+
+/// A parameter study: one deck, and in each case other values for some of its keys.
+struct Sweep {
+  deck::Source source{};
+  std::string title{};
+  std::string deck{};  ///< file, from the sweep's folder
+  deck::Position deck_position{};
+  std::vector<Key> keys{};
+  std::vector<std::vector<Json>> rows{};  ///< one a case; the values of the keys in their order
+  std::vector<Tie> ties{};
+};
+
+/// No sweep has more cases.
+inline constexpr int most_cases = 100000;
+
+/// Reads and checks a sweep. Everything that is wrong with it is in one InputError.
+Sweep read_sweep(const std::string& file);
+
+/// The same for a text in memory; `file_name` is only named in messages.
+Sweep read_sweep_text(std::string_view text, const std::string& file_name);
+
+}  // namespace arcwall::sweep

@@ -1,0 +1,28 @@
+# npm_install(SOURCE folder FOLDER folder FILES name… PROBLEM variable): copies package.json, package-lock.json, .npmrc and
+# the named files of SOURCE into FOLDER and installs there what the lock file says, each package checked against its hash,
+# unless that is done already. The variable becomes empty, or says what went wrong.
+function(npm_install)
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "SOURCE;FOLDER;PROBLEM" "FILES")
+  foreach(name package.json package-lock.json .npmrc ${ARG_FILES})
+    configure_file(${ARG_SOURCE}/${name} ${ARG_FOLDER}/${name} COPYONLY)
+  endforeach()
+  file(SHA256 ${ARG_SOURCE}/package-lock.json wanted)
+  set(installed "")
+  if(EXISTS ${ARG_FOLDER}/installed)
+    file(READ ${ARG_FOLDER}/installed installed)
+  endif()
+  set(problem "")
+  find_program(NPM npm)
+  if(NOT installed STREQUAL wanted AND NOT NPM)
+    set(problem "there is no npm")
+  elseif(NOT installed STREQUAL wanted)
+    execute_process(COMMAND ${NPM} ci --fetch-retries=1 WORKING_DIRECTORY ${ARG_FOLDER} TIMEOUT 120
+      RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(result EQUAL 0)
+      file(WRITE ${ARG_FOLDER}/installed ${wanted})
+    else()
+      set(problem "npm ci failed (${result}):\n${output}")
+    endif()
+  endif()
+  set(${ARG_PROBLEM} "${problem}" PARENT_SCOPE)
+endfunction()

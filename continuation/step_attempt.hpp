@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "continuation/path_constraint.hpp"
+#include "continuation/path_point.hpp"
+
+namespace arcwall {
+
+/// What became of an attempted step.
+enum class StepOutcome {
+  accepted,
+  too_many_iterations,
+  diverged,
+  complex_roots,
+  singular,
+  not_finite,
+  obstructed,      ///< a closed contact has left its wall
+  strayed,         ///< the corrector ended far off the predictor
+  turned,          ///< the tangent turned more than is trusted
+  not_landed,      ///< no point of the path where contacts change
+  penetrates,      ///< the body enters a wall between the contacts
+  refined,         ///< the same, and contacts there are watched from now on: the step is tried again
+  events_unclear,  ///< an event lies inside that could not be located
+  ended,           ///< the branch ends here
+};
+
+/// A row of the ledger of steps.
+struct StepAttempt {
+  double arc = 0.0;     ///< of the step's start [path metric]
+  double radius = 0.0;  ///< length that was tried [path metric]
+  StepOutcome outcome = StepOutcome::accepted;
+  int iterations = 0;
+  double residual = 0.0;                   ///< relative; 0 where the corrector did not converge
+  std::optional<ConstraintRoots> roots{};  ///< of the last correction
+  std::optional<double> turn{};            ///< of the tangent over the step [rad]
+  const Arc* accepted = nullptr;           ///< with its events; for the time of the call
+};
+
+}  // namespace arcwall

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/checkpoint/archive.hpp"
+#include "apps/checkpoint/checkpoint_file.hpp"
+#include "apps/cli/example_decks.hpp"
+#include "apps/output/contacts_csv.hpp"
+#include "apps/output/events_json.hpp"
+#include "apps/output/path_csv.hpp"
+#include "apps/run/run_under_way.hpp"
+#include "core/error.hpp"
+
+// A run that is kept and taken up again goes on to the last bit as if it had never stopped.
+namespace arcwall {
+namespace {
+
+using Json = nlohmann::json;
+using Resume = RunUnderWay::Resume;
+using Assignments = std::vector<std::string>;
+
+std::string deck_of(const std::string& example) {
+  for (const ExampleDeck& deck : example_decks())
+    if (deck.name == example) return std::string(deck.text);
+  ADD_FAILURE() << "no example " << example;
+  return {};
+}
+
+RunUnderWay begun(const std::string& example, const Assignments& assignments = {}) {
+  RunUnderWay run({.deck = example + ".toml", .deck_text = deck_of(example), .assignments = assignments});
+  std::string reason;
+  EXPECT_TRUE(run.begin(reason)) << reason;
+  return run;
+}
+
+// Taken up from a checkpoint after each `stride` points.
+RunUnderWay traced(const std::string& example, const Assignments& assignments, int stride) {
+  RunUnderWay run = begun(example, assignments);
+  for (int points = 1; run.advance(); ++points)
+    if (stride > 0 && points % stride == 0) run = RunUnderWay::from(run.checkpoint(), "checkpoint", Resume::go_on);
+  return run;
+}
+
+struct Case {
+  std::string example;
+  Assignments assignments;
+  int stride;
+};
+
+class ResumedRun : public testing::TestWithParam<Case> {};
+
+TEST_P(ResumedRun, EndsWithTheFilesOfAnUninterruptedOne) {
+  const auto& [example, assignments, stride] = GetParam();
+  RunUnderWay whole = traced(example, assignments, 0), parts = traced(example, assignments, stride);
+  EXPECT_GT(whole.record().points.size(), 5u);
+  EXPECT_EQ(path_csv(parts.record(), UnitLabels::shown), path_csv(whole.record(), UnitLabels::shown));
+  EXPECT_EQ(contacts_csv(parts.record(), UnitLabels::shown), contacts_csv(whole.record(), UnitLabels::shown));
+  EXPECT_EQ(events_json(parts.record()), events_json(whole.record()));
+  EXPECT_TRUE(parts.checkpoint() == whole.checkpoint());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Runs, ResumedRun,
+    testing::Values(
+        Case{"truss", {}, 1}, Case{"lee", {}, 5}, Case{"channel", {}, 3},
+        // Contact at nodes: corners, several branches and their queue.
+        Case{"channel", {"contact.points=\"nodes\"", "path.branches=\"all\"", "member.column.elements=20"}, 2},
+        Case{"arch", {"path.branches=\"all\""}, 3}, Case{"foundation", {}, 1},
+        Case{"foundation", {"contact.method=\"penalty\"", "contact.penalty=1e6"}, 2},
+        Case{"foundation", {"contact.method=\"augmented\"", "contact.penalty=1e5"}, 2},
+        Case{"foundation", {"path.method=\"incremental\"", "path.step=0.05", "path.land={lambda=[0.25, 0.5]}"}, 3},
+        Case{"cylinder", {}, 2}, Case{"thick", {}, 10}, Case{"cantilever", {}, 4}),
+    [](const auto& run) { return run.param.example + std::to_string(run.index); });
+
+TEST(Checkpoint, IsRefusedWithAnyBitChangedAndWhenCut) {
+  RunUnderWay run = begun("truss");
+  run.advance();
+  const std::string bytes = run.checkpoint();
+  ASSERT_NO_THROW(from_checkpoint(bytes, "checkpoint"));
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    std::string changed = bytes;
+    changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << (bit % 8)));
+    EXPECT_THROW(from_checkpoint(changed, "checkpoint"), OutputError) << "bit " << bit;
+  }
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THROW(from_checkpoint(bytes.substr(0, size), "checkpoint"), OutputError) << size << " bytes";
+  EXPECT_THROW(from_checkpoint(bytes + '\0', "checkpoint"), OutputError);
+}
+
+// Bytes with a right sum that no run can have written.
+TEST(Checkpoint, IsRefusedWhoseContentIsNotThatOfARun) {
+  RunUnderWay run = begun("channel", {"member.column.elements=8"});
+  for (int i = 0; i < 20; ++i) run.advance();
+  const Json content = from_checkpoint(run.checkpoint(), "checkpoint");
+  ASSERT_NO_THROW(RunUnderWay::from(to_checkpoint(content), "checkpoint", Resume::go_on));
+  const auto refused = [](const Json& changed) {
+    EXPECT_THROW(RunUnderWay::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError);
+  };
+  // Each entry in turn is taken away, or something else stands in its place.
+  for (std::size_t entry = 0; entry < content.size(); ++entry) {
+    Json without = content;
+    without.erase(entry);
+    refused(without);
+    for (const Json& other : {Json(-7), Json("text"), Json::array(), Json::object()}) {
+      if (content[entry].type() == other.type()) continue;
+      Json changed = content;
+      changed[entry] = other;
+      refused(changed);
+    }
+  }
+  Json longer = content;
+  longer.push_back(0);
+  refused(longer);
+  refused(Json(nullptr));
+}
+
+TEST(Checkpoint, TakesNoContentThatNestsWithoutEnd) {
+  EXPECT_THROW(from_cbor(std::string(1'000'000, '\x81')), BadArchive);
+  EXPECT_THROW(from_cbor(std::string(1'000'000, '\x9f')), BadArchive);
+  EXPECT_THROW(from_cbor(std::string(1'000'000, '\xc1')), BadArchive);
+  EXPECT_THROW(from_cbor("\x9b\xff\xff\xff\xff\xff\xff\xff\xff"), BadArchive);
+}
+
+// Stopped from outside, a run shows that end until it goes on.
+TEST(Checkpoint, KnowsAnEndFromOutsideOnlyForThoseWhoAsk) {
+  RunUnderWay run = begun("truss");
+  for (int i = 0; i < 5; ++i) run.advance();
+  const std::string bytes = run.checkpoint(BranchEnd{.reason = EndReason::interrupted, .detail = "by a signal"});
+  const RunUnderWay ended = RunUnderWay::from(bytes, "checkpoint", Resume::as_ended);
+  ASSERT_TRUE(ended.record().branches.front().end);
+  EXPECT_EQ(ended.record().branches.front().end->reason, EndReason::interrupted);
+  EXPECT_EQ(ended.record().events.back().kind, EventKind::end);
+  RunUnderWay resumed = RunUnderWay::from(bytes, "checkpoint", Resume::go_on);
+  EXPECT_FALSE(resumed.record().branches.front().end);
+  while (resumed.advance()) {
+  }
+  EXPECT_EQ(events_json(resumed.record()), events_json(traced("truss", {}, 0).record()));
+}
+
+}  // namespace
+}  // namespace arcwall

@@ -1,0 +1,158 @@
+#include "apps/output/report_html.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "apps/output/report_data.hpp"
+#include "apps/output/report_parts.hpp"
+#include "tests/apps/output/sample_record.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+// The page without what the program brings along.
+std::string own_part(std::string page) {
+  for (const std::string_view part : {report_parts().library, report_parts().style, report_parts().script}) {
+    const std::size_t at = part.empty() ? std::string::npos : page.find(part);
+    if (at != std::string::npos) page.erase(at, part.size());
+  }
+  return page;
+}
+
+Json data_of(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return Json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+TEST(ReportData, HasCurvesEventsAndShapes) {
+  const Json data = report_data(sample_record(), {});
+
+  EXPECT_EQ(data["columns"].dump(), R"([{"name":"mid","title":"mid [cm]"},{"name":"turn","title":"turn [rad]"}])");
+  EXPECT_EQ(data["points"]["lambda"].dump(), "[0.0,0.1,0.05]");
+  EXPECT_EQ(data["points"]["arc"].dump(), "[0.0,0.3,0.5]");  // ten digits
+  EXPECT_EQ(data["points"]["monitors"].dump(), "[[0.0,0.3333333333,0.2],[-0.0,1e-300,null]]");
+  EXPECT_EQ(data["points"]["unstable"].dump(), "[0,null,1]");
+  EXPECT_EQ(data["lines"].size(), 2u);
+  EXPECT_EQ(data["lines"][0]["stability"], "stable");
+  EXPECT_EQ(data["lines"][1]["stability"], "unstable");
+  ASSERT_EQ(data["events"].size(), 4u);
+  EXPECT_EQ(data["events"][1]["point"], 1);
+  EXPECT_EQ(data["events"][1]["what"], "upper at column:0.25, upper at column:0.5, upper at column:0.75 and 1 more");
+  EXPECT_TRUE(data["shapes"].empty());
+}
+
+TEST(ReportData, ManyBranchesHaveColours) {
+  for (Index i = 0; i < 100; ++i) EXPECT_TRUE(std::regex_match(branch_colour(i), std::regex("#[0-9A-F]{6}")));
+  for (Index i = 0; i < 7; ++i)
+    for (Index j = 0; j < i; ++j) EXPECT_NE(branch_colour(i), branch_colour(j));
+}
+
+TEST(ReportHtml, IsOnePageWithAllThatItNeeds) {
+  const std::string page = report_html(sample_record(), {.deck_text = "title = \"A sample\"\n"});
+
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+  const std::string own = own_part(page);
+  EXPECT_EQ(own.find("{{"), std::string::npos);
+  EXPECT_NE(own.find("default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:"),
+            std::string::npos);
+  // Nothing is fetched from anywhere.
+  EXPECT_FALSE(std::regex_search(own, std::regex("(src|href)=\"(?!data:,|#)")));
+}
+
+// Without scripts there is a chart for each monitor, and every table.
+TEST(ReportHtml, CanBeReadWithoutScripts) {
+  const std::string page = own_part(
+      report_html(sample_record(),
+                  {.description = "How & why", .deck_text = "title = \"A sample\"\n", .facts = {{"nodes", "41"}}}));
+
+  EXPECT_EQ(count(page, "<svg class=\"chart\""), 2u);
+  EXPECT_EQ(count(page, "<tr data-point="), 4u);
+  EXPECT_NE(page.find("contact closes"), std::string::npos);
+  EXPECT_NE(page.find("ended: mid = 0.2 (stop)"), std::string::npos);
+  EXPECT_NE(page.find("title = &quot;A sample&quot;"), std::string::npos);
+  EXPECT_NE(page.find("<dt>nodes</dt><dd>41</dd>"), std::string::npos);
+  EXPECT_NE(page.find("How &amp; why"), std::string::npos);
+}
+
+TEST(ReportHtml, TextsOfTheDeckAreNoMarkup) {
+  const std::string hostile = "</script><script>alert(1)</script>{{data}}\u202E<!--";
+  Record record = sample_record();
+  record.title = record.deck = record.energy_unit = hostile;
+  record.columns[0].unit = hostile;
+  record.branches[0].end->detail = hostile;
+  record.events[3].branch_end->detail = hostile;
+
+  const std::string page =
+      own_part(report_html(record, {.description = hostile, .deck_text = hostile, .facts = {{hostile, hostile}}}));
+
+  EXPECT_EQ(count(page, "alert(1)"), count(page, "&lt;script&gt;alert(1)&lt;/script&gt;") +
+                                         count(page, "\\u003cscript\\u003ealert(1)\\u003c/script\\u003e"));
+  EXPECT_EQ(count(page, "<script"), 3u);
+  EXPECT_EQ(count(page, "\u202E"), 0u);
+  EXPECT_EQ(count(page, "{{data"), count(page, "alert(1)"));
+  EXPECT_EQ(data_of(page)["columns"][0]["title"], "mid [</script><script>alert(1)</script>{{data…]");
+}
+
+TEST(ReportHtml, NothingButAnEndIsAPageToo) {
+  Record record{.deck = "deck.toml"};
+  record.branches.push_back({.end = BranchEnd{EndReason::singular, ""}});
+  const std::string page = own_part(report_html(record, {}));
+  EXPECT_NE(page.find("<h1>deck.toml</h1>"), std::string::npos);
+  EXPECT_NE(page.find("the equations are singular (singular)"), std::string::npos);
+}
+
+// A column that buckles: the tree has its branches, and every point has a shape.
+TEST(ReportHtml, ARunHasShapesAndBranches) {
+  const test::TracedDeck run(R"(
+title = "A column"
+units = { length = "cm", force = "kN" }
+material.steel = { E = 2.1e4 }
+section.square = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { left = [0.0, 0.0], right = [2.0, 0.0] }
+support = { left = ["x", "z"], right = ["z"] }
+[member.column]
+from = "left"
+to = "right"
+theory = "classic"
+material = "steel"
+section = "square"
+elements = 8
+[[load]]
+at = "right"
+force = [-1.0, 0.0]
+[[monitor]]
+name = "mid"
+at = "column:0.5"
+component = "z"
+[path]
+step = 0.1
+branches = "all"
+stop = { lambda = [-1.0, 0.6] }
+)");
+  const Record& record = run.record();
+
+  const std::string page = report_html(record, report_content(run.study(), record));
+
+  ASSERT_GT(record.branches.size(), 1u);
+  const Json data = data_of(own_part(page));
+  EXPECT_EQ(data["shapes"].size(), record.points.size());
+  EXPECT_EQ(data["shapes"].back()["point"], record.points.size() - 1);
+  EXPECT_EQ(count(page, "</b></span> leaves at <span data-point="), record.branches.size() - 1);
+  EXPECT_NE(page.find("its mirror image is not traced"), std::string::npos);
+  EXPECT_NE(page.find("<dt>unknowns</dt><dd>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace arcwall

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# Runs a sweep undisturbed, a second time killed twice and resumed, and a third time by GNU parallel where that is there:
+#
+#   bash killed_sweep.sh PROGRAM SWEEP.toml [options of run …]
+#
+# What `collect` writes must be the same to the byte, and the memory of the process that starts the cases must not grow.
+set -euo pipefail
+
+program=$1
+sweep=$2
+shift 2
+options=("$@")
+files=(cases.csv sweep.csv report.html)
+scratch=$(mktemp -d)
+runner=
+trap '[[ -z $runner ]] || kill -KILL -- "-$runner" 2>/dev/null || true; rm -rf "$scratch"' EXIT
+cd "$scratch"
+
+fail() {
+  echo "error: $1" >&2
+  exit 1
+}
+
+# Status 3: cases failed, which is a result.
+run() {
+  local status=0
+  "$program" sweep run "$1" --jobs 2 --quiet -- "${options[@]}" || status=$?
+  [[ $status == 0 || $status == 3 ]] || fail "sweep run ended with status $status"
+}
+
+count() { find "$1/cases" -mindepth 1 -maxdepth 1 -name '[0-9]*' 2>/dev/null | wc -l; }
+
+resident_kb() { awk '/^VmRSS:/ { print $2 }' "/proc/$1/status"; }
+
+# start_in_group DIR: the sweep in a process group of its own, whose number is in `runner`.
+start_in_group() {
+  setsid "$program" sweep run "$1" --jobs 2 --quiet -- "${options[@]}" &
+  runner=$!
+}
+
+wait_for() {
+  while [[ $(count "$1") -lt $2 ]]; do
+    kill -0 "$runner" 2>/dev/null || fail "the sweep ended before it could be killed"
+    sleep 0.02
+  done
+}
+
+kill_group() {
+  kill -KILL -- "-$runner"
+  wait "$runner" 2>/dev/null || true
+  runner=
+}
+
+# compare DIR WHAT
+compare() {
+  "$program" sweep collect "$1" >"$1.txt"
+  for file in "${files[@]}"; do
+    cmp "whole/$file" "$1/$file" || fail "$file differs: $2"
+  done
+  [[ -z $(find "$1/cases" -name '.*') ]] || fail "something is left in $1/cases: $2"
+}
+
+for folder in whole killed; do "$program" sweep plan "$sweep" --out "$folder" >/dev/null; done
+cases=$(wc -l <whole/cases.jsonl)
+
+SECONDS=0
+run whole
+"$program" sweep collect whole
+echo "$cases cases undisturbed: $SECONDS s"
+
+start_in_group killed
+wait_for killed $((cases / 20))
+early=$(resident_kb "$runner")
+wait_for killed $((cases * 2 / 5))
+late=$(resident_kb "$runner")
+kill_group
+first=$(count killed)
+start_in_group killed
+wait_for killed $((cases * 3 / 4))
+kill_group
+second=$(count killed)
+[[ $first -lt $second && $second -lt $cases ]] || fail "the sweep was not killed on its way: $first, $second of $cases"
+run killed
+compare killed "killed at $first and $second of $cases cases"
+echo "killed at $first and $second cases, resumed: the same to the byte"
+echo "resident memory of the parent: $early kB at a twentieth, $late kB at two fifths of the cases"
+[[ $late -le $((early + 1024)) ]] || fail "the memory of the parent grows"
+
+if command -v parallel >/dev/null; then
+  "$program" sweep plan "$sweep" --out by-parallel >/dev/null
+  # The options of `run` go through the program that the script calls.
+  printf '#!/bin/sh\nexec "%s" "$@" --quiet --' "$program" >wrapped
+  for option in "${options[@]}"; do printf ' "%s"' "$option" >>wrapped; done
+  chmod +x wrapped
+  "$program" sweep emit by-parallel --engine parallel --jobs 2 >by-parallel.sh
+  # parallel tells how many of its jobs failed.
+  TRACE_PATH=$PWD/wrapped sh by-parallel.sh 2>parallel.txt || true
+  compare by-parallel "run by GNU parallel"
+  echo "by GNU parallel: the same to the byte"
+else
+  echo "note: GNU parallel is not installed"
+fi

@@ -1,0 +1,91 @@
+#include "apps/sweep/load_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "apps/sweep/map_axis.hpp"
+
+namespace arcwall::sweep {
+namespace {
+
+std::size_t count(const std::string& part, const std::string& text) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(MapAxis, NumbersKeepTheirDistances) {
+  const MapAxis axis({4, 1.0, 2}, AxisScale::by_extent);
+  EXPECT_NEAR(axis.place(4) - axis.place(2), 2.0 * (axis.place(2) - axis.place(1)), 1e-12);
+  EXPECT_EQ(axis.ticks().size(), 3u);
+}
+
+TEST(MapAxis, ADecadeOfPositiveNumbersIsLogarithmic) {
+  const MapAxis axis({0.1, 1, 10}, AxisScale::by_extent);
+  EXPECT_NEAR(axis.place(10) - axis.place(1), axis.place(1) - axis.place(0.1), 1e-12);
+  const MapAxis linear({0.1, 1, 10}, AxisScale::linear);
+  EXPECT_NEAR(linear.place(10) - linear.place(1), 10.0 * (linear.place(1) - linear.place(0.1)), 1e-12);
+}
+
+TEST(MapAxis, TextsStandOneBesideTheOther) {
+  const MapAxis axis({"classic", 3, "exact"}, AxisScale::by_extent);
+  EXPECT_NEAR(axis.place("classic"), 1.0 / 6.0, 1e-12);
+  EXPECT_NEAR(axis.place("exact"), 5.0 / 6.0, 1e-12);
+  EXPECT_EQ(axis.ticks()[0].text, "classic");
+}
+
+TEST(MapAxis, ManyValuesHaveRoundTicks) {
+  std::vector<Json> values;
+  for (int i = 0; i <= 100; ++i) values.emplace_back(0.137 + 0.01 * i);
+  std::vector<std::string> texts;
+  for (const Tick& tick : MapAxis(values, AxisScale::linear).ticks()) texts.push_back(tick.text);
+  EXPECT_EQ(texts, (std::vector<std::string>{"0.2", "0.4", "0.6", "0.8", "1"}));
+}
+
+LoadMap map_of(int nx, int ny) {
+  LoadMap map{.x_title = "x", .y_title = "y", .load_title = "load"};
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j) map.points.push_back({.number = i * ny + j, .x = i, .y = j, .load = i + j});
+  return map;
+}
+
+TEST(LoadMap, AFullGridHasCellsAndAnythingElsePoints) {
+  LoadMap map = map_of(3, 4);
+  EXPECT_EQ(count("<title>case", svg(map)), 12u);
+  EXPECT_EQ(count("<circle", svg(map)), 0u);
+  map.points.pop_back();
+  EXPECT_EQ(count("<circle", svg(map)), 11u);
+}
+
+TEST(LoadMap, OneKeyHasTheLoadsOverIt) {
+  LoadMap map = map_of(5, 1);
+  map.y_title.clear();
+  map.points.back().load.reset();
+  EXPECT_EQ(count("<circle", svg(map)), 5u);
+  EXPECT_EQ(count("no such event", svg(map)), 1u);
+}
+
+TEST(LoadMap, FailedCasesAreCrossed) {
+  LoadMap map = map_of(2, 2);
+  EXPECT_EQ(count("#d33", svg(map)), 0u);
+  map.points[1].failed = true;
+  EXPECT_EQ(count("#d33", svg(map)), 1u);
+}
+
+TEST(LoadMap, NoTextOfTheSweepIsMarkup) {
+  LoadMap map = map_of(2, 2);
+  map.x_title = "</title><script>alert('&')</script>";
+  map.points[0].x = "<b>";
+  EXPECT_EQ(count("<script", svg(map)), 0u);
+  EXPECT_EQ(count("<b>", svg(map)), 0u);
+  EXPECT_EQ(escaped("<a href=\"x\">'&'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+}
+
+TEST(LoadMap, EqualLoadsAreDrawn) {
+  LoadMap map = map_of(2, 2);
+  for (MapPoint& point : map.points) point.load = 1.5;
+  EXPECT_EQ(count("nan", svg(map)), 0u);
+  EXPECT_EQ(count("inf", svg(map)), 0u);
+}
+
+}  // namespace
+}  // namespace arcwall::sweep

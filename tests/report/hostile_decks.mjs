@@ -1,0 +1,119 @@
+// Decks whose texts try to become markup: titles, descriptions, units, file names.
+
+const payloads = [
+  '<script>window.touched = 1</script>',
+  '</script><script>window.touched = 1</script>',
+  '</SCRIPT ><ScRiPt>window.touched = 1</sCrIpT>',
+  '</title><script>window.touched = 1</script>',
+  '</style><script>window.touched = 1</script>',
+  '</pre></section><script>window.touched = 1</script>',
+  '</svg><img src=x onerror="window.touched = 1">',
+  '<svg onload="window.touched = 1">',
+  '<svg><animate onbegin="window.touched = 1" attributeName=x dur=1s>',
+  '<img src=x onerror=window.touched=1>',
+  '"><img src=x onerror=window.touched=1>',
+  '\' onmouseover=\'window.touched = 1',
+  '" autofocus onfocus="window.touched = 1',
+  '` onload=`window.touched = 1',
+  'x" data-point="0" tabindex="1',
+  '<iframe srcdoc="<script>parent.touched = 1</script>"></iframe>',
+  '<object data="data:text/html,<script>parent.touched = 1</script>">',
+  '<embed src="javascript:window.touched=1">',
+  '<form action="javascript:window.touched=1"><button>',
+  '<math><mtext></form><form><mglyph><style></math><img src onerror=window.touched=1>',
+  '<base href="https://example.org/">',
+  '<meta http-equiv="refresh" content="0;url=https://example.org/">',
+  '<link rel="stylesheet" href="https://example.org/x.css">',
+  '<style>body { display: none }</style>',
+  '<a href="javascript:window.touched=1">click</a>',
+  '<b>plotly</b><br><i>markup</i><sub>x</sub><sup>y</sup>',
+  '<a href="https://example.org/" target="_blank">plotly link</a>',
+  '<span style="color: red; font-size: 90px">plotly span</span>',
+  '&lt;img src=x onerror=window.touched=1&gt;',
+  '&amp;lt;b&amp;gt; &#60;b&#62; &quot;',
+  '%{x} %{customdata} %{fullData.name}<extra></extra>',
+  '$\\alpha$ $$\\href{javascript:window.touched=1}{x}$$',
+  '{{data}} {{script}} {{title}} }} {{',
+  '${window.touched = 1} `${window.touched = 1}`',
+  ']]> <![CDATA[ <script>window.touched = 1</script> ]]>',
+  '<!-- <script>window.touched = 1</script> -->',
+  '<!--<script>',
+  '--> <script>window.touched = 1</script>',
+  '\\u003cscript\\u003ewindow.touched = 1\\u003c/script\\u003e',
+  '\\"};window.touched = 1;//',
+  '"};window.touched = 1;//',
+  '\';window.touched = 1;//',
+  '*/window.touched = 1;/*',
+  ')report" ")',
+  '__proto__',
+  'constructor',
+  'toString',
+  'undefined',
+  'NaN',
+  '\u2028window.touched = 1\u2029',
+  '\u202egnp.exe\u202c',
+  '\u2066\u2067\u2068\u2069\u200e\u200f',
+  'أحمد <b> שלום',
+  '\u0000\u0001\u0007\u0008\u001b[31m\u007f\u009b',
+  '\ufeffmark',
+  '\ufffe\uffff',
+  '\u{1f4a3}\u{e0001}\u{10ffff}',
+  'e\u0301\u0301\u0301\u0301\u0301'.repeat(30),
+  'W'.repeat(10_000),
+  '<b>'.repeat(3_000),
+  'word '.repeat(2_000),
+  '\t \n \r\n ',
+  '',
+  ' ',
+  '/etc/passwd file:///etc/passwd',
+];
+
+// TOML's basic strings; what may not stand in them as it is stands as an escape.
+const quoted = (text) => `"${[...text].map((character) => {
+  const code = character.codePointAt(0);
+  if (character === '"' || character === '\\') return `\\${character}`;
+  return code < 0x20 || code === 0x7f ? `\\u${code.toString(16).padStart(4, '0')}` : character;
+}).join('')}"`;
+
+const deck = ({ title, description, length, force }) => `title = ${quoted(title)}
+description = ${quoted(description)}
+units = { length = ${quoted(length)}, force = ${quoted(force)} }
+material.steel = { E = 2.1e4 }
+section.bar = { shape = "rectangle", width = 0.5, height = 0.25 }
+point = { left = [-15.0, 0.0], top = [0.0, 0.6], right = [15.0, 0.0] }
+support = { left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }
+path = { step = 0.05, branches = "primary", max_points = 40, stop = { lambda = [-1.0, 2.0] } }
+[member]
+west = { from = "left", to = "top", theory = "classic", material = "steel", section = "bar", elements = 4 }
+east = { from = "top", to = "right", theory = "classic", material = "steel", section = "bar", elements = 4 }
+[[load]]
+at = "top"
+force = [0.0, -1.0]
+[[wall]]
+name = "floor"
+side = "below"
+profile = { type = "flat", z = -0.6 }
+[[monitor]]
+name = "down"
+at = "top"
+component = "z"
+sign = -1
+`;
+
+// What is not cut or replaced is shown letter by letter.
+const shown_as_it_is = (text) =>
+  text.length < 200 && text.trim() !== '' && !/[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/.test(text);
+
+// Decks with five texts each, one of them from the command line, and decks whose file has such a name.
+export const hostile_decks = () => {
+  const decks = [];
+  const at = (i) => payloads[i % payloads.length];
+  for (let i = 0; i < payloads.length; i += 3) {
+    decks.push({ toml: deck({ title: at(i), description: '', length: at(i + 1), force: at(i + 2) }),
+      arguments: ['--set', `description=${quoted(at(i + 1))}`], texts: 5, title: shown_as_it_is(at(i)) ? at(i) : undefined });
+  }
+  for (const file of ['<img src=x onerror=window.touched=1>.toml', '"\' onload=`x`.toml', '\u202elmot.toml', '<b>&lt;$x$.toml']) {
+    decks.push({ file, toml: deck({ title: ' ', description: '', length: 'cm', force: 'kN' }), arguments: [], texts: 1 });
+  }
+  return decks;
+};

@@ -1,0 +1,276 @@
+// Drives Chromium through pages that trace-path writes: node report_in_browser.mjs TRACE_PATH EXAMPLES CHROMIUM
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test, before, after } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+import { hostile_decks } from './hostile_decks.mjs';
+
+const [trace_path, examples, executable] = process.argv.slice(2);
+const desktop = { width: 1280, height: 900 }, phone = { width: 375, height: 740 };
+
+let folder, browser, channel;
+
+// Runs a deck and gives the page; 3 and 6 are ends that leave results.
+const report_of = (deck, name, more = []) => {
+  const out = join(folder, name);
+  try {
+    execFileSync(trace_path, ['run', deck, '--out', out, '--quiet', ...more], { stdio: ['ignore', 'ignore', 'pipe'] });
+  } catch (failure) {
+    if (![3, 6].includes(failure.status)) throw new Error(`${deck}: ${failure.stderr}`);
+  }
+  return join(out, 'report.html');
+};
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'report-'));
+  browser = await chromium.launch({
+    executablePath: executable,
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+      '--disable-component-update', '--disable-sync'],
+  });
+  channel = report_of(join(examples, 'channel.toml'), 'channel');
+});
+
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+// A page, and what it complains about or asks for.
+const open = async (file, options = {}) => {
+  const context = await browser.newContext({ viewport: desktop, ...options });
+  const page = await context.newPage();
+  const complaints = [], requests = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('dialog', (dialog) => { complaints.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
+  page.on('request', (request) => requests.push(request.url()));
+  const address = pathToFileURL(file).href;
+  await page.goto(address);
+  const finish = async () => {
+    assert.deepEqual(complaints, [], 'the console is quiet');
+    assert.deepEqual(requests.filter((url) => url !== address && !url.startsWith('data:')), [], 'nothing is fetched');
+    await context.close();
+  };
+  return { page, finish };
+};
+
+const shape = (page) => page.$eval('#shown .member:not(.band)', (path) => path.getAttribute('d'));
+const lambda = (page) => page.$eval('#values td', (cell) => Number(cell.textContent));
+const has_plotly = (page) => page.evaluate(() => typeof Plotly !== 'undefined');
+
+// Where a point of the curve is on the screen.
+const place_of = (page, point) => page.evaluate((index) => {
+  const { points } = JSON.parse(document.getElementById('data').textContent);
+  if (typeof Plotly === 'undefined') {
+    const chart = document.querySelector('#charts .chosen svg');
+    const place = (text, value) => {
+      const [low, high, from, to] = text.split(' ').map(Number);
+      return from + (value - low) / (high - low) * (to - from);
+    };
+    const at = new DOMPoint(place(chart.dataset.across, points.monitors[0][index]), place(chart.dataset.up, points.lambda[index]))
+      .matrixTransform(chart.getScreenCTM());
+    return { x: at.x, y: at.y };
+  }
+  const plot = document.getElementById('plot'), box = plot.getBoundingClientRect();
+  const { xaxis, yaxis } = plot._fullLayout;
+  return { x: box.left + xaxis._offset + xaxis.l2p(points.monitors[0][index]),
+    y: box.top + yaxis._offset + yaxis.l2p(points.lambda[index]) };
+}, point);
+
+const click_on_curve = async (page, point) => {
+  await page.locator('#load').scrollIntoViewIfNeeded();
+  const { x, y } = await place_of(page, point);
+  await page.mouse.move(x - 1, y - 1);
+  await page.mouse.move(x, y);
+  await page.waitForTimeout(150);
+  await page.mouse.click(x, y);
+};
+
+// Waits until the ring stands where a point of the curve is.
+const ring_at = async (page, point) => {
+  const { x, y } = await place_of(page, point);
+  await page.waitForFunction(({ x, y }) => {
+    const rings = [...document.querySelectorAll('#plot .scatterlayer .trace:last-child .point, #charts .chosen .here')];
+    const { left, right, top, bottom } = rings[0].getBoundingClientRect();
+    return rings.length === 1 && Math.hypot((left + right) / 2 - x, (top + bottom) / 2 - y) < 2;
+  }, { x, y }, { timeout: 5000 });
+};
+
+// The page as a build without plotly writes it.
+const without_plotly = () => {
+  const text = readFileSync(channel, 'utf8');
+  const begin = text.indexOf('<script>', text.indexOf('id="data"')), end = text.indexOf('</script>', begin);
+  const file = join(folder, 'without_plotly.html');
+  writeFileSync(file, text.slice(0, begin + '<script>'.length) + text.slice(end));
+  return file;
+};
+
+for (const [kind, file_of] of [['as it is', () => channel], ['without plotly', without_plotly]]) {
+  test(`the curve, the slider, clicks and keys: ${kind}`, async () => {
+    const { page, finish } = await open(file_of());
+    const plotly = await has_plotly(page);
+    if (kind === 'without plotly') assert.equal(plotly, false);
+
+    const curves = plotly ? '#plot .scatterlayer .js-line' : '#charts .chosen path.line';
+    assert.ok(await page.locator(curves).count() >= 2, 'a stable and an unstable curve');
+    assert.ok(await page.locator('#charts figure').first().isVisible() !== plotly, 'one chart is shown');
+
+    const first = await shape(page);
+    await page.locator('#slider').fill('20');
+    assert.notEqual(await shape(page), first, 'the slider moves the shape');
+    const at_20 = await lambda(page);
+
+    await click_on_curve(page, 30);
+    assert.equal(await page.inputValue('#slider'), '30', 'a click on the curve selects its point');
+    assert.notEqual(await lambda(page), at_20);
+    await ring_at(page, 30);
+
+    await page.focus('#slider');
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await page.inputValue('#slider'), '31');
+    await ring_at(page, 31);
+    await page.keyboard.press('PageDown');
+    assert.match(await page.textContent('#happening'), /contact closes/, 'Page down goes to the next event');
+
+    await page.focus('#events tbody tr:first-child');
+    await page.keyboard.press('ArrowDown');
+    assert.match(await page.textContent('#happening'), /contact closes – upper at column:0.5/);
+    await page.keyboard.press('End');
+    assert.match(await page.textContent('#happening'), /end – stop/);
+    await page.locator('#events tbody tr').nth(3).click();
+    assert.match(await page.textContent('#happening'), /limit point/);
+    assert.equal(await page.locator('#strip figure.here').count(), 1);
+
+    await page.locator('#monitor').selectOption({ index: 1 });
+    const axis = plotly ? '#plot .xtitle' : '#charts .chosen text.axis >> nth=0';
+    assert.equal(await page.textContent(axis), 'shortening [cm]');
+    await finish();
+  });
+}
+
+test('play goes to the end, and again from the start', async () => {
+  const { page, finish } = await open(channel);
+  await page.locator('#slider').fill('36');
+  await page.click('#play');
+  assert.equal((await page.textContent('#play')).trim(), 'Pause');
+  await page.waitForFunction(() => document.getElementById('slider').value === document.getElementById('slider').max);
+  await page.waitForFunction(() => document.getElementById('play').textContent.trim() === 'Play');
+  await page.click('#play');
+  await page.waitForFunction(() => Number(document.getElementById('slider').value) < 10);
+  await page.keyboard.press(' ');  // the button has the focus
+  assert.equal((await page.textContent('#play')).trim(), 'Play');
+  await finish();
+});
+
+test('the keys of the curve', async () => {
+  const { page, finish } = await open(channel);
+  if (await has_plotly(page)) {
+    await page.focus('#plot');
+    await page.keyboard.press('End');
+    assert.equal(await page.inputValue('#slider'), await page.getAttribute('#slider', 'max'));
+    await page.keyboard.press('ArrowLeft');
+    assert.equal(Number(await page.inputValue('#slider')), Number(await page.getAttribute('#slider', 'max')) - 1);
+    await page.keyboard.press('Home');
+    assert.equal(await page.inputValue('#slider'), '0');
+  }
+  await finish();
+});
+
+test('without scripts the curves, the shapes and the tables are there', async () => {
+  const { page, finish } = await open(channel, { javaScriptEnabled: false });
+  assert.equal(await page.locator('#charts svg.chart:visible').count(), 2);
+  assert.ok(await page.locator('#stage').isVisible());
+  assert.ok(await page.locator('#strip figure:visible').count() >= 5);
+  assert.equal(await page.locator('#events tbody tr:visible').count(), 7);
+  for (const hidden of ['#slider', '#play', '#monitor', '#values'])
+    assert.equal(await page.locator(hidden).isVisible(), false, hidden);
+  await finish();
+});
+
+test('on paper the pictures and tables stand, without controls', async () => {
+  const { page, finish } = await open(channel);
+  await page.emulateMedia({ media: 'print' });
+  assert.equal(await page.locator('#charts svg.chart:visible').count(), 2);
+  for (const shown of ['#stage', '#events', '#deck', 'dl']) assert.ok(await page.locator(shown).isVisible(), shown);
+  for (const hidden of ['#plot', '#slider', '#play', '#monitor', '#values', '#touching'])
+    assert.equal(await page.locator(hidden).isVisible(), false, hidden);
+  const cut = await page.$eval('#deck', (deck) => deck.scrollHeight > deck.clientHeight + 1);
+  assert.equal(cut, false, 'the whole deck is printed');
+  await finish();
+});
+
+test('a phone shows it without scrolling sideways', async () => {
+  const { page, finish } = await open(channel, { viewport: phone, hasTouch: true, isMobile: true });
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= phone.width);
+  await page.locator('#slider').fill('30');
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= phone.width);
+  await finish();
+});
+
+test('hostile texts inject nothing', async () => {
+  const decks = hostile_decks();
+  let texts = 0;
+  for (const [i, deck] of decks.entries()) {
+    const file = join(folder, deck.file ?? `hostile${i}.toml`);
+    writeFileSync(file, deck.toml);
+    const { page, finish } = await open(report_of(file, `hostile${i}`, deck.arguments));
+    const found = await page.evaluate(() => ({
+      touched: window.touched,
+      // An element that only a text could have made.
+      alien: [...document.querySelectorAll('img, iframe, object, embed, form, marquee, a, foreignObject, base, main style')]
+        .filter((element) => !element.closest('.modebar')).map((element) => element.outerHTML.slice(0, 200)),
+      handlers: [...document.querySelectorAll('*')].flatMap((element) => element.getAttributeNames())
+        .filter((name) => name.startsWith('on')),
+      scripts: document.scripts.length,
+      width: document.documentElement.scrollWidth,
+      turned: /[\u202a-\u202e\u2066-\u2069\u200e\u200f]/.test(document.body.textContent),
+    }));
+    const what = JSON.stringify(deck.toml).slice(0, 300);
+    assert.equal(found.touched, undefined, what);
+    assert.deepEqual(found.alien, [], what);
+    assert.deepEqual(found.handlers, [], what);
+    assert.equal(found.scripts, 3, what);
+    assert.equal(found.turned, false, what);
+    assert.ok(found.width <= desktop.width, `${what}: ${found.width} wide`);
+    if (deck.title !== undefined) assert.equal(await page.textContent('h1'), deck.title);
+    await finish();
+    texts += deck.texts;
+  }
+  assert.ok(texts >= 100, `${texts} texts`);
+  console.log(`${texts} hostile texts in ${decks.length} pages`);
+});
+
+test('a long run stays usable', async () => {
+  const file = join(folder, 'long.toml');
+  writeFileSync(file, readFileSync(join(examples, 'lee.toml'), 'utf8')
+    .replace(/^\[path\]$/m, '[path]\nmax_step = 0.0005\nmax_points = 5000').replace(/elements = \d+/g, 'elements = 67'));
+  const report = report_of(file, 'long');
+  const { page, finish } = await open(report);
+  const figures = await page.evaluate(async () => {
+    const { points, shapes } = JSON.parse(document.getElementById('data').textContent);
+    const slider = document.getElementById('slider'), times = [];
+    for (let i = 0; i < 20; ++i) {
+      const begin = performance.now();
+      slider.value = Math.round(i / 19 * slider.max);
+      slider.dispatchEvent(new Event('input'));
+      await new Promise(requestAnimationFrame);
+      await new Promise((painted) => setTimeout(painted));
+      times.push(performance.now() - begin);
+    }
+    const { loadEventEnd } = performance.getEntriesByType('navigation')[0];
+    return { points: points.lambda.length, shapes: shapes.length, load: loadEventEnd, step: times.sort((a, b) => a - b)[10] };
+  });
+  const size = readFileSync(report).length / 1e6;
+  console.log(`${figures.points} points, ${figures.shapes} shapes, ${size.toFixed(1)} MB: loaded in ${Math.round(figures.load)} ms, ` +
+    `${figures.step.toFixed(0)} ms a step`);
+  assert.equal(figures.points, 5000);
+  assert.ok(size < 12, `${size} MB`);
+  await finish();
+});
