@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs those Debian 12 packages of the named groups that are missing:
 #
-#   bash cmake/install_debian_packages.sh build [test] [report] [format] [benchmark]
+#   bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark]
 #
 # report: a browser for the tests of report.html, and Node.js with npm if these commands are missing; npm also fetches
 # plotly.js for the page.
@@ -14,16 +14,17 @@ packages_of() {
       echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libboost-program-options-dev libboost-math-dev \
         libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev
       ;;
-    test) echo libgtest-dev python3 python3-meshio parallel groff-base dpkg-dev ;;
+    test) echo libgtest-dev librapidcheck-dev python3 python3-meshio parallel groff-base dpkg-dev ;;
     report)
       echo chromium
       command -v node >/dev/null || echo nodejs
       command -v npm >/dev/null || echo npm
       ;;
+    sanitize) echo clang libclang-rt-14-dev ;;
     format) echo clang-format git ;;
     benchmark) echo libbenchmark-dev ;;
     *)
-      echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, report," \
+      echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, sanitize, report," \
         "format and benchmark" >&2
       return 2
       ;;
@@ -45,7 +46,7 @@ as_root() {
 }
 
 if [[ $# == 0 ]]; then
-  echo "usage: bash cmake/install_debian_packages.sh build [test] [report] [format] [benchmark]" >&2
+  echo "usage: bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark]" >&2
   exit 2
 fi
 

@@ -26,4 +26,9 @@ InterruptGuard::~InterruptGuard() {
 
 bool InterruptGuard::interrupted() const { return signal_came != 0; }
 
+void let_writes_fail() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
 }  // namespace arcwall

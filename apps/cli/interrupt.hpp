@@ -20,4 +20,8 @@ class InterruptGuard {
   }, old_terminate_{};
 };
 
+/// From here on what cannot be written (a pipe that nobody reads, a file beyond its allowed size) is an error of the
+/// call that writes, not a signal that ends the program.
+void let_writes_fail();
+
 }  // namespace arcwall

@@ -62,6 +62,8 @@ class CheckpointKeeper {
 std::optional<BranchEnd> limit_met(const SessionOptions& options, int points, const Stopwatch& watch,
                                    const InterruptGuard& interrupts) {
   if (interrupts.interrupted()) return BranchEnd{.reason = EndReason::interrupted, .detail = "by a signal"};
+  if (!std::cout)
+    return BranchEnd{.reason = EndReason::interrupted, .detail = "standard output can no longer be written"};
   if (options.max_seconds && watch.seconds() >= *options.max_seconds)
     return BranchEnd{.reason = EndReason::max_time, .detail = round_trip(*options.max_seconds) + " s"};
   if (options.max_points && points >= *options.max_points)
@@ -119,15 +121,17 @@ const RecordBranch& decisive_branch(const Record& record) {
 void write_files(const OutputFolder& folder, const RunUnderWay& run, const RunSeconds& seconds, ExitStatus status) {
   const Record& record = run.record();
   const RunDescription& description = run.description();
-  folder.write_whole("path.csv", path_csv(record, description.units));
-  if (record.has_walls) folder.write_whole("contacts.csv", contacts_csv(record, description.units));
-  folder.write_whole("events.json", to_text(events_json(record), JsonLayout::lines));
-  folder.write_whole("events.txt", events_text(record));
-  folder.write_whole("report.html", report_html(record, report_content(run.study(), record)));
-  if (description.ledger == StepLedger::kept) folder.write_whole("steps.jsonl", record.steps);
-  folder.write_whole("deck.toml", deck::to_toml(run.study().deck()));
+  FileSet files(folder);
+  files.write("path.csv", path_csv(record, description.units));
+  if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
+  files.write("events.json", to_text(events_json(record), JsonLayout::lines));
+  files.write("events.txt", events_text(record));
+  files.write("report.html", report_html(record, report_content(run.study(), record)));
+  if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
+  files.write("deck.toml", deck::to_toml(run.study().deck()));
   const auto result = result_json(run.study(), description.deck_text, record, seconds, static_cast<int>(status));
-  folder.write_whole("result.json", to_text(result, JsonLayout::lines));
+  files.write("result.json", to_text(result, JsonLayout::lines));
+  files.put_in_place();
   write_shapes(folder, run.study(), record);
 }
 
@@ -189,7 +193,7 @@ ExitStatus trace_and_write(RunUnderWay& run, const OutputFolder& folder, const S
     std::cerr << "error: there is no equilibrium at the start: " << explanation(reason) << "\n";
     return ExitStatus::no_start;
   }
-  const ExitStatus status = exit_status(reason);
+  const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
   if (options.report == Report::table) std::cout << events_text(record);
   say_how_it_ended(stopped, record, folder.path().string());

@@ -24,54 +24,6 @@ namespace {
   throw OutputError(file.string() + ": " + what + ": " + reason);
 }
 
-// A file under a hidden name that goes away unless it is renamed.
-class Temporary {
- public:
-  explicit Temporary(const fs::path& target)
-      : target_(target),
-        path_(target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()))),
-        descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) give_up(errno);
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-
-  void write(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t written = ::write(descriptor_, text.data(), text.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) give_up(errno);
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-
-  void flush_to_disk() const {
-    if (::fsync(descriptor_) != 0) give_up(errno);
-  }
-
-  // Some file systems report a full disk only when the file is closed.
-  void rename() {
-    if (::close(std::exchange(descriptor_, -1)) != 0) give_up(errno);
-    std::error_code error;
-    fs::rename(path_, target_, error);
-    if (error) give_up(error.value());
-    path_.clear();
-  }
-
- private:
-  [[noreturn]] void give_up(int error) const {
-    fail(target_, "cannot be written", std::generic_category().message(error));
-  }
-
-  fs::path target_;
-  fs::path path_;
-  int descriptor_;
-};
-
 std::string bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -89,7 +41,7 @@ std::string filled_by(const fs::path& folder) {
   return result.at(file).get<std::string>();
 }
 
-// Files that a killed process was writing: see Temporary.
+// Files that a killed process was writing: see StagedFile.
 void remove_leftovers(const fs::path& folder) {
   static const std::regex hidden(
       R"(\.(path\.csv|contacts\.csv|events\.json|events\.txt|deck\.toml|result\.json|report\.html|shapes\.pvd|)"
@@ -103,10 +55,52 @@ void remove_leftovers(const fs::path& folder) {
 
 }  // namespace
 
+StagedFile::StagedFile(fs::path target)
+    : target_(std::move(target)),
+      path_(target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()))),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) give_up(errno);
+}
+
+StagedFile::~StagedFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+void StagedFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor_, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) give_up(errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void StagedFile::flush_to_disk() const {
+  if (::fsync(descriptor_) != 0) give_up(errno);
+}
+
+// Some file systems report a full disk only here.
+void StagedFile::close() {
+  if (::close(std::exchange(descriptor_, -1)) != 0) give_up(errno);
+}
+
+void StagedFile::put_in_place() {
+  std::error_code error;
+  fs::rename(path_, target_, error);
+  if (error) give_up(error.value());
+  path_.clear();
+}
+
+void StagedFile::give_up(int error) const {
+  fail(target_, "cannot be written", std::generic_category().message(error));
+}
+
 void write_whole(const fs::path& file, std::string_view text) {
-  Temporary temporary(file);
-  temporary.write(text);
-  temporary.rename();
+  StagedFile staged(file);
+  staged.write(text);
+  staged.close();
+  staged.put_in_place();
 }
 
 void require_usable(const fs::path& folder, const std::string& deck, Foreign foreign) {
@@ -133,7 +127,7 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& deck, Foreign for
   made_ = fs::create_directories(folder_, error);
   if (error) fail(folder_, "cannot be made", error.message());
   remove_leftovers(folder_);
-  const Temporary probe(folder_ / "probe");
+  const StagedFile probe(folder_ / "probe");
 }
 
 OutputFolder::~OutputFolder() {
@@ -145,15 +139,28 @@ void OutputFolder::write_whole(const std::string& name, std::string_view text) c
 }
 
 void OutputFolder::write_durably(const std::string& name, std::string_view text) const {
-  Temporary temporary(folder_ / name);
-  temporary.write(text);
-  temporary.flush_to_disk();
-  temporary.rename();
+  StagedFile staged(folder_ / name);
+  staged.write(text);
+  staged.flush_to_disk();
+  staged.close();
+  staged.put_in_place();
   // The new name, too. Not every file system can do this, and none needs it for the file to be whole.
   const int folder = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   ::fsync(folder);
   ::close(folder);
+}
+
+// After a crash of the machine the new names must not stand for data that never went out.
+void FileSet::write(const std::string& name, std::string_view text) {
+  StagedFile& file = files_.emplace_back(folder_ / name);
+  file.write(text);
+  file.flush_to_disk();
+  file.close();
+}
+
+void FileSet::put_in_place() {
+  for (StagedFile& file : files_) file.put_in_place();
 }
 
 }  // namespace arcwall

@@ -1,10 +1,39 @@
 #pragma once
 
 #include <filesystem>
+#include <list>
 #include <string>
 #include <string_view>
 
 namespace arcwall {
+
+/// A file under a hidden name beside its place, which goes away unless it is put there. Throws OutputError.
+class StagedFile {
+ public:
+  /// Empty; what stands at `target` is not touched.
+  explicit StagedFile(std::filesystem::path target);
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+  ~StagedFile();
+
+  void write(std::string_view text);
+
+  /// What was written is on the disk when this returns.
+  void flush_to_disk() const;
+
+  /// No more is written.
+  void close();
+
+  /// Replaces what stands at the target. It is closed.
+  void put_in_place();
+
+ private:
+  [[noreturn]] void give_up(int error) const;
+
+  std::filesystem::path target_;
+  std::filesystem::path path_;
+  int descriptor_;
+};
 
 /// Writes beside `file` under a hidden name and renames: `file` is whole, or what it was before. Throws OutputError.
 void write_whole(const std::filesystem::path& file, std::string_view text);
@@ -40,6 +69,23 @@ class OutputFolder {
  private:
   std::filesystem::path folder_;
   bool made_ = false;
+};
+
+/// Files of a folder that belong together: none is put in place before all are written, so a disk that is full leaves
+/// those of an earlier run as they were.
+class FileSet {
+ public:
+  explicit FileSet(const OutputFolder& folder) : folder_(folder.path()) {}
+
+  /// Throws OutputError.
+  void write(const std::string& name, std::string_view text);
+
+  /// In the order in which they were written. Throws OutputError.
+  void put_in_place();
+
+ private:
+  std::filesystem::path folder_;
+  std::list<StagedFile> files_{};
 };
 
 }  // namespace arcwall

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -17,6 +18,9 @@ using Names = std::set<std::string>;
 
 const Names outputs{"checkpoint",  "deck.toml",   "events.json", "events.txt", "path.csv",
                     "report.html", "result.json", "shapes",      "shapes.pvd"};
+
+// Steps so small that the run would take minutes.
+const std::string endless = " --set path.max_step=1e-8 --set path.min_step=1e-12 --set path.max_points=100000000";
 
 std::vector<Json> lines(const std::string& text) {
   std::vector<Json> result;
@@ -398,12 +402,47 @@ TEST_F(ProgramTest, WhatCannotBeWrittenGivesStatus5) {
   EXPECT_TRUE(wrote_nothing());
 }
 
+// No file may grow beyond 512 bytes.
+TEST_F(ProgramTest, ADiskThatIsFullKeepsTheFilesOfTheEarlierRun) {
+  ASSERT_EQ(run("truss.toml --max-points 3").status, 6);
+  const auto contents = [&] {
+    std::map<std::string, std::string> result;
+    for (const std::string& name : names_in(work() / "truss")) result[name] = content(work() / "truss" / name);
+    return result;
+  };
+  const auto before = contents();
+
+  const Outcome outcome = shell("ulimit -f 1; \"$PROGRAM\" truss.toml --max-points 4");
+
+  EXPECT_EQ(outcome.status, 5);
+  expect_in("cannot be written: File too large", outcome.err);
+  EXPECT_EQ(contents(), before);
+}
+
+TEST_F(ProgramTest, LinesThatNobodyReadsEndTheRunWithStatus5AndWhatWasTraced) {
+  const Outcome outcome = shell("{ \"$PROGRAM\" truss.toml --json" + endless + "; echo $? >status; } | head -n 1");
+
+  EXPECT_EQ(content(work() / "status"), "5\n");
+  expect_in("error: standard output cannot be written\n", outcome.err);
+  EXPECT_EQ(lines(outcome.out).size(), 1u);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  const Json end = Json::parse(content(work() / "truss" / "events.json"))["events"].back();
+  EXPECT_EQ(end["reason"], "interrupted");
+  EXPECT_EQ(end["detail"], "standard output can no longer be written");
+  EXPECT_EQ(Json::parse(content(work() / "truss" / "result.json"))["status"], 5);
+}
+
+TEST_F(ProgramTest, LinesForAFullDeviceEndTheRunWithStatus5AndWhatWasTraced) {
+  const Outcome outcome = shell("\"$PROGRAM\" truss.toml --json" + endless + " >/dev/full");
+
+  EXPECT_EQ(outcome.status, 5);
+  expect_in("error: standard output cannot be written\n", outcome.err);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+}
+
 TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
-  // Steps so small that the run would take minutes.
-  const Outcome outcome = shell(
-      "\"$PROGRAM\" truss.toml --quiet --set path.max_step=1e-8 --set path.min_step=1e-12 --set "
-      "path.max_points=100000000 & "
-      "child=$!; sleep 0.5; kill -TERM $child; wait $child");
+  const Outcome outcome =
+      shell("\"$PROGRAM\" truss.toml --quiet" + endless + " & child=$!; sleep 0.5; kill -TERM $child; wait $child");
   EXPECT_EQ(outcome.status, 130);
   EXPECT_EQ(names_in(work() / "truss"), outputs);
   EXPECT_EQ(Json::parse(content(work() / "truss" / "events.json"))["events"].back()["reason"], "interrupted");

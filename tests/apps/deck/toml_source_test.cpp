@@ -193,6 +193,16 @@ TEST(TomlSource, SurvivesWhatTheParserTakesForImpossible) {
   expect_refused("a = -_1", 1, "");
 }
 
+// Letters from U+00A1 to U+0499 and from U+FB26 on where the parser asks whether they are spaces.
+TEST(TomlSource, TakesLettersBeyondAsciiForNoSpaces) {
+  for (const char* letter : {"é", "λ", "ﭐ"}) {
+    expect_refused("title = 1\n" + "n"s + letter + " = 2\n", 2, "not valid TOML");
+    expect_refused("title = 1"s + letter + "\n", 1, "not valid TOML");
+    const Value root = parse_toml("title = \"\"\"a \\\n  "s + letter + "\"\"\"\n", "deck.toml");
+    EXPECT_EQ(find(root, "title")->string, "a "s + letter);
+  }
+}
+
 TEST(TomlSource, AssignsToTablesArraysAndNewPlaces) {
   Value root = parse_toml("[t]\na = 1\n[[l]]\nb = 1\n", "a.toml");
 

@@ -51,6 +51,26 @@ TEST(WriteWhole, LeavesNoTemporaryWhenItCannotReplace) {
   EXPECT_EQ(names_in(folder.path()), Names{"path.csv"});
 }
 
+TEST(FileSet, PutsAllFilesInPlaceOrNone) {
+  const TemporaryFolder folder;
+  put(folder / "path.csv", "old");
+  const OutputFolder output(folder.path(), "deck.toml", Foreign::overwrite);
+  {
+    FileSet files(output);
+    files.write("path.csv", "new");
+    EXPECT_THROW(files.write("gone/events.json", "new"), OutputError);
+  }
+  EXPECT_EQ(content(folder / "path.csv"), "old");
+  EXPECT_EQ(names_in(folder.path()), Names{"path.csv"});
+
+  FileSet files(output);
+  files.write("path.csv", "new");
+  files.write("events.json", "new too");
+  files.put_in_place();
+  EXPECT_EQ(content(folder / "path.csv"), "new");
+  EXPECT_EQ(names_in(folder.path()), (Names{"events.json", "path.csv"}));
+}
+
 TEST(OutputFolder, IsMadeWithItsParents) {
   const TemporaryFolder folder;
 

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Installs what the tests need and configures their build, with warnings as errors:
+#
+#   bash tests/configure.sh [--sanitize]
+#
+# --sanitize: with clang, the address and undefined-behaviour sanitizers, assertions and the fuzz targets, in
+# build/sanitize; else in build/tests.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+folder=build/tests
+groups=(build test)
+options=(-DCMAKE_BUILD_TYPE=Release)
+if [[ ${1:-} == --sanitize ]]; then
+  folder=build/sanitize
+  groups+=(sanitize)
+  options=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DARCWALL_SANITIZE=ON -DARCWALL_FUZZ=ON)
+fi
+
+bash cmake/install_debian_packages.sh "${groups[@]}"
+if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+cmake -S . -B "$folder" -G Ninja --log-level=WARNING -DARCWALL_WERROR=ON -DARCWALL_BUILD_APPS=ON \
+  -DARCWALL_BUILD_TESTS=ON "${options[@]}"

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "apps/output/event_names.hpp"
+#include "apps/study.hpp"
+#include "core/text.hpp"
+#include "tests/properties/random_decks.hpp"
+#include "tests/properties/retold.hpp"
+
+// A structure told otherwise has the same path: the same events in the same order at the same λ. Held for structures at
+// random; RC_PARAMS="max_success=1000 seed=7" in the environment of the program makes it more, or others.
+namespace arcwall {
+
+namespace {
+
+using deck::Deck;
+using test::Isometry;
+
+// Of the greatest |λ| of the path.
+constexpr double tolerance = 1e-8;
+
+struct Scene {
+  EventKind kind{};
+  double lambda = 0.0, uncertain = 0.0, arc = 0.0;
+  std::optional<Index> unstable_before{}, unstable_after{};
+  std::size_t contacts = 0;  // that change
+};
+
+// What a path tells, without units.
+struct Story {
+  std::vector<Scene> scenes{};
+  double length = 0.0, greatest = 0.0;
+  EndReason end{};
+};
+
+Story story_of(const Deck& deck) {
+  const Study study(deck);
+  std::string reason;
+  const auto start = study.start(reason);
+  RC_ASSERT(start.has_value());
+  Explorer explorer(study.system(), *start, study.options(), study.watched(), study.explore());
+  Story story;
+  while (const auto step = explorer.next()) {
+    const PathPoint& to = step->arc.to;
+    story.length = to.arc;
+    story.greatest = std::max(story.greatest, std::abs(to.state.lambda));
+    for (const Event& event : step->arc.events)
+      story.scenes.push_back({.kind = event.kind,
+                              .lambda = event.state.lambda,
+                              .uncertain = event.localised,
+                              .arc = event.arc,
+                              .unstable_before = event.unstable_before,
+                              .unstable_after = event.unstable_after,
+                              .contacts = event.guards.size()});
+  }
+  story.end = explorer.branches().front().end.value().reason;
+  for (const Scene& scene : story.scenes) RC_TAG(std::string(to_text(scene.kind)));
+  RC_TAG("END " + std::string(to_text(story.end)));
+  return story;
+}
+
+std::ostream& operator<<(std::ostream& out, const Story& story) {
+  for (const Scene& scene : story.scenes)
+    out << "\n  " << to_text(scene.kind) << " at λ = " << round_trip(scene.lambda) << ", arc " << round_trip(scene.arc)
+        << ", " << scene.contacts << " contacts";
+  return out << "\n  " << to_text(story.end) << " at arc " << round_trip(story.length);
+}
+
+// A path that is cut off after some points may be cut elsewhere: what both contain is compared.
+void check_same(Story found, Story expected, double sign = 1.0) {
+  RC_LOG() << "found" << found << "\nexpected" << expected << "\n";
+  const double both = std::min(found.length, expected.length) * (1.0 - 1e-6);
+  for (Story* story : {&found, &expected})
+    std::erase_if(story->scenes, [both](const Scene& scene) { return scene.arc > both; });
+  RC_ASSERT(found.scenes.size() == expected.scenes.size());
+  for (std::size_t i = 0; i < found.scenes.size(); ++i) {
+    const Scene &a = found.scenes[i], &b = expected.scenes[i];
+    RC_ASSERT(a.kind == b.kind);
+    RC_ASSERT(a.unstable_before == b.unstable_before);
+    RC_ASSERT(a.unstable_after == b.unstable_after);
+    RC_ASSERT(a.contacts == b.contacts);
+    RC_ASSERT(std::abs(sign * a.lambda - b.lambda) <= tolerance * expected.greatest + a.uncertain + b.uncertain);
+  }
+}
+
+bool is_straight_up(const Deck& deck) { return !deck.walls.empty(); }
+
+}  // namespace
+
+RC_GTEST_PROP(Properties, RigidMotionChangesNothing, (const Deck& deck)) {
+  const double most = is_straight_up(deck) ? 0.5 : pi;
+  const Isometry motion{.angle = *test::between(-most, most),
+                        .shift = {.x = *test::between(-100.0, 100.0), .z = *test::between(-100.0, 100.0)}};
+  check_same(story_of(test::moved(deck, motion)), story_of(deck));
+}
+
+RC_GTEST_PROP(Properties, TheMirrorImageHasThePath, (const Deck& deck)) {
+  check_same(story_of(test::moved(deck, {.mirrored = true})), story_of(deck));
+}
+
+RC_GTEST_PROP(Properties, UnitsChangeNothing, (const Deck& deck)) {
+  const double length = std::pow(10.0, *test::between(-6.0, 6.0)), force = std::pow(10.0, *test::between(-6.0, 6.0));
+  check_same(story_of(test::in_units(deck, length, force)), story_of(deck));
+}
+
+RC_GTEST_PROP(Properties, OppositeLoadsTakeOppositeFactors, (const Deck& deck)) {
+  check_same(story_of(test::with_opposite_loads(deck)), story_of(deck), -1.0);
+}
+
+RC_GTEST_PROP(Properties, OrderChangesNothing, (Deck deck)) {
+  const Story expected = story_of(deck);
+  for (const deck::Member& member : std::vector(deck.members))
+    if (*rc::gen::arbitrary<bool>()) deck = test::with_reversed_member(std::move(deck), member.name);
+  const auto rotate = [](auto& list) {
+    if (!list.empty())
+      std::rotate(list.begin(), list.begin() + *rc::gen::inRange<long>(0, std::ssize(list)), list.end());
+    if (*rc::gen::arbitrary<bool>()) std::reverse(list.begin(), list.end());
+  };
+  rotate(deck.points);
+  rotate(deck.members);
+  rotate(deck.supports);
+  rotate(deck.loads);
+  rotate(deck.walls);
+  check_same(story_of(deck), expected);
+}
+
+}  // namespace arcwall
