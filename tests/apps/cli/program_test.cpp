@@ -407,7 +407,8 @@ TEST_F(ProgramTest, ADiskThatIsFullKeepsTheFilesOfTheEarlierRun) {
   ASSERT_EQ(run("truss.toml --max-points 3").status, 6);
   const auto contents = [&] {
     std::map<std::string, std::string> result;
-    for (const std::string& name : names_in(work() / "truss")) result[name] = content(work() / "truss" / name);
+    for (const auto& entry : fs::recursive_directory_iterator(work() / "truss"))
+      if (entry.is_regular_file()) result[entry.path()] = content(entry.path());
     return result;
   };
   const auto before = contents();
