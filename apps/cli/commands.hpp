@@ -16,6 +16,7 @@ struct Command {
 
 Command run_command();
 Command resume_command();
+Command verify_command();
 Command check_command();
 Command examples_command();
 
