@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "apps/cli/example_decks.hpp"
+#include "apps/deck/reader.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 namespace arcwall {
