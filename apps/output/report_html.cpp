@@ -191,7 +191,7 @@ std::string shape_notes(const Record& record, const ShapePictures& shapes) {
   if (shapes.stretch > 1.0)
     notes.push_back(fmt::format("Heights are drawn {} times as large as lengths.", shapes.stretch));
   if (shapes.greatest_force > 0.0)
-    notes.push_back(fmt::format("Red arrows: forces of the walls on the structure, the longest {}{}{}.",
+    notes.push_back(fmt::format("Arrows at the walls: their forces on the structure, the longest {}{}{}.",
                                 shown_number(shapes.greatest_force, 4), record.force_unit.empty() ? "" : " ",
                                 shown_name(record.force_unit)));
   if (shapes.pictures.size() < record.points.size())
@@ -202,8 +202,8 @@ std::string shape_notes(const Record& record, const ShapePictures& shapes) {
   return text;
 }
 
-// The events that tell most: changes of contact and turns before starts and ends, spread over the path.
-std::vector<const RecordEvent*> telling_events(const Record& record) {
+// One event a point, and of many some that are spread evenly over the path.
+std::vector<const RecordEvent*> events_of_strip(const Record& record) {
   constexpr std::size_t most = 12;
   std::vector<const RecordEvent*> events;
   std::set<std::pair<Index, Index>> places;
@@ -224,7 +224,7 @@ const ShapePicture* picture_at(const ShapePictures& shapes, std::size_t point) {
 std::string strip(const Record& record, const ShapePictures& shapes) {
   const std::vector<std::size_t> first = first_points(record);
   std::string text;
-  for (const RecordEvent* event : telling_events(record)) {
+  for (const RecordEvent* event : events_of_strip(record)) {
     const std::size_t point = point_of(*event, first);
     const ShapePicture* picture = picture_at(shapes, point);
     if (picture == nullptr) continue;

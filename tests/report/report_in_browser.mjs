@@ -43,6 +43,7 @@ after(async () => {
 // A page, and what it complains about or asks for.
 const open = async (file, options = {}, fragment = '') => {
   const context = await browser.newContext({ viewport: desktop, ...options });
+  context.setDefaultTimeout(120_000);  // a bound on hanging, on busy machines too
   const page = await context.newPage();
   const complaints = [], requests = [];
   page.on('console', (message) => {
@@ -100,7 +101,7 @@ const ring_at = async (page, point) => {
     const rings = [...document.querySelectorAll('#plot .scatterlayer .trace:last-child .point, #charts .chosen .here')];
     const { left, right, top, bottom } = rings[0].getBoundingClientRect();
     return rings.length === 1 && Math.hypot((left + right) / 2 - x, (top + bottom) / 2 - y) < 2;
-  }, { x, y }, { timeout: 5000 });
+  }, { x, y });
 };
 
 // The page as a build without plotly writes it.
