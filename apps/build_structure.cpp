@@ -1,6 +1,8 @@
 #include "apps/build_structure.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace arcwall {
@@ -136,6 +138,31 @@ void check_curvature(const deck::Member& member, const MemberDescription& descri
   }
 }
 
+// Stiffnesses of an element, over their units, and its length against the coordinates, which are only so fine.
+void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const MemberDescription& description,
+                      DeckProblems& problems) {
+  const double h = description.axis->length() / member.elements;
+  const double EA = description.section.EA();
+  const double EI = member.theory == deck::Theory::truss ? EA * h * h : description.section.EI();
+  const bool shears = member.theory == deck::Theory::exact || member.theory == deck::Theory::essenburg;
+  const double GA = shears ? description.section.GA() : EA;
+  const auto far = [&](const std::string& name) {
+    const deck::Vector& at = deck::find(deck.points, name)->at;
+    return std::max(std::abs(at.x), std::abs(at.z));
+  };
+  const bool is_long_enough = h > 1e-12 * std::max(far(member.from), far(member.to));
+  const auto is_usable = [](double value) { return value > 1e-100 && value < 1e100; };
+  if (is_long_enough && is_usable(h) && is_usable(EA / h) && is_usable(GA / h) && is_usable(EI / h) &&
+      is_usable(EI / (h * h * h)))
+    return;
+  problems.add(
+      member.position, "member." + member.name,
+      fmt::format("with elements of length {:.4g}, EA = {:.4g} and EI = {:.4g} its stiffness cannot be computed "
+                  "with numbers of 16 digits",
+                  h, EA, EI),
+      "choose units in which lengths and forces are nearer to 1, and an origin near the structure");
+}
+
 void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
   for (const deck::Member& member : deck.members) {
     const Theory theory = theory_of(member);
@@ -165,6 +192,7 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
       description.section = balanced(description.section, description.axis->length());
     for (const deck::Imperfection& wave : member.imperfections)
       description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
+    check_magnitudes(deck, member, description, problems);
     if (theory == Theory::essenburg) check_curvature(member, description, problems);
     out.places.members[member.name] = out.builder.add_member(std::move(description));
   }

@@ -17,6 +17,7 @@ struct Command {
 Command run_command();
 Command resume_command();
 Command report_command();
+Command verify_command();
 Command check_command();
 Command examples_command();
 

@@ -12,7 +12,8 @@ enum class ExitStatus {
   ended_early = 3,  ///< a branch, by one of a closed list of reasons
   no_start = 4,     ///< no equilibrium
   file_error = 5,
-  limit_met = 6,  ///< on points or time
+  limit_met = 6,      ///< on points or time
+  not_confirmed = 7,  ///< what a run says does not hold
   interrupted = 130,
 };
 

@@ -109,6 +109,7 @@ const RecordBranch& decisive_branch(const Record& record) {
       case ExitStatus::ended_early:
       case ExitStatus::no_start:
       case ExitStatus::file_error:
+      case ExitStatus::not_confirmed:
         return 1;
     }
     return 1;

@@ -195,6 +195,15 @@
     fill(element('touching').tBodies[0], rows);
   };
 
+  // In the table's own window; the page stays where it is.
+  const show_row = (row) => {
+    if (!row) return;
+    const frame = row.closest('.scroll'), head = frame.querySelector('thead');
+    const above = row.offsetTop - head.offsetHeight, below = row.offsetTop + row.offsetHeight;
+    if (above < frame.scrollTop) frame.scrollTop = above;
+    else if (below > frame.scrollTop + frame.clientHeight) frame.scrollTop = below - frame.clientHeight;
+  };
+
   const show_event = (point) => {
     const said = (events_at.get(point) ?? []).map((event) =>
       without_hyphens(event.kind) + (event.what === '' ? '' : ` – ${event.what}`));
@@ -202,6 +211,7 @@
     for (const marked of document.querySelectorAll('#events .here, #strip .here')) marked.classList.remove('here');
     for (const one of document.querySelectorAll(`#events [data-point="${point}"], #strip [data-point="${point}"]`))
       one.classList.add('here');
+    show_row(document.querySelector('#events .here'));
   };
 
   let current = 0;  // shape

@@ -68,7 +68,7 @@ std::string command_section(const CommandDescription& command) {
 
 constexpr std::array statuses{ExitStatus::success,     ExitStatus::internal_error, ExitStatus::wrong_input,
                               ExitStatus::ended_early, ExitStatus::no_start,       ExitStatus::file_error,
-                              ExitStatus::limit_met,   ExitStatus::interrupted};
+                              ExitStatus::limit_met,   ExitStatus::not_confirmed,  ExitStatus::interrupted};
 
 std::string meaning(ExitStatus status) {
   switch (status) {
@@ -86,6 +86,8 @@ std::string meaning(ExitStatus status) {
       return "a file cannot be read or written";
     case ExitStatus::limit_met:
       return "a limit on points or time was met";
+    case ExitStatus::not_confirmed:
+      return "verify found something that does not hold";
     case ExitStatus::interrupted:
       return "interrupted by a signal";
   }

@@ -44,6 +44,7 @@ std::string reason_without_results(int status) {
     case ExitStatus::internal_error:
     case ExitStatus::ended_early:
     case ExitStatus::limit_met:
+    case ExitStatus::not_confirmed:
     case ExitStatus::interrupted:
       break;
   }

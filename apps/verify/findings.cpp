@@ -13,31 +13,37 @@ void Findings::at(std::string file, Index branch, Index step) {
 
 CheckSummary& Findings::summary(const std::string& check) {
   const auto found = std::find_if(checks_.begin(), checks_.end(), [&](const auto& one) { return one.name == check; });
-  return found != checks_.end() ? *found : checks_.emplace_back(CheckSummary{.name = check, .bound = 1.0});
+  return found != checks_.end() ? *found : checks_.emplace_back(CheckSummary{.name = check});
 }
 
 void Findings::compare(const std::string& check, double value, double bound, const std::string& what) {
+  // How near to its bound a value is; NaN is beyond.
+  const auto share = [](double v, double b) { return v <= 0.0 ? 0.0 : v <= b ? v / b : infinity; };
   CheckSummary& sum = summary(check);
-  const bool worst = sum.count++ == 0 || !(value * sum.bound <= sum.value * bound);
-  if (worst) {
+  if (sum.count++ == 0 || sum.bound == 0.0 || share(value, bound) > share(sum.value, sum.bound)) {
     sum.value = value;
     sum.bound = bound;
     sum.branch = branch_;
     sum.step = step_;
   }
-  if (value <= bound) return;
-  ++offences_;
-  if (!first_)
-    first_ = Offence{.file = file_,
-                     .branch = branch_,
-                     .step = step_,
-                     .what = what.empty() ? check : check + ", " + what,
-                     .value = value,
-                     .bound = bound};
+  if (!(value <= bound)) offend(check, what, value, bound);
 }
 
 void Findings::require(const std::string& check, bool holds, const std::string& what) {
-  compare(check, holds ? 0.0 : 1.0, 0.5, what);
+  ++summary(check).count;
+  if (!holds) offend(check, what, {}, {});
+}
+
+void Findings::offend(const std::string& check, const std::string& what, std::optional<double> value,
+                      std::optional<double> bound) {
+  ++offences_;
+  if (first_) return;
+  first_ = Offence{.file = file_,
+                   .branch = branch_,
+                   .step = step_,
+                   .what = what.empty() ? check : check + ": " + what,
+                   .value = value,
+                   .bound = bound};
 }
 
 }  // namespace arcwall::verify

@@ -13,7 +13,7 @@ struct Offence {
   std::string file{};
   Index branch = 0, step = 0;
   std::string what{};
-  double value = 0.0, bound = 0.0;
+  std::optional<double> value{}, bound{};  ///< empty of what merely is not so
 };
 
 /// The worst of one kind of check.
@@ -42,6 +42,8 @@ class Findings {
 
  private:
   CheckSummary& summary(const std::string& check);
+  void offend(const std::string& check, const std::string& what, std::optional<double> value,
+              std::optional<double> bound);
 
   std::string file_{};
   Index branch_ = 0, step_ = 0, offences_ = 0;

@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/text.hpp"
@@ -83,51 +84,78 @@ void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, 
   }
 }
 
+namespace {
+
+// Out-of-balance forces, and what of them may be.
+struct Balance {
+  Vector F{}, allowed{};
+
+  double share(Index i) const { return std::abs(F[i]) / allowed[i]; }
+};
+
 // Forces by differences of energies; what may be left is the stiffness times what the unknowns may be off by, and what
 // differences are off by.
-void check_equilibrium(const PointAtHand& at, Findings& findings) {
-  constexpr double differences = 1e-10;  // of the sum of the parts, measured
-  Vector F = -point_loads(at.study, at.point.state);
-  Vector parts = F.cwiseAbs(), allowed = Vector::Zero(F.size());
+Balance balance(const PointAtHand& at) {
+  constexpr double differences = 1e-10;  // of the sum of the parts; 1e-12 to 1e-11 measured
+  Balance sum{.F = -point_loads(at.study, at.point.state)};
+  Vector parts = sum.F.cwiseAbs();
+  sum.allowed = Vector::Constant(parts.size(), 1e-300);
   const Vector off = uncertainty(at);
+  const auto add = [&](const std::vector<Index>& unknowns, const Vector& part) {
+    add_to(sum.F, unknowns, part);
+    add_to(parts, unknowns, part.cwiseAbs());
+  };
   for (std::size_t e = 0; e < at.potentials.size(); ++e) {
     const Potential& potential = at.potentials[e];
-    const Vector f = forces(potential);
-    add_to(F, potential.unknowns, f);
-    add_to(parts, potential.unknowns, f.cwiseAbs());
-    Vector here(f.size());
-    for (Index i = 0; i < f.size(); ++i) {
-      const Index unknown = potential.unknowns[static_cast<std::size_t>(i)];
-      here[i] = unknown >= 0 ? off[unknown] : 0.0;
-    }
-    add_to(allowed, potential.unknowns, at.stiffness[e].cwiseAbs() * here);
+    add(potential.unknowns, forces(potential));
+    Vector here = Vector::Zero(potential.at.size());
+    for (std::size_t i = 0; i < potential.unknowns.size(); ++i)
+      if (potential.unknowns[i] >= 0) here[static_cast<Index>(i)] = off[potential.unknowns[i]];
+    add_to(sum.allowed, potential.unknowns, at.stiffness[e].cwiseAbs() * here);
   }
-  for (const Touch& touch : at.touches.all) {
-    if (!touch.closed) continue;
-    const Vector push = wall_force(touch) * touch.gap.gradient();
-    add_to(F, touch.gap.unknowns, -push);
-    add_to(parts, touch.gap.unknowns, push.cwiseAbs());
-  }
+  for (const Touch& touch : at.touches.all)
+    if (touch.closed) add(touch.gap.unknowns, -wall_force(touch) * touch.gap.gradient());
   for (const Tangency& tangency : at.touches.tangencies)
-    add_to(F, tangency.tilt.unknowns, -tangency.moment * tangency.tilt.gradient());
-  allowed += differences * parts;
+    add(tangency.tilt.unknowns, -tangency.moment * tangency.tilt.gradient());
+  sum.allowed += differences * parts;
+  return sum;
+}
 
-  // At a contact first: what F would have to be without its force is along the wall's normal.
+// What is out of balance along the wall's normal where a contact is: its force is wrong by that.
+void check_contact_forces(const PointAtHand& at, const Balance& balance, Findings& findings) {
   for (const Touch& touch : at.touches.all) {
     if (!touch.closed) continue;
     const Vector normal = touch.gap.gradient();
     double left = 0.0, square = 0.0, bound = 0.0;
     for (Index i = 0; i < 2; ++i)
       if (const Index unknown = touch.gap.unknowns[static_cast<std::size_t>(i)]; unknown >= 0) {
-        left += normal[i] * F[unknown];
-        bound += std::abs(normal[i]) * allowed[unknown];
+        left += normal[i] * balance.F[unknown];
+        bound += std::abs(normal[i]) * balance.allowed[unknown];
         square += normal[i] * normal[i];
       }
     if (square > 0.0)
       findings.compare("contact forces balance", std::abs(left) / square, bound / square, named(touch.label));
   }
-  for (Index i = 0; i < F.size(); ++i)
-    findings.compare("forces balance at nodes", std::abs(F[i]), allowed[i], fmt::format("unknown {}", i));
+}
+
+}  // namespace
+
+// A contact is to blame where all else is in balance.
+void check_equilibrium(const PointAtHand& at, Findings& findings) {
+  const Balance found = balance(at);
+  std::vector<std::uint8_t> at_contact(static_cast<std::size_t>(found.F.size()), 0);
+  for (const Touch& touch : at.touches.all)
+    for (const Index unknown : touch.gap.unknowns)
+      if (touch.closed && unknown >= 0) at_contact[static_cast<std::size_t>(unknown)] = 1;
+  const auto check = [&](bool contacts) {
+    for (Index i = 0; i < found.F.size(); ++i)
+      if ((at_contact[static_cast<std::size_t>(i)] != 0) == contacts)
+        findings.compare("forces balance at nodes", std::abs(found.F[i]), found.allowed[i],
+                         found.share(i) > 1.0 ? name_of_unknown(at.study, at.point.state, i) : "");
+  };
+  check(false);
+  check_contact_forces(at, found, findings);
+  check(true);
 }
 
 Energy energy(const PointAtHand& at) {
@@ -184,20 +212,20 @@ void add_row(Matrix& G, const std::vector<Index>& unknowns, const Vector& gradie
 // Lengths and angles are made comparable: D K D has a unit diagonal.
 CountRange unstable_range(const PointAtHand& at, double zero) {
   const Index n = structure_unknowns(at.study, at.point.state);
-  Matrix K = Matrix::Zero(n, n), strong(0, n), all(0, n);
+  Matrix K = Matrix::Zero(n, n), idle_springs = Matrix::Zero(n, n), strong(0, n), all(0, n);
   for (std::size_t e = 0; e < at.potentials.size(); ++e) add_block(K, at.potentials[e].unknowns, at.stiffness[e]);
   for (const Touch& touch : at.touches.all) {
     if (!touch.closed) continue;
     const Vector gradient = touch.gap.gradient();
-    Matrix block = -wall_force(touch) * touch.gap.hessian() + touch.stiffness * gradient * gradient.transpose();
     const bool carries = touch.force > 1e-11 * at.scales.force;
+    add_block(K, touch.gap.unknowns,
+              touch.stiffness * gradient * gradient.transpose() - wall_force(touch) * touch.gap.hessian());
     if (touch.compliance > 0.0) {
-      if (carries) block += gradient * gradient.transpose() / touch.compliance;
+      add_block(carries ? K : idle_springs, touch.gap.unknowns, gradient * gradient.transpose() / touch.compliance);
     } else {
       add_row(all, touch.gap.unknowns, gradient);
       if (carries || !touch.listed) add_row(strong, touch.gap.unknowns, gradient);
     }
-    add_block(K, touch.gap.unknowns, block);
   }
   for (const Tangency& tangency : at.touches.tangencies) {
     const Vector gradient = tangency.tilt.gradient();
@@ -208,10 +236,13 @@ CountRange unstable_range(const PointAtHand& at, double zero) {
       add_row(strong, tangency.tilt.unknowns, gradient);
     }
   }
-  const Vector scale = K.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  K = scale.asDiagonal() * K * scale.asDiagonal();
-  const Eigencount held = eigencount(K, all * scale.asDiagonal(), zero);
-  const Eigencount free = all.rows() == strong.rows() ? held : eigencount(K, strong * scale.asDiagonal(), zero);
+  const Vector scale = (K + idle_springs).diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const auto scaled = [&](const Matrix& stiffness) {
+    return Matrix(scale.asDiagonal() * stiffness * scale.asDiagonal());
+  };
+  const Eigencount held = eigencount(scaled(K + idle_springs), all * scale.asDiagonal(), zero);
+  const bool all_carry = all.rows() == strong.rows() && idle_springs.isZero(0.0);
+  const Eigencount free = all_carry ? held : eigencount(scaled(K), strong * scale.asDiagonal(), zero);
   return {.least = held.negative, .most = free.negative + free.zero};
 }
 

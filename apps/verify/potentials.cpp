@@ -1,9 +1,11 @@
 #include "apps/verify/potentials.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <set>
 
 #include "apps/verify/differences.hpp"
+#include "core/text.hpp"
 
 namespace arcwall::verify {
 
@@ -185,6 +187,58 @@ double work_of_point_loads(const Study& study, const State& state) {
   double work = 0.0;
   for_each_point_load(study, state, [&](Index, double load, double displacement) { work += load * displacement; });
   return work;
+}
+
+namespace {
+
+// A place of a member's mesh, middle nodes included.
+std::string name_of_node(const Structure& structure, Index node) {
+  for (const MemberMesh& mesh : structure.members()) {
+    const auto at = [&](const std::vector<Index>& nodes) {
+      return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+    };
+    if (const auto k = at(mesh.nodes); k < mesh.nodes.size()) return mesh.name + ":" + round_trip(mesh.fraction(k));
+    if (const auto k = at(mesh.middle_nodes); k < mesh.middle_nodes.size())
+      return mesh.name + ":" + round_trip(mesh.fraction(k) + 0.5 / double(mesh.nodes.size() - 1));
+  }
+  return std::to_string(node);
+}
+
+std::string word(Freedom freedom) {
+  switch (freedom) {
+    case Freedom::x:
+      return "x";
+    case Freedom::z:
+      return "z";
+    case Freedom::rotation:
+      return "rotation";
+    case Freedom::thickness:
+      return "thickness";
+    case Freedom::thickness2:
+      return "thickness2";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string name_of_unknown(const Study& study, const State& state, Index unknown) {
+  if (study.sliding() == nullptr) {
+    const auto [node, freedom] = study.structure().meaning(unknown);
+    return word(freedom) + " at " + name_of_node(study.structure(), node);
+  }
+  const SlidingMesh& mesh = sliding_mesh(state);
+  for (Index run = 0; run < study.sliding_structure()->runs(); ++run)
+    for (Index position = 0; position < mesh.nodes(run); ++position) {
+      const NodeUnknowns unknowns = mesh.node_unknowns(run, position);
+      const auto found = std::find(unknowns.begin(), unknowns.end(), unknown);
+      if (found == unknowns.end()) continue;
+      const auto [member, fraction] =
+          study.sliding_structure()->label({.run = run, .s = mesh.coordinate(run, position, coordinates(state))});
+      return word(kind_of(static_cast<std::size_t>(found - unknowns.begin()), 3)) + " at " + member + ":" +
+             round_trip(fraction);
+    }
+  return std::to_string(unknown);
 }
 
 Vector forces(const Potential& potential) {

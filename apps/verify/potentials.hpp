@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "apps/study.hpp"
@@ -27,6 +28,9 @@ double work_of_point_loads(const Study& study, const State& state);
 
 /// Number of unknowns of the structure, which stand first in a state's.
 Index structure_unknowns(const Study& study, const State& state);
+
+/// What an unknown of the structure is: `z at column:0.5`.
+std::string name_of_unknown(const Study& study, const State& state, Index unknown);
 
 /// ∂U/∂u of a potential by differences of its energy alone.
 Vector forces(const Potential& potential);

@@ -13,6 +13,7 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text);
 
 /// What a row of path.csv is held against.
 struct PathExpectation {
+  std::vector<std::string> names{};  ///< of the monitors
   std::vector<double> monitors{},
       allowed{};                         ///< recomputed, and how far the cells may be from it; infinite: not checked
   std::optional<Energy> energy{};        ///< empty: not checked

@@ -47,6 +47,7 @@ bool is_reaction(deck::Component component) {
 void add_monitors(const Study& study, const State& state, PathExpectation& expected) {
   const Structure& structure = study.structure();
   for (std::size_t i = 0; i < study.monitors().size(); ++i) {
+    expected.names.push_back(study.monitors()[i].name);
     const bool reaction = is_reaction(study.deck().monitors[i].component);
     if (reaction && study.in_increments()) {
       expected.monitors.push_back(0.0);
@@ -179,8 +180,10 @@ std::string to_text(const Verdict& verdict) {
 }
 
 std::string to_text(const Offence& offence) {
-  return fmt::format("{}: branch {}, step {}: {}: {:.6g} exceeds {:.6g}", offence.file, offence.branch, offence.step,
-                     offence.what, offence.value, offence.bound);
+  std::string text =
+      fmt::format("{}: branch {}, step {}: {}", offence.file, offence.branch, offence.step, offence.what);
+  if (offence.value) text += fmt::format(": {:.6g} exceeds {:.6g}", *offence.value, *offence.bound);
+  return text;
 }
 
 }  // namespace arcwall::verify

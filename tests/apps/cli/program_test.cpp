@@ -231,6 +231,7 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
                                 "resume",
                                 "report",
                                 "report a b",
+                                "verify",
                                 "''",
                                 "run ''",
                                 "--quiet truss.toml",
@@ -246,7 +247,7 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
 }
 
 TEST_F(ProgramTest, HelpBeginsWithAnExample) {
-  for (const char* command : {"", "run", "resume", "report", "check", "examples"}) {
+  for (const char* command : {"", "run", "resume", "report", "verify", "check", "examples"}) {
     const Outcome outcome = run(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.out.find("  trace-path " + std::string(command)), 0u) << outcome.out;
@@ -407,7 +408,8 @@ TEST_F(ProgramTest, ADiskThatIsFullKeepsTheFilesOfTheEarlierRun) {
   ASSERT_EQ(run("truss.toml --max-points 3").status, 6);
   const auto contents = [&] {
     std::map<std::string, std::string> result;
-    for (const std::string& name : names_in(work() / "truss")) result[name] = content(work() / "truss" / name);
+    for (const auto& entry : fs::recursive_directory_iterator(work() / "truss"))
+      if (entry.is_regular_file()) result[entry.path()] = content(entry.path());
     return result;
   };
   const auto before = contents();
@@ -473,6 +475,33 @@ TEST_F(ProgramTest, ExamplesAreListedAndRight) {
     ASSERT_EQ(shell("\"$PROGRAM\" examples " + std::string(name) + " >deck.toml").status, 0);
     EXPECT_EQ(run("deck.toml --quiet --out " + std::string(name)).status, 0) << name;
   }
+}
+
+TEST_F(ProgramTest, VerifyConfirmsARunAndNamesWhatDoesNotHold) {
+  ASSERT_EQ(run("run truss.toml --quiet").status, 0);
+  const Outcome confirmed = run("verify truss");
+  EXPECT_EQ(confirmed.status, 0) << confirmed.err;
+  expect_in("forces balance at nodes", confirmed.out);
+  expect_in("not checked:", confirmed.out);
+  EXPECT_EQ(run("verify truss --quiet").out, "");
+
+  std::string path = content(work() / "truss" / "path.csv");
+  path.replace(path.find("\n0,2,") + 5, 2, "7.");  // the arc of step 2
+  put(work() / "truss" / "path.csv", path);
+  const Outcome refuted = run("verify truss");
+  EXPECT_EQ(refuted.status, 7);
+  expect_in("truss/path.csv: branch 0, step 2: path.csv tells the states: arc: ", refuted.err);
+  EXPECT_EQ(refuted.out, "");
+
+  EXPECT_EQ(run("verify nowhere").status, 5);
+  fs::remove(work() / "truss" / "path.csv");
+  EXPECT_EQ(run("verify truss").status, 5);
+}
+
+TEST_F(ProgramTest, VerifyTakesRunsThatWereStopped) {
+  ASSERT_EQ(run("run truss.toml --quiet --max-points 7").status, 6);
+  const Outcome outcome = run("verify truss");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "apps/cli/example_decks.hpp"
 #include "core/error.hpp"
 #include "tests/apps/output/temporary_folder.hpp"
 #include "tests/apps/traced_deck.hpp"
@@ -18,13 +17,8 @@ namespace arcwall {
 
 namespace {
 
+using test::example;
 using test::TracedDeck;
-
-std::string_view example(const std::string& name) {
-  for (const ExampleDeck& deck : example_decks())
-    if (deck.name == name) return deck.text;
-  return {};
-}
 
 // A Python that has meshio where one has.
 std::string python() {
@@ -129,15 +123,16 @@ TEST(Paraview, TheCollectionListsAFileForEachPointAndTheWallsWithIt) {
 }
 
 TEST(Paraview, FilesOfALongerRunAreRemovedAndOthersAreLeft) {
-  TracedDeck traced(example("cylinder"));
+  const TracedDeck traced(example("cylinder"));
   const TemporaryFolder folder;
   const OutputFolder out = outputs(folder);
   write_shapes(out, traced.study(), traced.record());
   put(out.path() / "shapes" / "notes.txt", "mine");
   put(out.path() / "shapes" / "12.vtu", "mine");
   put(out.path() / "shapes" / "12345.vtu", "of a longer run");
-  traced.record().points.resize(2);
-  write_shapes(out, traced.study(), traced.record());
+  Record shorter = traced.record();
+  shorter.points.resize(2);
+  write_shapes(out, traced.study(), shorter);
   EXPECT_EQ(names_in(out.path() / "shapes"),
             (std::set<std::string>{"0000.vtu", "0001.vtu", "12.vtu", "notes.txt", "walls.vtu"}));
 }

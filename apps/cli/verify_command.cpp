@@ -1,0 +1,51 @@
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "apps/cli/commands.hpp"
+#include "apps/run/run_under_way.hpp"
+#include "apps/verify/verify.hpp"
+#include "core/error.hpp"
+
+namespace arcwall {
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw OutputError(file.string() + ": cannot be read; trace-path resume writes what a run lacks");
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+ExitStatus verify_folder(const Options& options) {
+  const std::filesystem::path folder = options.words().front();
+  const RunUnderWay run = stored_run(folder, RunUnderWay::Resume::as_ended);
+  const verify::StoredFiles files{.path_csv = text_of(folder / "path.csv"),
+                                  .contacts_csv = run.record().has_walls ? text_of(folder / "contacts.csv") : "",
+                                  .events_json = text_of(folder / "events.json")};
+  const verify::Verdict verdict = verify::verify(run.study(), run.record(), files, "checkpoint");
+  if (const auto& first = verdict.findings.first()) {
+    std::cerr << "error: " << folder.string() << "/" << to_text(*first) << "\n";
+    if (const Index more = verdict.findings.offences() - 1; more > 0)
+      std::cerr << "  and " << more << " more that " << (more == 1 ? "does" : "do") << " not hold\n";
+    return ExitStatus::not_confirmed;
+  }
+  if (!options.has("quiet")) std::cout << to_text(verdict);
+  return ExitStatus::success;
+}
+
+}  // namespace
+
+Command verify_command() {
+  return {.description = {.name = "verify",
+                          .example = "trace-path verify results",
+                          .usage = "DIR [options]",
+                          .summary = "checks a run's states and files again, by other formulas than it was traced with",
+                          .options = {{"quiet", "", "no table, the status alone (7 where something does not hold)"}},
+                          .least_words = 1,
+                          .most_words = 1},
+          .run = verify_folder};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,52 @@
+#include "apps/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include "apps/deck/reader.hpp"
+#include "core/error.hpp"
+#include "tests/apps/deck/sample_decks.hpp"
+
+namespace arcwall {
+namespace {
+
+std::vector<Diagnostic> problems_of(const std::string& text) {
+  try {
+    const Study study(deck::read_deck_text(text, "odd.toml"));
+  } catch (const InputError& error) {
+    return error.diagnostics();
+  }
+  return {};
+}
+
+// Each alone is a number, but powers and quotients of them are not, or the length of an element is lost in the digits
+// of its coordinates.
+TEST(Study, RefusesSizesWhoseStiffnessIsBeyondNumbers) {
+  const std::pair<const char*, const char*> changes[] = {
+      {"A = [0.0, 0.0]", "A = [-1.7976931348623157e308, 0.0]"},
+      {"B = [2.0, 0.0]", "B = [2e-60, 0.0]"},
+      {"E = 2.1e4", "E = 1e300"},
+      {"E = 2.1e4", "E = 5e-324"},
+      {"height = 0.2", "height = 1e-40"},
+      {"A = [0.0, 0.0]\nB = [2.0, 0.0]", "A = [1e15, 0.0]\nB = [1e15, 2.0]"},
+  };
+  ASSERT_TRUE(problems_of(std::string(deck::column_deck)).empty());
+  for (const auto& [from, to] : changes) {
+    const auto found = problems_of(deck::replaced(deck::column_deck, from, to));
+    ASSERT_EQ(found.size(), 1u) << to;
+    EXPECT_EQ(found.front().key, "member.column") << to;
+    EXPECT_NE(found.front().message.find("cannot be computed"), std::string::npos) << to_text(found.front());
+  }
+}
+
+// The shear stiffness is looked at where there is one.
+TEST(Study, RefusesAShearStiffnessBeyondNumbers) {
+  const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
+                                          "theory = \"classic\"", "theory = \"exact\"");
+  ASSERT_TRUE(problems_of(deck).empty());
+  const auto found = problems_of(deck::replaced(deck, "height = 0.2", "height = 0.2\nshear_correction = 1e-200"));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().key, "member.column");
+}
+
+}  // namespace
+}  // namespace arcwall

@@ -1,0 +1,372 @@
+#include "apps/verify/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "apps/build_contact.hpp"
+#include "apps/output/contacts_csv.hpp"
+#include "apps/output/events_json.hpp"
+#include "apps/output/path_csv.hpp"
+#include "apps/verify/plain_wall.hpp"
+#include "core/text.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+using test::example;
+using test::TracedDeck;
+
+StoredFiles files_of(const Record& record) {
+  return {.path_csv = path_csv(record, UnitLabels::shown),
+          .contacts_csv = record.has_walls ? contacts_csv(record, UnitLabels::shown) : "",
+          .events_json = to_text(events_json(record), JsonLayout::lines)};
+}
+
+void expect_confirmed(const TracedDeck& traced) {
+  ASSERT_GT(traced.record().points.size(), 5u);
+  const Verdict verdict = verify(traced.study(), traced.record(), files_of(traced.record()), "checkpoint");
+  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+  for (const CheckSummary& check : verdict.findings.checks()) EXPECT_GT(check.count, 0) << check.name;
+}
+
+// A record of one point, cut out of a run.
+void expect_confirmed_point(const TracedDeck& traced, const Record& record) {
+  const Verdict verdict = verify(traced.study(), record, files_of(record), "checkpoint");
+  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+}
+
+bool has_check(const Verdict& verdict, const std::string& name) {
+  const auto& checks = verdict.findings.checks();
+  return std::any_of(checks.begin(), checks.end(), [&](const CheckSummary& check) { return check.name == name; });
+}
+
+// A beam that its load bends onto a wall; %PROFILE and %THEORY are to be filled in.
+std::string beam_on_wall(const std::string& theory, const std::string& profile, const std::string& more = "") {
+  return R"(
+title = "A beam on a wall"
+[material.m]
+E = 2.1e4
+nu = 0.3
+[section.s]
+shape = "rectangle"
+width = 1.0
+height = 0.1
+[point]
+a = [-5.0, 0.0]
+b = [5.0, 0.0]
+[member.beam]
+from = "a"
+to = "b"
+material = "m"
+section = "s"
+elements = 12
+)" + theory +
+         R"(
+[support]
+a = ["x", "z"]
+b = ["z"]
+[[load]]
+on = "beam"
+distributed = [0.0, -0.01]
+[[load]]
+at = "beam:0.5"
+force = [0.0, -1e-3]
+constant = true
+[[wall]]
+name = "floor"
+side = "below"
+profile = )" +
+         profile + R"(
+[path]
+step = 0.05
+[path.stop]
+lambda = [-1.0, 1.0]
+[[monitor]]
+name = "quarter"
+at = "beam:0.25"
+component = "z"
+[[monitor]]
+name = "support"
+at = "a"
+component = "reaction-z"
+)" + more;
+}
+
+const std::string flat = R"({ type = "flat", z = -0.6 })";
+
+}  // namespace
+
+TEST(Verify, EveryExampleHolds) {
+  for (const std::string name : {"arch", "cantilever", "channel", "cylinder", "foundation", "lee", "truss"}) {
+    SCOPED_TRACE(name);
+    expect_confirmed(TracedDeck(example(name)));
+  }
+  expect_confirmed(TracedDeck(example("thick"), {"member.beam.elements=6"}));
+}
+
+TEST(Verify, EveryContactLawHolds) {
+  for (const std::string law : {R"(contact.points="nodes")", R"(contact={method="penalty",penalty=1e3})",
+                                R"(contact={method="augmented",penalty=1e3})"}) {
+    SCOPED_TRACE(law);
+    const TracedDeck traced(example("channel"), {law, "member.column.elements=16"});
+    ASSERT_GT(traced.record().points.back().contacts, 0);
+    expect_confirmed(traced);
+  }
+}
+
+TEST(Verify, EveryTheoryAndWallHolds) {
+  for (const std::string theory :
+       {"theory = \"classic\"", "theory = \"elastica\"\norder = 4", "theory = \"elastica\"\norder = 6",
+        "theory = \"exact\"\norder = 1", "theory = \"exact\"\norder = 2", "theory = \"essenburg\"\norder = 1",
+        "theory = \"essenburg\"\norder = 2\nalong = \"director\""}) {
+    SCOPED_TRACE(theory);
+    const TracedDeck traced(beam_on_wall(theory, flat));
+    EXPECT_GT(traced.record().points.back().contacts, 0);
+    expect_confirmed(traced);
+  }
+  for (const std::string profile :
+       {R"({ type = "line", z = -0.6, slope = 0.02 })",
+        R"({ type = "parabola", apex = [0.2, -0.5], curvature = -0.02 })",
+        R"({ type = "circle", centre = [0.0, -30.5], radius = 30.0 })",
+        R"({ type = "spline", x = [-6.0, -3.0, 0.0, 2.5, 6.0], z = [-0.9, -0.6, -0.5, -0.55, -0.9] })"}) {
+    SCOPED_TRACE(profile);
+    const TracedDeck traced(beam_on_wall("theory = \"exact\"\norder = 2", profile));
+    ASSERT_GT(traced.record().points.back().contacts, 0);
+    expect_confirmed(traced);
+    expect_confirmed(TracedDeck(beam_on_wall("theory = \"classic\"", profile)));
+  }
+}
+
+// What increments leave is no equilibrium, and is said not to be checked.
+TEST(Verify, IncrementsAreCheckedAgainstTheirFilesAlone) {
+  const TracedDeck traced(example("channel"),
+                          {"path.method=\"incremental\"", "path.step=0.1", "path.land={lambda=[1.0, 2.0]}"});
+  ASSERT_TRUE(traced.study().in_increments());
+  expect_confirmed(traced);
+  const Verdict verdict = verify(traced.study(), traced.record(), files_of(traced.record()), "checkpoint");
+  EXPECT_FALSE(has_check(verdict, "forces balance at nodes"));
+  EXPECT_NE(verdict.not_checked.at(0).find("equilibrium"), std::string::npos);
+  EXPECT_NE(to_text(verdict).find("- equilibrium"), std::string::npos);
+}
+
+// Formulas of its own: the same gaps as tracing has.
+TEST(PlainWall, HasTheGapsOfTheWallsThatAreTraced) {
+  const std::vector<decltype(deck::Wall::profile)> profiles{
+      deck::FlatProfile{0.3},
+      deck::LineProfile{0.1, -0.4},
+      deck::CircleProfile{{0.2, 1.0}, 3.0},
+      deck::ParabolaProfile{{-0.1, 0.5}, 0.7},
+      deck::SplineProfile{{-2.0, 2.0}, {0.1, 0.4}},
+      deck::SplineProfile{{-2.0, 0.3, 2.0}, {0.1, 0.7, 0.4}},
+      deck::SplineProfile{{-2.0, -0.9, 0.1, 0.5, 2.0}, {0.1, 0.6, 0.2, 0.9, 0.4}}};
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> x(-1.9, 1.9), z(-1.0, 1.0);
+  for (const auto& profile : profiles)
+    for (const deck::Side side : {deck::Side::above, deck::Side::below}) {
+      const deck::Wall wall{.name = "wall", .side = side, .profile = profile};
+      const PlainWall plain(wall);
+      for (int i = 0; i < 50; ++i) {
+        const Vec2 at(x(generator), z(generator));
+        const Height height = profile_of(wall)->at(at.x());
+        EXPECT_NEAR(plain.gap(at), surface_gap(*profile_of(wall), side_of(wall), at).value, 1e-13);
+        EXPECT_NEAR(plain.curvature(at.x()), height.second / std::pow(1.0 + height.first * height.first, 1.5), 1e-11);
+      }
+    }
+}
+
+// --- falsified runs -------------------------------------------------------------------------------------------------
+
+namespace {
+
+class FalsifiedRun : public testing::Test {
+ protected:
+  FalsifiedRun() : traced_(example("channel"), {"contact.points=\"nodes\"", "member.column.elements=16"}) {}
+
+  // The point before the last that carries contact forces and has no event.
+  std::size_t pressed_point() const {
+    const auto& points = traced_.record().points;
+    for (std::size_t i = points.size(); i-- > 0;)
+      if (points[i].contacts > 0 && !points[i].event) return i;
+    ADD_FAILURE() << "no point in contact";
+    return 0;
+  }
+
+  // The verdict on a record whose states differ from what its files say.
+  Offence first_offence(const std::function<void(Record&)>& change) const {
+    Record record = traced_.record();
+    change(record);
+    return offence(record, files_of(traced_.record()));
+  }
+
+  // With one text in a file replaced by another, where it stands last.
+  Offence first_offence(std::string StoredFiles::*file, const std::string& text, const std::string& by) const {
+    StoredFiles files = files_of(traced_.record());
+    const auto at = (files.*file).rfind(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    (files.*file).replace(at, text.size(), by);
+    return offence(traced_.record(), files);
+  }
+
+  Offence offence(const Record& record, const StoredFiles& files) const {
+    const Verdict verdict = verify(traced_.study(), record, files, "checkpoint");
+    EXPECT_TRUE(verdict.findings.first().has_value()) << "not caught";
+    return verdict.findings.first().value_or(Offence{});
+  }
+
+  Index structure_unknowns() const { return traced_.study().structure().size({}); }
+
+  TracedDeck traced_;
+};
+
+// Another digit at the end of a number.
+std::string with_other_digit(std::string number) {
+  number.back() = number.back() == '5' ? '6' : '5';
+  return number;
+}
+
+}  // namespace
+
+TEST_F(FalsifiedRun, ADisplacementOffByAMillionthIsCaught) {
+  const std::size_t where = pressed_point();
+  const Offence first = first_offence([&](Record& record) { record.points[where].state.x[4] += 1e-6; });
+  EXPECT_EQ(first.file, "checkpoint");
+  EXPECT_EQ(first.step, traced_.record().points[where].step);
+  EXPECT_EQ(first.what, "forces balance at nodes: x at column:0.0625") << "the first that the stretch pulls at";
+}
+
+TEST_F(FalsifiedRun, AContactThatPullsIsCaught) {
+  const std::size_t where = pressed_point();
+  const Offence first =
+      first_offence([&](Record& record) { record.points[where].state.x[structure_unknowns()] *= -1.0; });
+  EXPECT_EQ(first.file, "checkpoint");
+  EXPECT_EQ(first.step, traced_.record().points[where].step);
+  EXPECT_NE(first.what.find("contact forces push: "), std::string::npos) << first.what;
+}
+
+TEST_F(FalsifiedRun, AContactForceThatDoesNotBalanceIsCaught) {
+  const Offence first = first_offence(
+      [&](Record& record) { record.points[pressed_point()].state.x[structure_unknowns()] *= 1.0 + 1e-4; });
+  EXPECT_NE(first.what.find("contact forces balance: "), std::string::npos) << first.what;
+}
+
+TEST_F(FalsifiedRun, APenetrationIsCaught) {
+  const std::size_t where = pressed_point();
+  const Structure& structure = traced_.study().structure();
+  // The middle of the column moved through both walls, 0.2 away.
+  const Index w = *structure.unknown(structure.freedom(structure.members()[0].nodes[8], Freedom::z));
+  for (const double by : {1.0, -1.0}) {
+    const Offence first = first_offence([&](Record& record) { record.points[where].state.x[w] += by; });
+    EXPECT_EQ(first.step, traced_.record().points[where].step);
+    EXPECT_TRUE(first.what.find("closed contacts touch") == 0 || first.what.find("open contacts are outside") == 0)
+        << first.what;
+  }
+}
+
+TEST_F(FalsifiedRun, ACountOffByOneIsCaught) {
+  for (const int by : {-1, 1}) {
+    Record record = traced_.record();
+    const std::size_t where = pressed_point();
+    record.points[where].count.unstable = *record.points[where].count.unstable + by;
+    const Offence first = offence(record, files_of(record));
+    EXPECT_EQ(first.file, "path.csv");
+    EXPECT_EQ(first.step, record.points[where].step);
+    EXPECT_NE(first.what.find("unstable directions"), std::string::npos) << first.what;
+  }
+}
+
+TEST_F(FalsifiedRun, ADigitOfPathCsvIsCaught) {
+  const RecordPoint& last = traced_.record().points.back();
+  const auto caught = [&](double number, const std::string& what) {
+    const std::string text = round_trip(number);
+    const Offence first =
+        first_offence(&StoredFiles::path_csv, text, with_other_digit(text.substr(0, 7)) + text.substr(7));
+    EXPECT_EQ(first.file, "path.csv");
+    EXPECT_EQ(first.step, last.step);
+    EXPECT_EQ(first.what, "path.csv tells the states: " + what);
+    EXPECT_GT(first.value.value(), first.bound.value());
+  };
+  caught(last.arc, "arc");
+  caught(last.monitors[1], "monitor shortening");
+  caught(last.energy, "energy");
+  const Offence lambda = first_offence(&StoredFiles::path_csv, "," + round_trip(last.lambda) + ",",
+                                       "," + round_trip(std::nextafter(last.lambda, 0.0)) + ",");
+  EXPECT_EQ(lambda.what, "path.csv tells the states: lambda");
+  EXPECT_EQ(first_offence(&StoredFiles::path_csv, ",end\n", ",\n").what,
+            "path.csv tells the states: event is \"\" instead of \"end\"");
+}
+
+TEST_F(FalsifiedRun, ADigitOfContactsCsvIsCaught) {
+  const RecordForce& last = traced_.record().points.back().forces.back();
+  const std::string force = round_trip(last.force);
+  const Offence first =
+      first_offence(&StoredFiles::contacts_csv, force, with_other_digit(force.substr(0, 8)) + force.substr(8));
+  EXPECT_EQ(first.file, "contacts.csv");
+  EXPECT_NE(first.what.find("force of " + last.label.wall), std::string::npos) << first.what;
+  const Offence wall = first_offence(&StoredFiles::contacts_csv, last.label.wall, "other");
+  EXPECT_NE(wall.what.find("wall of "), std::string::npos) << wall.what;
+}
+
+TEST_F(FalsifiedRun, AnEventThatSaysSomethingElseIsCaught) {
+  const Offence lambda = first_offence(&StoredFiles::events_json, "\"lambda\": ", "\"lambda\": 1");
+  EXPECT_EQ(lambda.file, "events.json");
+  EXPECT_EQ(lambda.what, "events.json tells the states: lambda");
+  const Offence count = first_offence(&StoredFiles::events_json, "\"unstable_before\": 0", "\"unstable_before\": 1");
+  EXPECT_EQ(count.file, "events.json");
+  EXPECT_NE(count.what.find("unstable_before is 1"), std::string::npos) << count.what;
+  EXPECT_EQ(first_offence(&StoredFiles::events_json, "\"events\"", "\"others\"").what,
+            "events.json tells the states: it cannot be read");
+}
+
+TEST_F(FalsifiedRun, AMissingRowIsCaught) {
+  StoredFiles files = files_of(traced_.record());
+  files.path_csv.erase(files.path_csv.rfind('\n', files.path_csv.size() - 2) + 1);
+  const Offence first = offence(traced_.record(), files);
+  EXPECT_EQ(first.file, "path.csv");
+  EXPECT_NE(first.what.find("rows"), std::string::npos) << first.what;
+}
+
+TEST_F(FalsifiedRun, AStateThatIsNotFiniteIsCaught) {
+  const Offence first =
+      first_offence([](Record& record) { record.points[3].state.x[2] = std::numeric_limits<double>::quiet_NaN(); });
+  EXPECT_EQ(first.step, 3);
+  EXPECT_EQ(first.what, "states are finite and whole: its unknowns");
+}
+
+// With contact that slides: a place moved along the member is no longer tangent. The record is cut down to one point.
+TEST(FalsifiedSlidingRun, APlaceAMomentAndAPenetrationAreCaught) {
+  const TracedDeck traced(example("channel"), {"member.column.elements=16"});
+  Record record = traced.record();
+  const auto pressed = [](const RecordPoint& at) { return at.contacts > 0 && !at.event; };
+  const auto where = std::find_if(record.points.begin(), record.points.end(), pressed);
+  ASSERT_NE(where, record.points.end());
+  const RecordPoint point = *where;
+  record.points = {point};
+  record.events.clear();
+  record.branches[0].points = 1;
+  record.branches[0].least_lambda = record.branches[0].greatest_lambda = point.lambda;
+  expect_confirmed_point(traced, record);
+
+  const State& state = point.state;
+  const auto caught = [&](Index unknown, double by) {
+    Record falsified = record;
+    falsified.points[0].state.x[unknown] += by;
+    const Verdict verdict = verify(traced.study(), falsified, files_of(record), "checkpoint");
+    EXPECT_TRUE(verdict.findings.first().has_value());
+    const std::string what = verdict.findings.first().value_or(Offence{}).what;
+    return what.substr(0, what.find(':'));
+  };
+  const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
+  const Index size = state.x.size(), m = on.mesh().breakpoints();
+  const auto [run, position] = on.mesh().breakpoint(0);
+  const NodeUnknowns touching = on.mesh().node_unknowns(run, position);
+  EXPECT_EQ(caught(size - m, 1e-6), "forces balance at nodes") << "a place";
+  EXPECT_EQ(caught(size - 2 * m, 1e-6), "no moment holds a contact");
+  EXPECT_EQ(caught(touching[2], 1e-6), "contacts that slide are tangent");
+  EXPECT_EQ(caught(touching[1], 1e-3), "closed contacts touch");
+}
+
+}  // namespace arcwall::verify
