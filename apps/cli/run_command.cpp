@@ -35,7 +35,10 @@ ExitStatus dry_run(const RunRequest& request, const RunUnderWay& run) {
   if (request.session.report != SessionOptions::Report::table) return ExitStatus::success;
   std::cout << summary(run.study()) << "\nwould write into " << request.folder.string() << ": path.csv, "
             << (run.record().has_walls ? "contacts.csv, " : "")
-            << "events.json, events.txt, report.html, deck.toml, checkpoint, result.json, shapes.pvd, shapes/\n";
+            << "events.json, events.txt, deck.toml, checkpoint, result.json"
+            << (request.session.pictures == SessionOptions::Pictures::written ? ", report.html, shapes.pvd, shapes/"
+                                                                              : "")
+            << "\n";
   return ExitStatus::success;
 }
 

@@ -118,8 +118,20 @@ const RecordBranch& decisive_branch(const Record& record) {
                            [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); });
 }
 
+// Those of an earlier run would show another path than the tables.
+void remove_pictures(const OutputFolder& folder) {
+  for (const char* name : {"report.html", "shapes.pvd", "shapes"}) {
+    std::error_code error;
+    std::filesystem::remove_all(folder.path() / name, error);
+    if (error) throw OutputError((folder.path() / name).string() + ": cannot be removed: " + error.message());
+  }
+}
+
 // result.json comes last: where it is, the others are, but for the pictures, which can be many.
-void write_files(const OutputFolder& folder, const RunUnderWay& run, const RunSeconds& seconds, ExitStatus status) {
+void write_files(const OutputFolder& folder, const RunUnderWay& run, const SessionOptions& options,
+                 const RunSeconds& seconds, ExitStatus status) {
+  const bool pictures = options.pictures == SessionOptions::Pictures::written;
+  if (!pictures) remove_pictures(folder);
   const Record& record = run.record();
   const RunDescription& description = run.description();
   FileSet files(folder);
@@ -127,13 +139,13 @@ void write_files(const OutputFolder& folder, const RunUnderWay& run, const RunSe
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
   files.write("events.txt", events_text(record));
-  files.write("report.html", report_html(record, report_content(run.study(), record)));
+  if (pictures) files.write("report.html", report_html(record, report_content(run.study(), record)));
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
   files.write("deck.toml", deck::to_toml(run.study().deck()));
   const auto result = result_json(run.study(), description.deck_text, record, seconds, static_cast<int>(status));
   files.write("result.json", to_text(result, JsonLayout::lines));
   files.put_in_place();
-  write_shapes(folder, run.study(), record);
+  if (pictures) write_shapes(folder, run.study(), record);
 }
 
 // An early end in full: the reason, the last good point, and what to try.
@@ -169,6 +181,7 @@ std::vector<OptionDescription> session_options() {
           {"max-time", "SECONDS", "end after that time (status 6)"},
           {"checkpoint-pause", "SECONDS", "time between two checkpoints, 0 for one at each point (default: 5)"},
           {"json", "", "points, events and end on standard output, one JSON object a line"},
+          {"no-pictures", "", "write neither report.html nor the shapes (trace-path report writes the one later)"},
           {"quiet", "", "no progress and no table of events"}};
 }
 
@@ -176,6 +189,7 @@ SessionOptions session_options(const Options& options) {
   SessionOptions session{.max_points = options.count("max-points"), .max_seconds = options.seconds("max-time")};
   if (const auto pause = options.pause("checkpoint-pause"))
     session.checkpoint_pause = std::chrono::duration<double>(*pause);
+  if (options.has("no-pictures")) session.pictures = SessionOptions::Pictures::left_out;
   if (options.has("quiet")) session.report = Report::none;
   if (options.has("json")) session.report = Report::json_lines;
   if (!options.has("quiet") && !options.has("json")) session.progress = progress_wanted();
@@ -195,7 +209,7 @@ ExitStatus trace_and_write(RunUnderWay& run, const OutputFolder& folder, const S
     return ExitStatus::no_start;
   }
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
-  write_files(folder, run, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
+  write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
   if (options.report == Report::table) std::cout << events_text(record);
   say_how_it_ended(stopped, record, folder.path().string());
   return status;

@@ -19,6 +19,7 @@ struct SessionOptions {
   std::chrono::duration<double> checkpoint_pause{5};  ///< at least, between two checkpoints
   enum class Report { table, json_lines, none } report = Report::table;
   Progress progress = Progress::hidden;
+  enum class Pictures { written, left_out } pictures = Pictures::written;  ///< report.html and the shapes
 };
 
 /// The options of the command line that these are.

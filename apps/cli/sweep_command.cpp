@@ -45,7 +45,7 @@ ExitStatus plan(const Options& options) {
 // --- run
 
 // Options of `run` that the sweep gives itself.
-constexpr std::array owned_options{"out", "force", "json", "quiet", "dry-run", "max-time"};
+constexpr std::array owned_options{"out", "force", "json", "quiet", "dry-run", "max-time", "no-pictures"};
 
 // Wrong options are told before anything runs.
 void check_passed_on(const std::vector<std::string>& words) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "apps/output/markup.hpp"
 #include "apps/sweep/case_list.hpp"
 #include "apps/sweep/map_axis.hpp"
 
@@ -63,7 +64,8 @@ std::vector<Json> loads(const LoadMap& map) {
 }
 
 std::string text(double x, double y, const std::string& anchor, const std::string& content) {
-  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor, escaped(content)) +
+  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
+                     escaped(plain(content))) +
          "\n";
 }
 
@@ -71,7 +73,7 @@ std::string tip(const LoadMap& map, const MapPoint& point) {
   std::string content = fmt::format("case {}\n{} = {}", point.number, map.x_title, label(point.x));
   if (!map.y_title.empty()) content += fmt::format("\n{} = {}", map.y_title, label(point.y));
   content += "\n" + (point.load ? map.load_title + " " + short_number(*point.load) : "no such event");
-  return "<title>" + escaped(content + (point.failed ? "\nfailed" : "")) + "</title>";
+  return "<title>" + escaped(plain(content) + (point.failed ? "\nfailed" : "")) + "</title>";
 }
 
 struct Extent {
@@ -107,7 +109,7 @@ class Drawing {
     }
     return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {:.0f} {:.0f}" role="img" fill="none">)",
                        width, height) +
-           "\n<title>" + escaped(map_.load_title) + "</title>\n" + body + "</svg>\n";
+           "\n<title>" + escaped(plain(map_.load_title)) + "</title>\n" + body + "</svg>\n";
   }
 
  private:
@@ -202,32 +204,6 @@ class Drawing {
 };
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string svg(const LoadMap& map) { return Drawing(map).svg(); }
 

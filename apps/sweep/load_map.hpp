@@ -27,7 +27,4 @@ struct LoadMap {
 /// the loads over it. Cases without a load are hollow, failed ones crossed. Texts are escaped.
 std::string svg(const LoadMap& map);
 
-/// Text as it stands in HTML or SVG.
-std::string escaped(const std::string& text);
-
 }  // namespace arcwall::sweep

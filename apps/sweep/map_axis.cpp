@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/output/svg_chart.hpp"
 #include "apps/sweep/case_list.hpp"
 
 namespace arcwall::sweep {
@@ -15,14 +16,6 @@ constexpr std::size_t most_named = 10;  // values that are ticks themselves
 
 std::string short_label(const Json& value) {
   return value.is_number() ? short_number(value.get<double>()) : label(value);
-}
-
-// 1, 2 or 5 times a power of ten, so that about six steps fit.
-double round_step(double extent) {
-  const double power = std::pow(10.0, std::floor(std::log10(extent / 6.0)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (extent <= 6.0 * factor * power) return factor * power;
-  return 10.0 * power;
 }
 
 }  // namespace
@@ -70,18 +63,19 @@ std::vector<Tick> MapAxis::ticks() const {
 }
 
 std::vector<Tick> MapAxis::round_ticks() const {
+  std::vector<double> values;
+  if (logarithmic_) {
+    constexpr double few = 3.0;  // decades
+    const std::vector<double> factors = high_ - low_ > few ? std::vector{1.0} : std::vector{1.0, 2.0, 5.0};
+    for (double power = std::floor(low_); power <= high_; ++power)
+      for (const double factor : factors) values.push_back(factor * std::pow(10.0, power));
+  } else {
+    values = arcwall::ticks(low_, high_);
+  }
   std::vector<Tick> result;
-  const double step = logarithmic_ ? 1.0 : round_step(high_ - low_);
-  for (double at = std::ceil(low_ / step) * step; at <= high_; at += step) {
-    const auto add = [&](double value) {
-      if (scaled(value) <= high_)
-        result.push_back({.at = (scaled(value) - low_) / (high_ - low_), .text = short_number(value)});
-    };
-    if (!logarithmic_) {
-      add(std::round(at / step) * step);
-    } else {
-      for (const double factor : {1.0, 2.0, 5.0}) add(factor * std::pow(10.0, at));
-    }
+  for (const double value : values) {
+    const double at = (scaled(value) - low_) / (high_ - low_);
+    if (at >= 0.0 && at <= 1.0) result.push_back({.at = at, .text = short_number(value)});
   }
   return result;
 }

@@ -81,11 +81,12 @@ class Pool {
     if (request_.most_seconds) added.deadline = after(*request_.most_seconds + request_.patience);
   }
 
-  // The folder is named from the sweep's, so that messages are the same wherever that is.
+  // Without pictures: they are many times as large as the rest, and `trace-path report` draws those of a case. The
+  // folder is named from the sweep's, so that messages are the same wherever that is.
   ChildCommand command(const Case& one, const fs::path& draft) const {
     const std::string folder = fs::path(draft.parent_path().filename() / draft.filename()).string();
     ChildCommand result{.program = request_.program,
-                        .arguments = {"run", "./" + one.deck, "--out", folder, "--force", "--quiet"},
+                        .arguments = {"run", "./" + one.deck, "--out", folder, "--force", "--quiet", "--no-pictures"},
                         .folder = request_.folder,
                         .messages = fs::absolute(draft / messages_file_name)};
     std::vector<std::string>& words = result.arguments;

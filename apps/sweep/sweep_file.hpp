@@ -34,7 +34,7 @@ struct Sweep {
 };
 
 /// No sweep has more cases.
-inline constexpr int most_cases = 100000;
+inline constexpr int most_cases = 20000;
 
 /// Reads and checks a sweep. Everything that is wrong with it is in one InputError.
 Sweep read_sweep(const std::string& file);

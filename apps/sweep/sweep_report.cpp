@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/output/event_names.hpp"
+#include "apps/output/markup.hpp"
 #include "apps/output/version.hpp"
 
 namespace arcwall::sweep {
@@ -77,7 +78,7 @@ std::string overview(const Collection& collection) {
   std::string keys;
   for (const Key& key : collection.sweep.keys) keys += (keys.empty() ? "" : ", ") + key.name;
   return fmt::format("<p>{} of {} cases of {} have been run. Varied: {}.</p>\n", ran, collection.cases.size(),
-                     escaped(collection.cases.front().deck), escaped(keys));
+                     escaped(plain(collection.cases.front().deck)), escaped(plain(keys)));
 }
 
 std::string failure_table(const Collection& collection) {
@@ -126,13 +127,14 @@ std::vector<LoadMap> load_maps(const Collection& collection, const std::vector<s
 }
 
 std::string report_html(const Collection& collection, const std::vector<std::string>& keys) {
+  const std::string title = escaped(plain(collection.sweep.title));
   return fmt::format(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
              "script-src 'sha256-{}'\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
              "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
-             script_hash, escaped(collection.sweep.title), style_text, escaped(collection.sweep.title)) +
+             script_hash, title, style_text, title) +
          overview(collection) + maps_html(load_maps(collection, keys)) + failure_table(collection) +
          fmt::format(
              "<p>All numbers: cases.csv (one row a case) and sweep.csv (one row an event). trace-path {}.</p>\n",

@@ -10,10 +10,10 @@ warnings=$(groff -ww -man -Tutf8 "$page" 2>&1 >/dev/null)
 [[ -z $warnings ]] || { echo "$warnings" >&2; exit 1; }
 
 text=$(groff -man -Tascii -P-cbou "$page" | tr -s ' \n' ' ')
-for command in run check examples 'sweep plan' 'sweep run' 'sweep emit' 'sweep collect'; do
+for command in run check resume report verify examples 'sweep plan' 'sweep run' 'sweep emit' 'sweep collect'; do
   [[ $text == *"trace-path $command "* ]] || { echo "no $command" >&2; exit 1; }
   # shellcheck disable=SC2086  # `sweep run` is two words
-  "$program" $command --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p' | grep -vx -e --help -e --version | while read -r option; do
+  "$program" $command --help | sed -n '/^  --\(help\|version\) /d; s/^  \(--[a-z-]*\).*/\1/p' | while read -r option; do
     [[ $text == *"$option "* ]] || { echo "no $option of $command" >&2; exit 1; }
   done
 done
