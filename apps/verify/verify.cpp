@@ -61,10 +61,14 @@ void add_monitors(const Study& study, const State& state, PathExpectation& expec
   }
 }
 
-// At located limit and branch points eigenvalues are as near to zero as the place is sure.
-double zero_eigenvalue(const RecordPoint& point) {
-  const bool singular = point.event == EventKind::limit_point || point.event == EventKind::branch_point;
-  return singular ? 1e-6 : 1e-11;
+// Where the stiffness is singular, eigenvalues are as near to zero as the place is sure.
+double zero_eigenvalue(const Record& record, const RecordPoint& point) {
+  const auto singular = [&](const RecordEvent& event) {
+    if (event.branch != point.branch || event.step != point.step) return false;
+    return event.kind == EventKind::limit_point || event.kind == EventKind::branch_point ||
+           (event.branch_end && event.branch_end->reason == EndReason::family);
+  };
+  return std::any_of(record.events.begin(), record.events.end(), singular) ? 1e-6 : 1e-11;
 }
 
 Index listed_contacts(const Touches& touches) {
@@ -134,7 +138,7 @@ class Verifier {
       check_contacts(at, walls_, findings);
       check_equilibrium(at, findings);
       expected.energy = energy(at);
-      if (count) expected.unstable = unstable_range(at, zero_eigenvalue(point));
+      if (count) expected.unstable = unstable_range(at, zero_eigenvalue(record_, point));
     }
     if (number < path_rows_.size()) {
       findings.at("path.csv", point.branch, point.step);
