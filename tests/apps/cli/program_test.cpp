@@ -94,6 +94,14 @@ TEST_F(ProgramTest, ADeckAloneIsRun) {
   EXPECT_EQ(names_in(work() / "truss"), outputs);
 }
 
+TEST_F(ProgramTest, NoPicturesLeavesOutTheReportAndTheShapesOfAnEarlierRunToo) {
+  ASSERT_EQ(run("run truss.toml").status, 0);
+  ASSERT_EQ(run("run truss.toml --no-pictures").status, 0);
+  Names tables = outputs;
+  for (const char* picture : {"report.html", "shapes", "shapes.pvd"}) tables.erase(picture);
+  EXPECT_EQ(names_in(work() / "truss"), tables);
+}
+
 TEST_F(ProgramTest, TheDeckAsItWasRunGivesTheSamePath) {
   ASSERT_EQ(run("truss.toml --set path.step=2.5").status, 0);
   ASSERT_EQ(run("truss/deck.toml --out again").status, 0);
