@@ -32,8 +32,10 @@ std::uint32_t crc32_of(std::string_view a, std::string_view b) {
   return static_cast<std::uint32_t>(next(next(0, a), b));
 }
 
-// Whether CBOR nests no deeper than `most`, as far as it can be read: the parser calls itself for each level.
-bool is_shallow(std::string_view bytes, std::size_t most) {
+// Whether CBOR nests no deeper than `most`, and no list claims more items than there are bytes, as far as it can be
+// read: the parser calls itself for each level, and throws for a size that memory cannot hold though it is told not to
+// throw.
+bool is_moderate(std::string_view bytes, std::size_t most) {
   constexpr unsigned byte_string = 2, text = 3, array = 4, map = 5, tag = 6;  // major types (RFC 8949, 3.1)
   std::vector<std::uint64_t> left;                                            // items still to come, a level each
   for (std::size_t at = 0; at < bytes.size();) {
@@ -54,7 +56,7 @@ bool is_shallow(std::string_view bytes, std::size_t most) {
     }
     const bool opens = (kind == array || kind == map) && value > 0;
     if (opens) {
-      if (value > bytes.size()) return true;
+      if (value > bytes.size()) return false;
       left.push_back(kind == map ? 2 * value : value);
       if (left.size() > most) return false;
       continue;
@@ -102,7 +104,7 @@ std::string deck_of_checkpoint(std::string_view bytes) try {
 
 Json from_cbor(std::string_view bytes) {
   constexpr std::size_t deepest = 100;
-  if (!is_shallow(bytes, deepest)) throw BadArchive("content that is no checkpoint's");
+  if (!is_moderate(bytes, deepest)) throw BadArchive("content that is no checkpoint's");
   Json content = Json::from_cbor(bytes, true, false);
   if (content.is_discarded()) throw BadArchive("content that is no CBOR");
   return content;

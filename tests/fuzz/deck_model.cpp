@@ -1,27 +1,25 @@
-// Decks with odd values as models: what a deck builds, `check` says, the start finds and the first points of its path
-// are, ends in values or in an InputError. With ARCWALL_FUZZ_SHOW set in the environment the deck is printed.
+// Decks with odd values as models: what a deck builds, `check` says of it, the start, the first points of its path and
+// the files they make are values, or there is an InputError. A run that is kept after these points is read back.
+//
+// With ARCWALL_FUZZ_SHOW set in the environment the deck is printed, and the errors in it.
 #include <fuzzer/FuzzedDataProvider.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "apps/build_path.hpp"
 #include "apps/cli/summary.hpp"
 #include "apps/deck/reader.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/path_csv.hpp"
-#include "apps/output/recorder.hpp"
 #include "apps/output/result_json.hpp"
-#include "apps/study.hpp"
+#include "apps/run/run_under_way.hpp"
 #include "core/error.hpp"
 #include "tests/fuzz/mutated_deck.hpp"
 #include "tests/fuzz/require.hpp"
@@ -39,42 +37,6 @@ bool is_small(const deck::Deck& deck) {
   return elements <= most_elements;
 }
 
-void trace(const Study& study, State start, Record& record) {
-  TraceOptions options = study.options();
-  options.max_points = std::min(options.max_points, most_points);
-  Explorer explorer(study.system(), std::move(start), std::move(options), study.watched(), study.explore());
-  std::optional<Recorder> recorder;
-  int branch = -1;
-  const auto end_branch = [&] { recorder->end(explorer.branches()[static_cast<std::size_t>(branch)].end.value()); };
-  while (const std::optional<Explorer::Step> step = explorer.next()) {
-    if (step->branch != branch) {
-      if (recorder) end_branch();
-      branch = step->branch;
-      recorder.emplace(study, record, explorer.branches()[static_cast<std::size_t>(branch)]);
-    }
-    recorder->add(step->arc);
-    if (record.points.size() >= most_points) explorer.stop({.reason = EndReason::max_points, .detail = ""});
-  }
-  if (!recorder) {
-    recorder.emplace(study, record);
-    branch = 0;
-  }
-  end_branch();
-}
-
-void trace_increments(Study& study, State start, Record& record) {
-  const std::vector<double> levels = load_levels(study.deck().path);
-  LoadIncrements increments = study.increments(std::move(start));
-  Recorder recorder(study, record);
-  recorder.add(increments.start());
-  for (std::size_t i = 0; i < std::min<std::size_t>(levels.size(), most_points); ++i) {
-    const auto arc = increments.to(levels[i]);
-    if (!arc) break;
-    recorder.add(*arc);
-  }
-  recorder.end(increments.end().value_or(BranchEnd{.reason = EndReason::stop, .detail = ""}));
-}
-
 void check_points(const Record& record) {
   double arc = -1.0;
   for (const RecordPoint& point : record.points) {
@@ -83,32 +45,31 @@ void check_points(const Record& record) {
   }
 }
 
-void write(const Study& study, const Record& record) {
-  path_csv(record, UnitLabels::shown);
-  contacts_csv(record, UnitLabels::shown);
-  to_text(events_json(record), JsonLayout::lines);
-  events_text(record);
-  to_text(result_json(study, "", record, {}, 0), JsonLayout::lines);
+void write(const RunUnderWay& run) {
+  contacts_csv(run.record(), UnitLabels::shown);
+  to_text(events_json(run.record()), JsonLayout::lines);
+  events_text(run.record());
+  to_text(result_json(run.study(), run.description().deck_text, run.record(), {}, 0), JsonLayout::lines);
 }
 
 void follow(const std::string& text) {
-  deck::Deck deck = deck::read_deck_text(text, "fuzz.toml");
-  if (!is_small(deck)) return;
-  Study study(std::move(deck));
-  summary(study);
+  if (!is_small(deck::read_deck_text(text, "fuzz.toml"))) return;
+  RunUnderWay run({.deck = "fuzz.toml", .deck_text = text});
+  summary(run.study());
   std::string reason;
-  std::optional<State> start = study.start(reason);
-  if (!start) {
+  if (!run.begin(reason)) {
     require(!reason.empty(), "there is no start and no reason");
     return;
   }
-  Record record = empty_record(study);
-  if (study.in_increments())
-    trace_increments(study, std::move(*start), record);
-  else
-    trace(study, std::move(*start), record);
-  check_points(record);
-  write(study, record);
+  for (int points = 0; points < most_points && run.advance(); ++points) continue;
+  check_points(run.record());
+  if (run.record().points.empty()) return;
+  const RunUnderWay again = RunUnderWay::from(run.checkpoint(), "checkpoint", RunUnderWay::Resume::go_on);
+  require(path_csv(again.record(), UnitLabels::shown) == path_csv(run.record(), UnitLabels::shown),
+          "a run that is kept reads otherwise");
+  run.stop({.reason = EndReason::max_points, .detail = ""});
+  run.advance();
+  write(run);
 }
 
 }  // namespace

@@ -1,21 +1,46 @@
-// fuzz_seeds FOLDER: writes the examples and the sample decks of the tests into it, to begin with.
+// fuzz_seeds FOLDER: writes what the fuzz targets begin with into FOLDER/deck_text and FOLDER/checkpoint: the examples
+// and the sample decks of the tests, and checkpoints of short runs.
 #include <filesystem>
 #include <iostream>
+#include <string>
 
 #include "apps/cli/example_decks.hpp"
 #include "apps/output/files.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
+#include "tests/fuzz/kept_runs.hpp"
+
+namespace arcwall::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_decks(const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const ExampleDeck& example : example_decks())
+    write_whole(folder / (std::string(example.name) + ".toml"), example.text);
+  write_whole(folder / "column.toml", deck::column_deck);
+  write_whole(folder / "full.toml", deck::full_deck);
+}
+
+void write_checkpoints(const fs::path& folder) {
+  fs::create_directories(folder);
+  for (std::size_t i = 0; i < kept_runs().size(); ++i) {
+    std::string bytes(1, static_cast<char>(i));
+    nlohmann::json::to_cbor(kept_runs()[i], bytes);
+    write_whole(folder / std::to_string(i), bytes);
+  }
+}
+
+}  // namespace
+}  // namespace arcwall::fuzz
 
 int main(int argc, char** argv) {
-  using namespace arcwall;
   if (argc != 2) {
     std::cerr << "usage: fuzz_seeds FOLDER\n";
     return 2;
   }
   const std::filesystem::path folder(argv[1]);
-  for (const ExampleDeck& example : example_decks())
-    write_whole(folder / (std::string(example.name) + ".toml"), example.text);
-  write_whole(folder / "column.toml", deck::column_deck);
-  write_whole(folder / "full.toml", deck::full_deck);
+  arcwall::fuzz::write_decks(folder / "deck_text");
+  arcwall::fuzz::write_checkpoints(folder / "checkpoint");
   return 0;
 }

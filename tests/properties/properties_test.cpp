@@ -60,8 +60,6 @@ Story story_of(const Deck& deck) {
                               .contacts = event.guards.size()});
   }
   story.end = explorer.branches().front().end.value().reason;
-  for (const Scene& scene : story.scenes) RC_TAG(std::string(to_text(scene.kind)));
-  RC_TAG("END " + std::string(to_text(story.end)));
   return story;
 }
 
@@ -72,12 +70,16 @@ std::ostream& operator<<(std::ostream& out, const Story& story) {
   return out << "\n  " << to_text(story.end) << " at arc " << round_trip(story.length);
 }
 
-// A path that is cut off after some points may be cut elsewhere: what both contain is compared.
+// A path that does not reach its bound of λ may be cut off elsewhere: what both contain is compared. (The metric's
+// length is the diagonal of a box along the axes, so steps change when a structure is turned.)
 void check_same(Story found, Story expected, double sign = 1.0) {
   RC_LOG() << "found" << found << "\nexpected" << expected << "\n";
-  const double both = std::min(found.length, expected.length) * (1.0 - 1e-6);
-  for (Story* story : {&found, &expected})
-    std::erase_if(story->scenes, [both](const Scene& scene) { return scene.arc > both; });
+  for (const Scene& scene : expected.scenes) RC_TAG(std::string(to_text(scene.kind)));
+  const auto is_cut_off = [](const Story& story) { return story.end != EndReason::stop; };
+  if (is_cut_off(found) || is_cut_off(expected)) {
+    const std::size_t both = std::min(found.scenes.size(), expected.scenes.size());
+    for (Story* story : {&found, &expected}) story->scenes.resize(both);
+  }
   RC_ASSERT(found.scenes.size() == expected.scenes.size());
   for (std::size_t i = 0; i < found.scenes.size(); ++i) {
     const Scene &a = found.scenes[i], &b = expected.scenes[i];
@@ -89,12 +91,12 @@ void check_same(Story found, Story expected, double sign = 1.0) {
   }
 }
 
-bool is_straight_up(const Deck& deck) { return !deck.walls.empty(); }
+bool has_walls(const Deck& deck) { return !deck.walls.empty(); }
 
 }  // namespace
 
 RC_GTEST_PROP(Properties, RigidMotionChangesNothing, (const Deck& deck)) {
-  const double most = is_straight_up(deck) ? 0.5 : pi;
+  const double most = has_walls(deck) ? 0.5 : pi;
   const Isometry motion{.angle = *test::between(-most, most),
                         .shift = {.x = *test::between(-100.0, 100.0), .z = *test::between(-100.0, 100.0)}};
   check_same(story_of(test::moved(deck, motion)), story_of(deck));

@@ -20,7 +20,7 @@ Deck deck_of(const char* title, double height) {
   Deck deck{.source = {.file = "random.toml"}, .title = title, .units = {.length = "cm", .force = "kN"}};
   deck.materials.push_back({.name = "steel", .E = E, .nu = 0.3});
   deck.sections.push_back({.name = "bar", .shape = deck::Rectangle{.width = 1.0, .height = height}});
-  deck.path.max_points = 60;
+  deck.path.max_points = 80;
   deck.path.branches = deck::Branches::primary;
   return deck;
 }
@@ -136,7 +136,7 @@ rc::Gen<Deck> arch_deck() {
     support(deck, "right", *rc::gen::arbitrary<bool>());
     push(deck, {.name = "arch", .fraction = 0.5}, 1.0);
     const double EI = E * std::pow(height, 3.0) / 12.0;
-    follow(deck, EI * rise / 4000.0);
+    follow(deck, EI * rise / 800.0);
     return deck;
   });
 }
@@ -161,7 +161,7 @@ rc::Gen<Deck> portal_deck() {
     if (*rc::gen::arbitrary<bool>())
       deck.loads.push_back({.action = deck::MemberLoad{.member = "beam", .distributed = {.x = 0.0, .z = -0.01}}});
     const double EI = E * std::pow(height, 3.0) / 12.0;
-    follow(deck, 0.05 * EI / (left * left));
+    follow(deck, 0.2 * EI / (left * left));
     return deck;
   });
 }
@@ -191,8 +191,9 @@ rc::Gen<Deck> walled_deck() {
     if (*rc::gen::arbitrary<bool>())
       deck.walls.push_back({.name = "roof", .side = deck::Side::above, .profile = deck::LineProfile{.z = depth}});
     if (*rc::gen::arbitrary<bool>()) deck.contact.points = deck::ContactPoints::nodes;
-    const double EI = E * std::pow(height, 3.0) / 12.0;
-    follow(deck, 10.0 * EI * gap / std::pow(length, 3.0));
+    // It bends first; then it is a rope.
+    const double EA = E * height, EI = E * std::pow(height, 3.0) / 12.0;
+    follow(deck, (5.0 * EI * gap + EA * std::pow(gap, 3.0)) / std::pow(length, 3.0));
     return deck;
   });
 }

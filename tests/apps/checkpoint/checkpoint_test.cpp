@@ -121,6 +121,13 @@ TEST(Checkpoint, TakesNoContentThatNestsWithoutEnd) {
   EXPECT_THROW(from_cbor("\x9b\xff\xff\xff\xff\xff\xff\xff\xff"), BadArchive);
 }
 
+// An array and a map of more items than bytes are left, or than memory has.
+TEST(Checkpoint, TakesNoListLongerThanItsBytes) {
+  for (const char* list : {"\x9b", "\xbb"})
+    for (const char* size : {"\x01\x02\x03\x04\x05\x06\x07\x08", "\x9f\xa0\xa1\xa2\xa3\xa4\xa5\xa6"})
+      EXPECT_THROW(from_cbor(std::string(list) + size), BadArchive);
+}
+
 // Stopped from outside, a run shows that end until it goes on.
 TEST(Checkpoint, KnowsAnEndFromOutsideOnlyForThoseWhoAsk) {
   RunUnderWay run = begun("truss");
