@@ -45,7 +45,7 @@ std::string filled_by(const fs::path& folder) {
 void remove_leftovers(const fs::path& folder) {
   static const std::regex hidden(
       R"(\.(path\.csv|contacts\.csv|events\.json|events\.txt|deck\.toml|result\.json|report\.html|shapes\.pvd|)"
-      R"(steps\.jsonl|checkpoint|probe)\.[0-9]+)");
+      R"(steps\.jsonl|checkpoint|probe|([0-9]+|walls)\.vtu)\.[0-9]+)");
   const auto is_leftover = [](const std::string& name) { return std::regex_match(name, hidden); };
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
@@ -127,6 +127,7 @@ OutputFolder::OutputFolder(fs::path folder, const std::string& deck, Foreign for
   made_ = fs::create_directories(folder_, error);
   if (error) fail(folder_, "cannot be made", error.message());
   remove_leftovers(folder_);
+  remove_leftovers(folder_ / "shapes");
   const StagedFile probe(folder_ / "probe");
 }
 

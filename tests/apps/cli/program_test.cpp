@@ -466,6 +466,8 @@ TEST_F(ProgramTest, AFolderOfAKilledRunOfTheSameDeckIsUsedAgain) {
       "child=$!; until [ -e truss/checkpoint ]; do sleep 0.01; done; kill -KILL $child; wait $child");
   EXPECT_EQ(killed.status, 128 + 9);
   put(work() / "truss" / ".checkpoint.1234", "half");
+  fs::create_directory(work() / "truss" / "shapes");
+  put(work() / "truss" / "shapes" / ".0007.vtu.1234", "half");
   put(work() / "truss" / ".mine.1234", "kept");
   ASSERT_EQ(shell("cp truss.toml other.toml").status, 0);
   EXPECT_EQ(run("other.toml --out truss").status, 5);
@@ -473,6 +475,7 @@ TEST_F(ProgramTest, AFolderOfAKilledRunOfTheSameDeckIsUsedAgain) {
   Names expected = outputs;
   expected.insert(".mine.1234");
   EXPECT_EQ(names_in(work() / "truss"), expected);
+  EXPECT_EQ(names_in(work() / "truss" / "shapes").count(".0007.vtu.1234"), 0u);
 }
 
 TEST_F(ProgramTest, ExamplesAreListedAndRight) {
