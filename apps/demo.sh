@@ -26,7 +26,7 @@ if [[ -z ${HOME:-} ]]; then export CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache}; 
 
 cmake -S . -B build/release -G Ninja --log-level=WARNING \
   -DCMAKE_BUILD_TYPE=Release -DARCWALL_BUILD_TESTS=OFF -DARCWALL_BUILD_BENCHMARKS=OFF "${launcher[@]}" >&2
-cmake --build build/release --target trace-path >&2
+cmake --build build/release >&2
 
 mkdir -p "$(dirname "$out")"
 status=0

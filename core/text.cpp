@@ -37,7 +37,8 @@ std::string round_trip(double value) {
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
-  std::size_t least = word.size() / 3 + 2;  // a distance below this is near
+  // A distance below this is near. What has no letter in common is not: `y` is no `x`.
+  std::size_t least = std::min(word.size() / 3 + 2, word.size());
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least) {

@@ -12,6 +12,7 @@ ExitStatus resume(const Options& options) {
   const std::filesystem::path where = options.words().front();
   RunUnderWay run = stored_run(where, RunUnderWay::Resume::go_on);
   const OutputFolder folder(where, run.record().deck, Foreign::overwrite);
+  if (run.has_ended()) std::cerr << "note: the run had ended; nothing is left to trace\n";
   return trace_and_write(run, folder, session_options(options), since_begin);
 }
 

@@ -92,8 +92,8 @@ void read_loads(Cursor& root, const Names& names, Deck& deck) {
   for (Cursor& table : root.tables("load")) deck.loads.push_back(read_load(table, names, deck));
   if (root.findings().count() > findings_before) return;  // what a wrong load would have been cannot be told
   if (std::any_of(deck.loads.begin(), deck.loads.end(), follows_lambda)) return;
-  root.report("load", deck.loads.empty() ? "there is no load" : "no load is multiplied by λ: all are constant or zero",
-              "add a [[load]] that is neither");
+  if (deck.loads.empty()) return root.report("load", "there is no load", "add a [[load]] with at and force");
+  root.report("load", "no load is multiplied by λ: all are constant or zero", "add a [[load]] that is neither");
 }
 
 }  // namespace arcwall::deck

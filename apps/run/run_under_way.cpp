@@ -59,6 +59,8 @@ bool RunUnderWay::begin(std::string& reason) {
 
 bool RunUnderWay::advance() { return tracing_->advance(); }
 
+bool RunUnderWay::has_ended() const { return tracing_->has_ended(); }
+
 void RunUnderWay::stop(const BranchEnd& end) { tracing_->stop(end); }
 
 std::string RunUnderWay::checkpoint(const std::optional<BranchEnd>& stopped) {

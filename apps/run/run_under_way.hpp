@@ -45,6 +45,9 @@ class RunUnderWay {
   /// One more point; false when everything has ended.
   bool advance();
 
+  /// Whether every branch has its end.
+  bool has_ended() const;
+
   /// Ends everything where it is, from outside. A checkpoint does not know of it but for `stopped`.
   void stop(const BranchEnd& end);
 

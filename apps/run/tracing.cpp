@@ -38,6 +38,8 @@ class PathTracing final : public Tracing {
     return true;
   }
 
+  bool has_ended() const override { return finished_; }
+
   void stop(const BranchEnd& end) override { explorer_.stop(end); }
 
   void keep(ArchiveWriter& archive) override { visit(archive); }
@@ -132,6 +134,8 @@ class IncrementTracing final : public Tracing {
     if (!std::exchange(finished_, true)) recorder_.end(*end_);
     return false;
   }
+
+  bool has_ended() const override { return finished_; }
 
   void stop(const BranchEnd& end) override {
     if (!end_) end_ = end;

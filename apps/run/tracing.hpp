@@ -16,6 +16,9 @@ class Tracing {
   /// One more point. False when all branches have ended, and the record says how.
   virtual bool advance() = 0;
 
+  /// Whether that is so.
+  virtual bool has_ended() const = 0;
+
   /// Ends everything where it is; the next advance() records that.
   virtual void stop(const BranchEnd& end) = 0;
 

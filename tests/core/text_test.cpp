@@ -59,6 +59,7 @@ TEST(Nearest, OfSeveralTakesTheFewestEdits) { EXPECT_EQ(nearest("axes", {"taxed"
 TEST(Nearest, IsEmptyWhereNoneIsNear) {
   EXPECT_EQ(nearest("spherical", {"displacement", "load"}), "");
   EXPECT_EQ(nearest("spherical", {}), "");
+  EXPECT_EQ(nearest("y", {"x", "z"}), "");
 }
 
 }  // namespace arcwall
