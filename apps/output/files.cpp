@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <iterator>
@@ -41,16 +42,25 @@ std::string filled_by(const fs::path& folder) {
   return result.at(file).get<std::string>();
 }
 
-// Files that a killed process was writing: see StagedFile.
-void remove_leftovers(const fs::path& folder) {
+// Whether a file is one that a killed process was writing: see StagedFile.
+bool is_leftover(const fs::path& file) {
   static const std::regex hidden(
       R"(\.(path\.csv|contacts\.csv|events\.json|events\.txt|deck\.toml|result\.json|report\.html|shapes\.pvd|)"
       R"(steps\.jsonl|checkpoint|probe|([0-9]+|walls)\.vtu)\.[0-9]+)");
-  const auto is_leftover = [](const std::string& name) { return std::regex_match(name, hidden); };
+  std::error_code ignored;
+  return std::regex_match(file.filename().string(), hidden) && fs::is_regular_file(file, ignored);
+}
+
+void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (is_leftover(entry.path().filename().string()) && entry.is_regular_file(ignored))
-      fs::remove(entry.path(), ignored);
+    if (is_leftover(entry.path())) fs::remove(entry.path(), ignored);
+}
+
+// Whether nothing but leftovers is in a folder.
+bool holds_nothing(const fs::path& folder, std::error_code& error) {
+  const fs::directory_iterator entries(folder, error);
+  return std::all_of(begin(entries), end(entries), [](const auto& entry) { return is_leftover(entry.path()); });
 }
 
 }  // namespace
@@ -112,7 +122,7 @@ void require_usable(const fs::path& folder, const std::string& deck, Foreign for
   }
   if (!fs::is_directory(status)) fail(folder, "is not a folder", "name another with --out");
   if (foreign == Foreign::overwrite) return;
-  const bool empty = fs::is_empty(folder, error);
+  const bool empty = holds_nothing(folder, error);
   if (error) fail(folder, "cannot be read", error.message());
   if (empty) return;
   const std::string other = filled_by(folder);

@@ -461,6 +461,15 @@ TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
   expect_in("trace-path resume truss goes on", outcome.err);
 }
 
+// Killed before its first point.
+TEST_F(ProgramTest, AFolderWithNothingButWhatAKilledRunWasWritingIsUsed) {
+  fs::create_directory(work() / "truss");
+  put(work() / "truss" / ".probe.1234", "");
+  put(work() / "truss" / ".checkpoint.1234", "half");
+  EXPECT_EQ(run("truss.toml --quiet").status, 0);
+  EXPECT_EQ(names_in(work() / "truss"), outputs);
+}
+
 // A killed run leaves a checkpoint and perhaps what it was writing.
 TEST_F(ProgramTest, AFolderOfAKilledRunOfTheSameDeckIsUsedAgain) {
   const Outcome killed = shell(
