@@ -15,6 +15,8 @@ template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang 14 does not deduce aggregates
 
 void for_points(deck::Curve& curve, const auto& change) {
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
