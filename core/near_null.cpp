@@ -78,8 +78,10 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights) {
   // Contact forces, which come and go at the end, have no weight and need no start.
   const Index common = std::min(X_.rows(), n);
   Matrix X = start_;
-  X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
-  X.bottomLeftCorner(n - common, kept).setZero();
+  if (kept > 0) {
+    X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
+    X.bottomLeftCorner(n - common, kept).setZero();
+  }
   Matrix WX(n, block);
   for (Index j = 0; j < block; ++j) {
     for (Index i = 0; i < j; ++i) X.col(j) -= WX.col(i).dot(X.col(j)) * X.col(i);
