@@ -9,13 +9,12 @@ here at the mesh of the deck.
 
 import json
 import re
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from make_validation import RUN_IS_USABLE, SOURCE, cases, read_run
+from make_validation import SOURCE, cases, trace_into
 
 FOLDER = SOURCE / "docs/gallery"
 
@@ -79,15 +78,6 @@ PICTURES = [
 ]
 
 
-def run(program: str, deck: Path, folder: str) -> tuple:
-    command = [program, "run", str(deck), "--out", folder, "--quiet", "--no-units", "--force"]
-    result = subprocess.run(command, capture_output=True, text=True)
-    if result.returncode not in RUN_IS_USABLE:
-        sys.exit(f"{' '.join(command)}\nended with status {result.returncode}:\n{result.stderr}")
-    seconds = json.loads(Path(folder, "result.json").read_text())["seconds"]["total"]
-    return read_run(folder, result.returncode), seconds
-
-
 def drawings(report: str, kind: str, events: list) -> tuple:
     """The first chart, the walls and the shape at the last event of a kind."""
     page = re.sub(r"<script.*?</script>", "", report, flags=re.S)
@@ -123,7 +113,8 @@ def entry(program: str, picture: Picture, known: dict) -> str:
     case = known[picture.case]
     quantity = next(q for q in case.quantities if q.what == picture.quantity)
     with tempfile.TemporaryDirectory() as folder:
-        traced, seconds = run(program, SOURCE / case.deck, folder)
+        traced = trace_into(folder, program, SOURCE / case.deck, [])
+        seconds = json.loads(Path(folder, "result.json").read_text())["seconds"]["total"]
         svg = compose(*drawings(Path(folder, "report.html").read_text(), picture.event, traced.events))
     (FOLDER / f"{picture.name}.svg").write_text(svg)
     return (f"## {picture.title}\n\n{picture.text}\n\n![load and shape](gallery/{picture.name}.svg)\n\n"

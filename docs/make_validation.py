@@ -296,19 +296,19 @@ def cases() -> list:
 
 def trace(program: str, deck: Path, values: list) -> Run:
     with tempfile.TemporaryDirectory() as folder:
-        command = [program, "run", str(deck), "--out", folder, "--quiet", "--no-units", "--force"]
-        for value in values:
-            command += ["--set", value]
-        result = subprocess.run(command, capture_output=True, text=True)
-        if result.returncode not in RUN_IS_USABLE:
-            sys.exit(f"{' '.join(command)}\nended with status {result.returncode}:\n{result.stderr}")
-        return read_run(folder, result.returncode)
+        return trace_into(folder, program, deck, values)
 
 
-def read_run(folder: str, status: int) -> Run:
+def trace_into(folder: str, program: str, deck: Path, values: list) -> Run:
+    command = [program, "run", str(deck), "--out", folder, "--quiet", "--no-units", "--force"]
+    for value in values:
+        command += ["--set", value]
+    result = subprocess.run(command, capture_output=True, text=True)
+    if result.returncode not in RUN_IS_USABLE:
+        sys.exit(f"{' '.join(command)}\nended with status {result.returncode}:\n{result.stderr}")
     events = json.loads(Path(folder, "events.json").read_text())["events"]
     with open(Path(folder, "path.csv"), newline="") as table:
-        return Run(events=events, points=list(csv.DictReader(table)), early=status == ENDED_EARLY)
+        return Run(events=events, points=list(csv.DictReader(table)), early=result.returncode == ENDED_EARLY)
 
 
 def order(errors: list) -> str:
