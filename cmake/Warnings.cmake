@@ -6,12 +6,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(arcwall_warnings INTERFACE -Wno-restrict)
 endif()
 
-# Address and undefined-behaviour sanitizers for everything that is built here. -O1 and line tables compile
+# Address and undefined-behaviour sanitizers, with assertions, for everything that is built here. -O1 and line tables compile
 # three times faster than -O2 -g. Null and misaligned accesses are seen by the address sanitizer and by the machine; checking
 # for them before each access doubles Eigen's compile time.
 if(ARCWALL_SANITIZE)
-  add_compile_options(-O1 -g1 -fsanitize=address,undefined -fno-sanitize=null,alignment -fno-sanitize-recover=undefined
-    -fno-omit-frame-pointer)
+  add_compile_options(-UNDEBUG -O1 -g1 -fsanitize=address,undefined -fno-sanitize=null,alignment
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
@@ -21,5 +21,5 @@ if(ARCWALL_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang" OR NOT ARCWALL_SANITIZE OR NOT ARCWALL_BUILD_APPS)
     message(FATAL_ERROR "ARCWALL_FUZZ needs clang (-DCMAKE_CXX_COMPILER=clang++), ARCWALL_SANITIZE and ARCWALL_BUILD_APPS")
   endif()
-  add_compile_options(-UNDEBUG -fsanitize-coverage=inline-8bit-counters,pc-table)
+  add_compile_options(-fsanitize-coverage=inline-8bit-counters,pc-table)
 endif()

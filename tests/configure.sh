@@ -4,7 +4,7 @@
 #   bash tests/configure.sh [--sanitize]
 #
 # --sanitize: with clang, the address and undefined-behaviour sanitizers, assertions and the fuzz targets, in
-# build/fuzz; else in build/tests.
+# build/sanitize; else in build/tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -12,7 +12,7 @@ folder=build/tests
 groups=(build test report)
 options=(-DCMAKE_BUILD_TYPE=Release)
 if [[ ${1:-} == --sanitize ]]; then
-  folder=build/fuzz
+  folder=build/sanitize
   groups+=(sanitize)
   options=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DARCWALL_SANITIZE=ON -DARCWALL_FUZZ=ON)
 fi

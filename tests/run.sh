@@ -3,38 +3,29 @@
 #
 #   bash tests/run.sh [--sanitize] [arguments of ctest …]
 #
-# --sanitize builds with the address and undefined-behaviour sanitizers, in a folder of its own.
+# --sanitize builds with clang and the address and undefined-behaviour sanitizers, in a folder of its own.
 # Examples: bash tests/run.sh -R Tracer; bash tests/run.sh --sanitize -LE slow
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=build/tests
-type=Release
-sanitize=OFF
-warnings_are_errors=ON
+build=()
 if [[ ${1:-} == --sanitize ]]; then
   shift
   folder=build/sanitize
-  type=RelWithDebInfo
-  sanitize=ON
-  warnings_are_errors=OFF  # instrumented code makes g++ warn of what is not there; the other build reads all sources, too
+  build=(--sanitize)
 fi
 
-bash cmake/install_debian_packages.sh build test report
-launcher=()
-if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 # Without a home ccache needs another place for its files.
 if [[ -z ${HOME:-} ]]; then export CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache}; fi
-
-cmake -S . -B "$folder" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE="$type" -DARCWALL_WERROR="$warnings_are_errors" \
-  -DARCWALL_SANITIZE="$sanitize" -DARCWALL_BUILD_APPS=ON -DARCWALL_BUILD_TESTS=ON "${launcher[@]}"
+bash tests/configure.sh "${build[@]}"
 cmake --build "$folder" --parallel 2
 
 # LeakSanitizer stops other threads by ptrace, which containers may forbid.
 leaks=1
-if [[ $sanitize == ON ]]; then
+if [[ $folder == build/sanitize ]]; then
   probe=$folder/leak_probe
-  echo 'int main() {}' | "${CXX:-c++}" -fsanitize=address -x c++ - -o "$probe"
+  echo 'int main() {}' | clang++ -fsanitize=address -x c++ - -o "$probe"
   ASAN_OPTIONS=detect_leaks=1 "$probe" >/dev/null 2>&1 || leaks=0
   if [[ $leaks == 0 ]]; then echo "note: no ptrace here, so leaks are not looked for" >&2; fi
 fi

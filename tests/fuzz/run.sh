@@ -3,7 +3,7 @@
 #
 #   bash tests/fuzz/run.sh [SECONDS] [deck_text] [deck_model] [checkpoint]
 #
-# What is learned stays in build/fuzz/fuzz/TARGET, where the next run
+# What is learned stays in build/sanitize/fuzz/TARGET, where the next run
 # begins. For millions of runs add to the time: one target does some hundreds to thousands a second.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -27,7 +27,7 @@ options_of() {
 for target in "${targets[@]}"; do options_of "$target" >/dev/null; done
 
 bash tests/configure.sh --sanitize
-folder=build/fuzz
+folder=build/sanitize
 cmake --build "$folder" --parallel 2 --target fuzz_seeds "${targets[@]/#/fuzz_}"
 mkdir -p "$folder/fuzz/findings"
 "$folder/tests/fuzz/fuzz_seeds" "$folder/fuzz/seeds"

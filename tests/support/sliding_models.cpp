@@ -76,7 +76,7 @@ SlidingModel SlidingFoundation::model() const {
   StructureBuilder builder;
   const Vec2 a(0.0, 0.0), b(2.0 * std::cos(turned), 2.0 * std::sin(turned));
   const Index left = builder.add_joint(a), right = builder.add_joint(b);
-  builder.add_member({.name = "beam",
+  builder.add_member({.name = "0",
                       .from = left,
                       .to = right,
                       .axis = straight_axis(a, b),
