@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/path_tolerances.hpp"
 #include "core/near_null.hpp"
 
 namespace arcwall {
 
 namespace {
 
-constexpr double between = 1e-9;  // penetration between contacts, in the scale of guards, that is let pass
-constexpr double noise = 1e-6;    // ratio of two coefficients below which the first is zero
+constexpr double negligible = 1e-6;  // ratio of two coefficients below which the first is zero
 
 // Algebraic branching equation a α² + 2 b α β = 0 for tangents α φ + β t, t the tangent we came along:
 //   α = 0 (the old branch) or α : β = −2 b : a.
@@ -19,7 +19,7 @@ void find_other_tangent(const System& system, const Metric& metric, const Vector
   Linearization beside;
   const EigenvalueRate a = eigenvalue_rate(system, point.state, point.mode, left, point.mode.dx, beside);
   const EigenvalueRate b = eigenvalue_rate(system, point.state, point.along, left, point.mode.dx, beside);
-  const bool symmetric = std::abs(a.value) <= std::max(noise * std::abs(b.value), a.roundoff);
+  const bool symmetric = std::abs(a.value) <= std::max(negligible * std::abs(b.value), a.roundoff);
   point.type = symmetric ? BranchType::symmetric : BranchType::asymmetric;
   Direction other = point.mode;
   if (!symmetric) {
@@ -98,7 +98,7 @@ std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, c
     if (!at.converged()) continue;
     at.state.piece = system.settled(at.state);
     if (system.guard_count(at.state.piece) > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;
-    if (!system.admissible(at.state, -between)) continue;
+    if (!system.admissible(at.state, -let_pass)) continue;
     const Direction chord = difference(at.state, point.state);
     if (metric.norm(chord) > 2.0 * distance) continue;
     Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);

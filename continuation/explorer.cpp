@@ -8,11 +8,11 @@ namespace arcwall {
 
 namespace {
 
-constexpr double same_place = 1e-6;  // two located branch points in the path metric
-constexpr double arriving = 1e-5;    // by so much a branch may end before the branch point that it joins
-constexpr double same_value = 1e-9;  // relative difference of λ and energy between mirror images
+constexpr double same_branch_point = 1e-6;  // two located branch points in the path metric
+constexpr double arriving = 1e-5;           // by so much a branch may end before the branch point that it joins
+constexpr double same_value = 1e-9;         // relative difference of λ and energy between mirror images
 
-bool close(double a, double b, double scale) {
+bool nearly_equal(double a, double b, double scale) {
   return std::abs(a - b) <= same_value * std::max(scale, std::abs(a) + std::abs(b));
 }
 
@@ -113,7 +113,7 @@ std::vector<Explorer::Way> Explorer::ways_off(const BranchPoint& point) {
 bool Explorer::mirror_images(const std::vector<Way>& ways) const {
   if (ways.size() != 2) return false;
   const State &a = ways[0].step.state, &b = ways[1].step.state;
-  return close(a.lambda, b.lambda, 0.0) && close(ways[0].energy, ways[1].energy, 0.0);
+  return nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(ways[0].energy, ways[1].energy, 0.0);
 }
 
 int Explorer::preferred_sign(const BranchPoint& point, const std::vector<Way>& ways) const {
@@ -177,7 +177,7 @@ bool Explorer::known(const BranchPoint& point) const {
   return std::any_of(known_.begin(), known_.end(), [&](const KnownPoint& other) {
     if (other.state.piece != point.state.piece) return false;
     const Metric metric(system_.weights(point.state.piece), lambda_scale_);
-    return metric.norm(difference(other.state, point.state)) <= same_place;
+    return metric.norm(difference(other.state, point.state)) <= same_branch_point;
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "continuation/path_tolerances.hpp"
 #include "core/root_find.hpp"
 
 namespace arcwall {
@@ -13,7 +14,6 @@ namespace arcwall {
 namespace {
 
 constexpr double short_segment = 1e-4;  // on which the nearest of the path's own points has to do [path metric]
-constexpr double same_place = 1e-8;     // singular points that are nearer are one [path metric]
 constexpr double on_the_path = 1e-8;    // relative residual of an interpolated point
 constexpr double touching = 1e-8;       // what falls below this part of its value at a distance of 1 touches zero
 constexpr double at_the_end = 1e-5;     // a touch so near behind the end of a segment belongs to it [path metric]

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "continuation/path_tolerances.hpp"
 #include "core/root_find.hpp"
 
 namespace arcwall {
 
 namespace {
 
-constexpr int max_landings = 100;     // guards that turn out to come before the one landed on
-constexpr double together = 1e3;      // guard tolerances within which guards that are landed on in turn are one corner
-constexpr double same_place = 1e-8;   // in the path metric
-constexpr double between = 1e-9;      // penetration between contacts, in the scale of guards, that is let pass
-constexpr double near_corner = 1e-4;  // likewise, gaps between contacts that are followed before a corner is left
-constexpr double passing = 1e-5;      // likewise, of points on a path near which it is singular
+constexpr int max_landings = 100;  // guards that turn out to come before the one landed on
+constexpr double together = 1e3;   // guard tolerances within which guards that are landed on in turn are one corner
+constexpr double near_corner =
+    1e-4;                         // gaps between contacts that are followed before a corner is left [scale of guards]
+constexpr double passing = 1e-5;  // of points on a path near which it is singular [path metric]
 
 StepOutcome outcome_of(CorrectorStatus failure) {
   switch (failure) {
@@ -291,11 +291,11 @@ std::optional<Tracer::Step> Tracer::take(double s) {
   if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)))
     if (!land(step, *crossing)) return rejected(StepOutcome::not_landed);
   // What vanishes with the guard that was landed on belongs to the corner.
-  const double margin = step.corner ? near_corner : -between;
+  const double margin = step.corner ? near_corner : -let_pass;
   if (!system_.admissible(step.to.state, margin)) {
     refine(step.to.state, margin);
     if (refined_) return rejected(StepOutcome::refined);
-    if (!step.corner || !system_.admissible(step.to.state, -between)) return rejected(StepOutcome::penetrates);
+    if (!step.corner || !system_.admissible(step.to.state, -let_pass)) return rejected(StepOutcome::penetrates);
   }
   decide_count(step.to);
   return step;

@@ -3,15 +3,14 @@
 #include <cassert>
 #include <limits>
 
+#include "continuation/path_tolerances.hpp"
 #include "continuation/tracer.hpp"
 
 namespace arcwall {
 
 namespace {
 
-constexpr double between = 1e-9;  // penetration between contacts, in the scale of guards, that is let pass
 constexpr int max_standing = 50;
-constexpr double same_place = 1e-8;      // in the path metric
 constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
 
 // Of a passage that is an event.
@@ -158,7 +157,7 @@ std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& 
         corrector_.correct(passage.guess, PlaneConstraint(metric, passage.guess, along, 0.0), metric, along, distance);
   }
   last_failure_ = result.status;
-  if (!result.converged() || !system_.admissible(result.state, -between)) return std::nullopt;
+  if (!result.converged() || !system_.admissible(result.state, -let_pass)) return std::nullopt;
   if (passage.change != Passage::Change::remeshed && (system_.guards(result.state).array() < -slack).any())
     return std::nullopt;
   if (passage.quantity && apply(passage.quantity->gradient(result.state), result.tangent) < 0.0)

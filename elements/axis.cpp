@@ -1,5 +1,6 @@
 #include "elements/axis.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
@@ -249,6 +250,12 @@ double ImperfectAxis::length(double from, double to) const {
         return std::hypot(1.0 - axis_.at(s).curvature * y.value, y.slope);
       },
       from, to);
+}
+
+double box_diagonal(const std::vector<Vec2>& points) {
+  Eigen::AlignedBox2d box;
+  for (const Vec2& point : points) box.extend(point);
+  return box.diagonal().norm();
 }
 
 }  // namespace arcwall

@@ -83,4 +83,7 @@ class ImperfectAxis {
   std::vector<SineDeviation> deviations_;
 };
 
+/// Diagonal of the smallest upright rectangle round points [length].
+double box_diagonal(const std::vector<Vec2>& points);
+
 }  // namespace arcwall

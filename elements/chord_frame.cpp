@@ -6,7 +6,7 @@ namespace arcwall {
 
 namespace {
 
-using Gauss = boost::math::quadrature::gauss<double, 7>;
+using FrameGauss = boost::math::quadrature::gauss<double, 7>;
 
 // A vector in the frame of the chord with its gradient by (l, b, σ).
 struct Path {
@@ -44,8 +44,8 @@ Path path_to(const BentAxis& axis, double xi) {
     path.value += 0.5 * xi * weight * here.value;
     path.gradient += 0.5 * xi * weight * here.gradient;
   };
-  for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
-    const double node = Gauss::abscissa()[i], weight = Gauss::weights()[i];
+  for (std::size_t i = 0; i < FrameGauss::abscissa().size(); ++i) {
+    const double node = FrameGauss::abscissa()[i], weight = FrameGauss::weights()[i];
     add(node, weight);
     if (node != 0.0) add(-node, weight);
   }

@@ -48,16 +48,16 @@ struct Rule {
   std::array<Vector5, count> phi{};
 
   Rule() {
-    using Gauss = boost::math::quadrature::gauss<double, count>;
+    using Points = boost::math::quadrature::gauss<double, count>;
     std::size_t next = 0;
     const auto add = [&](double node, double w) {
       weight[next] = 0.5 * w;
       phi[next++] = shape_functions(0.5 * node);
     };
-    for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
-      const double node = Gauss::abscissa()[i];
-      add(node, Gauss::weights()[i]);
-      if (node != 0.0) add(-node, Gauss::weights()[i]);
+    for (std::size_t i = 0; i < Points::abscissa().size(); ++i) {
+      const double node = Points::abscissa()[i];
+      add(node, Points::weights()[i]);
+      if (node != 0.0) add(-node, Points::weights()[i]);
     }
   }
 };

@@ -1,23 +1,12 @@
 #include "elements/sliding_structure.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 #include "elements/sliding_mesh.hpp"
 
 namespace arcwall {
-
-namespace {
-
-double box_diagonal(const std::vector<Vec2>& points) {
-  Eigen::AlignedBox2d box;
-  for (const Vec2& point : points) box.extend(point);
-  return box.diagonal().norm();
-}
-
-}  // namespace
 
 double SlidingStructure::elements_between(Index run, double from, double to) const {
   double count = 0.0;
@@ -48,8 +37,7 @@ MaterialPoint SlidingStructure::find(const std::string& member, double fraction)
         const double t = (fraction - part.first_fraction) / (part.last_fraction - part.first_fraction);
         return {.run = r, .s = part.from + t * (part.to - part.from)};
       }
-  assert(false);
-  return {};
+  throw std::out_of_range("no member " + member + " has a place at the fraction " + std::to_string(fraction));
 }
 
 std::vector<SlidingStructure::MemberPart> SlidingStructure::parts_of(const std::string& member) const {

@@ -40,7 +40,7 @@ class SlidingStructure final : public SlidingBody {
   double length_scale() const override { return length_scale_; }
   double force_scale() const override { return force_scale_; }
 
-  /// The place of a member at a fraction of its length.
+  /// The place of a member at a fraction of its length; std::out_of_range if there is none.
   MaterialPoint find(const std::string& member, double fraction) const;
 
   /// A member, or a part of it, as a stretch of a run.

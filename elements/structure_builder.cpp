@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -118,12 +117,6 @@ std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
       return std::make_unique<TrussDistributedLoad>(beam_reference(stretch).length * load);
   }
   return nullptr;
-}
-
-double box_diagonal(const std::vector<Vec2>& points) {
-  Eigen::AlignedBox2d box;
-  for (const Vec2& point : points) box.extend(point);
-  return box.diagonal().norm();
 }
 
 }  // namespace

@@ -7,14 +7,16 @@
 
 namespace arcwall {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
-void print(const char* name, Json json) { std::cout << to_text(Json{{name, std::move(json)}}, JsonLayout::one_line); }
+void print(const char* name, OrderedJson json) {
+  std::cout << to_text(OrderedJson{{name, std::move(json)}}, JsonLayout::one_line);
+}
 
-Json ending(const RecordBranch& branch) {
-  Json json{{"branch", branch.id}};
+OrderedJson ending(const RecordBranch& branch) {
+  OrderedJson json{{"branch", branch.id}};
   json.update(end_json(*branch.end));
   json["status"] = static_cast<int>(exit_status(branch.end->reason));
   return json;

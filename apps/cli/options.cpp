@@ -132,7 +132,7 @@ std::string help_text(const CommandDescription& command) {
     return "--" + option.name + (option.value.empty() ? "" : " " + option.value);
   };
   const std::vector<OptionDescription> options = all_options(command);
-  for (const OptionDescription& option : options) widest = std::max(widest, width(title(option)));
+  for (const OptionDescription& option : options) widest = std::max(widest, display_width(title(option)));
   for (const OptionDescription& option : options)
     text += fmt::format("  {:<{}}  {}\n", title(option), widest, option.help);
   return text;

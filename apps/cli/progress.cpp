@@ -15,7 +15,7 @@ namespace {
 
 // A line that wraps could not be erased: it is cut to the terminal's width.
 std::string cut(std::string text, std::size_t columns) {
-  while (width(text) > columns) text.pop_back();
+  while (display_width(text) > columns) text.pop_back();
   return text;
 }
 

@@ -256,7 +256,7 @@ void Cursor::report_unknown(const Reference& found, const std::string& path, con
   const std::string near = found.text.size() <= longest_name_compared ? nearest(found.text, candidates) : "";
   std::string cure = candidates.empty() ? "there is none" : "known are " + listed(candidates);
   if (!near.empty()) cure = "did you mean " + near + "?";
-  findings_.add(found.position, path, quoted(found.text, longest_name_compared) + " " + message, std::move(cure));
+  findings_.add(found.position, path, in_quotes(found.text, longest_name_compared) + " " + message, std::move(cure));
 }
 
 Position Cursor::position() const { return value_.key.empty() ? value_.position : value_.key_position; }

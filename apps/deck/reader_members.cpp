@@ -30,7 +30,7 @@ std::optional<Ends> read_ends(Cursor& table, const Names& names, const Deck& dec
   const bool to = read_name(table, "to", "a point", names.points, member.to);
   if (!from || !to) return std::nullopt;
   if (member.from == member.to) {
-    table.report("to", quoted(member.to) + " is also the point it comes from", "name another point");
+    table.report("to", in_quotes(member.to) + " is also the point it comes from", "name another point");
     return std::nullopt;
   }
   const Point* a = find(deck.points, member.from);

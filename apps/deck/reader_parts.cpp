@@ -41,7 +41,7 @@ bool is_node(Cursor& table, std::string_view key, const Place& place, const Deck
   const double at = *place.fraction * n;
   if (std::abs(std::round(at) - at) <= tolerance * n) return true;
   const double below = std::floor(at);
-  table.report(key, quoted(to_text(place)) + " is not a node: " + place.name + " has " + round_trip(n) + " elements",
+  table.report(key, in_quotes(to_text(place)) + " is not a node: " + place.name + " has " + round_trip(n) + " elements",
                "the nearest are " + to_text({.name = place.name, .fraction = below / n}) + " and " +
                    to_text({.name = place.name, .fraction = (below + 1.0) / n}));
   return false;
@@ -108,7 +108,7 @@ bool read_place(Cursor& table, std::string_view key, const Names& names, const D
     return false;
   }
   if (!place.fraction || *place.fraction < 0.0 || *place.fraction > 1.0) {
-    table.report(key, quoted(found.text, 60) + " has no fraction between 0 and 1",
+    table.report(key, in_quotes(found.text, 60) + " has no fraction between 0 and 1",
                  "write it as in " + place.name + ":0.5");
     return false;
   }

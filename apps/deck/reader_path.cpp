@@ -23,11 +23,11 @@ void read_monitor_name(Cursor& table, const Deck& deck, Monitor& monitor) {
   if (!table.text("name", Presence::required, monitor.name)) return;
   const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), monitor.name) != reserved_names.end();
   if (!is_name(monitor.name)) {
-    table.report("name", quoted(monitor.name, 60) + " is no name", "use letters, digits, _ and - only");
+    table.report("name", in_quotes(monitor.name, 60) + " is no name", "use letters, digits, _ and - only");
   } else if (reserved) {
-    table.report("name", quoted(monitor.name) + " is the name of another column of path.csv", "choose another name");
+    table.report("name", in_quotes(monitor.name) + " is the name of another column of path.csv", "choose another name");
   } else if (find(deck.monitors, monitor.name) != nullptr) {
-    table.report("name", quoted(monitor.name) + " is the name of another monitor", "give each monitor its own");
+    table.report("name", in_quotes(monitor.name) + " is the name of another monitor", "give each monitor its own");
   }
 }
 

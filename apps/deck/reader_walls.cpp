@@ -23,7 +23,7 @@ LineProfile read_line(Cursor& table) {
   return profile;
 }
 
-CircleProfile read_circle(Cursor& table) {
+CircleProfile read_circle_profile(Cursor& table) {
   CircleProfile profile;
   table.vector("centre", Presence::required, profile.centre);
   table.number("radius", Presence::required, positive, profile.radius);
@@ -60,7 +60,7 @@ void read_profile(Cursor table, Wall& wall) {
       wall.profile = read_line(table);
       break;
     case ProfileWord::circle:
-      wall.profile = read_circle(table);
+      wall.profile = read_circle_profile(table);
       break;
     case ProfileWord::parabola:
       wall.profile = read_parabola(table);
@@ -75,9 +75,9 @@ void read_profile(Cursor table, Wall& wall) {
 void read_wall_name(Cursor& table, const Deck& deck, Wall& wall) {
   if (!table.text("name", Presence::required, wall.name)) return;
   if (!is_name(wall.name)) {
-    table.report("name", quoted(wall.name, 60) + " is no name", "use letters, digits, _ and - only");
+    table.report("name", in_quotes(wall.name, 60) + " is no name", "use letters, digits, _ and - only");
   } else if (find(deck.walls, wall.name) != nullptr) {
-    table.report("name", quoted(wall.name) + " is the name of another wall", "give each wall its own");
+    table.report("name", in_quotes(wall.name) + " is the name of another wall", "give each wall its own");
   }
 }
 

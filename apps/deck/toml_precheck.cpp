@@ -69,7 +69,7 @@ class Scanner {
     } else if (c == '\0') {
       fail("a NUL byte: this is not a text file", "give a TOML file");
     } else if ((c >= '\0' && c < ' ' && c != '\t' && !(c == '\r' && peek(1) == '\n')) || c == '\x7F') {
-      fail("a control character (" + quoted(text_.substr(at_, 1)) + ")", "remove it");
+      fail("a control character (" + in_quotes(text_.substr(at_, 1)) + ")", "remove it");
     } else if (at_ + length - line_begin_ > limits_.line_bytes) {
       column_ = 1;
       fail("the line is longer than " + std::to_string(limits_.line_bytes) + " bytes", "break it into several lines");

@@ -35,7 +35,7 @@ const Value* find(const Value& table, std::string_view key) {
   return found == table.items.end() ? nullptr : &*found;
 }
 
-std::string quoted(std::string_view text, std::size_t most) {
+std::string in_quotes(std::string_view text, std::size_t most) {
   std::size_t end = text.size();
   if (most > 0 && end > most) {
     end = most;
@@ -52,7 +52,7 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-std::string key_text(std::string_view key) { return is_name(key) ? std::string(key) : quoted(key, most_shown); }
+std::string key_text(std::string_view key) { return is_name(key) ? std::string(key) : in_quotes(key, most_shown); }
 
 bool is_name(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), is_name_character);
@@ -67,7 +67,7 @@ std::string shown(const Value& value) {
     case Value::Kind::number:
       return round_trip(value.number);
     case Value::Kind::string:
-      return quoted(value.string, most_shown);
+      return in_quotes(value.string, most_shown);
     case Value::Kind::date:
       return "a date or time";
     case Value::Kind::array:

@@ -31,7 +31,7 @@ const Value* find(const Value& table, std::string_view key);
 std::string shown(const Value& value);
 
 /// Text in quotes as TOML writes it, on one line and printable; cut after `most` bytes if that is not 0.
-std::string quoted(std::string_view text, std::size_t most = 0);
+std::string in_quotes(std::string_view text, std::size_t most = 0);
 
 /// The text with a space for every control character.
 std::string on_one_line(std::string text);

@@ -23,7 +23,7 @@ std::string number(double value) {
 }
 
 // The names of a deck are keys as they are, but a writer does not rely on what a reader has checked.
-std::string name(const std::string& text) { return is_name(text) ? text : quoted(text); }
+std::string name(const std::string& text) { return is_name(text) ? text : in_quotes(text); }
 
 std::string vector(const Vector& v) { return "[" + number(v.x) + ", " + number(v.z) + "]"; }
 
@@ -42,7 +42,7 @@ std::string array(const List& list, ToText to_text) {
 std::string numbers(const std::vector<double>& values) { return array(values, number); }
 
 std::string strings(const std::vector<std::string>& values) {
-  return array(values, [](const std::string& value) { return quoted(value); });
+  return array(values, [](const std::string& value) { return in_quotes(value); });
 }
 
 // Builds the document line by line.
@@ -55,7 +55,7 @@ class Document {
   void set(std::string_view key, const std::optional<double>& value) {
     if (value) set(key, *value);
   }
-  void set_text(std::string_view key, const std::string& value) { set(key, quoted(value)); }
+  void set_text(std::string_view key, const std::string& value) { set(key, in_quotes(value)); }
   void set_integer(std::string_view key, int value) { set(key, std::to_string(value)); }
 
   template <class Enum, std::size_t count>

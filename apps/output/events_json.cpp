@@ -8,54 +8,54 @@
 
 namespace arcwall {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+OrderedJson number(double value) { return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr); }
 
-Json count(const std::optional<Index>& value) { return value ? Json(*value) : Json(nullptr); }
+OrderedJson count(const std::optional<Index>& value) { return value ? OrderedJson(*value) : OrderedJson(nullptr); }
 
-Json monitors(const Record& record, const std::vector<double>& values) {
-  Json json = Json::object();
+OrderedJson monitors(const Record& record, const std::vector<double>& values) {
+  OrderedJson json = OrderedJson::object();
   for (std::size_t i = 0; i < values.size(); ++i) json[record.columns[i].name] = number(values[i]);
   return json;
 }
 
-Json contact(const RecordContact& contact) {
+OrderedJson contact(const RecordContact& contact) {
   return {{"wall", contact.label.wall},
           {"member", contact.label.member},
           {"fraction", number(contact.label.fraction)},
           {"x", number(contact.x)}};
 }
 
-Json branch(const RecordBranch& branch) {
-  Json json;
+OrderedJson branch(const RecordBranch& branch) {
+  OrderedJson json;
   json["id"] = branch.id;
   json["parent"] = count(branch.parent);
   json["origin"] = count(branch.origin);
   json["mirrored"] = branch.mirrored;
   json["points"] = branch.points;
-  json["lambda"] = Json::array({number(branch.least_lambda), number(branch.greatest_lambda)});
-  json["end"] = branch.end ? end_json(*branch.end) : Json(nullptr);
+  json["lambda"] = OrderedJson::array({number(branch.least_lambda), number(branch.greatest_lambda)});
+  json["end"] = branch.end ? end_json(*branch.end) : OrderedJson(nullptr);
   return json;
 }
 
 }  // namespace
 
-Json events_json(const Record& record) {
-  Json json;
+OrderedJson events_json(const Record& record) {
+  OrderedJson json;
   json["deck"] = record.deck;
   json["version"] = program_version();
-  json["branches"] = Json::array();
+  json["branches"] = OrderedJson::array();
   for (const RecordBranch& one : record.branches) json["branches"].push_back(branch(one));
-  json["events"] = Json::array();
+  json["events"] = OrderedJson::array();
   for (const RecordEvent& event : record.events) json["events"].push_back(event_json(record, event));
   return json;
 }
 
-Json event_json(const Record& record, const RecordEvent& event) {
-  Json json;
+OrderedJson event_json(const Record& record, const RecordEvent& event) {
+  OrderedJson json;
   json["id"] = event.id;
   json["kind"] = to_text(event.kind);
   json["branch"] = event.branch;
@@ -68,7 +68,7 @@ Json event_json(const Record& record, const RecordEvent& event) {
   json["residual"] = number(event.residual);
   json["localised"] = number(event.localised);
   if (changes_contact(event.kind)) {
-    json["contact"] = Json::array();
+    json["contact"] = OrderedJson::array();
     for (const RecordContact& one : event.contacts) json["contact"].push_back(contact(one));
   }
   if (event.monitor) json["monitor"] = *event.monitor;
@@ -84,8 +84,8 @@ Json event_json(const Record& record, const RecordEvent& event) {
   return json;
 }
 
-Json point_json(const Record& record, const RecordPoint& point) {
-  Json json;
+OrderedJson point_json(const Record& record, const RecordPoint& point) {
+  OrderedJson json;
   json["branch"] = point.branch;
   json["step"] = point.step;
   json["arc"] = number(point.arc);
@@ -96,20 +96,20 @@ Json point_json(const Record& record, const RecordPoint& point) {
   json["contacts"] = point.contacts;
   json["energy"] = number(point.energy);
   json["iterations"] = point.iterations;
-  json["event"] = point.event ? Json(to_text(*point.event)) : Json(nullptr);
+  json["event"] = point.event ? OrderedJson(to_text(*point.event)) : OrderedJson(nullptr);
   return json;
 }
 
-Json end_json(const BranchEnd& end) {
-  Json json{{"reason", to_text(end.reason)}, {"detail", end.detail}};
+OrderedJson end_json(const BranchEnd& end) {
+  OrderedJson json{{"reason", to_text(end.reason)}, {"detail", end.detail}};
   if (end.partner) json["partner"] = *end.partner;
   if (end.family) json["family"] = {{"energy", number(end.family->energy)}, {"length", number(end.family->length)}};
   return json;
 }
 
-std::string to_text(const Json& json, JsonLayout layout) {
+std::string to_text(const OrderedJson& json, JsonLayout layout) {
   const int indent = layout == JsonLayout::lines ? 2 : -1;
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(indent, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace arcwall

@@ -14,31 +14,31 @@
 
 namespace arcwall {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
 // Ten digits are more than a picture shows, and half as long as all of them.
-Json number(double value, int digits = 10) {
+OrderedJson number(double value, int digits = 10) {
   if (!std::isfinite(value)) return nullptr;
   return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
 }
 
-Json count(const std::optional<Index>& value) { return value ? Json(*value) : Json(nullptr); }
+OrderedJson count(const std::optional<Index>& value) { return value ? OrderedJson(*value) : OrderedJson(nullptr); }
 
 template <class Value>
-Json of_points(const Record& record, Value value) {
-  Json list = Json::array();
+OrderedJson of_points(const Record& record, Value value) {
+  OrderedJson list = OrderedJson::array();
   for (const RecordPoint& point : record.points) list.push_back(value(point));
   return list;
 }
 
-Json points_json(const Record& record) {
-  Json monitors = Json::array();
+OrderedJson points_json(const Record& record) {
+  OrderedJson monitors = OrderedJson::array();
   for (std::size_t i = 0; i < record.columns.size(); ++i)
     monitors.push_back(of_points(record, [i](const RecordPoint& point) { return number(point.monitors[i]); }));
-  return {{"branch", of_points(record, [](const RecordPoint& point) { return Json(point.branch); })},
-          {"step", of_points(record, [](const RecordPoint& point) { return Json(point.step); })},
+  return {{"branch", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.branch); })},
+          {"step", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.step); })},
           {"arc", of_points(record, [](const RecordPoint& point) { return number(point.arc); })},
           {"lambda", of_points(record, [](const RecordPoint& point) { return number(point.lambda); })},
           {"monitors", std::move(monitors)},
@@ -47,15 +47,15 @@ Json points_json(const Record& record) {
           {"energy", of_points(record, [](const RecordPoint& point) { return number(point.energy); })}};
 }
 
-Json columns_json(const Record& record) {
-  Json columns = Json::array();
+OrderedJson columns_json(const Record& record) {
+  OrderedJson columns = OrderedJson::array();
   for (const RecordColumn& column : record.columns)
     columns.push_back({{"name", shown_name(column.name)}, {"title", shown_title(column)}});
   return columns;
 }
 
-Json lines_json(const Record& record) {
-  Json lines = Json::array();
+OrderedJson lines_json(const Record& record) {
+  OrderedJson lines = OrderedJson::array();
   for (const PathLine& line : path_lines(record))
     lines.push_back({{"branch", line.branch},
                      {"colour", branch_colour(line.branch)},
@@ -65,9 +65,9 @@ Json lines_json(const Record& record) {
   return lines;
 }
 
-Json events_json(const Record& record) {
+OrderedJson events_json(const Record& record) {
   const std::vector<std::size_t> first = first_points(record);
-  Json events = Json::array();
+  OrderedJson events = OrderedJson::array();
   for (const RecordEvent& event : record.events) {
     const EventMark mark = mark_of(event.kind);
     events.push_back({{"point", point_of(event, first)},
@@ -80,16 +80,16 @@ Json events_json(const Record& record) {
   return events;
 }
 
-Json contact_json(const ContactMark& contact) {
-  return Json::array({shown_name(contact.label.wall), shown_name(contact.label.member),
-                      number(contact.label.fraction, 6), number(contact.force.norm(), 6),
-                      contact.pressure ? number(*contact.pressure, 6) : Json(nullptr)});
+OrderedJson contact_json(const ContactMark& contact) {
+  return OrderedJson::array({shown_name(contact.label.wall), shown_name(contact.label.member),
+                             number(contact.label.fraction, 6), number(contact.force.norm(), 6),
+                             contact.pressure ? number(*contact.pressure, 6) : OrderedJson(nullptr)});
 }
 
-Json shapes_json(const ShapePictures& shapes) {
-  Json list = Json::array();
+OrderedJson shapes_json(const ShapePictures& shapes) {
+  OrderedJson list = OrderedJson::array();
   for (const ShapePicture& picture : shapes.pictures) {
-    Json contacts = Json::array();
+    OrderedJson contacts = OrderedJson::array();
     for (const ContactMark& contact : picture.contacts) contacts.push_back(contact_json(contact));
     list.push_back({{"point", picture.point}, {"paths", picture.paths}, {"contacts", std::move(contacts)}});
   }
@@ -113,7 +113,7 @@ std::string shown_title(const RecordColumn& column) {
   return shown_name(column.name) + (column.unit.empty() ? "" : " [" + shown_name(column.unit) + "]");
 }
 
-Json report_data(const Record& record, const ShapePictures& shapes) {
+OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
   return {{"columns", columns_json(record)},
           {"force_unit", shown_name(record.force_unit)},
           {"length_unit", shown_name(record.length_unit)},

@@ -8,7 +8,7 @@
 
 namespace arcwall {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
@@ -18,14 +18,14 @@ std::string crc32_text(std::string_view text) {
   return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
-Json model(const Study& study) {
+OrderedJson model(const Study& study) {
   const MultiplierContact* contact = study.contact();
   return {{"nodes", study.structure().node_count()},
           {"unknowns", study.structure().size({})},
           {"contact_candidates", contact == nullptr ? Index{0} : contact->contact_count()}};
 }
 
-Json counts(const Record& record) {
+OrderedJson counts(const Record& record) {
   Index iterations = 0;
   for (const RecordPoint& point : record.points) iterations += point.iterations;
   return {{"branches", record.branches.size()},
@@ -36,15 +36,15 @@ Json counts(const Record& record) {
 
 }  // namespace
 
-Json result_json(const Study& study, std::string_view deck_text, const Record& record, const RunSeconds& seconds,
-                 int status) {
-  Json libraries = Json::object();
+OrderedJson result_json(const Study& study, std::string_view deck_text, const Record& record, const RunSeconds& seconds,
+                        int status) {
+  OrderedJson libraries = OrderedJson::object();
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
-  Json branches = Json::array();
+  OrderedJson branches = OrderedJson::array();
   for (const RecordBranch& branch : record.branches)
-    branches.push_back({{"id", branch.id}, {"end", branch.end ? end_json(*branch.end) : Json(nullptr)}});
+    branches.push_back({{"id", branch.id}, {"end", branch.end ? end_json(*branch.end) : OrderedJson(nullptr)}});
 
-  Json json;
+  OrderedJson json;
   json["schema"] = schema_version;
   json["deck"] = {{"file", record.deck},
                   {"title", record.title},

@@ -4,7 +4,7 @@
 
 namespace arcwall {
 
-std::size_t width(std::string_view text) {
+std::size_t display_width(std::string_view text) {
   const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; };
   return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
 }
@@ -14,14 +14,14 @@ std::string text_table(const std::vector<TableColumn>& columns, const std::vecto
   std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     titles.push_back(columns[i].title);
-    widths.push_back(width(columns[i].title));
-    for (const auto& row : rows) widths[i] = std::max(widths[i], width(row[i]));
+    widths.push_back(display_width(columns[i].title));
+    for (const auto& row : rows) widths[i] = std::max(widths[i], display_width(row[i]));
   }
   std::string text;
   const auto add_line = [&](const std::vector<std::string>& cells) {
     std::string line;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::string blanks(widths[i] - width(cells[i]), ' ');
+      const std::string blanks(widths[i] - display_width(cells[i]), ' ');
       if (i > 0) line += "  ";
       line += columns[i].side == TableColumn::Side::right ? blanks + cells[i] : cells[i] + blanks;
     }

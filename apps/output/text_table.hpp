@@ -8,7 +8,7 @@
 namespace arcwall {
 
 /// Characters of a UTF-8 text, each taken to be one column wide.
-std::size_t width(std::string_view text);
+std::size_t display_width(std::string_view text);
 
 /// A column of a table for people: its title, and the side its cells keep to.
 struct TableColumn {

@@ -8,7 +8,7 @@
 
 namespace arcwall {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
@@ -48,12 +48,12 @@ std::string_view to_text(StepOutcome outcome) {
 }
 
 // Contacts that change and other events.
-Json events_of(const Study& study, const Arc& arc) {
-  Json events = Json::array();
+OrderedJson events_of(const Study& study, const Arc& arc) {
+  OrderedJson events = OrderedJson::array();
   for (const Event& event : arc.events) {
-    Json json{{"kind", to_text(event.kind)}};
+    OrderedJson json{{"kind", to_text(event.kind)}};
     if (changes_contact(event.kind)) {
-      json["contact"] = Json::array();
+      json["contact"] = OrderedJson::array();
       for (const Index j : event.guards) {
         const auto [label, x] = study.contact_place(event.state, j);
         json["contact"].push_back({{"wall", label.wall}, {"member", label.member}, {"fraction", label.fraction}});
@@ -67,13 +67,14 @@ Json events_of(const Study& study, const Arc& arc) {
 }  // namespace
 
 std::string ledger_line(const Study& study, Index branch, const StepAttempt& attempt) {
-  Json json{
+  OrderedJson json{
       {"branch", branch}, {"arc", attempt.arc}, {"radius", attempt.radius}, {"outcome", to_text(attempt.outcome)}};
   json["iterations"] = attempt.iterations;
   json["residual"] = attempt.residual;
-  json["root"] = attempt.roots ? Json(attempt.roots->taken) : Json(nullptr);
-  json["other_root"] = attempt.roots && attempt.roots->other ? Json(*attempt.roots->other) : Json(nullptr);
-  json["turn"] = attempt.turn ? Json(*attempt.turn) : Json(nullptr);
+  json["root"] = attempt.roots ? OrderedJson(attempt.roots->taken) : OrderedJson(nullptr);
+  json["other_root"] =
+      attempt.roots && attempt.roots->other ? OrderedJson(*attempt.roots->other) : OrderedJson(nullptr);
+  json["turn"] = attempt.turn ? OrderedJson(*attempt.turn) : OrderedJson(nullptr);
   if (attempt.accepted) {
     json["lambda"] = attempt.accepted->to.state.lambda;
     json["length"] = attempt.accepted->to.arc - attempt.arc;

@@ -38,7 +38,7 @@ bool read_case(const std::string& line, Case& one) {
 }  // namespace
 
 std::string toml_text(const Json& value) {
-  if (value.is_string()) return deck::quoted(value.get<std::string>());
+  if (value.is_string()) return deck::in_quotes(value.get<std::string>());
   if (value.is_number_float()) return round_trip(value.get<double>());
   if (value.is_array()) return joined(value);
   if (value.is_object()) return inline_table(value);

@@ -11,7 +11,7 @@ namespace {
 
 using Span = SlidingContactLayout::Span;
 
-constexpr double relative_step = 1e-4;  // of the structure's length, or an angle
+constexpr double difference_step = 1e-4;  // of the structure's length, or an angle
 
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -53,7 +53,7 @@ NodeFunction node_unknowns(const Structure& structure, const MemberSection& sect
   if (section.rotation) freedoms.push_back(*section.rotation);
   if (section.thickness) freedoms.insert(freedoms.end(), {section.thickness->e, section.thickness->xi});
   NodeFunction function{.at = Vector(static_cast<Index>(freedoms.size()))};
-  function.steps = Vector::Constant(function.at.size(), relative_step);
+  function.steps = Vector::Constant(function.at.size(), difference_step);
   function.steps.head<2>() *= structure.length_scale();
   for (std::size_t i = 0; i < freedoms.size(); ++i) {
     function.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
@@ -136,7 +136,7 @@ struct Sliding {
   NodeFunction unknowns(const SlidingNode& node) const {
     const NodeUnknowns indices = mesh.node_unknowns(node.run, node.position);
     NodeFunction function{.unknowns = {indices.begin(), indices.end()}, .at = Vector::Zero(3)};
-    function.steps = Vector::Constant(3, relative_step);
+    function.steps = Vector::Constant(3, difference_step);
     function.steps.head<2>() *= body.length_scale();
     for (std::size_t i = 0; i < 3; ++i)
       if (indices[i] >= 0) function.at[static_cast<Index>(i)] = x[indices[i]];

@@ -24,7 +24,7 @@ using deck::Value;
 using Kind = Value::Kind;
 
 // Meshes of so many elements have nodes at all the places that the decks name.
-constexpr std::int64_t most_elements = 4;
+constexpr std::int64_t most_written_elements = 4;
 
 Value* child(Value& table, std::string_view key) {
   const auto found =
@@ -35,7 +35,7 @@ Value* child(Value& table, std::string_view key) {
 Value coarse(Value root) {
   for (Value& member : child(root, "member")->items) {
     std::int64_t& elements = child(member, "elements")->integer;
-    elements = std::min(elements, most_elements);
+    elements = std::min(elements, most_written_elements);
   }
   return root;
 }
@@ -187,7 +187,7 @@ class Editor {
     Value* part = any_part();
     if (part == nullptr) return;
     if (part->kind == Kind::integer) {
-      part->integer = data_.ConsumeBool() ? data_.ConsumeIntegralInRange<std::int64_t>(-1, most_elements)
+      part->integer = data_.ConsumeBool() ? data_.ConsumeIntegralInRange<std::int64_t>(-1, most_written_elements)
                                           : data_.ConsumeIntegral<std::int64_t>();
     } else if (is_number(*part)) {
       part->number = odd_number(part->number, data_);
@@ -217,7 +217,7 @@ std::string listed(const Value& list, bool keys) {
   std::string text;
   for (const Value& item : list.items) {
     if (!text.empty()) text += ", ";
-    text += (keys ? deck::quoted(item.key) + " = " : "") + toml_of(item);
+    text += (keys ? deck::in_quotes(item.key) + " = " : "") + toml_of(item);
   }
   return text;
 }
@@ -236,7 +236,7 @@ std::string toml_of(const Value& value) {
     case Kind::number:
       return number(value.number);
     case Kind::string:
-      return deck::quoted(value.string);
+      return deck::in_quotes(value.string);
     case Kind::date:
       return "1979-05-27";
     case Kind::array:
@@ -250,7 +250,7 @@ std::string toml_of(const Value& value) {
 // One line a part of a part of the root: what a message names can be found.
 std::string document(const Value& root) {
   std::string text;
-  for (const Value& item : root.items) text += deck::quoted(item.key) + " = " + toml_of(item) + "\n";
+  for (const Value& item : root.items) text += deck::in_quotes(item.key) + " = " + toml_of(item) + "\n";
   return text;
 }
 
