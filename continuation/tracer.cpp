@@ -11,11 +11,10 @@ namespace arcwall {
 
 namespace {
 
-constexpr int max_landings = 100;  // guards that turn out to come before the one landed on
-constexpr double together = 1e3;   // guard tolerances within which guards that are landed on in turn are one corner
-constexpr double near_corner =
-    1e-4;                         // gaps between contacts that are followed before a corner is left [scale of guards]
-constexpr double passing = 1e-5;  // of points on a path near which it is singular [path metric]
+constexpr int max_landings = 100;     // guards that turn out to come before the one landed on
+constexpr double together = 1e3;      // guard tolerances within which guards that are landed on in turn are one corner
+constexpr double near_corner = 1e-4;  // gaps between contacts that are let pass before a corner is left
+constexpr double passing = 1e-5;      // of points on a path near which it is singular [path metric]
 
 StepOutcome outcome_of(CorrectorStatus failure) {
   switch (failure) {

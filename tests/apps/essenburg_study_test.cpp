@@ -4,7 +4,7 @@
 #include "apps/study.hpp"
 
 // Decks of theory "essenburg" made ready to be traced.
-namespace arcwall {
+namespace arcwall::essenburg_study_test {
 
 namespace {
 
@@ -129,4 +129,4 @@ TEST(EssenburgStudy, ThicknessOfOtherTheoriesIsRefused) {
   EXPECT_NE(refusal(held).second.find("there is no thickness to fix"), std::string::npos);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::essenburg_study_test

@@ -5,7 +5,7 @@
 #include "apps/study.hpp"
 #include "tests/support/explore.hpp"
 
-namespace arcwall {
+namespace arcwall::example_steps_test {
 
 namespace {
 
@@ -38,4 +38,4 @@ TEST(ExampleDecks, FindTheSameEventsWithAnyStep) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::example_steps_test

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
 
-namespace arcwall {
+namespace arcwall::study_test {
 namespace {
 
 std::vector<Diagnostic> problems_of(const std::string& text) {
@@ -49,4 +49,4 @@ TEST(Study, RefusesAShearStiffnessBeyondNumbers) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::study_test

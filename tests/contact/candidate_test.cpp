@@ -7,7 +7,7 @@
 #include "tests/contact/contact_models.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::candidate_test {
 
 namespace {
 
@@ -97,4 +97,4 @@ TEST(Candidate, KeepsItsLabel) {
   EXPECT_EQ(candidate.label().fraction, 0.5);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::candidate_test

@@ -7,7 +7,7 @@
 #include "tests/support/essenburg_models.hpp"
 
 // Contact of faces whose distance from the axis changes, at nodes and middle nodes.
-namespace arcwall {
+namespace arcwall::essenburg_contact_test {
 
 namespace {
 
@@ -106,4 +106,4 @@ TEST(EssenburgContact, PressureIsForcePerTributaryLength) {
   EXPECT_EQ(*system.pressure(state, 0), 0.0);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::essenburg_contact_test

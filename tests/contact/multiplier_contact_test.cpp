@@ -6,7 +6,7 @@
 #include "tests/contact/contact_models.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::multiplier_contact_test {
 
 namespace {
 
@@ -261,4 +261,4 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::multiplier_contact_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace arcwall {
+namespace arcwall::profile_test {
 
 namespace {
 
@@ -73,4 +73,4 @@ TEST(Profile, CirclesAndSplinesEndOthersDoNot) {
   EXPECT_TRUE(parabola_profile({0.0, 0.0}, 1.0)->covers(1e9));
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::profile_test

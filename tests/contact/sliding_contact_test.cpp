@@ -11,7 +11,7 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/sliding_models.hpp"
 
-namespace arcwall {
+namespace arcwall::sliding_contact_test {
 
 namespace {
 
@@ -264,4 +264,4 @@ TEST(SlidingContact, JointsAndReactionsMoveConsistently) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::sliding_contact_test

@@ -8,7 +8,7 @@
 #include "tests/support/essenburg_models.hpp"
 
 // The tangent of every theory among every kind of wall with every law of contact.
-namespace arcwall {
+namespace arcwall::tangents_test {
 
 namespace {
 
@@ -86,4 +86,4 @@ TEST(Tangents, AreDerivativesForEveryTheoryWallAndLaw) { expect_tangents(40); }
 
 TEST(Tangents, AreDerivativesAtAThousandStatesSlow) { expect_tangents(1000); }
 
-}  // namespace arcwall
+}  // namespace arcwall::tangents_test

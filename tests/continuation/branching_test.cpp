@@ -5,7 +5,7 @@
 #include "tests/support/functions.hpp"
 #include "tests/support/invariants.hpp"
 
-namespace arcwall {
+namespace arcwall::branching_test {
 
 namespace {
 
@@ -77,4 +77,4 @@ TEST(Branching, AFoldIsNoBranchPoint) {
   EXPECT_TRUE(test::events_of(branch, EventKind::branch_point).empty());
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::branching_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/toys.hpp"
 
-namespace arcwall {
+namespace arcwall::corner_test {
 
 namespace {
 
@@ -203,4 +203,4 @@ TEST(Corner, ASingularStiffnessGivesNoRays) {
   EXPECT_TRUE(rays_of(toy, origin(toy), {0}, {}).empty());
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::corner_test

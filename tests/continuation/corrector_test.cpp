@@ -6,7 +6,7 @@
 
 #include "tests/support/toys.hpp"
 
-namespace arcwall {
+namespace arcwall::corrector_test {
 
 namespace {
 
@@ -116,4 +116,4 @@ TEST(Corrector, CountsNegativeEigenvaluesWithAllContactsHeld) {
   EXPECT_EQ(result.negative, 1);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::corrector_test

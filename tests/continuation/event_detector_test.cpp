@@ -6,7 +6,7 @@
 #include "tests/support/toys.hpp"
 
 // Detectors that a program adds, on x = λ and on F = x² + λ, where x falls from 1 to −1 and λ turns at 0.
-namespace arcwall {
+namespace arcwall::event_detector_test {
 
 namespace {
 
@@ -90,4 +90,4 @@ TEST(EventDetector, SeesAZeroOnALimitPointBesideIt) {
   EXPECT_NEAR(only_event(branch, EventKind::user).state.x[0], 0.0, 1e-7);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::event_detector_test

@@ -5,7 +5,7 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/models.hpp"
 
-namespace arcwall {
+namespace arcwall::metric_test {
 
 namespace {
 
@@ -58,4 +58,4 @@ TEST(Metric, LengthsOfAModelDoNotDependOnItsUnits) {
   EXPECT_NEAR(a.norm({.dx = x, .dlambda = 0.1}), b.norm({.dx = y, .dlambda = 0.1}), 1e-14);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::metric_test

@@ -5,7 +5,7 @@
 #include "core/derivative_check.hpp"
 #include "tests/support/toys.hpp"
 
-namespace arcwall {
+namespace arcwall::path_constraint_test {
 
 namespace {
 
@@ -101,4 +101,4 @@ TEST(StepConstraint, ThePredictorFulfilsEveryMethodsConstraint) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::path_constraint_test

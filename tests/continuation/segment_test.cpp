@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace arcwall {
+namespace arcwall::segment_test {
 
 namespace {
 
@@ -44,4 +44,4 @@ TEST(Segment, FindsTheFirstZeroOfAQuantityAndIgnoresOneAtItsStart) {
   EXPECT_NEAR(segment.first_zero(1e-13, -0.5, 1.0, 1.5, 1e-12).value(), 0.5, 1e-12);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::segment_test

@@ -7,7 +7,7 @@
 
 // Several singular points in one step, and such as touch: modes beside a path of one unknown, whose stiffnesses are
 // quadratics with chosen zeros (tests/support/toys.hpp).
-namespace arcwall {
+namespace arcwall::singular_points_test {
 
 namespace {
 
@@ -259,4 +259,4 @@ TEST(Touches, OfTheSlopeAreSuspectedLimitPoints) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::singular_points_test

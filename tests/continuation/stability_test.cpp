@@ -4,7 +4,7 @@
 
 #include "tests/support/toys.hpp"
 
-namespace arcwall {
+namespace arcwall::stability_test {
 
 namespace {
 
@@ -74,4 +74,4 @@ TEST(Stability, ASingularStiffnessHasNoCount) {
   EXPECT_EQ(counter.count({.x = test::scalar(1.0), .lambda = -1.0}, std::nullopt).unstable, 0);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::stability_test

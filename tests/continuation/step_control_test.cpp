@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace arcwall {
+namespace arcwall::step_control_test {
 
 namespace {
 
@@ -57,4 +57,4 @@ TEST(StepControl, AStepThatAnEventCutShortDoesNotShrinkTheNext) {
   EXPECT_EQ(step.length(), 0.4);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::step_control_test

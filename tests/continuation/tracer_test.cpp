@@ -7,7 +7,7 @@
 #include "tests/support/invariants.hpp"
 #include "tests/support/toys.hpp"
 
-namespace arcwall {
+namespace arcwall::tracer_test {
 
 namespace {
 
@@ -333,4 +333,4 @@ TEST(Tracer, TheSameEventsAreFoundWithAnyStep) {
     }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::tracer_test

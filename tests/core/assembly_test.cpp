@@ -4,7 +4,7 @@
 
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::assembly_test {
 
 namespace {
 
@@ -55,4 +55,4 @@ TEST(BlockAssembly, GivesBackTheUnknownsOfEachBlock) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::assembly_test

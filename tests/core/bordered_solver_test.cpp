@@ -4,7 +4,7 @@
 
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::bordered_solver_test {
 
 namespace {
 
@@ -132,4 +132,4 @@ TEST(BorderedSolver, FindsEntriesThatAreNotFinite) {
   EXPECT_EQ(solver.factorize(now, 0), FactorStatus::not_finite);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::bordered_solver_test

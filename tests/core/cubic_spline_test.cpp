@@ -7,7 +7,7 @@
 #include "core/types.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::cubic_spline_test {
 
 namespace {
 
@@ -100,4 +100,4 @@ TEST(CubicSpline, IsAParabolaThroughThreePointsAndALineThroughTwo) {
   EXPECT_EQ(line.at(2.5)[2], 0.0);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::cubic_spline_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/toys.hpp"
 
-namespace arcwall {
+namespace arcwall::derivative_check_test {
 
 namespace {
 
@@ -108,4 +108,4 @@ TEST(GradientCheck, TellsRightFromWrong) {
   EXPECT_LE(check_gradient(ParameterValue(), somewhere), 1e-8);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::derivative_check_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace arcwall {
+namespace arcwall::error_test {
 
 TEST(Diagnostic, NamesPlaceKeyMessageAndCure) {
   const Diagnostic diagnostic{.file = "column.toml",
@@ -38,4 +38,4 @@ TEST(InputError, MadeFromAMessageHasOneDiagnosticWithoutAPlace) {
   EXPECT_EQ(error.diagnostics()[0].line, 0);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::error_test

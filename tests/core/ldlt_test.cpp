@@ -6,7 +6,7 @@
 
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::ldlt_test {
 
 namespace {
 
@@ -190,4 +190,4 @@ TEST(Ldlt, CanBeMoved) {
   EXPECT_EQ(X, Matrix::Constant(3, 1, 0.5));
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::ldlt_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::lu_test {
 
 namespace {
 
@@ -82,4 +82,4 @@ TEST(Lu, DoesNotShowTheSigns) {
   EXPECT_FALSE(lu.inertia().has_value());
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::lu_test

@@ -7,7 +7,7 @@
 #include "core/ldlt.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::near_null_test {
 
 namespace {
 
@@ -149,4 +149,4 @@ TEST(NearNull, ASmallMatrixHasNoMorePairsThanRows) {
   EXPECT_NEAR(found.values[1], 5.0, 1e-14);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::near_null_test

@@ -9,7 +9,7 @@
 #include "core/types.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::root_find_test {
 
 namespace {
 
@@ -135,4 +135,4 @@ TEST(LeastCubicValue, IsTheLeastOfAFineSearch) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::root_find_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::test_function_test {
 
 namespace {
 
@@ -190,4 +190,4 @@ TEST(TestFunction, QuadraticFormsKeepTheirDigits) {
   EXPECT_DOUBLE_EQ(quadratic_form(lower_triangle(A), Vector{{-2.0, 7.0}}).value, 8.0 + 84.0 + 245.0);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::test_function_test

@@ -10,7 +10,7 @@
 #include "core/types.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall {
+namespace arcwall::text_test {
 
 namespace {
 
@@ -62,4 +62,4 @@ TEST(Nearest, IsEmptyWhereNoneIsNear) {
   EXPECT_EQ(nearest("y", {"x", "z"}), "");
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::text_test

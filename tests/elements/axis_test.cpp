@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace arcwall {
+namespace arcwall::axis_test {
 
 namespace {
 
@@ -151,4 +151,4 @@ TEST(ImperfectAxis, WithoutDeviationsIsTheAxis) {
   EXPECT_EQ(shape.length(0.25, 0.75), 0.5);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::axis_test

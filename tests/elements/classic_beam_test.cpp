@@ -7,7 +7,7 @@
 
 #include "tests/elements/element_checks.hpp"
 
-namespace arcwall {
+namespace arcwall::classic_beam_test {
 
 namespace {
 
@@ -156,4 +156,4 @@ TEST(ClassicBeam, ACircleNeedsTheExactMoment) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::classic_beam_test

@@ -7,7 +7,7 @@
 #include "elements/axis.hpp"
 #include "tests/elements/element_checks.hpp"
 
-namespace arcwall {
+namespace arcwall::distributed_load_test {
 
 namespace {
 
@@ -108,4 +108,4 @@ TEST(TrussDistributedLoad, HalfOfItActsAtEachEnd) {
   EXPECT_EQ(Vec2(f.tail(2)), Vec2(-0.5 * load));
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::distributed_load_test

@@ -9,7 +9,7 @@
 #include "tests/elements/slender_beam_checks.hpp"
 
 // By places, with its rates and its places inside: slender_beam_test.cpp; its orders of convergence: order_test.cpp.
-namespace arcwall {
+namespace arcwall::elastica_beam_test {
 
 namespace {
 
@@ -174,4 +174,4 @@ TEST(ElasticaBeam, ACircleNeedsTheExactMoment) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::elastica_beam_test

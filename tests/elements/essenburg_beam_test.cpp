@@ -8,7 +8,7 @@
 
 #include "tests/elements/element_checks.hpp"
 
-namespace arcwall {
+namespace arcwall::essenburg_beam_test {
 
 namespace {
 
@@ -256,4 +256,4 @@ TEST(SectionPoints, IntegratePowersOfTheHeight) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::essenburg_beam_test

@@ -9,7 +9,7 @@
 
 // Structures of beams whose thickness changes: linear solutions in closed form, orders of convergence, and how members
 // are made of the elements. Contact is in tests/published.
-namespace arcwall {
+namespace arcwall::essenburg_structure_test {
 
 namespace {
 
@@ -277,4 +277,4 @@ TEST(EssenburgStructure, ReactionsBalanceADistributedLoad) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::essenburg_structure_test

@@ -10,7 +10,7 @@
 
 // Structures of beams that are flexible in shear: orders of convergence under small loads, where Castigliano's theorem
 // has the answer, and how members are made of the elements. Large deflections are in tests/published.
-namespace arcwall {
+namespace arcwall::exact_beam_structure_test {
 
 namespace {
 
@@ -247,4 +247,4 @@ TEST(ExactBeamStructure, MechanismsAreFoundWithOneElementAMember) {
       }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::exact_beam_structure_test

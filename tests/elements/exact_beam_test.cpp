@@ -7,7 +7,7 @@
 
 #include "tests/elements/element_checks.hpp"
 
-namespace arcwall {
+namespace arcwall::exact_beam_test {
 
 namespace {
 
@@ -156,4 +156,4 @@ TEST(ExactDistributedLoad, OfOrderTwoIsSharedAsInSimpsonsRule) {
   EXPECT_NEAR(f[7], 1.0, 1e-14);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::exact_beam_test

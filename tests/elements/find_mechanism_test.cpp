@@ -3,7 +3,7 @@
 #include "elements/structure.hpp"
 #include "tests/support/models.hpp"
 
-namespace arcwall {
+namespace arcwall::find_mechanism_test {
 
 namespace {
 
@@ -90,4 +90,4 @@ TEST(FindMechanism, SoundModelsHaveNone) {
   EXPECT_FALSE(find_mechanism(*test::Cantilever{.elements = 1, .tip_force = 1.0}.structure()).has_value());
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::find_mechanism_test

@@ -6,7 +6,7 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/models.hpp"
 
-namespace arcwall {
+namespace arcwall::member_point_test {
 
 namespace {
 
@@ -135,4 +135,4 @@ TEST(ReactionObservable, GradientsAreConsistent) {
     EXPECT_LE(check_gradient(ReactionObservable(*structure, freedom), state), 1e-7);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::member_point_test

@@ -10,7 +10,7 @@
 
 // Order of convergence: of the classic beam 4 in displacements and limit loads, 6 on circles; of the elastica beams 4
 // and 6, and circles are exact.
-namespace arcwall {
+namespace arcwall::order_test {
 
 namespace {
 
@@ -377,4 +377,4 @@ TEST(ElasticaOrderOfConvergence, LimitLoadOfTheDeepArch) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::order_test

@@ -9,7 +9,7 @@
 #include "tests/elements/element_checks.hpp"
 #include "tests/elements/slender_beam_checks.hpp"
 
-namespace arcwall {
+namespace arcwall::slender_beam_test {
 
 namespace {
 
@@ -225,4 +225,4 @@ TEST(SlenderBeams, PlacesInsideConvergeToTheElastica) {
     }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::slender_beam_test

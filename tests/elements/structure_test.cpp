@@ -6,7 +6,7 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/models.hpp"
 
-namespace arcwall {
+namespace arcwall::structure_test {
 
 namespace {
 
@@ -207,4 +207,4 @@ TEST(Structure, ForceRoundOffFollowsTheStiffestEntry) {
   EXPECT_NEAR(structure->force_roundoff(), 0.1 * 2.220446049250313e-16 * 2.0 * 4e6, 1e-22);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::structure_test

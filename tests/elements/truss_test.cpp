@@ -7,7 +7,7 @@
 
 #include "tests/elements/element_checks.hpp"
 
-namespace arcwall {
+namespace arcwall::truss_test {
 
 namespace {
 
@@ -61,4 +61,4 @@ TEST(Truss, TheThreeStrainsAgreeToFirstOrder) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::truss_test

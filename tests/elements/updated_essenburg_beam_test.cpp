@@ -7,7 +7,7 @@
 
 #include "tests/elements/element_checks.hpp"
 
-namespace arcwall {
+namespace arcwall::updated_essenburg_beam_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST(UpdatedEssenburgBeam, StiffnessIsTheRateOfTheForcesOfTheNextIncrement) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::updated_essenburg_beam_test

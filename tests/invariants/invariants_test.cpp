@@ -7,7 +7,7 @@
 #include "tests/support/toys.hpp"
 
 // The invariants hold on every model at hand, with and without contact, and are seen when they are violated.
-namespace arcwall {
+namespace arcwall::invariants_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST(Invariants, SeeAContactThatDidNotChange) {
   EXPECT_NONFATAL_FAILURE(expect_branch_invariants(springs(), broken(), until_two()), "guards");
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::invariants_test

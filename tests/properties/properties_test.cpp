@@ -15,7 +15,7 @@
 
 // A structure told otherwise has the same path: the same events in the same order at the same λ. Held for structures at
 // random; RC_PARAMS="max_success=1000 seed=7" in the environment of the program makes it more, or others.
-namespace arcwall {
+namespace arcwall::properties_test {
 
 namespace {
 
@@ -132,4 +132,4 @@ RC_GTEST_PROP(Properties, OrderChangesNothing, (Deck deck)) {
   check_same(story_of(deck), expected);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::properties_test

@@ -10,7 +10,7 @@
 
 // Circular arches under a load on their crown. The expected values are those of the elastica, found by shooting with
 // adaptive Taylor series; those of the 215° arch and of the semicircle with R = 127 were confirmed by collocation.
-namespace arcwall {
+namespace arcwall::arches_test {
 
 namespace {
 
@@ -239,4 +239,4 @@ TEST(ClampedSemicircle, LimitPointsOfTheInextensibleArch) {
     }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::arches_test

@@ -9,7 +9,7 @@
 
 // The branches of the perfect column of Selke & Kikuchi's second example [kN, cm], free and between walls: P (1 − P/EA)
 // = n² P_E, P_E = π² EI/L², at its branch points; what lies behind them by shooting with the extensible elastica.
-namespace arcwall {
+namespace arcwall::branches_test {
 
 namespace {
 
@@ -87,4 +87,4 @@ TEST(PerfectChannel, IsFollowedToTheLowerWallWithoutCycling) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::branches_test

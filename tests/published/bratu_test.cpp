@@ -9,7 +9,7 @@
 // Bratu's problem u″ + λ eᵘ = 0: the continuum has λ = 8 a²/cosh² a, u_max = 2 ln cosh a, so its fold is at a tanh a =
 // 1, λ = 3.513830719125…. Differences of second order have a fold of their own, which is solved for here without any
 // continuation.
-namespace arcwall {
+namespace arcwall::bratu_test {
 
 namespace {
 
@@ -107,4 +107,4 @@ TEST(Bratu, TheFoldConvergesToThatOfTheContinuum) {
   test::expect_convergence(lambdas, {.exact = exact.lambda, .order = 2.0, .limit_error = 1e-9});
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::bratu_test

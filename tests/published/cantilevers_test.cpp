@@ -9,7 +9,7 @@
 #include "tests/support/models.hpp"
 
 // Cantilevers of length 1 and EI = 1 far beyond small displacements.
-namespace arcwall {
+namespace arcwall::cantilevers_test {
 
 namespace {
 
@@ -176,4 +176,4 @@ TEST(PushedCantilever, ItsDeflectionTurnsWhereThatOfTheElasticaDoes) {
     test::expect_points_converge(beam, 8, model, expected, {.limit_in_lambda = 1e-7, .limit_in_displacement = 1e-7});
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::cantilevers_test

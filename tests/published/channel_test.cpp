@@ -9,7 +9,7 @@
 
 // Selke & Kikuchi's second example: a pinned column in a channel, pushed from its right end. Expected values are those
 // of the extensible elastica (EA = 210) by shooting and quadrature, unless said otherwise.
-namespace arcwall {
+namespace arcwall::channel_test {
 
 namespace {
 
@@ -202,4 +202,4 @@ TEST(Channel, AnImperfectionOfABillionthRunsThrough) {
   expect_branch_invariants(model.system(), branch, options, {.recount_every = 10});
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::channel_test

@@ -10,7 +10,7 @@
 // Columns of length 1 and EI = 1, pushed by λ. Branch points of the straight column: P (1 − P/EA + P/GA) = n² π²,
 // pinned (Euler; Engesser's and Haringx's terms as Reissner's beam has them). Behind them the inextensible elastica by
 // complete elliptic integrals; where it stretches and shears, values by shooting with adaptive Taylor series.
-namespace arcwall {
+namespace arcwall::columns_test {
 
 namespace {
 
@@ -276,4 +276,4 @@ TEST(PinnedColumn, FollowsReissnersBeamWhereItShears) {
     }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::columns_test

@@ -8,7 +8,7 @@
 
 // Penalty and augmented contact against rigid contact, which has tests of its own: the beam on a flat foundation and
 // the column in a channel of Selke & Kikuchi [kN, cm].
-namespace arcwall {
+namespace arcwall::contact_laws_test {
 
 namespace {
 
@@ -87,4 +87,4 @@ TEST(AugmentedContact, SnapsThroughTheChannelLikeRigidContact) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::contact_laws_test

@@ -8,7 +8,7 @@
 
 // Beams that lie on curved walls over a length, with contact at their nodes: a strip that is wrapped round a cylinder,
 // a beam that is bent onto a parabola.
-namespace arcwall {
+namespace arcwall::curved_walls_test {
 
 namespace {
 
@@ -138,4 +138,4 @@ TEST(ClassicBeamOnAParabola, ConformsToIt) {
   EXPECT_NEAR(force, bending / free, bending / free / elements);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::curved_walls_test

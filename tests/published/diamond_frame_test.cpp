@@ -9,7 +9,7 @@
 // A square frame on its corner, hinged where it is pulled apart or pressed together, rigid at its sides (Jenkins, Seitz
 // & Przemieniecki 1966). By symmetry a quarter of it is a cantilever; its tip moves by u towards the root and w along
 // the load, by shooting with adaptive Taylor series, EA = 1000.
-namespace arcwall {
+namespace arcwall::diamond_frame_test {
 
 namespace {
 
@@ -79,4 +79,4 @@ TEST(DiamondFrame, PulledApartFollowsTheElastica) { expect_table(1.0, tension); 
 
 TEST(DiamondFrame, PressedTogetherFollowsTheElastica) { expect_table(-1.0, compression); }
 
-}  // namespace arcwall
+}  // namespace arcwall::diamond_frame_test

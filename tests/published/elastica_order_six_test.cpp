@@ -9,7 +9,7 @@
 // The elastica's element of order 6 on the published frames and arches. Its errors come down to round-off on the second
 // or third mesh, so the order is that between two meshes. References as in frames_test.cpp and arches_test.cpp: the
 // extensible elastica by shooting with adaptive Taylor series.
-namespace arcwall {
+namespace arcwall::elastica_order_six_test {
 
 namespace {
 
@@ -72,4 +72,4 @@ TEST(ElasticaOfOrderSix, DeepArch) {
                    {897.294947593916, -73.051143418756});
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::elastica_order_six_test

@@ -9,7 +9,7 @@
 // Selke & Kikuchi's second example with their higher-order theory [kN, cm]. Expected values come from an independent
 // finite element program: quadratic elements, two points along the axis, multipliers at all face nodes, an exact active
 // set; the same meshes where it says so, else converged with up to 640 elements on half of the column.
-namespace arcwall {
+namespace arcwall::essenburg_channel_test {
 
 namespace {
 
@@ -146,4 +146,4 @@ TEST(EssenburgChannel, MiddleAtTheLoadsOfTable2Slow) {
   EXPECT_NEAR(-model.structure().value(greatest.x, model.structure().freedom(1, Freedom::x)), 0.620, 5e-4);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::essenburg_channel_test

@@ -9,7 +9,7 @@
 // differential equations of Essenburg's theory, solved exactly in the free zone and in the zone of contact. Large
 // rotations: an independent finite element program with quadratic elements, two points along the axis and an exact
 // active set; converged values with 320 elements on the half, the digits that do not move with the mesh.
-namespace arcwall {
+namespace arcwall::essenburg_foundation_test {
 
 namespace {
 
@@ -245,4 +245,4 @@ TEST(EssenburgFoundation, AThinBeamConformsToAParabolaSlow) {
   EXPECT_NEAR(force, bending / free, h * bending / free);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::essenburg_foundation_test

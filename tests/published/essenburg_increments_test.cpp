@@ -6,7 +6,7 @@
 // The incremental updated Lagrangian scheme of Selke & Kikuchi with their higher-order theory [kN, cm]. Expected values
 // are those of an independent program with the same law, increments of 0.025 that are iterated, and an exact active set
 // or a penalty of 1e7; and of the paper where it says so.
-namespace arcwall {
+namespace arcwall::essenburg_increments_test {
 
 namespace {
 
@@ -68,4 +68,4 @@ TEST(EssenburgIncrements, SnapLaterThanStVenantAndKirchhoffsLawSlow) {
   EXPECT_LE(column.z_of(40), -0.15);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::essenburg_increments_test

@@ -4,7 +4,7 @@
 #include "tests/support/models.hpp"
 
 // Selke & Kikuchi's first example [kN, cm].
-namespace arcwall {
+namespace arcwall::foundation_test {
 
 using test::trace;
 
@@ -41,4 +41,4 @@ TEST(Foundation, TheForceAtTheMiddleIsThatOfTheElasticaWhileOnePointTouches) {
   EXPECT_NEAR(force, 1.66364268, 1e-7);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::foundation_test

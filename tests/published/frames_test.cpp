@@ -10,7 +10,7 @@
 // Limit points and snap-backs of Williams' toggle (Williams 1964) and Lee's frame (Lee, Manuel & Rossow 1968). The
 // expected values are those of the extensible elastica, found by shooting with adaptive Taylor series; those of Lee's
 // frame were confirmed by collocation to 3e-11.
-namespace arcwall {
+namespace arcwall::frames_test {
 
 namespace {
 
@@ -105,4 +105,4 @@ TEST(LeesFrame, AnyGreatestStepFindsTheSameFourPointsSlow) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::frames_test

@@ -10,7 +10,7 @@
 
 // The normal forms of singular points and their unfoldings (Golubitsky & Schaeffer 1985), through the interface that
 // structures have. All numbers are closed forms, see tests/support/functions.hpp and toys.hpp.
-namespace arcwall {
+namespace arcwall::functions_test {
 
 namespace {
 
@@ -175,4 +175,4 @@ TEST(LemniscateFunction, CrossesItself) {
   EXPECT_EQ(branch.end.reason, EndReason::closed_loop);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::functions_test

@@ -8,7 +8,7 @@
 #include "tests/support/in_increments.hpp"
 
 // The incremental updated Lagrangian scheme of Selke & Kikuchi against the equations it approximates.
-namespace arcwall {
+namespace arcwall::increments_test {
 
 namespace {
 
@@ -119,4 +119,4 @@ TEST(UpdatedClassicBeam, IsLinearBetweenIncrements) {
   EXPECT_NEAR(U, 5.0 + 0.5 * du.dot(f + f0), 1e-12);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::increments_test

@@ -9,7 +9,7 @@
 // an asymmetric branch point, P/P_c = 1 − 0.3805 θ + …, θ the rotation of the corner. A column that shortens acts like
 // an imperfection and rounds the branch point off, so the comparisons are with the limit 1/EA → 0 of the paths beside
 // it. The expected values are those of the inextensible elastica, by shooting with adaptive Taylor series.
-namespace arcwall {
+namespace arcwall::roorda_frame_test {
 
 namespace {
 
@@ -98,4 +98,4 @@ TEST(RoordasFrame, EccentricLoadsLowerTheLimitLoad) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::roorda_frame_test

@@ -7,7 +7,7 @@
 #include "tests/support/invariants.hpp"
 
 // The shallow arch of Fung & Kaplan (1952) in its modes: closed forms, see tests/support/functions.hpp.
-namespace arcwall {
+namespace arcwall::sine_arch_test {
 
 namespace {
 
@@ -100,4 +100,4 @@ TEST(SineArch, AHighArchHasABranchForEachMode) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::sine_arch_test

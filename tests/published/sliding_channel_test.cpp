@@ -12,7 +12,7 @@
 // Selke & Kikuchi's two examples with contact points that slide along the body: the classic beam then converges with
 // order four to the extensible elastica, contact forces being point forces. Expected values are those of the extensible
 // elastica between its contacts, by shooting and by quadrature of its first integral, which agree in all digits given.
-namespace arcwall {
+namespace arcwall::sliding_channel_test {
 
 namespace {
 
@@ -288,4 +288,4 @@ TEST(SlidingFoundation, FindsTheFlatPartAndItsForces) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::sliding_channel_test

@@ -12,7 +12,7 @@
 // Contact points that slide, away from the symmetric column on one mesh: joints on their way, loads and walls that push
 // them aside, unlike gaps, other units, steps and directions. References are the limits of two meshes (Richardson), the
 // order four being asserted on a third.
-namespace arcwall {
+namespace arcwall::sliding_general_test {
 
 namespace {
 
@@ -266,4 +266,4 @@ TEST(SlidingContactPath, CrossesAJoint) {
               path_of(SlidingChannel{.members = one(100), .end_moment = -0.02}), 1e-8);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::sliding_general_test

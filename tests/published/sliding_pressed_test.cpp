@@ -11,7 +11,7 @@
 // cylinder. References are the extensible elastica between its contacts, θ′ = κ₀ + M/EI, (x′, z′) = (1 + N/EA)(cos θ,
 // sin θ), M′ = −(1 + N/EA) Q, integrated with Runge-Kutta's method, the ends of the parts being unknowns besides the
 // forces (Newton); all digits given stay with half the steps.
-namespace arcwall {
+namespace arcwall::sliding_pressed_test {
 
 namespace {
 
@@ -187,4 +187,4 @@ TEST(SlidingFlatPart, GathersWhereItSpread) {
   EXPECT_NEAR(unloading[1].state.lambda, loading[0].state.lambda, 1e-9 * loading[0].state.lambda);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::sliding_pressed_test

@@ -11,7 +11,7 @@
 // supports of radius 50 between them, at 0. Engineering strain; λ over EA pushes the apex down. The singular points of
 // its symmetric path are roots of the determinants on the symmetric subspace and on the irreducible parts beside it, in
 // extended precision; those of the two-dimensional parts E₁ and E₂ are double points.
-namespace arcwall {
+namespace arcwall::star_dome_test {
 
 namespace {
 
@@ -143,4 +143,4 @@ TEST(StarDome, HasItsSimpleAndDoublePointsInOrder) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::star_dome_test

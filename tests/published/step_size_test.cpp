@@ -7,7 +7,7 @@
 
 // What is found depends on no step size: first and greatest steps of a quarter and of four times the usual ones give
 // the same branches, events, contacts and counts, at the same λ to 1e-8.
-namespace arcwall {
+namespace arcwall::step_size_test {
 
 namespace {
 
@@ -114,4 +114,4 @@ TEST(StepSize, DoesNotMatterInTheChannelSlow) {
   expect_same_with_any_step(test::Channel{}.model(), 10.0, BranchPolicy::follow);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::step_size_test

@@ -15,7 +15,7 @@
 //   ln(l/L) = 0
 //
 // all of them from the stationary values of the bars' energy EA L ε²/2.
-namespace arcwall {
+namespace arcwall::von_mises_truss_test {
 
 namespace {
 
@@ -162,4 +162,4 @@ TEST(VonMisesTruss, TheSwayBranchIsTheClosedFormAndJoinsBothBranchPoints) {
   EXPECT_LT(least, -0.9 * radius);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::von_mises_truss_test

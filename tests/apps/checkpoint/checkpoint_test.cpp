@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 
 // A run that is kept and taken up again goes on to the last bit as if it had never stopped.
-namespace arcwall {
+namespace arcwall::checkpoint_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -145,4 +145,4 @@ TEST(Checkpoint, KnowsAnEndFromOutsideOnlyForThoseWhoAsk) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::checkpoint_test

@@ -8,7 +8,7 @@
 
 #include "tests/apps/cli/program_fixture.hpp"
 
-namespace arcwall {
+namespace arcwall::program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -527,4 +527,4 @@ TEST_F(ProgramTest, VerifyTakesRunsThatWereStopped) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::program_test

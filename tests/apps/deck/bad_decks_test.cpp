@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
 
-namespace arcwall::deck {
+namespace arcwall::deck::bad_decks_test {
 
 namespace {
 
@@ -340,4 +340,4 @@ TEST(BadDecks, MessagesAreShortAndPrintable) {
   EXPECT_EQ(to_text(found[0]).find_first_of("\n\a"), std::string::npos);
 }
 
-}  // namespace arcwall::deck
+}  // namespace arcwall::deck::bad_decks_test

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
 
-namespace arcwall::deck {
+namespace arcwall::deck::reader_test {
 
 namespace {
 
@@ -233,4 +233,4 @@ TEST(SectionProperties, MatchTheClosedForms) {
   EXPECT_FALSE(general.height);
 }
 
-}  // namespace arcwall::deck
+}  // namespace arcwall::deck::reader_test

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
 
-namespace arcwall::deck {
+namespace arcwall::deck::toml_source_test {
 
 namespace {
 
@@ -287,4 +287,4 @@ TEST(TomlSource, SurvivesEveryTruncationOfADeck) {
   }
 }
 
-}  // namespace arcwall::deck
+}  // namespace arcwall::deck::toml_source_test

@@ -7,7 +7,7 @@
 #include "apps/deck/reader.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
 
-namespace arcwall::deck {
+namespace arcwall::deck::writer_test {
 
 namespace {
 
@@ -74,4 +74,4 @@ TEST(DeckWriter, BreaksLongLists) {
   EXPECT_EQ(read(to_toml(deck)), deck);
 }
 
-}  // namespace arcwall::deck
+}  // namespace arcwall::deck::writer_test

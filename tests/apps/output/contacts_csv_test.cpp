@@ -4,7 +4,7 @@
 
 #include "tests/apps/output/sample_record.hpp"
 
-namespace arcwall {
+namespace arcwall::contacts_csv_test {
 namespace {
 
 TEST(ContactsCsv, HasARowForEachClosedContactOfEachPoint) {
@@ -32,4 +32,4 @@ TEST(ContactsCsv, LeavesUnitsOutOnDemandAndWhereThereAreNone) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::contacts_csv_test

@@ -6,7 +6,7 @@
 #include "apps/output/version.hpp"
 #include "tests/apps/output/sample_record.hpp"
 
-namespace arcwall {
+namespace arcwall::events_json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -101,4 +101,4 @@ TEST(EventNames, EveryNameReadsBack) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::events_json_test

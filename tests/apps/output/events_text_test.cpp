@@ -6,7 +6,7 @@
 #include "apps/output/version.hpp"
 #include "tests/apps/output/sample_record.hpp"
 
-namespace arcwall {
+namespace arcwall::events_text_test {
 namespace {
 
 TEST(EventsText, IsATableForPeople) {
@@ -46,4 +46,4 @@ TEST(TextTable, CountsCharactersNotBytes) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::events_text_test

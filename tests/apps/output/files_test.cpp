@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "tests/apps/output/temporary_folder.hpp"
 
-namespace arcwall {
+namespace arcwall::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ TEST(OutputFolder, WithFilesOfSomeoneElseIsRefused) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::files_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace arcwall {
+namespace arcwall::markup_test {
 namespace {
 
 TEST(Markup, PlainKeepsWhatCanBeShown) {
@@ -47,4 +47,4 @@ TEST(Markup, ScriptJsonEndsNoScriptAndReadsBack) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::markup_test

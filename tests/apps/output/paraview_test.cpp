@@ -13,7 +13,7 @@
 #include "tests/apps/output/temporary_folder.hpp"
 #include "tests/apps/traced_deck.hpp"
 
-namespace arcwall {
+namespace arcwall::paraview_test {
 
 namespace {
 
@@ -150,4 +150,4 @@ TEST(Paraview, AFolderThatCannotBeMadeIsNamed) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::paraview_test

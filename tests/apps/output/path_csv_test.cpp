@@ -4,7 +4,7 @@
 
 #include "tests/apps/output/sample_record.hpp"
 
-namespace arcwall {
+namespace arcwall::path_csv_test {
 namespace {
 
 TEST(PathCsv, HasTheColumnsOfTheContractAndNumbersThatReadBack) {
@@ -34,4 +34,4 @@ TEST(PathCsv, QuotesUnitsThatWouldBreakTheHeader) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::path_csv_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace arcwall {
+namespace arcwall::path_lines_test {
 namespace {
 
 // Points of one branch with these stabilities.
@@ -83,4 +83,4 @@ TEST(PathLines, OfNoOrOnePointThereIsNone) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::path_lines_test

@@ -5,7 +5,7 @@
 #include "apps/deck/reader.hpp"
 #include "apps/output/result_json.hpp"
 
-namespace arcwall {
+namespace arcwall::recorder_test {
 namespace {
 
 constexpr const char* truss = R"(
@@ -199,4 +199,4 @@ TEST_F(RecorderTest, TheResultSaysWhatWasRunAndHowItEnded) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::recorder_test

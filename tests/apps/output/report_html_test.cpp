@@ -9,7 +9,7 @@
 #include "tests/apps/output/sample_record.hpp"
 #include "tests/apps/traced_deck.hpp"
 
-namespace arcwall {
+namespace arcwall::report_html_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -155,4 +155,4 @@ stop = { lambda = [-1.0, 0.6] }
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::report_html_test

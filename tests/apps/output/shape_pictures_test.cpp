@@ -4,7 +4,7 @@
 
 #include "apps/deck/reader.hpp"
 
-namespace arcwall {
+namespace arcwall::shape_pictures_test {
 namespace {
 
 MemberShape line_of(const std::vector<Vec2>& positions) {
@@ -159,4 +159,4 @@ lambda = [-1.0, 1.0]
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::shape_pictures_test

@@ -9,7 +9,7 @@
 #include "apps/deck/reader.hpp"
 #include "tests/apps/traced_deck.hpp"
 
-namespace arcwall {
+namespace arcwall::shape_test {
 
 namespace {
 
@@ -271,4 +271,4 @@ TEST(Shape, WallsAreDrawnWhereTheStructureMayCome) {
   }
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::shape_test

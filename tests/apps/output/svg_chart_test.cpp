@@ -6,7 +6,7 @@
 
 #include "apps/output/event_marks.hpp"
 
-namespace arcwall {
+namespace arcwall::svg_chart_test {
 namespace {
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -123,4 +123,4 @@ TEST(EventMarks, NoTwoKindsLookAlike) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::svg_chart_test

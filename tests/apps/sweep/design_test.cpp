@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-namespace arcwall::sweep {
+namespace arcwall::sweep::design_test {
 namespace {
 
 TEST(Design, ARangeHasItsEndsAndTheDecimalsOnePutsDown) {
@@ -82,4 +82,4 @@ TEST(Design, ASampleIsTheSameOnEveryMachine) {
 }
 
 }  // namespace
-}  // namespace arcwall::sweep
+}  // namespace arcwall::sweep::design_test

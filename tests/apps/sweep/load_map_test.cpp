@@ -4,7 +4,7 @@
 
 #include "apps/sweep/map_axis.hpp"
 
-namespace arcwall::sweep {
+namespace arcwall::sweep::load_map_test {
 namespace {
 
 std::size_t count(const std::string& part, const std::string& text) {
@@ -87,4 +87,4 @@ TEST(LoadMap, EqualLoadsAreDrawn) {
 }
 
 }  // namespace
-}  // namespace arcwall::sweep
+}  // namespace arcwall::sweep::load_map_test

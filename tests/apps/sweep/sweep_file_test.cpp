@@ -5,7 +5,7 @@
 #include "apps/sweep/case_list.hpp"
 #include "core/error.hpp"
 
-namespace arcwall::sweep {
+namespace arcwall::sweep::sweep_file_test {
 namespace {
 
 const std::string head = "title = \"t\"\ndeck = \"d.toml\"\n";
@@ -121,4 +121,4 @@ TEST(CaseList, ValuesAreWrittenAsInToml) {
 }
 
 }  // namespace
-}  // namespace arcwall::sweep
+}  // namespace arcwall::sweep::sweep_file_test

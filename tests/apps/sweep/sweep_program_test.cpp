@@ -6,7 +6,7 @@
 #include "tests/apps/cli/program_fixture.hpp"
 
 // `trace-path sweep`, as a user runs it.
-namespace arcwall::sweep {
+namespace arcwall::sweep::sweep_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -283,4 +283,4 @@ TEST_F(SweepProgramTest, DamagedFoldersAreErrors) {
 }
 
 }  // namespace
-}  // namespace arcwall::sweep
+}  // namespace arcwall::sweep::sweep_program_test

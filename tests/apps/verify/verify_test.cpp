@@ -13,7 +13,7 @@
 #include "core/text.hpp"
 #include "tests/apps/traced_deck.hpp"
 
-namespace arcwall::verify {
+namespace arcwall::verify::verify_test {
 
 namespace {
 
@@ -369,4 +369,4 @@ TEST(FalsifiedSlidingRun, APlaceAMomentAndAPenetrationAreCaught) {
   EXPECT_EQ(caught(touching[1], 1e-3), "closed contacts touch");
 }
 
-}  // namespace arcwall::verify
+}  // namespace arcwall::verify::verify_test
