@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <complex>
+#include <limits>
 
 #include "core/cubic_spline.hpp"
 
@@ -11,24 +13,28 @@ namespace arcwall {
 
 namespace {
 
-using Gauss = boost::math::quadrature::gauss<double, 10>;
+template <unsigned points>
+using AxisGauss = boost::math::quadrature::gauss<double, points>;
+using Gauss = AxisGauss<10>;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
 class StraightAxis final : public Axis {
  public:
-  StraightAxis(const Vec2& from, const Vec2& to) : from_(from), to_(to), length_((to - from).norm()) {}
+  StraightAxis(const Vec2& from, const Vec2& to)
+      : from_(from), to_(to), length_((to - from).norm()), angle_(angle_of(to - from)) {}
   double length() const override { return length_; }
+  bool is_straight() const override { return true; }
   AxisPoint at(double s) const override {
     const double t = s / length_;
-    return {.position = (1.0 - t) * from_ + t * to_, .angle = angle_of(to_ - from_)};
+    return {.position = (1.0 - t) * from_ + t * to_, .angle = angle_};
   }
   Vec2 chord(double from, double to) const override { return (to - from) / length_ * (to_ - from_); }
 
  private:
   Vec2 from_, to_;
-  double length_;
+  double length_, angle_;
 };
 
 class ArcAxis final : public Axis {
@@ -203,15 +209,28 @@ std::unique_ptr<Axis> sine_axis(const Vec2& from, const Vec2& to, double rise, i
 
 std::unique_ptr<Axis> spline_axis(const std::vector<Vec2>& points) { return std::make_unique<SplineAxis>(points); }
 
+ImperfectAxis::ImperfectAxis(const Axis& axis, std::vector<SineDeviation> deviations)
+    : axis_(axis), deviations_(std::move(deviations)), wave_number_(0.0) {
+  for (const SineDeviation& wave : deviations_)
+    wave_number_ = std::max(wave_number_, std::abs(wave.waves) * pi / axis_.length());
+}
+
+// sin n φ and cos n φ are the parts of (cos φ + i sin φ)ⁿ.
 ImperfectAxis::Deviation ImperfectAxis::deviation(double s) const {
+  constexpr int fewer_products = 8;
   Deviation y{.value = 0.0, .slope = 0.0, .second = 0.0};
-  const double L = axis_.length();
+  const double k1 = pi / axis_.length();
+  const std::complex<double> once(std::cos(k1 * s), std::sin(k1 * s));
   for (const SineDeviation& wave : deviations_) {
-    const double k = wave.waves * pi / L;
-    const double sine = std::sin(k * s);
-    y.value += wave.amplitude * sine;
-    y.slope += wave.amplitude * k * std::cos(k * s);
-    y.second -= wave.amplitude * k * k * sine;
+    const double k = wave.waves * k1;
+    std::complex<double> turned = once;
+    if (std::abs(wave.waves) > fewer_products || wave.waves < 1)
+      turned = {std::cos(k * s), std::sin(k * s)};
+    else
+      for (int n = 1; n < wave.waves; ++n) turned *= once;
+    y.value += wave.amplitude * turned.imag();
+    y.slope += wave.amplitude * k * turned.real();
+    y.second -= wave.amplitude * k * k * turned.imag();
   }
   return y;
 }
@@ -227,7 +246,7 @@ DeviatedPoint ImperfectAxis::along(double s) const {
   point.deviation = y.value * Vec2(-std::sin(axis.angle), std::cos(axis.angle));
   point.position += point.deviation;
   point.angle += std::atan2(y.slope, a);
-  point.speed = std::hypot(a, y.slope);
+  point.speed = std::sqrt(a * a + y.slope * y.slope);
   point.turning += (a * y.second - y.slope * a_rate) / (a * a + y.slope * y.slope);
   return point;
 }
@@ -242,14 +261,37 @@ Vec2 ImperfectAxis::chord(double from, double to) const {
   return deviations_.empty() ? chord : Vec2(chord + along(to).deviation - along(from).deviation);
 }
 
+double ImperfectAxis::speed(double s) const {
+  if (deviations_.empty()) return 1.0;
+  const Deviation y = deviation(s);
+  const double a = axis_.is_straight() ? 1.0 : 1.0 - axis_.at(s).curvature * y.value;
+  return std::sqrt(a * a + y.slope * y.slope);
+}
+
+// On a straight axis the speed is made of waves with twice the wave numbers of the deviations; over a part of a wave
+// few points are exact to round-off.
 double ImperfectAxis::length(double from, double to) const {
   if (deviations_.empty()) return to - from;
-  return Gauss::integrate(
-      [this](double s) {
-        const Deviation y = deviation(s);
-        return std::hypot(1.0 - axis_.at(s).curvature * y.value, y.slope);
-      },
-      from, to);
+  const auto here = [this](double s) { return speed(s); };
+  const double phase = axis_.is_straight() ? wave_number_ * std::abs(to - from) : infinity;
+  if (phase <= 0.25) return AxisGauss<5>::integrate(here, from, to);
+  if (phase <= 1.0) return AxisGauss<7>::integrate(here, from, to);
+  return Gauss::integrate(here, from, to);
+}
+
+// Newton's method. What a step leaves of the error is the length between its ends less its own linear estimate, so that
+// one integral over the whole is enough.
+double ImperfectAxis::coordinate_at(double from, double length, double guess) const {
+  if (deviations_.empty()) return from + length;
+  constexpr int most_iterations = 10;
+  double s = guess, error = this->length(from, s) - length;
+  for (int i = 0; i < most_iterations; ++i) {
+    if (std::abs(error) <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s)) break;
+    const double next = s - error / speed(s);
+    error -= AxisGauss<3>::integrate([this](double t) { return speed(t); }, next, s);
+    s = next;
+  }
+  return s;
 }
 
 double box_diagonal(const std::vector<Vec2>& points) {

@@ -20,6 +20,7 @@ class Axis {
  public:
   virtual ~Axis() = default;
   virtual double length() const = 0;
+  virtual bool is_straight() const { return false; }
 
   /// At arc length s from the start, 0 ≤ s ≤ length().
   virtual AxisPoint at(double s) const = 0;
@@ -58,8 +59,7 @@ struct DeviatedPoint {
 class ImperfectAxis {
  public:
   /// `axis` must outlive this.
-  ImperfectAxis(const Axis& axis, std::vector<SineDeviation> deviations)
-      : axis_(axis), deviations_(std::move(deviations)) {}
+  ImperfectAxis(const Axis& axis, std::vector<SineDeviation> deviations);
 
   /// The deviated curve at arc length s of the axis.
   DeviatedPoint along(double s) const;
@@ -70,8 +70,14 @@ class ImperfectAxis {
   /// From one such point to another.
   Vec2 chord(double from, double to) const;
 
+  /// Arc length of the deviated curve per s.
+  double speed(double s) const;
+
   /// Arc length of the deviated curve between two such points.
   double length(double from, double to) const;
+
+  /// The s at which the deviated curve from `from` on has a length, sought from `guess`.
+  double coordinate_at(double from, double length, double guess) const;
 
  private:
   struct Deviation {
@@ -81,6 +87,7 @@ class ImperfectAxis {
 
   const Axis& axis_;
   std::vector<SineDeviation> deviations_;
+  double wave_number_;  // greatest of the deviations
 };
 
 /// Diagonal of the smallest upright rectangle round points [length].

@@ -1,25 +1,8 @@
 #include "elements/slender_beam.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace arcwall {
-
-namespace {
-
-// The coordinate s at which the curve from `from` has a length, by Newton's method.
-double coordinate_at(const ImperfectAxis& shape, double from, double length, double guess) {
-  constexpr int most_iterations = 10;
-  double s = guess;
-  for (int i = 0; i < most_iterations; ++i) {
-    const double error = shape.length(from, s) - length;
-    if (std::abs(error) <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(s)) break;
-    s -= error / shape.along(s).speed;
-  }
-  return s;
-}
-
-}  // namespace
 
 // A point at the fraction f of the length, ∫ v ds from S₁ = f ∫ v ds from S₁ to S₂, moves with the ends at the rates
 //
@@ -32,7 +15,7 @@ StretchReference stretch_reference(const ImperfectAxis& shape, double from, doub
     const double fraction = double(k) / double(samples - 1);
     const bool inside = k > 0 && k + 1 < samples;
     const DeviatedPoint point =
-        inside ? shape.along(coordinate_at(shape, from, fraction * stretch.length, from + fraction * (to - from)))
+        inside ? shape.along(shape.coordinate_at(from, fraction * stretch.length, from + fraction * (to - from)))
                : (k == 0 ? first : last);
     stretch.angles[k] = point.angle;
     stretch.angle_rate[0][k] = (1.0 - fraction) * first.speed / point.speed * point.turning;
