@@ -99,7 +99,10 @@ std::optional<Nearest> nearest_pairs(const SparseMatrix& K, const Vector& weight
     if (!found.pairs.vectors.allFinite()) return std::nullopt;
     for (Index j = 0; j < count; ++j) {
       const Vector v = found.pairs.vectors.col(j);
-      found.roundoff.push_back(std::max(quadratic_form(K, v).roundoff, ldlt.roundoff(v)));
+      const QuadraticForm form = quadratic_form(K, v);
+      // The pair's own value has the round-off of the greatest entries of K, also where v is zero.
+      found.pairs.values[j] = form.value / (weights.array() * v.array().square()).sum();
+      found.roundoff.push_back(std::max(form.roundoff, ldlt.roundoff(v)));
       if (std::abs(found.pairs.values[j]) <= nearby * found.roundoff.back()) found.near = j + 1;
     }
     if (found.near < count || count < wanted) return found;
