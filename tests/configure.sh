@@ -4,8 +4,11 @@
 #   bash tests/configure.sh [--sanitize]
 #
 # --sanitize: with clang, the address and undefined-behaviour sanitizers, assertions and the fuzz targets, in
-# build/sanitize; else in build/tests. There sources are compiled eight at a time, which halves the time; names of
-# files shadow each other then, so warnings are left to the other build.
+# build/sanitize; else in build/tests.
+#
+# A new folder compiles eight sources at a time, which halves the time of a whole build. Whoever changes one source after
+# the other says `cmake -DCMAKE_UNITY_BUILD=OFF build/tests`, and that stays. clang finds that names of files which are
+# compiled together shadow each other, so it may warn.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -15,9 +18,9 @@ options=(-DCMAKE_BUILD_TYPE=Release -DARCWALL_WERROR=ON)
 if [[ ${1:-} == --sanitize ]]; then
   folder=build/sanitize
   groups+=(sanitize)
-  options=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DARCWALL_SANITIZE=ON -DARCWALL_FUZZ=ON
-    -DCMAKE_UNITY_BUILD=ON)
+  options=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DARCWALL_SANITIZE=ON -DARCWALL_FUZZ=ON)
 fi
+[[ -f $folder/CMakeCache.txt ]] || options+=(-DCMAKE_UNITY_BUILD=ON)
 
 bash cmake/install_debian_packages.sh "${groups[@]}"
 if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
