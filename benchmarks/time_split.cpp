@@ -1,14 +1,13 @@
 // Where the time of a path goes, and its memory:
 //
 //   time_split lee ELEMENTS | star UNKNOWNS | frame UNKNOWNS
-//   time_split deck FILE SIZE [KEY=VALUE …]
+//   time_split deck NAME FILE SIZE [KEY=VALUE …]
 //
-// A deck's SIZE is only printed.
+// A deck's NAME and SIZE are only printed.
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -147,7 +146,8 @@ void trace_model(const std::string& work, long size, Model (*make)(Index)) {
          .nodes = model.structure->node_count()});
 }
 
-int trace_deck(const std::string& file, long size, const std::vector<std::string>& assignments) {
+int trace_deck(const std::string& name, const std::string& file, long size,
+               const std::vector<std::string>& assignments) {
   const Study study(deck::read_deck(file, assignments));
   std::string reason;
   const auto start = study.start(reason);
@@ -155,7 +155,7 @@ int trace_deck(const std::string& file, long size, const std::vector<std::string
     std::cerr << "time_split: " << reason << "\n";
     return 1;
   }
-  trace(std::filesystem::path(file).stem(), size,
+  trace(name, size,
         {.system = study.system(),
          .start = *start,
          .options = study.options(),
@@ -174,12 +174,13 @@ Model frame(Index unknowns) { return square_frame(square_side(unknowns)); }
 
 int run(const std::vector<std::string>& words) {
   const std::string work = words.size() >= 2 ? words[0] : "";
-  if (work == "deck" && words.size() >= 3)
-    return trace_deck(words[1], std::atol(words[2].c_str()), {words.begin() + 3, words.end()});
+  if (work == "deck" && words.size() >= 4)
+    return trace_deck(words[1], words[2], std::atol(words[3].c_str()), {words.begin() + 4, words.end()});
   const long size = words.size() == 2 ? std::atol(words[1].c_str()) : 0;
   Model (*const make)(Index) = work == "lee" ? lee : work == "star" ? star : work == "frame" ? frame : nullptr;
   if (make == nullptr || size < 10) {
-    std::cerr << "usage: time_split lee ELEMENTS | star UNKNOWNS | frame UNKNOWNS | deck FILE SIZE [KEY=VALUE …]\n";
+    std::cerr
+        << "usage: time_split lee ELEMENTS | star UNKNOWNS | frame UNKNOWNS | deck NAME FILE SIZE [KEY=VALUE …]\n";
     return 2;
   }
   trace_model(work, size, make);
