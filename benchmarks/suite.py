@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the benchmarks of a build and writes their figures into one CSV file; benchmarks/run.sh calls this.
 
-    python3 benchmarks/suite.py build/benchmarks [--quick | --smoke] [--peers] [--out performance.csv]
+    python3 benchmarks/suite.py build/benchmarks [--quick | --smoke] [--peers] [--skip REGEX] [--out performance.csv]
 
 All times are CPU times of whole processes or of parts that the programs measure themselves, so that other work on the
 machine hardly counts. Each round runs everything once: what is compared is measured side by side.
@@ -11,6 +11,7 @@ import argparse
 import csv
 import json
 import os
+import re
 import shutil
 import statistics
 import subprocess
@@ -197,7 +198,7 @@ class Suite:
 
     def machine(self) -> Iterator[Process]:
         for name in self.wanted([], ["machine_limits", "newton_iteration"], []):
-            yield GoogleBenchmark(name, "all", 0, [self.program(name), "--benchmark_format=json"], rounds=2)
+            yield GoogleBenchmark(name, "all", 0, [self.program(name), "--benchmark_format=json"], rounds=1)
 
     def processes(self) -> list:
         return [*self.lee(), *self.decks(), *self.large(), *self.threads(), *self.machine()]
@@ -246,6 +247,7 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="small sizes alone: some minutes")
     parser.add_argument("--smoke", action="store_true", help="the smallest sizes alone, once: seconds")
     parser.add_argument("--peers", action="store_true", help="also the other programs that are installed")
+    parser.add_argument("--skip", metavar="REGEX", help="leave out what this matches in `case size`")
     parser.add_argument("--out", type=Path, help="where to write the figures (default: performance.csv of the build)")
     given = parser.parse_args()
     size = "smoke" if given.smoke else "quick" if given.quick else "full"
@@ -256,6 +258,8 @@ def main() -> None:
         for name in (one for one in found if isinstance(one, str)):
             sheet.add(Figure(name, "not installed", 0, "skipped", ""), 1.0)
         processes = suite.processes() + [one for one in found if isinstance(one, Process)]
+        if given.skip:
+            processes = [one for one in processes if not re.search(given.skip, f"{one.case} {one.size}")]
         try:
             run(processes, {"smoke": 1, "quick": 5, "full": 5}[size], suite.program("whole_process"), sheet)
         except (OSError, RuntimeError) as problem:

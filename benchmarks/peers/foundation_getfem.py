@@ -73,6 +73,7 @@ def trace(model):
 def main():
     elements = int(sys.argv[1])
     getfem.util_trace_level(0)
+    getfem.util_warning_level(0)
     start = time.process_time()
     model, parts = beam_model(beam_mesh(elements, 4))
     steps, moment = trace(model)
