@@ -105,6 +105,8 @@ class Cholmod {
     return seconds;
   }
 
+  double operations() const { return common_.fl; }  // of the factorization
+
   // Whether this library has the ordering, and the matrix was factorized.
   bool usable() const { return factor_ != nullptr && common_.status >= CHOLMOD_OK; }
 
@@ -119,7 +121,9 @@ void print_cholmod(Index size, const SparseMatrix& K, const Matrix& right, const
                    int ordering) {
   Cholmod cholmod(K, right, supernodal, ordering);
   const Seconds seconds = cholmod.measured();
-  if (cholmod.usable()) print(size, which, seconds);
+  if (!cholmod.usable()) return;
+  print(size, which, seconds);
+  print_figure(std::string("frame ") + which, size, "operations", "", cholmod.operations());
 }
 
 }  // namespace

@@ -201,6 +201,21 @@ iterations where it looks at a converged point and where it locates events; *per
              "process of trace-path, × the yardstick's path"], rows)
 
 
+def parts(f: Figures) -> str:
+    names = {"linearize": "F, K, F_λ", "factorize": "LDLᵀ", "line_solve": "two solutions",
+             "corrector": "corrector, per iteration"}
+    rows = []
+    for n in f.sizes("newton_iteration", "linearize"):
+        seconds = [f.of("newton_iteration", name, n, "per iteration per element") for name in names]
+        yardstick = f.of("chain_yardstick", "lee", n, PER_ITERATION)
+        rows.append([str(n), *(1e6 * one if one else None for one in seconds), yardstick])
+    return """## The parts of an iteration alone
+
+On Lee's frame in the middle of its snap, again and again at one state [µs per element].
+
+""" + table(["elements", *names.values(), "yardstick, whole iteration"], rows) if rows else ""
+
+
 def peers(f: Figures) -> str:
     rows = []
     for peer, ratio in BY_RATIO.items():
@@ -241,17 +256,19 @@ def split(f: Figures) -> str:
         def of(figure: str, case: str = case, size: int = size) -> float:
             return f.of("time_split", case, size, figure)
         own = of("linearizations of steps") / of("linearizations")
+        start = f.of("time_split", "lee", 20, "peak memory")
+        large = of("nodes") >= 1000 and start is not None
         rows.append([case + (f", {size}" if size else ""), of("path"), *(f"{100 * of(f'share {part}'):.0f}" for part in PARTS),
                      f"{100 * max(0.0, 1 - own):.0f}", str(int(of("points"))), str(int(of("events"))),
-                     str(int(of("contact changes")))])
+                     str(int(of("contact changes"))), (of("peak memory") - start) / of("nodes") if large else None])
     return """## Where the time goes
 
 Shares of tracing in percent, the path's events included and outputs left out. *K for events* is the share of matrices that
 belong to no step: those formed to locate events, to count unstable directions and to leave corners. Sizes are elements, of
-the star and the square frame unknowns.
+the star and the square frame unknowns. *kB a node* is the memory above that of Lee's frame with 20 elements.
 
 """ + table(["case", "path [s]", *(f"{part} [%]" for part in PARTS.values()), "K for events [%]", "points", "events",
-             "changes of contact"], rows)
+             "changes of contact", "kB a node"], rows)
 
 
 def processes(f: Figures) -> str:
@@ -314,7 +331,19 @@ Lee's frame with 2000 elements. What the yardstick does per iteration and elemen
 {YARDSTICK_BYTES} bytes if each block is read or written once, {YARDSTICK_DIVISIONS} divisions that wait for each other. The shares say how much of the time these
 would take on a machine that does nothing else.
 
-""" + table(["limit", "share of the yardstick's time", "share of arcwall's"], rows)
+""" + table(["limit", "share of the yardstick's time", "share of arcwall's"], rows) + frame_rates(f, multiply_add)
+
+
+def frame_rates(f: Figures, multiply_add: float) -> str:
+    """How near the factorization of the square frame comes to the greatest rate."""
+    rows = []
+    for size in f.sizes("frame_solver", "frame arcwall"):
+        operations = f.of("frame_solver", "frame CHOLMOD simplicial AMD", size, "operations")
+        seconds = f.of("frame_solver", "frame arcwall", size, "factorization")
+        if operations and seconds:
+            rows.append([str(size), operations / seconds / multiply_add])
+    return ("\n\nThe factorization of the square frame, by the operations that it needs in CHOLMOD's order:\n\n"
+            + table(["unknowns", "share of the greatest rate of vectors"], rows)) if rows else ""
 
 
 HEAD = """# Performance
@@ -328,7 +357,7 @@ def main() -> None:
     if len(sys.argv) != 2:
         sys.exit("usage: python3 docs/make_performance.py PERFORMANCE_CSV")
     figures = Figures(sys.argv[1])
-    sections = [section(figures) for section in (goals, lee, peers, split, processes, threads, frames, machine)]
+    sections = [section(figures) for section in (goals, lee, parts, peers, split, processes, threads, frames, machine)]
     print("\n\n".join([HEAD.rstrip(), *(section for section in sections if section)]))
 
 
