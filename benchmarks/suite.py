@@ -234,8 +234,8 @@ def peers(suite: Suite) -> Iterator[Process | str]:
         yield "GetFEM"
 
 
-def run(processes: list, rounds: int, launcher: str, sheet: Sheet) -> list:
-    """Whatever fails is left out of later rounds; returns why."""
+def run(processes: list, rounds: int, launcher: str, sheet: Sheet, out: Path) -> list:
+    """Writes the figures after each round. Whatever fails is left out of later rounds; returns why."""
     failures = {}
     for number in range(rounds):
         for process in processes:
@@ -246,6 +246,7 @@ def run(processes: list, rounds: int, launcher: str, sheet: Sheet) -> list:
                 process.run(launcher, sheet)
             except (OSError, RuntimeError, ValueError) as problem:
                 failures[id(process)] = f"{process.program}, {process.case}, {process.size}: {problem}"
+        sheet.write(out)
     return list(failures.values())
 
 
@@ -268,8 +269,8 @@ def main() -> None:
         processes = suite.processes() + [one for one in found if isinstance(one, Process)]
         if given.skip:
             processes = [one for one in processes if not re.search(given.skip, f"{one.case} {one.size}")]
-        failures = run(processes, 1 if size == "smoke" else 5, suite.program("whole_process"), sheet)
-    sheet.write(given.out or given.build / "performance.csv")
+        failures = run(processes, 1 if size == "smoke" else 5, suite.program("whole_process"), sheet,
+                       given.out or given.build / "performance.csv")
     if failures:
         sys.exit("suite.py: these failed, and are left out of the figures:\n" + "\n".join(failures))
 

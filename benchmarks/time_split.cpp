@@ -72,67 +72,85 @@ void add(const Arc& arc, Tally& tally) {
   }
 }
 
-void trace(const std::string& work, long size, const Task& task) {
-  const TimedSystem system(task.system);
-  TraceOptions options = task.options;
-  Tally tally;
-  StepCosts step_costs;
-  options.ledger = [&](const StepAttempt& attempt) { tally.attempted += attempt.iterations + 1; };
-  const LdltTimes before = ldlt_times();
+struct Measured {
+  Tally tally{};
+  StepCosts step_costs{};
   double seconds = 0.0;
+  TimedSystem::Times system{};
+  LdltTimes ldlt{};
+};
+
+Measured traced(const Task& task) {
+  const TimedSystem system(task.system);
+  Measured measured;
+  TraceOptions options = task.options;
+  options.ledger = [&](const StepAttempt& attempt) { measured.tally.attempted += attempt.iterations + 1; };
+  const LdltTimes before = ldlt_times();
   {
-    const ScopedTimer timer(seconds);
+    const ScopedTimer timer(measured.seconds);
     Explorer explorer(system, task.start, options, task.watched, task.explore);
     double last = cpu_seconds();
     Index linearizations = 0;
     while (const auto step = explorer.next()) {
       const double now = cpu_seconds();
       const Index used = system.times().linearizations - linearizations;
-      auto& costs = step->arc.to.state.piece.closed_count() > 0 ? step_costs.closed : step_costs.open;
+      auto& costs = step->arc.to.state.piece.closed_count() > 0 ? measured.step_costs.closed : measured.step_costs.open;
       if (step->arc.events.empty() && used > 0) costs.push_back((now - last) / double(used));
       last = now;
       linearizations = system.times().linearizations;
-      add(step->arc, tally);
+      add(step->arc, measured.tally);
     }
   }
-  const LdltTimes& ldlt = ldlt_times();
-  const double factorization = ldlt.factorization - before.factorization, solution = ldlt.solution - before.solution;
-  const double known = system.times().assembly + system.times().side_conditions + factorization + solution;
-
-  const auto print = [&](const char* figure, const char* unit, double value) {
-    print_figure(work, size, figure, unit, value);
-  };
-  print("path", "s", seconds);
-  print("share assembly", "", system.times().assembly / seconds);
-  print("share factorization", "", factorization / seconds);
-  print("share solution", "", solution / seconds);
-  print("share side conditions", "", system.times().side_conditions / seconds);
-  print("share rest", "", 1.0 - known / seconds);
-  print("elements", "", double(task.elements));
-  print("nodes", "", double(task.nodes));
-  print("unknowns", "", double(task.start.x.size()));
-  print("points", "", tally.points);
-  print("points past the limit point", "", tally.points_past_limit);
-  print("iterations", "", tally.iterations);
-  print("events", "", tally.events);
-  print("contact changes", "", tally.contact_changes);
-  print("first limit", "", tally.first_limit);
-  print("linearizations", "", double(system.times().linearizations));
-  print("linearizations of steps", "", double(tally.attempted));
-  print("factorizations", "", double(ldlt.factorizations - before.factorizations));
-  print("solutions", "", double(ldlt.solutions - before.solutions));
-  print("right-hand sides", "", double(ldlt.columns - before.columns));
-  print("per iteration and element", "us", 1e6 * seconds / (double(tally.iterations) * double(task.elements)));
-  print("per linearization and element", "us",
-        1e6 * seconds / (double(system.times().linearizations) * double(task.elements)));
-  print("per factorization and element", "us",
-        1e6 * factorization / (double(ldlt.factorizations - before.factorizations) * double(task.elements)));
-  if (!step_costs.closed.empty()) {
-    print("per linearization with open contacts", "us", 1e6 * median(step_costs.open));
-    print("per linearization with closed contacts", "us", 1e6 * median(step_costs.closed));
-  }
-  print("peak memory", "kB", peak_kilobytes());
+  measured.system = system.times();
+  measured.ldlt = ldlt_times() - before;
+  return measured;
 }
+
+void print(const std::string& work, long size, const Task& task, const Measured& measured) {
+  const Tally& tally = measured.tally;
+  const TimedSystem::Times& system = measured.system;
+  const LdltTimes& ldlt = measured.ldlt;
+  const double seconds = measured.seconds;
+  const auto figure = [&](const char* name, const char* unit, double value) {
+    print_figure(work, size, name, unit, value);
+  };
+  const auto share = [&](const char* name, double part) { figure(name, "", part / seconds); };
+  const auto count = [&](const char* name, auto value) { figure(name, "", double(value)); };
+  const auto per_element = [&](const char* name, double sum, auto times) {
+    figure(name, "us", 1e6 * sum / (double(times) * double(task.elements)));
+  };
+
+  figure("path", "s", seconds);
+  share("share assembly", system.assembly);
+  share("share factorization", ldlt.factorization);
+  share("share solution", ldlt.solution);
+  share("share side conditions", system.side_conditions);
+  share("share rest", seconds - system.assembly - system.side_conditions - ldlt.factorization - ldlt.solution);
+  count("elements", task.elements);
+  count("nodes", task.nodes);
+  count("unknowns", task.start.x.size());
+  count("points", tally.points);
+  count("points past the limit point", tally.points_past_limit);
+  count("iterations", tally.iterations);
+  count("events", tally.events);
+  count("contact changes", tally.contact_changes);
+  count("first limit", tally.first_limit);
+  count("linearizations", system.linearizations);
+  count("linearizations of steps", tally.attempted);
+  count("factorizations", ldlt.factorizations);
+  count("solutions", ldlt.solutions);
+  count("right-hand sides", ldlt.columns);
+  per_element("per iteration and element", seconds, tally.iterations);
+  per_element("per linearization and element", seconds, system.linearizations);
+  per_element("per factorization and element", ldlt.factorization, ldlt.factorizations);
+  if (!measured.step_costs.closed.empty()) {
+    figure("per linearization with open contacts", "us", 1e6 * median(measured.step_costs.open));
+    figure("per linearization with closed contacts", "us", 1e6 * median(measured.step_costs.closed));
+  }
+  figure("peak memory", "kB", peak_kilobytes());
+}
+
+void trace(const std::string& work, long size, const Task& task) { print(work, size, task, traced(task)); }
 
 void trace_model(const std::string& work, long size, Model (*make)(Index)) {
   const Model model = make(size);

@@ -11,6 +11,14 @@ struct LdltTimes {
   double solution = 0.0;       ///< [s]
   Index factorizations = 0, solutions = 0;
   Index columns = 0;  ///< right-hand sides
+
+  LdltTimes operator-(const LdltTimes& before) const {
+    return {.factorization = factorization - before.factorization,
+            .solution = solution - before.solution,
+            .factorizations = factorizations - before.factorizations,
+            .solutions = solutions - before.solutions,
+            .columns = columns - before.columns};
+  }
 };
 
 /// Sums since the process began.
