@@ -66,10 +66,9 @@ class Process:
     command: list
     rounds: int | None = None  # fewer than the others': for what takes long
     wall: bool = False  # also the time on the clock: for several threads
-    folder: Path | None = None  # working directory
 
     def run(self, launcher: str, sheet: Sheet) -> None:
-        done = subprocess.run([launcher, *self.command], capture_output=True, text=True, cwd=self.folder,
+        done = subprocess.run([launcher, *self.command], capture_output=True, text=True,
                               env={**os.environ, **({} if self.wall else ONE_THREAD)})
         if done.returncode not in RUN_IS_USABLE:
             raise RuntimeError(f"{' '.join(self.command)} failed: {done.stderr.strip()[-500:]}")
@@ -223,9 +222,7 @@ def peers(suite: Suite) -> Iterator[Process | str]:
     else:
         yield "Octave"
     if shutil.which("auto-07p"):
-        folder = suite.scratch / "auto"
-        shutil.copytree(PEERS / "auto", folder, dirs_exist_ok=True)
-        yield Process("AUTO", "column between walls", 0, [sys.executable, "column.py"], rounds=2, folder=folder)
+        yield Process("AUTO", "column between walls", 0, [sys.executable, str(PEERS / "auto/column.py")], rounds=2)
     else:
         yield "AUTO"
     if has_module("getfem"):
