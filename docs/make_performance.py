@@ -351,6 +351,7 @@ HEAD = """# Performance
 Written by `docs/make_performance.py` from what `bash benchmarks/run.sh --peers` measured in one run. Times are the least CPU times of
 several repetitions; they stand beside ratios, which say more. Nothing here decides a test.
 """
+QUICK = "This was a run with `--quick`: the large sizes are missing."
 
 
 def main() -> None:
@@ -358,7 +359,8 @@ def main() -> None:
         sys.exit("usage: python3 docs/make_performance.py PERFORMANCE_CSV")
     figures = Figures(sys.argv[1])
     sections = [section(figures) for section in (goals, lee, parts, peers, split, processes, threads, frames, machine)]
-    print("\n\n".join([HEAD.rstrip(), *(section for section in sections if section)]))
+    head = [HEAD.rstrip()] if max(figures.sizes("time_split", "lee"), default=0) > 2000 else [HEAD.rstrip(), QUICK]
+    print("\n\n".join([*head, *(section for section in sections if section)]))
 
 
 if __name__ == "__main__":
