@@ -14,15 +14,19 @@ folder=build/benchmarks
 page=docs/performance.md
 groups=(build benchmark)
 options=("$@")
+usage() {
+  echo "usage: bash benchmarks/run.sh [--quick] [--peers] [--skip REGEX]" >&2
+  exit 2
+}
 while [[ $# -gt 0 ]]; do
   case "$1" in
     --quick) page=$folder/performance.md ;;
     --peers) groups+=(peers) ;;
-    --skip) shift ;;
-    *)
-      echo "usage: bash benchmarks/run.sh [--quick] [--peers] [--skip REGEX]" >&2
-      exit 2
+    --skip)
+      [[ $# -ge 2 ]] || usage
+      shift
       ;;
+    *) usage ;;
   esac
   shift
 done
