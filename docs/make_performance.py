@@ -284,8 +284,8 @@ def processes(f: Figures) -> str:
 `trace-path run`, with report, shapes and all other files.
 
 """ + table(["case", "process [s]", "of it tracing", "peak memory [MB]"], rows) + (
-        f"\n\nMemory grows with Lee's frame by {shown(per_node[0])} kB a node while tracing alone, and by {shown(per_node[1])} kB a "
-        "node in the program, which keeps all points of the path for its files." if None not in per_node else "")
+        f"\n\nMemory grows with Lee's frame by {shown(per_node[0])} kB a node while tracing alone, and by {shown(per_node[1])} kB\n"
+        "in the program, which keeps all points of the path for its files." if None not in per_node else "")
 
 
 def threads(f: Figures) -> str:
@@ -327,9 +327,9 @@ def machine(f: Figures) -> str:
     rows = [[what, limit / least, limit / ours] for what, limit in limits]
     return f"""## Distance to the machine's limits
 
-Lee's frame with 2000 elements. What the yardstick does per iteration and element is counted: about {YARDSTICK_FLOPS} operations,
-{YARDSTICK_BYTES} bytes if each block is read or written once, {YARDSTICK_DIVISIONS} divisions that wait for each other. The shares say how much of the time these
-would take on a machine that does nothing else.
+Lee's frame with 2000 elements. What the yardstick does per iteration and element is counted: about
+{YARDSTICK_FLOPS} operations, {YARDSTICK_BYTES} bytes if each number goes by once, {YARDSTICK_DIVISIONS} divisions that wait for each other.
+The shares say how much of the time these alone would take.
 
 """ + table(["limit", "share of the yardstick's time", "share of arcwall's"], rows) + frame_rates(f, multiply_add)
 
@@ -348,8 +348,8 @@ def frame_rates(f: Figures, multiply_add: float) -> str:
 
 HEAD = """# Performance
 
-Written by `docs/make_performance.py` from what `bash benchmarks/run.sh --peers` measured in one run. Times are the least CPU times of
-several repetitions; they stand beside ratios, which say more. Nothing here decides a test.
+Written by `docs/make_performance.py` from what `bash benchmarks/run.sh --peers` measured in one run. Times are the least CPU times
+of several repetitions; they stand beside ratios, which say more. Nothing here decides a test.
 """
 QUICK = "This was a run with `--quick`: the large sizes are missing."
 
