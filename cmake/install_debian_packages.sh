@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Installs those Debian 12 packages of the named groups that are missing:
 #
-#   bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark]
+#   bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark] [peers]
 #
 # report: a browser for the tests of report.html, and Node.js with npm if these commands are missing; npm also fetches
-# plotly.js for the page.
+# plotly.js for the page. peers: other programs that benchmarks/run.sh can measure beside this one.
 # Needs root or sudo only if something is missing. Works without HOME, USER and TERM.
 set -euo pipefail
 
@@ -22,10 +22,11 @@ packages_of() {
       ;;
     sanitize) echo clang libclang-rt-14-dev ;;
     format) echo clang-format git ;;
-    benchmark) echo libbenchmark-dev ;;
+    benchmark) echo libbenchmark-dev python3 ;;
+    peers) echo auto-07p octave python3-scipy python3-getfem ;;
     *)
       echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, sanitize, report," \
-        "format and benchmark" >&2
+        "format, benchmark and peers" >&2
       return 2
       ;;
   esac
@@ -46,7 +47,7 @@ as_root() {
 }
 
 if [[ $# == 0 ]]; then
-  echo "usage: bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark]" >&2
+  echo "usage: bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark] [peers]" >&2
   exit 2
 fi
 

@@ -13,11 +13,11 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 folder=build/tests
-groups=(build test report)
-options=(-DCMAKE_BUILD_TYPE=Release -DARCWALL_WERROR=ON)
+groups=(build test report benchmark)
+options=(-DCMAKE_BUILD_TYPE=Release -DARCWALL_WERROR=ON -DARCWALL_BUILD_BENCHMARKS=ON)
 if [[ ${1:-} == --sanitize ]]; then
   folder=build/sanitize
-  groups+=(sanitize)
+  groups=(build test report sanitize)
   options=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DARCWALL_SANITIZE=ON -DARCWALL_FUZZ=ON)
 fi
 [[ -f $folder/CMakeCache.txt ]] || options+=(-DCMAKE_UNITY_BUILD=ON)

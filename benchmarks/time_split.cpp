@@ -1,0 +1,217 @@
+// Where the time of a path goes, and its memory:
+//
+//   time_split lee ELEMENTS | star UNKNOWNS | frame UNKNOWNS
+//   time_split deck NAME FILE SIZE [KEY=VALUE …]
+//
+// A deck's NAME and SIZE are only printed.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "apps/deck/reader.hpp"
+#include "apps/study.hpp"
+#include "benchmarks/figures.hpp"
+#include "benchmarks/models.hpp"
+#include "benchmarks/timed_ldlt.hpp"
+#include "benchmarks/timed_system.hpp"
+#include "continuation/explorer.hpp"
+#include "core/error.hpp"
+
+namespace {
+
+using namespace arcwall;
+using namespace arcwall::bench;
+
+// What is traced, whatever it was made from.
+struct Task {
+  const System& system;
+  State start;
+  TraceOptions options;
+  std::vector<Watch> watched{};
+  ExploreOptions explore{};
+  Index elements = 0;
+  Index nodes = 0;
+};
+
+// What arcs without events took, so that steps with and without closed contacts can be compared.
+struct StepCosts {
+  std::vector<double> open{}, closed{};  // CPU per linearization [s]
+};
+
+struct Tally {
+  int points = 0, iterations = 0, events = 0, contact_changes = 0, points_past_limit = 0;
+  Index attempted = 0;  // linearizations of the steps themselves, those that failed included
+  double first_limit = 0.0;
+};
+
+double peak_kilobytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void add(const Arc& arc, Tally& tally) {
+  ++tally.points;
+  tally.iterations += arc.to.iterations;
+  if (tally.first_limit != 0.0) ++tally.points_past_limit;
+  for (const Event& event : arc.events) {
+    ++tally.events;
+    tally.contact_changes += !event.guards.empty();
+    if (event.kind == EventKind::limit_point && tally.first_limit == 0.0) tally.first_limit = event.state.lambda;
+  }
+}
+
+struct Measured {
+  Tally tally{};
+  StepCosts step_costs{};
+  double seconds = 0.0;
+  TimedSystem::Times system{};
+  LdltTimes ldlt{};
+};
+
+Measured traced(const Task& task) {
+  const TimedSystem system(task.system);
+  Measured measured;
+  TraceOptions options = task.options;
+  options.ledger = [&](const StepAttempt& attempt) { measured.tally.attempted += attempt.iterations + 1; };
+  const LdltTimes before = ldlt_times();
+  {
+    const ScopedTimer timer(measured.seconds);
+    Explorer explorer(system, task.start, options, task.watched, task.explore);
+    double last = cpu_seconds();
+    Index linearizations = 0;
+    while (const auto step = explorer.next()) {
+      const double now = cpu_seconds();
+      const Index used = system.times().linearizations - linearizations;
+      auto& costs = step->arc.to.state.piece.closed_count() > 0 ? measured.step_costs.closed : measured.step_costs.open;
+      if (step->arc.events.empty() && used > 0) costs.push_back((now - last) / double(used));
+      last = now;
+      linearizations = system.times().linearizations;
+      add(step->arc, measured.tally);
+    }
+  }
+  measured.system = system.times();
+  measured.ldlt = ldlt_times() - before;
+  return measured;
+}
+
+void print(const std::string& work, long size, const Task& task, const Measured& measured) {
+  const Tally& tally = measured.tally;
+  const TimedSystem::Times& system = measured.system;
+  const LdltTimes& ldlt = measured.ldlt;
+  const double seconds = measured.seconds;
+  const auto figure = [&](const char* name, const char* unit, double value) {
+    print_figure(work, size, name, unit, value);
+  };
+  const auto share = [&](const char* name, double part) { figure(name, "", part / seconds); };
+  const auto count = [&](const char* name, auto value) { figure(name, "", double(value)); };
+  const auto per_element = [&](const char* name, double sum, auto times) {
+    figure(name, "us", 1e6 * sum / (double(times) * double(task.elements)));
+  };
+
+  figure("path", "s", seconds);
+  share("share assembly", system.assembly);
+  share("share factorization", ldlt.factorization);
+  share("share solution", ldlt.solution);
+  share("share side conditions", system.side_conditions);
+  share("share rest", seconds - system.assembly - system.side_conditions - ldlt.factorization - ldlt.solution);
+  count("elements", task.elements);
+  count("nodes", task.nodes);
+  count("unknowns", task.start.x.size());
+  count("points", tally.points);
+  count("points past the limit point", tally.points_past_limit);
+  count("iterations", tally.iterations);
+  count("events", tally.events);
+  count("contact changes", tally.contact_changes);
+  count("first limit", tally.first_limit);
+  count("linearizations", system.linearizations);
+  count("linearizations of steps", tally.attempted);
+  count("factorizations", ldlt.factorizations);
+  count("solutions", ldlt.solutions);
+  count("right-hand sides", ldlt.columns);
+  per_element("per iteration and element", seconds, tally.iterations);
+  per_element("per linearization and element", seconds, system.linearizations);
+  per_element("per factorization and element", ldlt.factorization, ldlt.factorizations);
+  if (!measured.step_costs.closed.empty()) {
+    figure("per linearization with open contacts", "us", 1e6 * median(measured.step_costs.open));
+    figure("per linearization with closed contacts", "us", 1e6 * median(measured.step_costs.closed));
+  }
+  figure("peak memory", "kB", peak_kilobytes());
+}
+
+void trace(const std::string& work, long size, const Task& task) { print(work, size, task, traced(task)); }
+
+void trace_model(const std::string& work, long size, Model (*make)(Index)) {
+  const Model model = make(size);
+  TraceOptions options{.step = {.first = model.first_step}};
+  options.landmarks.push_back({.quantity = model.down, .value = model.end, .stops = true, .label = "down"});
+  trace(work, size,
+        {.system = *model.structure,
+         .start = rest(*model.structure),
+         .options = options,
+         .elements = model.elements,
+         .nodes = model.structure->node_count()});
+}
+
+int trace_deck(const std::string& name, const std::string& file, long size,
+               const std::vector<std::string>& assignments) {
+  const Study study(deck::read_deck(file, assignments));
+  std::string reason;
+  const auto start = study.start(reason);
+  if (!start) {
+    std::cerr << "time_split: " << reason << "\n";
+    return 1;
+  }
+  trace(name, size,
+        {.system = study.system(),
+         .start = *start,
+         .options = study.options(),
+         .watched = study.watched(),
+         .explore = study.explore(),
+         .elements = study.structure().element_count(),
+         .nodes = study.structure().node_count()});
+  return 0;
+}
+
+constexpr int star_arms = 20;
+
+Model lee(Index elements) { return lee_frame(static_cast<int>(elements)); }
+Model star(Index unknowns) { return star_of_arches(star_arms, static_cast<int>(unknowns / (3 * star_arms))); }
+Model frame(Index unknowns) { return square_frame(square_side(unknowns)); }
+
+int run(const std::vector<std::string>& words) {
+  const std::string work = words.size() >= 2 ? words[0] : "";
+  if (work == "deck" && words.size() >= 4)
+    return trace_deck(words[1], words[2], std::atol(words[3].c_str()), {words.begin() + 4, words.end()});
+  const long size = words.size() == 2 ? std::atol(words[1].c_str()) : 0;
+  Model (*const make)(Index) = work == "lee" ? lee : work == "star" ? star : work == "frame" ? frame : nullptr;
+  if (make == nullptr || size < 10) {
+    std::cerr
+        << "usage: time_split lee ELEMENTS | star UNKNOWNS | frame UNKNOWNS | deck NAME FILE SIZE [KEY=VALUE …]\n";
+    return 2;
+  }
+  trace_model(work, size, make);
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return run({arguments + 1, arguments + count});
+  } catch (const std::exception& problem) {
+    std::cerr << "time_split: " << problem.what() << "\n";
+    return 1;
+  }
+}

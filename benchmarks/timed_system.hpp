@@ -1,0 +1,109 @@
+#pragma once
+
+#include "benchmarks/figures.hpp"
+#include "core/system.hpp"
+
+namespace arcwall::bench {
+
+/// Adds the CPU time of a scope to a sum [s]. A look at the clock takes 0.3 us.
+class ScopedTimer {
+ public:
+  explicit ScopedTimer(double& sum) : sum_(sum) {}
+  ~ScopedTimer() { sum_ += cpu_seconds() - start_; }
+  ScopedTimer(const ScopedTimer&) = delete;
+  ScopedTimer& operator=(const ScopedTimer&) = delete;
+
+ private:
+  double& sum_;
+  double start_ = cpu_seconds();
+};
+
+/// Another system, with the time that its functions take.
+class TimedSystem final : public System {
+ public:
+  struct Times {
+    double assembly = 0.0;         ///< F, K, F_λ and weights [s]
+    double side_conditions = 0.0;  ///< gaps, contact forces, what lies behind limits [s]
+    Index linearizations = 0;
+  };
+
+  /// `inner` must outlive this.
+  explicit TimedSystem(const System& inner) : inner_(inner) {}
+
+  const Times& times() const { return times_; }
+
+  Index size(const Piece& piece) const override { return inner_.size(piece); }
+  void residual(const State& state, Eigen::Ref<Vector> F) const override {
+    const ScopedTimer timer(times_.assembly);
+    inner_.residual(state, F);
+  }
+  void linearize(const State& state, Linearization& out) const override {
+    const ScopedTimer timer(times_.assembly);
+    ++times_.linearizations;
+    inner_.linearize(state, out);
+  }
+  double energy(const State& state) const override { return inner_.energy(state); }
+  Vector weights(const Piece& piece) const override {
+    const ScopedTimer timer(times_.assembly);
+    return inner_.weights(piece);
+  }
+  Piece open_piece() const override { return inner_.open_piece(); }
+  Index multiplier_count(const Piece& piece) const override { return inner_.multiplier_count(piece); }
+  Index border_width(const Piece& piece) const override { return inner_.border_width(piece); }
+  Vector border_springs(const State& state) const override { return inner_.border_springs(state); }
+
+  Index guard_count(const Piece& piece) const override { return inner_.guard_count(piece); }
+  Vector guards(const State& state) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.guards(state);
+  }
+  Row guard_gradient(const State& state, Index j) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.guard_gradient(state, j);
+  }
+  Vector guard_rates(const State& state, const Direction& direction) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.guard_rates(state, direction);
+  }
+  std::vector<Index> weak_guards(const State& state, double tolerance) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.weak_guards(state, tolerance);
+  }
+  Vector unit_force(const State& state, Index j) const override { return inner_.unit_force(state, j); }
+  double compliance(Index j) const override { return inner_.compliance(j); }
+  std::optional<Index> multiplier_index(const Piece& piece, Index j) const override {
+    return inner_.multiplier_index(piece, j);
+  }
+  double multiplier_scale() const override { return inner_.multiplier_scale(); }
+  Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
+    return inner_.transfer(x, from, to);
+  }
+  std::vector<Passage> passages(const State& state, const Direction& forward, Index limit,
+                                double tolerance) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.passages(state, forward, limit, tolerance);
+  }
+  bool admissible(const State& state, double margin) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.admissible(state, margin);
+  }
+  std::optional<Passage> refined(const State& from, const Direction& forward, const State& to,
+                                 double margin) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.refined(from, forward, to, margin);
+  }
+  Piece settled(const State& state) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.settled(state);
+  }
+  std::optional<std::string> obstruction(const State& state) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.obstruction(state);
+  }
+
+ private:
+  const System& inner_;
+  mutable Times times_;
+};
+
+}  // namespace arcwall::bench
