@@ -348,7 +348,7 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
   for (int landing = 0; landing < max_landings; ++landing) {
     const Segment segment(metric_, here_, step.to);
     auto at = correct_onto(GuardConstraint(system_, crossing.guard), segment, crossing.t);
-    if (!at) break;
+    if (!at || lands_where_it_began(*at, crossing.guard)) break;
     step.corner = true;
     step.guard = crossing.guard;
     step.to = std::move(*at);
@@ -362,6 +362,12 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
   }
   if (nearly) step = std::move(*nearly);
   return step.corner && step.slack <= together * options_.guard_tolerance;
+}
+
+// A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.
+bool Tracer::lands_where_it_began(const PathPoint& at, Index guard) const {
+  return guard >= static_cast<Index>(at.state.piece.size()) && here_.guards[guard] <= options_.guard_tolerance &&
+         here_.guard_rates[guard] > 0.0 && metric_.norm(difference(at.state, here_.state)) <= same_place;
 }
 
 // Where a continuum of equilibria lies ahead, the equations are singular at the corner: guards that should vanish

@@ -171,6 +171,7 @@ class Tracer {
   };
   std::optional<GuardCrossing> first_crossing(const Segment& segment) const;
   bool land(Step& step, GuardCrossing crossing);
+  bool lands_where_it_began(const PathPoint& at, Index guard) const;
   bool leads_to_family(const Step& step) const;
 
   bool find_singular(const PathPoint& to, std::vector<Singular>& found);
@@ -200,7 +201,10 @@ class Tracer {
   bool turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events);
   bool pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events);
   bool pass_shifted_limit(PathPoint& at, std::vector<Event>& events);
-  std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from);
+  enum class Effort { usual, patient };
+  const Passage* enter_any(const std::vector<Passage>& passages, const PathPoint& from,
+                           std::optional<PathPoint>& after);
+  std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from, Effort effort = Effort::usual);
   void refine(const State& violated, double margin);
   void add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const;
   std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);
