@@ -66,7 +66,7 @@ TEST(BadDecks, RootMaterialsAndPoints) {
       {"title = \"Everything\"", "", "title", "is missing"},
       {"title = \"Everything\"", "title = 3", "title", "3 is of the wrong type"},
       {"title = \"Everything\"", "titel = \"x\"", "titel", "did you mean title?"},
-      {"[units]", "[unit]", "unit", "did you mean units?"},
+      {"[units]", "[unit]", "unit", "did you mean [units]?"},
       {"length = \"cm\"", "", "units.length", "is missing", -1},
       {"force = \"kN\"", "force = 1", "units.force", "wrong type"},
       {"E = 2.1e4", "", "material.steel.E", "is missing", -1},
@@ -326,6 +326,25 @@ TEST(BadDecks, APointMustEndAMemberToBeSupportedOrLoaded) {
   EXPECT_NE(
       all_of(diagnostics_of(replaced(alone, "at = \"B\"", "at = \"alone\""))).find("no member ends at point alone"),
       std::string::npos);
+}
+
+// What others follow from is said before them.
+TEST(BadDecks, APartUnderAnotherNameComesFirst) {
+  const auto found = diagnostics_of(replaced(column_deck, "[member.column]", "[[members]]\nname = \"column\""));
+
+  ASSERT_GT(found.size(), 1u);
+  EXPECT_EQ(found[0].key, "members");
+  EXPECT_EQ(found[0].cure, "did you mean [member.NAME]?");
+  EXPECT_NE(all_of(diagnostics_of("title = \"x\"\nbeams = 3\n")).find("its parts are title, "), std::string::npos);
+}
+
+TEST(BadDecks, WordsOfOtherBooksAreUnderstood) {
+  for (const auto& [theirs, ours] : {std::pair("euler", "classic"), std::pair("timoshenko", "exact")}) {
+    const auto found =
+        diagnostics_of(replaced(column_deck, "theory = \"classic\"", "theory = \"" + std::string(theirs) + "\""));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].cure, "did you mean " + std::string(ours) + "?");
+  }
 }
 
 // Messages stay readable, on one line each, whatever the deck has in it.
