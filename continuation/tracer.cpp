@@ -241,6 +241,7 @@ std::optional<Arc> Tracer::advance(double s) {
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
       end_ = {.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
   }
+  if (!end_) stop_at(arc.events);
   before_.reset();
   if (!step->corner && !ahead_ && length > 0.0) before_ = std::move(here_);
   here_ = ahead_ ? ahead_->to : to;
@@ -254,6 +255,12 @@ void Tracer::stop_at(const Landmark& landed, const PathPoint& to) {
   for (const Landmark& mark : options_.landmarks)
     if (mark.stops && mark.value == landed.value && mark.quantity->value(to.state) == landed.quantity->value(to.state))
       end_ = {.reason = EndReason::stop, .detail = mark.label};
+}
+
+void Tracer::stop_at(const std::vector<Event>& events) {
+  for (const StopEvent& stop : options_.stop_events)
+    if (std::any_of(events.begin(), events.end(), [&](const Event& event) { return event.kind == stop.kind; }))
+      end_ = {.reason = EndReason::stop, .detail = stop.label};
 }
 
 // A step that ends on a singular point shows nothing of it, and its tangent there may be any: a shorter one is taken.

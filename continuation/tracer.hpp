@@ -26,6 +26,12 @@ struct Landmark {
   std::string label{};  ///< for messages: `mid = -0.16`
 };
 
+/// A kind of event that ends the branch.
+struct StopEvent {
+  EventKind kind = EventKind::limit_point;
+  std::string label{};  ///< for messages: `event = limit-point`
+};
+
 /// What is done about zeros of the detectors inside a step.
 enum class EventSearch {
   locate,  ///< each becomes a point of the path
@@ -42,6 +48,7 @@ struct TraceOptions {
   CornerOptions corner{};
   std::vector<Landmark> landmarks{};
   std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
+  std::vector<StopEvent> stop_events{};  ///< the first of any of these ends the branch
   EventSearch events = EventSearch::locate;
   std::vector<EventDetector> detectors{};  ///< besides limit points and watched monitors
   bool tied_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
@@ -161,6 +168,7 @@ class Tracer {
   std::optional<Step> take(double s);
   std::optional<Step> take_clear_of_singular(double s);
   void stop_at(const Landmark& landed, const PathPoint& to);
+  void stop_at(const std::vector<Event>& events);
   bool trustworthy(const PathPoint& to, double s, double& turn) const;
   bool hides_two_zeros(const Segment& segment, double part) const;
   State predicted(double s) const;

@@ -260,7 +260,19 @@ TEST(BadDecks, Path) {
       {"mid = [-0.16, 0.16]", "mdi = [-0.16, 0.16]", "path.stop.mdi", "did you mean mid?"},
       {"contacts = 40", "contacts = 0", "path.stop.contacts", "at least 1"},
       {"contacts = 40", "contacts = [1, 2]", "path.stop.contacts", "wrong type"},
+      {"contacts = 40", "event = \"limit\"", "path.stop.event", "known are contact-closes"},
+      {"contacts = 40", "event = [\"branch-pont\"]", "path.stop.event", "did you mean branch-point?"},
+      {"contacts = 40", "event = 1", "path.stop.event", "wrong type"},
   });
+}
+
+TEST(BadDecks, EventsThatStopMustBeLookedFor) {
+  const std::string text = replaced(full_deck, "contacts = 40", "event = \"limit-point\"");
+
+  EXPECT_TRUE(diagnostics_of(text).empty());
+  EXPECT_NE(all_of(diagnostics_of(replaced(text, "events = \"detect\"", "events = \"none\"")))
+                .find("path.stop: event = \"limit-point\" never happens with events = \"none\""),
+            std::string::npos);
 }
 
 TEST(BadDecks, Monitors) {
