@@ -26,7 +26,16 @@ std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, cons
 struct Penetration {
   double depth = 0.0;
   ContactLabel label{};
+  bool everywhere = true;  ///< of all points that might touch
 };
+
+std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
+  const std::string apart = "move the wall or the member apart";
+  if (!found.everywhere) return apart;
+  const bool above = wall.side == deck::Side::above;
+  return fmt::format("side = \"{}\" means that the structure stays {} the wall: is \"{}\" meant? Else {}",
+                     above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
+}
 
 }  // namespace
 
@@ -81,15 +90,19 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
               std::move(point), profile, side,
               {.wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
           const double gap = candidate.gap(rest);
-          if (-gap > deepest.depth) deepest = {.depth = -gap, .label = candidate.label()};
+          deepest.everywhere = deepest.everywhere && gap < 0.0;
+          if (-gap > deepest.depth) {
+            deepest.depth = -gap;
+            deepest.label = candidate.label();
+          }
           if (movable) candidates.push_back(std::move(candidate));
         }
     }
     if (deepest.depth > 1e-12 * structure.length_scale())
       problems.add(wall.position, "wall." + wall.name,
-                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{} by {}", deepest.label.member,
-                               deepest.label.member, round_trip(deepest.label.fraction), round_trip(deepest.depth)),
-                   "move the wall or the member apart");
+                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.4g}",
+                               deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth),
+                   how_to_part(wall, deepest));
   }
   return candidates;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/deck/words.hpp"
+#include "apps/member_force.hpp"
 #include "core/text.hpp"
 #include "elements/member_point.hpp"
 
@@ -27,6 +29,8 @@ std::optional<Component> member_component(deck::Component component) {
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
     case deck::Component::reaction_moment:
+    case deck::Component::axial_force:
+    case deck::Component::moment:
     case deck::Component::thickness:
     case deck::Component::thickness2:
       return std::nullopt;
@@ -47,6 +51,8 @@ std::optional<Freedom> reaction_freedom(deck::Component component) {
     case deck::Component::rotation:
     case deck::Component::face_above_z:
     case deck::Component::face_below_z:
+    case deck::Component::axial_force:
+    case deck::Component::moment:
     case deck::Component::thickness:
     case deck::Component::thickness2:
       return std::nullopt;
@@ -60,8 +66,10 @@ std::string unit_of(const deck::Deck& deck, deck::Component component) {
       return "rad";
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
+    case deck::Component::axial_force:
       return deck.units.force;
     case deck::Component::reaction_moment:
+    case deck::Component::moment:
       return deck.units.force + " " + deck.units.length;
     case deck::Component::x:
     case deck::Component::z:
@@ -104,12 +112,30 @@ std::optional<Index> thickness_freedom(const ThicknessFreedoms& freedoms, deck::
   return std::nullopt;
 }
 
+// What the member at a place carries there; null where several meet, whose forces differ, or which has no such force.
+std::shared_ptr<const Observable> member_force(const Model& model, const std::vector<End>& at,
+                                               deck::Component component) {
+  const bool bends = component == deck::Component::moment;
+  if (at.size() != 1 || model.incremental != nullptr) return nullptr;
+  const MemberMesh& mesh = *at.front().mesh;
+  const std::size_t position = at.front().position;
+  if (bends && !mesh.rotations[position]) return nullptr;
+  const auto what = bends ? MemberForce::What::moment : MemberForce::What::axial_force;
+  const double fraction = mesh.fraction(position);
+  if (model.sliding != nullptr) return std::make_shared<SlidingMemberForce>(*model.sliding, mesh.name, fraction, what);
+  const auto member = static_cast<std::size_t>(&mesh - model.structure.members().data());
+  const TiedMember tied{.structure = model.structure, .member = member, .theory = model.deck.members[member].theory};
+  return std::make_shared<TiedMemberForce>(tied, fraction, what);
+}
+
 // What a place's component is read from; null if the place has no such component.
 std::shared_ptr<const Observable> observable(const Model& model, const deck::Place& place, deck::Component component) {
   const Structure& structure = model.structure;
   const Places::Node node = model.places.find(place, structure.members());
   std::vector<End> at = ends_at(structure, node.node);
   if (node.member != nullptr) at.assign(1, End{.mesh = node.member, .position = node.position});
+  if (component == deck::Component::axial_force || component == deck::Component::moment)
+    return member_force(model, at, component);
   if (const auto freedom = reaction_freedom(component)) {
     if (*freedom != Freedom::rotation) return reaction(model, structure.freedom(node.node, *freedom));
     for (const End& end : at)
@@ -175,6 +201,28 @@ EventSearch event_search(deck::Events events) {
   return EventSearch::locate;
 }
 
+EventKind kind_of_stop(deck::StopEvent event) {
+  switch (event) {
+    case deck::StopEvent::contact_closes:
+      return EventKind::contact_closes;
+    case deck::StopEvent::contact_opens:
+      return EventKind::contact_opens;
+    case deck::StopEvent::contact_spreads:
+      return EventKind::contact_spreads;
+    case deck::StopEvent::contact_gathers:
+      return EventKind::contact_gathers;
+    case deck::StopEvent::limit_point:
+      return EventKind::limit_point;
+    case deck::StopEvent::contact_limit_point:
+      return EventKind::contact_limit_point;
+    case deck::StopEvent::displacement_limit:
+      return EventKind::displacement_limit;
+    case deck::StopEvent::branch_point:
+      return EventKind::branch_point;
+  }
+  return EventKind::limit_point;
+}
+
 }  // namespace
 
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Model& model, DeckProblems& problems) {
@@ -187,7 +235,8 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Model& 
       problems.add(monitor.position, "monitor.component",
                    "\"" + to_text(monitor.at) + "\" does not have this component",
                    "rotations need a beam, faces a section with a height, reactions a support, thickness the theory "
-                   "\"essenburg\"");
+                   "\"essenburg\"; axial-force and moment one member, which for a moment is a beam, and no load "
+                   "increments");
       continue;
     }
     const auto raw = quantity;
@@ -249,6 +298,9 @@ TraceOptions trace_options(const deck::Deck& deck, const Model& model, const std
     mark(bounds.name, bounds.high, true);
   }
   if (path.stop.contacts) options.stop_contacts = *path.stop.contacts;
+  for (const deck::StopEvent event : path.stop.events)
+    options.stop_events.push_back(
+        {.kind = kind_of_stop(event), .label = "event = " + text_of(deck::stop_event_words, event)});
   return options;
 }
 

@@ -9,6 +9,7 @@ namespace arcwall {
 
 /// What monitors are read off.
 struct Model {
+  const deck::Deck& deck;
   const Structure& structure;
   const SlidingStructure* sliding;          ///< if the states are those of contact that slides; else null
   const IncrementalStructure* incremental;  ///< of load increments; else null

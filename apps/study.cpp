@@ -53,16 +53,15 @@ ContactLaw contact_law(const deck::Contact& contact) {
 
 bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
 
-// Sliding where contact forces are point forces, unless the deck wants otherwise. Springs and increments act at nodes.
+// Whether contact points slide, which springs, increments and members of other theories do not allow.
 bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblems& problems) {
-  if (deck.walls.empty() || deck.contact.points == deck::ContactPoints::nodes) return false;
+  if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
   const bool rigid = deck.contact.method == deck::ContactMethod::multiplier;
   if (rigid && !increments_of(deck) && builder.can_slide()) return true;
-  if (deck.contact.points == deck::ContactPoints::sliding)
-    problems.add({}, "contact.points",
-                 "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
-                 "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
-                 "use \"nodes\"");
+  problems.add({}, "contact.points",
+               "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
+               "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
+               "use \"nodes\"");
   return false;
 }
 
@@ -99,7 +98,8 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   auto candidates = contact_candidates(deck_, *structure_, problems);
   const bool sliding = slides(deck_, model.builder, problems);
   if (sliding) sliding_structure_ = sliding_structure(model.builder, false);
-  const Model read_off{.structure = *structure_,
+  const Model read_off{.deck = deck_,
+                       .structure = *structure_,
                        .sliding = sliding_structure_.get(),
                        .incremental = incremental_structure_.get(),
                        .places = model.places};

@@ -172,6 +172,7 @@ class SlidingContact final : public System {
   std::vector<Passage> straightened(const State& state, double tolerance) const;
   Passage family(const State& state, Index lines, Index ends) const;
   std::vector<Passage> spreads(const State& state, const std::vector<std::size_t>& points) const;
+  std::string why_none_spreads(const State& state, const std::vector<std::size_t>& points) const;
   Passage spread(const State& state, const std::vector<std::size_t>& points, SlidingContactLayout::Span between,
                  double length) const;
   Passage shrunk(const State& state, std::size_t k, double tolerance) const;

@@ -249,21 +249,41 @@ Passage SlidingContact::family(const State& state, Index lines, Index ends) cons
 
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
 // arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
-// begun longer.
+// begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be.
 std::vector<Passage> SlidingContact::spreads(const State& state, const std::vector<std::size_t>& points) const {
   const Index run = layout(state.piece).mesh().breakpoint(static_cast<Index>(points.front())).first;
   const double length = 2.0 * least_span(run);
+  constexpr double shorter = 0.6;
   const auto flat = [&](std::size_t k) { return lies_by_itself(state, k); };
-  if (std::all_of(points.begin(), points.end(), flat)) return {spread(state, points, Span::flat, length)};
+  const auto with_end = [&](std::vector<Passage> passages) {
+    passages.push_back({.change = Passage::Change::unsupported, .detail = why_none_spreads(state, points)});
+    return passages;
+  };
+  if (std::all_of(points.begin(), points.end(), flat)) return with_end({spread(state, points, Span::flat, length)});
   const Passage arches = spread(state, points, Span::free, length);
   if (std::all_of(points.begin(), points.end(),
                   [&](std::size_t k) { return pressure(state, k) < 0.0 && wall_curvature(state, k) == 0.0; }))
-    return {arches, spread(state, points, Span::pressed, length)};
+    return with_end({arches, spread(state, points, Span::pressed, length)});
   std::vector<Passage> passages;
   for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
     passages.push_back(spread(state, points, Span::pressed, factor * length));
   passages.push_back(arches);
-  return passages;
+  passages.push_back(spread(state, points, Span::pressed, shorter * length));
+  return with_end(std::move(passages));
+}
+
+// In words: what was looked for behind points that lose their curvature, and why it may be hard to find.
+std::string SlidingContact::why_none_spreads(const State& state, const std::vector<std::size_t>& points) const {
+  const auto straight = [&](std::size_t k) { return wall_curvature(state, k) == 0.0; };
+  const auto count = static_cast<Index>(points.size());
+  std::string text = counted(count, "point") + " of contact " + (count > 1 ? "become stretches" : "becomes a stretch") +
+                     ", and no equilibrium with short ones was found";
+  const bool others = points.size() < layout(state.piece).points().size();
+  if ((count > 1 || others) && std::all_of(points.begin(), points.end(), straight))
+    text +=
+        "; the structure is nearly perfect, and of a perfect one only the sum of the lengths of all stretches is "
+        "determined";
+  return text;
 }
 
 // Each of the points, ascending, becomes two, a short way apart.

@@ -16,15 +16,15 @@ namespace arcwall {
 // and the constraint picks the point on it: a linear equation for planes and values, a quadratic for spheres. This is
 // the bordered system of docs/theory.md, section 3, in a form that serves all of them and stays regular at limit
 // points.
-CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint, const Metric& metric,
-                                   const Direction& along, double length) {
+CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint, const Metric& metric,
+                                   const Direction& along, double length, const CorrectorOptions& options) {
   CorrectorResult result{.state = std::move(guess)};
   const auto ended = [&](CorrectorStatus status) {
     result.status = status;
     return std::move(result);
   };
   double previous = length;
-  while (result.iterations < options_.max_iterations) {
+  while (result.iterations < options.max_iterations) {
     if (const auto status = look(result.state); status != CorrectorStatus::converged) return ended(status);
     if (!find_line(metric, along)) return ended(CorrectorStatus::singular);
     result.roots = constraint.advance(result.state, line_.particular, line_.tangent);
@@ -41,13 +41,26 @@ CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint
     if (!std::isfinite(size)) return ended(CorrectorStatus::not_finite);
     const double ratio = size / std::max(previous, 1e-300);
     // Newton's next correction, from the last two; from one alone only if the path is nearly straight.
-    const double next = result.iterations > 1 ? size * ratio * ratio : size * options_.straight;
-    const bool settled = next <= options_.tolerance && ratio <= 1.0;
-    if (settled || (size <= options_.stagnation && ratio > 0.1)) return arrived(std::move(result), metric, along);
-    if (ratio > options_.divergence && result.iterations > 1) return ended(CorrectorStatus::diverged);
+    const double next = result.iterations > 1 ? size * ratio * ratio : size * options.straight;
+    const bool settled = next <= options.tolerance && ratio <= 1.0;
+    if (settled || (size <= options.stagnation && ratio > 0.1)) return arrived(std::move(result), metric, along);
+    if (ratio > options.divergence && result.iterations > 1) return ended(CorrectorStatus::diverged);
     previous = size;
   }
   return ended(CorrectorStatus::too_many_iterations);
+}
+
+CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint, const Metric& metric,
+                                   const Direction& along, double length) {
+  return iterate(std::move(guess), constraint, metric, along, length, options_);
+}
+
+CorrectorResult Corrector::correct_patiently(State guess, const PathConstraint& constraint, const Metric& metric,
+                                             const Direction& along, double length) {
+  CorrectorOptions patient = options_;
+  patient.divergence = infinity;
+  patient.max_iterations = options_.patient_iterations;
+  return iterate(std::move(guess), constraint, metric, along, length, patient);
 }
 
 CorrectorResult Corrector::inspect(const State& state, const Metric& metric, const Direction& along) {

@@ -16,6 +16,7 @@ struct CorrectorOptions {
   double stagnation = 1e-9;  ///< corrections below this that no longer shrink are round-off
   double divergence = 3.0;   ///< a correction longer than this times the one before ends the attempt
   int max_iterations = 10;
+  int patient_iterations = 40;  ///< of correct_patiently()
 };
 
 enum class CorrectorStatus { converged, too_many_iterations, diverged, complex_roots, singular, not_finite };
@@ -46,6 +47,11 @@ class Corrector {
   CorrectorResult correct(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
                           double length);
 
+  /// The same from a guess of another shape than the solution, which may be long in coming: where next to nothing
+  /// resists some change, the first corrections follow the guess's errors. They may grow for a while.
+  CorrectorResult correct_patiently(State guess, const PathConstraint& constraint, const Metric& metric,
+                                    const Direction& along, double length);
+
   /// Eigenpairs nearest zero of K at the state reached last; empty where K is singular to working precision.
   std::optional<NearNull> near_null(const Vector& weights, Index count) const;
 
@@ -63,6 +69,8 @@ class Corrector {
   void track_from(const NearNull& nearest) { tracker_.start_from(nearest.vectors); }
 
  private:
+  CorrectorResult iterate(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
+                          double length, const CorrectorOptions& options);
   CorrectorStatus look(const State& state);
   bool find_line(const Metric& metric, const Direction& along);
   CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Direction& along);

@@ -61,6 +61,7 @@ void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
   if (event.suspected || known(point)) return;
   known_.push_back({.state = point.state, .branch = current_});
+  if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
   if (point.rays.empty() && point.mode.dx.size() == 0) return;

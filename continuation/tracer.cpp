@@ -240,6 +240,7 @@ std::optional<Arc> Tracer::advance(double s) {
     if (!end_ && options_.stop_contacts && closed >= *options_.stop_contacts)
       end_ = {.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
   }
+  if (!end_) stop_at(arc.events);
   before_.reset();
   if (!step->corner && !ahead_ && length > 0.0) before_ = std::move(here_);
   here_ = ahead_ ? ahead_->to : to;
@@ -253,6 +254,12 @@ void Tracer::stop_at(const Landmark& landed, const PathPoint& to) {
   for (const Landmark& mark : options_.landmarks)
     if (mark.stops && mark.value == landed.value && mark.quantity->value(to.state) == landed.quantity->value(to.state))
       end_ = {.reason = EndReason::stop, .detail = mark.label};
+}
+
+void Tracer::stop_at(const std::vector<Event>& events) {
+  for (const StopEvent& stop : options_.stop_events)
+    if (std::any_of(events.begin(), events.end(), [&](const Event& event) { return event.kind == stop.kind; }))
+      end_ = {.reason = EndReason::stop, .detail = stop.label};
 }
 
 // A step that ends on a singular point shows nothing of it, and its tangent there may be any: a shorter one is taken.
@@ -347,7 +354,7 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
   for (int landing = 0; landing < max_landings; ++landing) {
     const Segment segment(metric_, here_, step.to);
     auto at = correct_onto(GuardConstraint(system_, crossing.guard), segment, crossing.t);
-    if (!at) break;
+    if (!at || lands_where_it_began(*at, crossing.guard)) break;
     step.corner = true;
     step.guard = crossing.guard;
     step.to = std::move(*at);
@@ -361,6 +368,12 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
   }
   if (nearly) step = std::move(*nearly);
   return step.corner && step.slack <= together * options_.guard_tolerance;
+}
+
+// A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.
+bool Tracer::lands_where_it_began(const PathPoint& at, Index guard) const {
+  return guard >= static_cast<Index>(at.state.piece.size()) && here_.guards[guard] <= options_.guard_tolerance &&
+         here_.guard_rates[guard] > 0.0 && metric_.norm(difference(at.state, here_.state)) <= same_place;
 }
 
 // Where a continuum of equilibria lies ahead, the equations are singular at the corner: guards that should vanish

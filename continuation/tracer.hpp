@@ -26,6 +26,12 @@ struct Landmark {
   std::string label{};  ///< for messages: `mid = -0.16`
 };
 
+/// A kind of event that ends the branch.
+struct StopEvent {
+  EventKind kind = EventKind::limit_point;
+  std::string label{};  ///< for messages: `event = limit-point`
+};
+
 /// What is done about zeros of the detectors inside a step.
 enum class EventSearch {
   locate,  ///< each becomes a point of the path
@@ -42,6 +48,7 @@ struct TraceOptions {
   CornerOptions corner{};
   std::vector<Landmark> landmarks{};
   std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
+  std::vector<StopEvent> stop_events{};  ///< the first of any of these ends the branch
   EventSearch events = EventSearch::locate;
   std::vector<EventDetector> detectors{};  ///< besides limit points and watched monitors
   bool tied_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
@@ -161,6 +168,7 @@ class Tracer {
   std::optional<Step> take(double s);
   std::optional<Step> take_clear_of_singular(double s);
   void stop_at(const Landmark& landed, const PathPoint& to);
+  void stop_at(const std::vector<Event>& events);
   bool trustworthy(const PathPoint& to, double s, double& turn) const;
   bool hides_two_zeros(const Segment& segment, double part) const;
   State predicted(double s) const;
@@ -171,6 +179,7 @@ class Tracer {
   };
   std::optional<GuardCrossing> first_crossing(const Segment& segment) const;
   bool land(Step& step, GuardCrossing crossing);
+  bool lands_where_it_began(const PathPoint& at, Index guard) const;
   bool leads_to_family(const Step& step) const;
 
   bool find_singular(const PathPoint& to, std::vector<Singular>& found);
@@ -200,7 +209,10 @@ class Tracer {
   bool turn_corner(PathPoint& at, Index landed, double slack, std::vector<Event>& events);
   bool pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events);
   bool pass_shifted_limit(PathPoint& at, std::vector<Event>& events);
-  std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from);
+  enum class Effort { usual, patient };
+  const Passage* enter_any(const std::vector<Passage>& passages, const PathPoint& from,
+                           std::optional<PathPoint>& after);
+  std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from, Effort effort = Effort::usual);
   void refine(const State& violated, double margin);
   void add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const;
   std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);

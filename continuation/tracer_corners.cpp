@@ -33,6 +33,20 @@ EventKind kind_of(Passage::Change change) {
   return EventKind::user;
 }
 
+// Whether there is a piece behind, or only a reason to end.
+bool leads_on(Passage::Change change) {
+  return change != Passage::Change::family && change != Passage::Change::unsupported;
+}
+
+// Behind none of these a point was found.
+BranchEnd end_before(const std::vector<Passage>& passages) {
+  if (passages.empty() || leads_on(passages.back().change))
+    return {.reason = EndReason::singular, .detail = "behind a change of contact"};
+  const Passage& last = passages.back();
+  const bool family = last.change == Passage::Change::family;
+  return {.reason = family ? EndReason::family : EndReason::unsupported, .detail = last.detail, .family = last.family};
+}
+
 // Whether the first point on the piece ahead lies a little beyond the corner, with a new stretch of some length.
 bool begins_with_length(Passage::Change change) {
   return change == Passage::Change::spreads || change == Passage::Change::splits;
@@ -78,24 +92,14 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
 // the last point of the piece behind. False, and the branch ends, where nothing can be followed.
 bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events) {
   const double tolerance = std::max(options_.guard_tolerance, 2.0 * slack);
+  const std::vector<Passage> passages = system_.passages(at.state, at.tangent, limit, tolerance);
   std::optional<PathPoint> after;
-  Passage passage;
-  for (Passage& candidate : system_.passages(at.state, at.tangent, limit, tolerance)) {
-    passage = std::move(candidate);
-    if (passage.change == Passage::Change::family || passage.change == Passage::Change::unsupported) {
-      const bool family = passage.change == Passage::Change::family;
-      end_ = {.reason = family ? EndReason::family : EndReason::unsupported,
-              .detail = passage.detail,
-              .family = passage.family};
-      return false;
-    }
-    after = enter(passage, at);
-    if (after) break;
-  }
-  if (!after) {
-    end_ = {.reason = EndReason::singular, .detail = "behind a change of contact"};
+  const Passage* entered = enter_any(passages, at, after);
+  if (!entered) {
+    end_ = end_before(passages);
     return false;
   }
+  const Passage& passage = *entered;
   Event event{.state = at.state,
               .arc = at.arc,
               .residual = at.residual,
@@ -140,22 +144,34 @@ bool Tracer::pass_shifted_limit(PathPoint& at, std::vector<Event>& events) {
   return pass_limit(at, contacts + limit, 0.0, events);
 }
 
+// The first of the passages behind which a point is found; all are tried again with patience where none is: of a nearly
+// perfect structure hardly more than the sum of the lengths of straight contacts is determined, and corrections swing
+// before they settle.
+const Passage* Tracer::enter_any(const std::vector<Passage>& passages, const PathPoint& from,
+                                 std::optional<PathPoint>& after) {
+  for (const Effort effort : {Effort::usual, Effort::patient})
+    for (const Passage& passage : passages) {
+      if (!leads_on(passage.change)) break;
+      after = enter(passage, from, effort);
+      if (after) return &passage;
+    }
+  return nullptr;
+}
+
 // The first point on the piece ahead, with its metric.
-std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& from) {
+std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& from, Effort effort) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
   constexpr double slack = 1e-6;    // of guards that were near zero on the piece behind, too
   const Metric metric(system_.weights(passage.guess.piece), metric_.lambda_scale());
   const bool oriented = metric.norm(passage.forward) > 0.0;
   const Direction along =
       oriented ? passage.forward : Direction{.dx = Vector::Zero(passage.guess.x.size()), .dlambda = 1.0};
-  CorrectorResult result;
-  if (passage.quantity) {
-    result =
-        corrector_.correct(passage.guess, ValueConstraint(*passage.quantity, passage.value), metric, along, distance);
-  } else {
-    result =
-        corrector_.correct(passage.guess, PlaneConstraint(metric, passage.guess, along, 0.0), metric, along, distance);
-  }
+  const auto corrected = [&](const PathConstraint& constraint) {
+    return effort == Effort::patient ? corrector_.correct_patiently(passage.guess, constraint, metric, along, distance)
+                                     : corrector_.correct(passage.guess, constraint, metric, along, distance);
+  };
+  CorrectorResult result = passage.quantity ? corrected(ValueConstraint(*passage.quantity, passage.value))
+                                            : corrected(PlaneConstraint(metric, passage.guess, along, 0.0));
   last_failure_ = result.status;
   if (!result.converged() || !system_.admissible(result.state, -let_pass)) return std::nullopt;
   if (passage.change != Passage::Change::remeshed && (system_.guards(result.state).array() < -slack).any())

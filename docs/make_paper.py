@@ -5,11 +5,11 @@ writes docs/paper.md with its pictures, docs/paper-*.svg.
     python3 docs/make_paper.py build/release/apps/trace-path
 """
 
-import csv
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from make_validation import trace_into
 
 HERE = Path(__file__).resolve().parent
 
@@ -96,16 +96,11 @@ class Program:
         self.path = path
 
     def run(self, deck):
-        """Rows of path.csv and the events of a deck."""
+        """Rows of path.csv of a deck."""
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "deck.toml"
             file.write_text(deck, encoding="utf-8")
-            done = subprocess.run([self.path, "run", str(file), "--out", str(Path(folder) / "out"), "--quiet", "--no-units"],
-                                  capture_output=True, text=True, timeout=900, check=False)
-            if done.returncode not in (0, 3):
-                raise RuntimeError(done.stderr)
-            with open(Path(folder) / "out" / "path.csv", newline="", encoding="utf-8") as table:
-                return list(csv.DictReader(table))
+            return trace_into(str(Path(folder) / "out"), self.path, file, []).points
 
 
 def member(theory, elements, order=None):

@@ -5,6 +5,7 @@
 #include "apps/cli/session.hpp"
 #include "apps/cli/summary.hpp"
 #include "apps/deck/toml_source.hpp"
+#include "core/error.hpp"
 
 namespace arcwall {
 
@@ -42,6 +43,20 @@ ExitStatus dry_run(const RunRequest& request, const RunUnderWay& run) {
   return ExitStatus::success;
 }
 
+// A run of the same deck that could go on is not lost without a word. One of another version is none.
+void say_what_is_replaced(const RunRequest& request) {
+  try {
+    const RunUnderWay there = stored_run(request.folder, RunUnderWay::Resume::go_on);
+    const RunDescription& of = there.description();
+    if (there.has_ended() || of.deck_text != request.run.deck_text || of.assignments != request.run.assignments) return;
+    const std::string folder = request.folder.string();
+    std::cerr << "note: " << folder << " holds a run of this deck that had not ended (" << there.record().points.size()
+              << " points); it is traced anew. `trace-path resume " << folder << "` would have gone on with it\n";
+  } catch (const OutputError&) {
+  } catch (const InputError&) {
+  }
+}
+
 ExitStatus run(const Options& options) {
   const Stopwatch since_begin;
   const RunRequest request = request_from(options);
@@ -50,6 +65,7 @@ ExitStatus run(const Options& options) {
   if (options.has("dry-run")) return dry_run(request, run);
 
   const OutputFolder folder(request.folder, run.record().deck, request.foreign);
+  say_what_is_replaced(request);
   std::string reason;
   if (!run.begin(reason)) {
     std::cerr << "error: there is no equilibrium at the start: " << reason << "\n";

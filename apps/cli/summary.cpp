@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/deck/words.hpp"
+#include "apps/output/load_text.hpp"
 #include "apps/output/text_table.hpp"
 
 namespace arcwall {
@@ -26,21 +27,6 @@ class Lines {
 
 std::string with_unit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
-}
-
-std::string text_of(const deck::Vector& vector) { return fmt::format("({:.6g}, {:.6g})", vector.x, vector.z); }
-
-std::string text_of(const deck::PointLoad& load, const deck::Units& units) {
-  std::string text = "at " + to_text(load.at);
-  if (load.force.x != 0.0 || load.force.z != 0.0) text += " force " + with_unit(text_of(load.force), units.force);
-  if (load.moment != 0.0)
-    text += " moment " + with_unit(with_unit(fmt::format("{:.6g}", load.moment), units.force), units.length);
-  return text;
-}
-
-std::string text_of(const deck::MemberLoad& load, const deck::Units& units) {
-  const std::string unit = units.force.empty() || units.length.empty() ? "" : units.force + "/" + units.length;
-  return "on " + load.member + " " + with_unit(text_of(load.distributed), unit);
 }
 
 // The least gap of a wall in the stress-free state, and where.
@@ -82,12 +68,26 @@ void add_model(const Study& study, Lines& lines) {
     lines.add("supports", fmt::format("{}: {}", support.point, fmt::join(directions, ", ")));
   }
   for (const deck::Load& load : deck.loads) {
-    const std::string text = std::visit([&](const auto& action) { return text_of(action, deck.units); }, load.action);
-    lines.add("loads", text + (load.constant ? ", constant" : ", times λ"));
+    lines.add("loads", load_text(load, deck.units).text + (load.constant ? ", constant" : ", times λ"));
   }
   for (const deck::Wall& wall : deck.walls)
     lines.add("walls", fmt::format("{}: {} the structure, {}", wall.name, text_of(deck::side_words, wall.side),
                                    first_gap(study, wall)));
+}
+
+// Where contact is looked for, and what that means for the loads.
+void add_contact(const deck::Deck& deck, Lines& lines) {
+  if (deck.walls.empty()) return;
+  const deck::PointsOfContact contact = deck::points_of_contact(deck);
+  switch (contact.points) {
+    case deck::ContactPoints::sliding:
+      lines.add("contact", "anywhere along the members (sliding): " + contact.why);
+      break;
+    case deck::ContactPoints::nodes:
+      lines.add("contact", "at the nodes of the mesh: " + contact.why);
+      lines.add("contact", "loads of snaps depend on the mesh: compare several numbers of elements");
+      break;
+  }
 }
 
 void add_path(const deck::Deck& deck, Lines& lines) {
@@ -96,6 +96,8 @@ void add_path(const deck::Deck& deck, Lines& lines) {
                         text_of(deck::path_method_words, deck.path.method), deck.path.step, deck.path.max_points));
   for (const deck::StopBounds& bounds : deck.path.stop.bounds)
     lines.add("stops", fmt::format("{} at {:.6g} and {:.6g}", bounds.name, bounds.low, bounds.high));
+  for (const deck::StopEvent event : deck.path.stop.events)
+    lines.add("stops", "at the first " + text_of(deck::stop_event_words, event));
   if (deck.path.stop.contacts) lines.add("stops", fmt::format("at {} closed contacts", *deck.path.stop.contacts));
   for (const deck::Monitor& monitor : deck.monitors)
     lines.add("monitors", fmt::format("{}: {} of {}", monitor.name, text_of(deck::component_words, monitor.component),
@@ -107,6 +109,7 @@ void add_path(const deck::Deck& deck, Lines& lines) {
 std::string summary(const Study& study) {
   Lines lines;
   add_model(study, lines);
+  add_contact(study.deck(), lines);
   add_path(study.deck(), lines);
   return lines.text(study.deck().source.file);
 }

@@ -1,6 +1,7 @@
 #include "apps/deck/cursor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +12,40 @@ namespace arcwall::deck {
 namespace {
 
 constexpr std::size_t longest_name_compared = 100;  // the distance of two words costs the product of their lengths
+
+// Words of other programs and books for those of a deck.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 22> also_called{{
+    {"euler", "classic"},
+    {"bernoulli", "classic"},
+    {"euler-bernoulli", "classic"},
+    {"bernoulli-euler", "classic"},
+    {"kirchhoff", "elastica"},
+    {"timoshenko", "exact"},
+    {"reissner", "exact"},
+    {"simo-reissner", "exact"},
+    {"bar", "truss"},
+    {"rod", "truss"},
+    {"arc-length", "spherical"},
+    {"arclength", "spherical"},
+    {"crisfield", "spherical"},
+    {"rot", "rotation"},
+    {"theta", "rotation"},
+    {"phi", "rotation"},
+    {"normal-force", "axial-force"},
+    {"bending-moment", "moment"},
+    {"upper", "above"},
+    {"top", "above"},
+    {"lower", "below"},
+    {"bottom", "below"},
+}};
+
+// The candidate that a word means; empty if it is nobody's word for one of them.
+std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
+  for (const auto& [other, ours] : also_called)
+    if (word == other && std::find(candidates.begin(), candidates.end(), ours) != candidates.end())
+      return std::string(ours);
+  return {};
+}
 
 std::string range_words(const IntegerRange& range) {
   const std::string from = "an integer of at least " + std::to_string(range.low);
@@ -33,12 +68,19 @@ void Findings::add(const Position& position, std::string key, std::string messag
   diagnostics_.push_back(diagnostic_at(source_, position, std::move(key), std::move(message), std::move(cure)));
 }
 
+void Findings::add_first(const Position& position, std::string key, std::string message, std::string cure) {
+  first_.push_back(diagnostic_at(source_, position, std::move(key), std::move(message), std::move(cure)));
+}
+
 void Findings::throw_if_any() const {
-  if (diagnostics_.empty()) return;
-  std::vector<Diagnostic> in_order = diagnostics_;
-  std::stable_sort(in_order.begin(), in_order.end(), [](const Diagnostic& a, const Diagnostic& b) {
+  if (first_.empty() && diagnostics_.empty()) return;
+  const auto stands_before = [](const Diagnostic& a, const Diagnostic& b) {
     return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
-  });
+  };
+  std::vector<Diagnostic> in_order = first_, others = diagnostics_;
+  std::stable_sort(in_order.begin(), in_order.end(), stands_before);
+  std::stable_sort(others.begin(), others.end(), stands_before);
+  in_order.insert(in_order.end(), others.begin(), others.end());
   throw InputError(std::move(in_order));
 }
 
@@ -253,7 +295,8 @@ void Cursor::report(std::string_view key, std::string message, std::string cure)
 
 void Cursor::report_unknown(const Reference& found, const std::string& path, const std::string& message,
                             const std::vector<std::string>& candidates) {
-  const std::string near = found.text.size() <= longest_name_compared ? nearest(found.text, candidates) : "";
+  std::string near = meant_by(found.text, candidates);
+  if (near.empty() && found.text.size() <= longest_name_compared) near = nearest(found.text, candidates);
   std::string cure = candidates.empty() ? "there is none" : "known are " + listed(candidates);
   if (!near.empty()) cure = "did you mean " + near + "?";
   findings_.add(found.position, path, in_quotes(found.text, longest_name_compared) + " " + message, std::move(cure));

@@ -28,9 +28,12 @@ class Findings {
   /// InputError with all that was added, by their order in the text; returns if there is nothing.
   void throw_if_any() const;
 
+  /// The same of what others follow from: it comes before all others.
+  void add_first(const Position& position, std::string key, std::string message, std::string cure);
+
  private:
   const Source& source_;
-  std::vector<Diagnostic> diagnostics_{};
+  std::vector<Diagnostic> first_{}, diagnostics_{};
 };
 
 /// What a finite number must satisfy, in code and in words.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/deck/value.hpp"
+#include "apps/deck/words.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::deck {
@@ -43,6 +44,21 @@ SectionProperties properties(const Section& section) {
 
 std::string to_text(const Place& place) {
   return place.fraction ? place.name + ":" + round_trip(*place.fraction) : place.name;
+}
+
+// Sliding where contact forces are point forces. Springs and increments act at nodes.
+PointsOfContact points_of_contact(const Deck& deck) {
+  if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
+  if (deck.contact.method != ContactMethod::multiplier)
+    return {.points = ContactPoints::nodes,
+            .why = "method " + text_of(contact_method_words, deck.contact.method) + " puts springs at nodes"};
+  if (deck.path.method == PathMethod::incremental)
+    return {.points = ContactPoints::nodes, .why = "path.method incremental has contact at nodes"};
+  for (const Member& member : deck.members)
+    if (member.theory != Theory::classic && member.theory != Theory::elastica)
+      return {.points = ContactPoints::nodes,
+              .why = "member " + member.name + " is of theory " + text_of(theory_words, member.theory)};
+  return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};
 }
 
 std::string origin_of(const std::string& assignment) {

@@ -292,6 +292,8 @@ enum class Component {
   reaction_x,
   reaction_z,
   reaction_moment,
+  axial_force,
+  moment,
   thickness,
   thickness2
 };
@@ -329,9 +331,22 @@ struct StopBounds {
   bool operator==(const StopBounds&) const = default;
 };
 
+/// Events that may end a branch.
+enum class StopEvent {
+  contact_closes,
+  contact_opens,
+  contact_spreads,
+  contact_gathers,
+  limit_point,
+  contact_limit_point,
+  displacement_limit,
+  branch_point
+};
+
 struct Stop {
   std::vector<StopBounds> bounds{};
-  std::optional<int> contacts{};  ///< as many closed contacts end the branch
+  std::optional<int> contacts{};    ///< as many closed contacts end the branch
+  std::vector<StopEvent> events{};  ///< the first of any of these does
 
   bool operator==(const Stop&) const = default;
 };
@@ -389,6 +404,13 @@ const Named* find(const std::vector<Named>& list, const std::string& name) {
   }
   return nullptr;
 }
+
+/// Where contact is looked for, and in words why: the deck says so, or it is the default.
+struct PointsOfContact {
+  ContactPoints points = ContactPoints::nodes;
+  std::string why{};
+};
+PointsOfContact points_of_contact(const Deck& deck);
 
 /// How messages name a `--set key=value`: on one line, cut where it gets long.
 std::string origin_of(const std::string& assignment);

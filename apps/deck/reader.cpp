@@ -1,11 +1,16 @@
 #include "apps/deck/reader.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "apps/deck/cursor.hpp"
 #include "apps/deck/reader_parts.hpp"
 #include "apps/deck/toml_source.hpp"
+#include "apps/deck/value.hpp"
+#include "core/text.hpp"
 
 namespace arcwall::deck {
 
@@ -24,6 +29,44 @@ void assign_all(Value& root, const std::vector<std::string>& assignments) {
   if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
 }
 
+struct DeckPart {
+  std::string_view key, written;
+};
+
+constexpr std::array<DeckPart, 13> deck_parts{{{"title", "title"},
+                                               {"description", "description"},
+                                               {"units", "[units]"},
+                                               {"material", "[material.NAME]"},
+                                               {"section", "[section.NAME]"},
+                                               {"point", "[point]"},
+                                               {"member", "[member.NAME]"},
+                                               {"support", "[support]"},
+                                               {"load", "[[load]]"},
+                                               {"wall", "[[wall]]"},
+                                               {"contact", "[contact]"},
+                                               {"path", "[path]"},
+                                               {"monitor", "[[monitor]]"}}};
+
+// A part under another name leaves others without what they refer to, so this is said first.
+void report_unknown_parts(const Value& root, Findings& findings) {
+  std::vector<std::string> known;
+  std::string all;
+  for (const DeckPart& part : deck_parts) {
+    known.emplace_back(part.key);
+    all += (all.empty() ? "" : ", ") + std::string(part.written);
+  }
+  for (const Value& item : root.items) {
+    if (std::find(known.begin(), known.end(), item.key) != known.end()) continue;
+    constexpr std::size_t longest_compared = 100;
+    const std::string near = item.key.size() <= longest_compared ? nearest(item.key, known) : "";
+    const auto meant =
+        std::find_if(deck_parts.begin(), deck_parts.end(), [&](const DeckPart& part) { return part.key == near; });
+    findings.add_first(
+        item.key_position, key_text(item.key), in_quotes(item.key, longest_compared) + " is no part of a deck",
+        meant == deck_parts.end() ? "its parts are " + all : "did you mean " + std::string(meant->written) + "?");
+  }
+}
+
 Deck read_root(const Value& value, Source source) {
   Deck deck{.source = std::move(source)};
   Findings findings(deck.source);
@@ -40,7 +83,7 @@ Deck read_root(const Value& value, Source source) {
   read_contact(root, deck);
   read_monitors(root, names, deck);
   read_path(root, names, deck);
-  root.finish();
+  report_unknown_parts(value, findings);
   findings.throw_if_any();
   return deck;
 }

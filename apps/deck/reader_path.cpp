@@ -100,10 +100,44 @@ void read_stop_bounds(Cursor& table, const Value& item, const Names& names, Stop
   }
 }
 
+// One word, or an array of them.
+void read_stop_events(Cursor& table, const Value& item, Stop& stop) {
+  StopEvent event{};
+  if (item.kind != Value::Kind::array) {
+    if (table.word("event", Presence::required, stop_event_words, event)) stop.events.push_back(event);
+    return;
+  }
+  std::vector<Reference> words;
+  table.references("event", Presence::required, words);
+  for (const Reference& word : words) {
+    if (const auto known = from_text(stop_event_words, word.text)) {
+      stop.events.push_back(*known);
+    } else {
+      table.report_unknown(word, table.path_of("event"), "is not one of the words for this key",
+                           texts(stop_event_words));
+    }
+  }
+}
+
+// Events that are not looked for end nothing.
+void check_stop_events(Cursor& table, const Path& path) {
+  for (const StopEvent event : path.stop.events) {
+    const std::string name = text_of(stop_event_words, event);
+    if (path.events == Events::none)
+      table.report("stop", "event = " + in_quotes(name) + " never happens with events = \"none\"",
+                   "leave out events, or write events = \"detect\"");
+    else if (event == StopEvent::displacement_limit && path.watch.empty())
+      table.report("stop", "event = " + in_quotes(name) + " never happens: no monitor is watched",
+                   "add watch = [\"MONITOR\"] to [path]");
+  }
+}
+
 void read_stop(Cursor table, const Names& names, Stop& stop) {
   for (const Value& item : table.value().items) {
     if (item.key == "contacts") {
       table.integer("contacts", Presence::required, {.low = 1}, stop.contacts);
+    } else if (item.key == "event") {
+      read_stop_events(table, item, stop);
     } else {
       read_stop_bounds(table, item, names, stop);
     }
@@ -181,6 +215,7 @@ void read_path(Cursor& root, const Names& names, Deck& deck) {
   table->word("events", Presence::optional, events_words, path.events);
   if (auto stop = table->table("stop", Presence::optional)) read_stop(*stop, names, path.stop);
   check_method(*table, path);
+  check_stop_events(*table, path);
   table->finish();
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/deck/toml_precheck.hpp"
+#include "apps/deck/toml_slips.hpp"
 
 namespace {
 
@@ -119,6 +120,10 @@ toml::table parsed(std::string_view text, const std::string& file) {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const Position position = position_of(error.source());
+    if (auto slip = slip_at(text, position)) {
+      slip->file = file;
+      fail(*std::move(slip));
+    }
     fail({.file = file,
           .line = position.line,
           .column = position.column,

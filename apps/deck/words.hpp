@@ -76,7 +76,7 @@ inline constexpr Words<ContactMethod, 3> contact_method_words{{{"multiplier", Co
                                                                {"augmented", ContactMethod::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"sliding", ContactPoints::sliding}}};
-inline constexpr Words<Component, 10> component_words{{{"x", Component::x},
+inline constexpr Words<Component, 12> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
                                                        {"face-above-z", Component::face_above_z},
@@ -84,6 +84,8 @@ inline constexpr Words<Component, 10> component_words{{{"x", Component::x},
                                                        {"reaction-x", Component::reaction_x},
                                                        {"reaction-z", Component::reaction_z},
                                                        {"reaction-moment", Component::reaction_moment},
+                                                       {"axial-force", Component::axial_force},
+                                                       {"moment", Component::moment},
                                                        {"thickness", Component::thickness},
                                                        {"thickness2", Component::thickness2}}};
 inline constexpr Words<Component, 3> control_words{
@@ -100,5 +102,14 @@ inline constexpr Words<Branches, 3> branches_words{
     {{"primary", Branches::primary}, {"follow", Branches::follow}, {"all", Branches::all}}};
 inline constexpr Words<Events, 3> events_words{
     {{"locate", Events::locate}, {"detect", Events::detect}, {"none", Events::none}}};
+
+inline constexpr Words<StopEvent, 8> stop_event_words{{{"contact-closes", StopEvent::contact_closes},
+                                                       {"contact-opens", StopEvent::contact_opens},
+                                                       {"contact-spreads", StopEvent::contact_spreads},
+                                                       {"contact-gathers", StopEvent::contact_gathers},
+                                                       {"limit-point", StopEvent::limit_point},
+                                                       {"contact-limit-point", StopEvent::contact_limit_point},
+                                                       {"displacement-limit", StopEvent::displacement_limit},
+                                                       {"branch-point", StopEvent::branch_point}}};
 
 }  // namespace arcwall::deck

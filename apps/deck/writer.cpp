@@ -50,6 +50,7 @@ class Document {
  public:
   void table(const std::string& key) { text_ += "\n[" + key + "]\n"; }
   void table_of_array(const std::string& key) { text_ += "\n[[" + key + "]]\n"; }
+  void comment(const std::string& text) { text_ += "# " + text + "\n"; }
   void set(std::string_view key, const std::string& value) { text_ += std::string(key) + " = " + value + "\n"; }
   void set(std::string_view key, double value) { set(key, number(value)); }
   void set(std::string_view key, const std::optional<double>& value) {
@@ -226,10 +227,17 @@ void write_walls(Document& out, const Deck& deck) {
   }
 }
 
-void write_contact(Document& out, const Contact& contact) {
+// A default that depends on other keys is a comment: who reads the deck sees it, and it goes with the keys.
+void write_contact(Document& out, const Deck& deck) {
+  const Contact& contact = deck.contact;
   out.table("contact");
   out.set_word("method", contact_method_words, contact.method);
-  if (contact.points) out.set_word("points", contact_points_words, *contact.points);
+  if (contact.points) {
+    out.set_word("points", contact_points_words, *contact.points);
+  } else if (!deck.walls.empty()) {
+    const PointsOfContact chosen = points_of_contact(deck);
+    out.comment("points = " + in_quotes(text_of(contact_points_words, chosen.points)) + ": " + chosen.why);
+  }
   out.set("penalty", contact.penalty);
   out.set("gap_tolerance", contact.gap_tolerance);
 }
@@ -255,6 +263,9 @@ void write_path(Document& out, const Path& path) {
     out.set(name(bounds.name), "[" + number(bounds.low) + ", " + number(bounds.high) + "]");
   }
   if (path.stop.contacts) out.set_integer("contacts", *path.stop.contacts);
+  if (!path.stop.events.empty())
+    out.set("event",
+            array(path.stop.events, [](StopEvent event) { return in_quotes(text_of(stop_event_words, event)); }));
 }
 
 void write_monitors(Document& out, const Deck& deck) {
@@ -277,7 +288,7 @@ std::string to_toml(const Deck& deck) {
   write_supports(out, deck);
   write_loads(out, deck);
   write_walls(out, deck);
-  write_contact(out, deck.contact);
+  write_contact(out, deck);
   write_path(out, deck.path);
   write_monitors(out, deck);
   return out.text();

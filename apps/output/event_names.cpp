@@ -201,8 +201,7 @@ std::string_view what_to_try(EndReason reason) {
       return {};
     case EndReason::min_step:
       return "a finer mesh (member.NAME.elements), or a smaller path.max_step; --verbose writes steps.jsonl, which "
-             "says "
-             "why each step was cut back";
+             "says why each step was cut back";
     case EndReason::singular:
       return "a small imperfection, so that the path has one way on; or a finer mesh";
     case EndReason::not_finite:
@@ -215,9 +214,12 @@ std::string_view what_to_try(EndReason reason) {
     case EndReason::wall_end:
       return "a longer wall, or a bound in path.stop before its end";
     case EndReason::family:
-      return "a small imperfection, which singles one equilibrium of the continuum out; or contact.points = \"nodes\"";
+      return "a small imperfection, which singles one equilibrium of the continuum out; or contact.points = \"nodes\", "
+             "where loads depend on the mesh: compare several numbers of elements";
     case EndReason::unsupported:
-      return "contact.points = \"nodes\" or contact.method = \"penalty\", which have no such limit";
+      return "contact.points = \"nodes\" or contact.method = \"penalty\", which have no such limit, but contact at "
+             "nodes: "
+             "loads then depend on the mesh, so compare several numbers of elements";
   }
   assert(false);
   return {};

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include "apps/output/event_marks.hpp"
 #include "apps/output/event_names.hpp"
@@ -34,9 +36,11 @@ OrderedJson of_points(const Record& record, Value value) {
 }
 
 OrderedJson points_json(const Record& record) {
+  const std::vector<double> zero = roundoff(record);
   OrderedJson monitors = OrderedJson::array();
   for (std::size_t i = 0; i < record.columns.size(); ++i)
-    monitors.push_back(of_points(record, [i](const RecordPoint& point) { return number(point.monitors[i]); }));
+    monitors.push_back(of_points(
+        record, [&, i](const RecordPoint& point) { return number(without_roundoff(point.monitors[i], zero[i])); }));
   return {{"branch", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.branch); })},
           {"step", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.step); })},
           {"arc", of_points(record, [](const RecordPoint& point) { return number(point.arc); })},
@@ -112,6 +116,25 @@ std::string shown_name(const std::string& name) {
 std::string shown_title(const RecordColumn& column) {
   return shown_name(column.name) + (column.unit.empty() ? "" : " [" + shown_name(column.unit) + "]");
 }
+
+// Of a column of round-off alone only its unit tells the size. A rotation of 1 is a large one.
+std::vector<double> roundoff(const Record& record) {
+  constexpr double part = 1e-12;
+  std::vector<double> own;
+  std::map<std::string, double> of_unit{{"rad", 1.0}};
+  for (std::size_t i = 0; i < record.columns.size(); ++i) {
+    double& greatest = own.emplace_back(0.0);
+    for (const RecordPoint& point : record.points)
+      if (std::isfinite(point.monitors[i])) greatest = std::max(greatest, std::abs(point.monitors[i]));
+    double& common = of_unit[record.columns[i].unit];
+    common = std::max(common, greatest);
+  }
+  for (std::size_t i = 0; i < own.size(); ++i)
+    own[i] = part * (record.columns[i].unit.empty() ? own[i] : of_unit[record.columns[i].unit]);
+  return own;
+}
+
+double without_roundoff(double value, double roundoff) { return std::abs(value) <= roundoff ? 0.0 : value; }
 
 OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
   return {{"columns", columns_json(record)},

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/output/record.hpp"
 #include "apps/output/shape_pictures.hpp"
@@ -19,5 +20,11 @@ std::string shown_title(const RecordColumn& column);
 
 /// What the script of report.html knows of a run: the curves, the events and the shapes.
 nlohmann::ordered_json report_data(const Record& record, const ShapePictures& shapes);
+
+/// Of each monitor, below which size a value is round-off: far below the greatest of all monitors with its unit.
+std::vector<double> roundoff(const Record& record);
+
+/// 0 in place of round-off.
+double without_roundoff(double value, double roundoff);
 
 }  // namespace arcwall

@@ -76,20 +76,21 @@ std::string outcome(const Record& record) {
 
 // --- load over monitors ---------------------------------------------------------------------------------------------
 
-std::string event_text(const Record& record, const RecordEvent& event) {
+std::string event_text(const Record& record, const RecordEvent& event, const std::vector<double>& zero) {
   const std::string detail = plain(event_detail(event), 200);
   std::string text = fmt::format("{}: {}{}{}, λ = {}", event.id, words(event.kind), detail.empty() ? "" : " – ", detail,
                                  shown_number(event.lambda, 8));
   for (std::size_t i = 0; i < record.columns.size(); ++i)
-    text += fmt::format(", {} = {}", shown_name(record.columns[i].name), shown_number(event.monitors[i], 6));
+    text += fmt::format(", {} = {}", shown_name(record.columns[i].name),
+                        shown_number(without_roundoff(event.monitors[i], zero[i]), 6));
   return text;
 }
 
 // Load over one monitor; without monitors over the arc length.
-Chart chart(const Record& record, std::optional<std::size_t> monitor) {
+Chart chart(const Record& record, const std::string& up, std::optional<std::size_t> monitor) {
   const auto across = [&](const RecordPoint& point) { return monitor ? point.monitors[*monitor] : point.arc; };
   const std::string axis = monitor ? shown_title(record.columns[*monitor]) : "arc length";
-  Chart result{.name = "Load factor over " + axis, .across = axis, .up = "load factor λ"};
+  Chart result{.name = "Load factor over " + axis, .across = axis, .up = up};
   for (const PathLine& line : path_lines(record)) {
     ChartLine& added = result.lines.emplace_back();
     added.colour = branch_colour(line.branch);
@@ -98,21 +99,23 @@ Chart chart(const Record& record, std::optional<std::size_t> monitor) {
       added.points.emplace_back(across(record.points[i]), record.points[i].lambda);
   }
   const std::vector<std::size_t> first = first_points(record);
+  const std::vector<double> zero = roundoff(record);
   for (const RecordEvent& event : record.events) {
     const std::size_t point = point_of(event, first);
     result.marks.push_back({.at = {across(record.points[point]), event.lambda},
                             .kind = event.kind,
-                            .text = event_text(record, event),
+                            .text = event_text(record, event, zero),
                             .point = point});
   }
   return result;
 }
 
-std::string charts(const Record& record) {
-  if (record.columns.empty()) return "<figure class=\"load\">" + svg_chart(chart(record, std::nullopt)) + "</figure>";
+std::string charts(const Record& record, const std::string& up) {
+  if (record.columns.empty())
+    return "<figure class=\"load\">" + svg_chart(chart(record, up, std::nullopt)) + "</figure>";
   std::string text;
   for (std::size_t i = 0; i < record.columns.size(); ++i)
-    text += "<figure class=\"load\">" + svg_chart(chart(record, i)) + "</figure>";
+    text += "<figure class=\"load\">" + svg_chart(chart(record, up, i)) + "</figure>";
   return text;
 }
 
@@ -186,10 +189,14 @@ std::string stage(const ShapePictures& shapes) {
       view_box(shapes), walls(shapes), first_members(shapes), shape_paths(shapes, shapes.pictures.front()));
 }
 
+// At the picture itself, or its angles would be believed.
+std::string stretch_note(const ShapePictures& shapes) {
+  if (shapes.stretch <= 1.0) return "";
+  return fmt::format("<p class=\"note\">Heights are drawn {} times as large as lengths.</p>", shapes.stretch);
+}
+
 std::string shape_notes(const Record& record, const ShapePictures& shapes) {
   std::vector<std::string> notes;
-  if (shapes.stretch > 1.0)
-    notes.push_back(fmt::format("Heights are drawn {} times as large as lengths.", shapes.stretch));
   if (shapes.greatest_force > 0.0)
     notes.push_back(fmt::format("Arrows at the walls: their forces on the structure, the longest {}{}{}.",
                                 shown_number(shapes.greatest_force, 4), record.force_unit.empty() ? "" : " ",
@@ -242,19 +249,9 @@ std::string strip(const Record& record, const ShapePictures& shapes) {
 std::string cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
 std::string figure_cell(const std::string& text) { return "<td class=\"figure\">" + escaped(text) + "</td>"; }
 
-// The greatest size of each monitor: what is far below it is round-off.
-std::vector<double> sizes(const Record& record) {
-  std::vector<double> result(record.columns.size(), 0.0);
-  for (const RecordPoint& point : record.points)
-    for (std::size_t i = 0; i < result.size(); ++i)
-      if (std::isfinite(point.monitors[i])) result[i] = std::max(result[i], std::abs(point.monitors[i]));
-  return result;
-}
-
 std::string event_rows(const Record& record) {
-  constexpr double roundoff = 1e-12;
   const std::vector<std::size_t> first = first_points(record);
-  const std::vector<double> size = sizes(record);
+  const std::vector<double> zero = roundoff(record);
   std::string text;
   for (const RecordEvent& event : record.events) {
     text += fmt::format("<tr data-point=\"{}\">", point_of(event, first)) + figure_cell(std::to_string(event.id));
@@ -262,10 +259,8 @@ std::string event_rows(const Record& record) {
     text += figure_cell(shown_number(event.lambda, 10));
     text += fmt::format("<td class=\"kind\">{}{}</td>", svg_mark(event.kind), words(event.kind));
     text += "<td class=\"what\">" + escaped(plain(event_detail(event), 400)) + "</td>";
-    for (std::size_t i = 0; i < size.size(); ++i) {
-      const double value = event.monitors[i];
-      text += figure_cell(shown_number(std::abs(value) < roundoff * size[i] ? 0.0 : value, 6));
-    }
+    for (std::size_t i = 0; i < zero.size(); ++i)
+      text += figure_cell(shown_number(without_roundoff(event.monitors[i], zero[i]), 6));
     text += cell(unstable_change(event)) + "</tr>\n";
   }
   return text;
@@ -313,6 +308,7 @@ std::string facts(const ReportContent& content) {
 
 ReportContent report_content(const Study& study, const Record& record) {
   ReportContent content{.description = study.deck().description,
+                        .loads = varying_loads(study.deck()),
                         .deck_text = deck::to_toml(study.deck()),
                         .shapes = draw_run(study, record)};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
@@ -327,6 +323,32 @@ ReportContent report_content(const Study& study, const Record& record) {
   for (const auto& [name, version] : library_versions()) add(name, version);
   return content;
 }
+
+namespace {
+
+// With what λ multiplies, where that is one load: then the axis has a unit.
+std::string load_title(const ReportContent& content) {
+  const bool one = content.loads.size() == 1 && !content.loads.front().size.empty();
+  return "load factor λ" + (one ? ", times " + content.loads.front().size : "");
+}
+
+std::string load_note(const ReportContent& content) {
+  constexpr std::size_t most = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(content.loads.size(), most); ++i)
+    text += (i == 0 ? "" : "; ") + plain(content.loads[i].text, 200);
+  if (text.empty()) return "";
+  return "<p class=\"note\">λ multiplies the load " + escaped(text) + (content.loads.size() > most ? "; …" : "") +
+         ".</p>";
+}
+
+nlohmann::ordered_json data_of(const Record& record, const ReportContent& content) {
+  nlohmann::ordered_json data = report_data(record, content.shapes);
+  data["load_title"] = load_title(content);
+  return data;
+}
+
+}  // namespace
 
 std::string report_html(const Record& record, const ReportContent& content) {
   const ReportParts& parts = report_parts();
@@ -343,9 +365,11 @@ std::string report_html(const Record& record, const ReportContent& content) {
                  {"description", description(content)},
                  {"outcome", escaped(outcome(record))},
                  {"monitors", monitor_choices(record)},
-                 {"charts", charts(record)},
+                 {"charts", charts(record, load_title(content))},
+                 {"load_note", load_note(content)},
                  {"legend", legend(record)},
                  {"stage", stage(content.shapes)},
+                 {"stretch_note", stretch_note(content.shapes)},
                  {"shape_notes", shape_notes(record, content.shapes)},
                  {"touching", record.has_walls ? "touching" : "without-walls"},
                  {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
@@ -355,7 +379,7 @@ std::string report_html(const Record& record, const ReportContent& content) {
                  {"branches", branch_tree(record, std::nullopt)},
                  {"deck", escaped(plain(content.deck_text))},
                  {"facts", facts(content)},
-                 {"data", script_json(report_data(record, content.shapes))}});
+                 {"data", script_json(data_of(record, content))}});
 }
 
 }  // namespace arcwall

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/output/load_text.hpp"
 #include "apps/output/record.hpp"
 #include "apps/output/shape_pictures.hpp"
 #include "apps/study.hpp"
@@ -13,6 +14,7 @@ namespace arcwall {
 /// What stands on the page beside the record.
 struct ReportContent {
   std::string description{};                                 ///< the deck's
+  std::vector<LoadText> loads{};                             ///< those that λ multiplies
   std::string deck_text{};                                   ///< with every default written out
   std::vector<std::pair<std::string, std::string>> facts{};  ///< name and value: counts, versions
   ShapePictures shapes{};

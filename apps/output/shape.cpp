@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "apps/build_contact.hpp"
+#include "apps/output/carried.hpp"
 
 namespace arcwall {
 
@@ -49,144 +49,29 @@ std::vector<double> sample_fractions(int elements) {
   return fractions;
 }
 
-// A node of an element, now or stress-free.
-struct ElementNode {
-  Vec2 position = Vec2::Zero();
-  double angle = 0.0;  // of the section's normal
-};
-
-bool flexible_in_shear(deck::Theory theory) {
-  switch (theory) {
-    case deck::Theory::exact:
-    case deck::Theory::essenburg:
-      return true;
-    case deck::Theory::classic:
-    case deck::Theory::elastica:
-    case deck::Theory::truss:
-      return false;
-  }
-  return false;
-}
-
-// The axis between two nodes, and its angle against the sections: shear is constant between them. A bar is straight.
-std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNode& b, deck::Theory theory) {
-  const double angle = mean(a.angle, b.angle), chord = angle_near(b.position - a.position, angle);
-  if (theory == deck::Theory::truss) return {{a.position, b.position, chord, chord}, 0.0};
-  const double shear = flexible_in_shear(theory) ? chord - angle : 0.0;
-  return {{a.position, b.position, a.angle + shear, b.angle + shear}, shear};
-}
-
-// What the nodes exert on an element, per local unknown. Loads along a bar act at its ends.
-Vector element_forces(const Structure& structure, Index e, const State& state, bool loads) {
-  const std::vector<Index>& freedoms = structure.element_freedoms(e);
-  Vector u(static_cast<Index>(freedoms.size())), f(u.size());
-  for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state.x, freedoms[i]);
-  structure.element(e).evaluate(u.data(), f.data(), nullptr);
-  if (!loads) return f;
-  Vector part(u.size());
-  for (const std::size_t i : structure.loads_of_element(e)) {
-    const Structure::ElementLoad& load = structure.element_loads()[i];
-    load.potential->evaluate(u.data(), part.data(), nullptr);
-    f += (load.kind == LoadKind::proportional ? state.lambda : 1.0) * part;
-  }
-  return f;
-}
-
-// The nodes of element k of a member in order, its middle node included.
-struct ElementNodes {
-  std::vector<ElementNode> now{}, rest{};
-};
-
-ElementNodes element_nodes(const Structure& structure, const MemberMesh& mesh, std::size_t k, const Vector& x) {
-  ElementNodes nodes;
-  const auto add = [&](Index node, std::optional<Index> rotation, double rest_angle) {
-    nodes.rest.push_back({.position = structure.position(node), .angle = rest_angle});
-    nodes.now.push_back({.position = structure.current(x, node),
-                         .angle = rest_angle + (rotation ? structure.value(x, *rotation) : 0.0)});
-  };
-  add(mesh.nodes[k], mesh.rotations[k], mesh.shape[k].angle);
-  if (!mesh.middle_nodes.empty())
-    add(mesh.middle_nodes[k], mesh.middle_rotations[k], mean(mesh.shape[k].angle, mesh.shape[k + 1].angle));
-  add(mesh.nodes[k + 1], mesh.rotations[k + 1], mesh.shape[k + 1].angle);
-  return nodes;
-}
-
-// One stretch, or two of an element with a middle node. Sums of nodal forces balance the load along the element, q h =
-// −Σ f, which is spread evenly over it.
-void add_element(const Study& study, const State& state, std::size_t member, std::size_t k, Index e,
-                 std::vector<MemberStretch>& to) {
-  const Structure& structure = study.structure();
-  const MemberMesh& mesh = structure.members()[member];
-  const deck::Theory theory = study.deck().members[member].theory;
-  const ElementNodes nodes = element_nodes(structure, mesh, k, state.x);
-  const Vector f = element_forces(structure, e, state, theory != deck::Theory::truss);
-  const std::size_t stretches = nodes.now.size() - 1;
-  const auto stride = f.size() / static_cast<Index>(nodes.now.size());
-  Vec2 load = Vec2::Zero();
-  for (std::size_t a = 0; a <= stretches; ++a) load -= f.segment<2>(stride * static_cast<Index>(a));
-  const auto moment = [&](std::size_t a) { return stride > 2 ? f[stride * static_cast<Index>(a) + 2] : 0.0; };
-
-  Resultant carried{};
-  for (std::size_t a = 0; a < stretches; ++a) {
-    carried.force -= f.segment<2>(stride * static_cast<Index>(a));
-    carried.moment -= moment(a);
-    const double part = 1.0 / double(stretches), first = double(k) + part * double(a);
-    MemberStretch stretch{.from = first / double(mesh.nodes.size() - 1),
-                          .to = (first + part) / double(mesh.nodes.size() - 1),
-                          .first = carried};
-    std::tie(stretch.now, stretch.shear) = axis_between(nodes.now[a], nodes.now[a + 1], theory);
-    std::tie(stretch.rest, stretch.rest_shear) = axis_between(nodes.rest[a], nodes.rest[a + 1], theory);
-    stretch.second.force = carried.force - part * load;
-    stretch.second.moment = moment(stretches);
-    if (a + 1 < stretches) stretch.second.moment = stretch.balanced_moment(1.0);
-    carried = stretch.second;
-    to.push_back(stretch);
-  }
-}
-
-Index first_element(const Structure& structure, std::size_t member) {
-  Index e = 0;
-  for (std::size_t m = 0; m < member; ++m) e += static_cast<Index>(structure.members()[m].nodes.size()) - 1;
-  return e;
-}
-
 // Of the elements only those are evaluated in which points are wanted.
 std::vector<ShapePoint> points_on_nodes(const Study& study, const State& state, std::size_t member) {
-  const auto elements = static_cast<int>(study.structure().members()[member].nodes.size()) - 1;
+  const TiedMember tied{
+      .structure = study.structure(), .member = member, .theory = study.deck().members[member].theory};
+  const int elements = tied.elements();
   const std::vector<double> fractions = sample_fractions(elements);
   std::set<int> wanted;
   for (const double fraction : fractions)
     for (const double side : {-1e-9, 1e-9})
       wanted.insert(std::clamp(static_cast<int>(std::floor(fraction * elements + side)), 0, elements - 1));
   std::vector<MemberStretch> stretches;
-  const Index first = first_element(study.structure(), member);
-  for (const int k : wanted) add_element(study, state, member, static_cast<std::size_t>(k), first + k, stretches);
+  for (const int k : wanted) add_stretches(tied, k, state, stretches);
   return sampled(stretches, fractions);
 }
 
 // --- members whose mesh slides --------------------------------------------------------------------------------------
-
-// The element behind a node of a run; `from` and `to` are its material coordinates.
-MemberStretch sliding_stretch(const SlidingStructure& body, const SlidingMesh& mesh, Index run, Index position,
-                              const State& state, const Vector& x, const Vector& s) {
-  const double S1 = mesh.coordinate(run, position, s), S2 = mesh.coordinate(run, position + 1, s);
-  const AxisPlace a = mesh.node(run, position, x), b = mesh.node(run, position + 1, x);
-  const AxisPlace a0 = body.undeformed({.run = run, .s = S1}, true), b0 = body.undeformed({.run = run, .s = S2}, true);
-  const SlidingMesh::EndForces forces = mesh.end_forces(run, position, x, s, state.lambda);
-  return {.from = S1,
-          .to = S2,
-          .now = {a.position, b.position, a.angle, b.angle},
-          .rest = {a0.position, b0.position, a0.angle, b0.angle},
-          .first = {.force = -forces[0].head<2>(), .moment = -forces[0][2]},
-          .second = {.force = forces[1].head<2>(), .moment = forces[1][2]}};
-}
 
 // A member is one stretch of a run, or several runs of its own where loads act inside it.
 std::vector<ShapePoint> points_between_breakpoints(const Study& study, const State& state, std::size_t member) {
   const SlidingStructure& body = *study.sliding_structure();
   const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
   const SlidingMesh& mesh = on.mesh();
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const Vector s = on.s_of(state);
   const std::string& name = study.deck().members[member].name;
   const auto elements = static_cast<int>(study.structure().members()[member].nodes.size()) - 1;
   std::vector<double> fractions = sample_fractions(elements);
@@ -195,7 +80,7 @@ std::vector<ShapePoint> points_between_breakpoints(const Study& study, const Sta
     const double rate = (part.last_fraction - part.first_fraction) / (part.to - part.from);
     const auto fraction = [&](double S) { return part.first_fraction + rate * (S - part.from); };
     for (Index position = 0; position + 1 < mesh.nodes(part.run); ++position) {
-      MemberStretch stretch = sliding_stretch(body, mesh, part.run, position, state, x, s);
+      MemberStretch stretch = sliding_stretch(body, part.run, position, state);
       if (stretch.to <= part.from || stretch.from >= part.to) continue;
       stretch.from = fraction(stretch.from);
       stretch.to = fraction(stretch.to);

@@ -85,7 +85,7 @@
       const all = [...line_traces(monitor), event_trace(monitor), here_trace];
       traces = all.length;
       const narrow = window.matchMedia('(max-width: 860px)').matches;
-      const layout = { autosize: true, xaxis: axis(columns.length > 0 ? columns[monitor].title : 'arc length'), yaxis: axis('load factor λ'),
+      const layout = { autosize: true, xaxis: axis(columns.length > 0 ? columns[monitor].title : 'arc length'), yaxis: axis(data.load_title),
         margin: { l: 10, r: 12, t: narrow ? 34 : 28, b: 10 }, showlegend: false, hovermode: 'closest', dragmode: narrow ? false : 'zoom',
         hoverlabel: { align: 'left', bgcolor: '#fff', bordercolor: '#aeb5bd', font: { color: ink, size: 13 } },
         font: { family: 'system-ui, "Segoe UI", Roboto, Arial, sans-serif', size: 13, color: ink },
@@ -250,6 +250,7 @@
   // --- play ------------------------------------------------------------------------------------------------------------
 
   let playing = null;  // the number of the animation frame that was asked for
+  let walked = false;  // the reader has gone to a point; else a play begins at the first
 
   const say_playing = (is_playing) => {
     element('play').classList.toggle('playing', is_playing);
@@ -257,6 +258,7 @@
   };
 
   const stop = () => {
+    walked = true;
     if (playing === null) return;
     cancelAnimationFrame(playing);
     playing = null;
@@ -265,7 +267,8 @@
 
   const play = () => {
     const last = shapes.length - 1;
-    const first = current === last ? 0 : current;
+    const first = !walked || current === last ? 0 : current;
+    walked = true;
     const seconds = Math.min(Math.max(shapes.length * 0.06, 4), 24) * (last - first) / Math.max(last, 1);
     let begin = null;
     const advance = (now) => {
@@ -328,5 +331,8 @@
   make_list([...document.querySelectorAll('#strip figure')]);
   make_list([...document.querySelectorAll('.tree [data-point]')]);
   const asked_for = /^#point=(\d+)$/.exec(window.location.hash);  // report.html#point=30
-  show(asked_for ? shape_near(Number(asked_for[1])) : 0);
+  const turning = ['limit-point', 'contact-limit-point', 'branch-point'];
+  const opening = asked_for ? Number(asked_for[1]) : events.find((event) => turning.includes(event.kind))?.point ?? 0;
+  walked = asked_for !== null;
+  show(shape_near(opening));
 })();

@@ -126,7 +126,7 @@ class IncrementTracing final : public Tracing {
                                         .iterations = 1,
                                         .residual = arc->to.residual,
                                         .accepted = &*arc});
-        end_ = bound_met(before.state, arc->to.state);
+        end_ = bound_met(before.state, *arc);
         return true;
       }
       end_ = increments_.end();
@@ -154,10 +154,14 @@ class IncrementTracing final : public Tracing {
     archive(taken_, finished_, end_, increments_);
   }
 
-  std::optional<BranchEnd> bound_met(const State& before, const State& after) const {
+  std::optional<BranchEnd> bound_met(const State& before, const Arc& arc) const {
     const TraceOptions& options = study_.options();
+    const State& after = arc.to.state;
     if (const Landmark* bound = crossed(options.landmarks, before, after))
       return BranchEnd{.reason = EndReason::stop, .detail = bound->label};
+    for (const StopEvent& stop : options.stop_events)
+      if (std::any_of(arc.events.begin(), arc.events.end(), [&](const Event& e) { return e.kind == stop.kind; }))
+        return BranchEnd{.reason = EndReason::stop, .detail = stop.label};
     const Index closed = study_.closed_contacts(after);
     if (options.stop_contacts && closed >= *options.stop_contacts)
       return BranchEnd{.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};

@@ -107,6 +107,11 @@ std::optional<double> load(const Json& event) {
 
 }  // namespace
 
+bool CaseResult::failed() const {
+  const bool early = status && static_cast<ExitStatus>(*status) == ExitStatus::ended_early;
+  return !there || (status != 0 && !(early && snap_load(*this)));
+}
+
 CaseResult read_result(const fs::path& sweep_folder, int number) {
   if (!is_complete(sweep_folder, number)) return {.reason = "not_run"};
   const fs::path folder = case_folder(sweep_folder, number);

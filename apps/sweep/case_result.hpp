@@ -18,7 +18,8 @@ struct CaseResult {
   Json counts{};                ///< of result.json; null without it
   std::vector<Json> events{};   ///< as in events.json; empty without it
 
-  bool failed() const { return !there || status != 0; }
+  /// Whether it does not tell what a sweep is for: neither did it end as its deck says, nor early behind its snap.
+  bool failed() const;
 };
 
 /// Reads a case's results. OutputError if they are there but damaged.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "apps/deck/reader.hpp"
 #include "apps/output/csv.hpp"
+#include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::sweep {
@@ -39,11 +41,21 @@ std::vector<std::string> monitors(const Collection& collection) {
   return names;
 }
 
+// A copy of the deck may have been changed since.
+deck::Deck deck_of(const Case& one, const std::filesystem::path& folder) {
+  try {
+    return deck::read_deck((folder / one.deck).string(), assignments(one));
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 Collection collect(const std::filesystem::path& folder) {
   Collection collection{.cases = read_cases(folder)};
   collection.sweep = read_sweep((folder / sweep_file_name).string());
+  collection.deck = deck_of(collection.cases.front(), folder);
   for (const Case& one : collection.cases) collection.results.push_back(read_result(folder, one.number));
   return collection;
 }

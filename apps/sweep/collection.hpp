@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/deck/deck.hpp"
 #include "apps/sweep/case_result.hpp"
 
 namespace arcwall::sweep {
@@ -13,6 +14,7 @@ struct Collection {
   Sweep sweep{};
   std::vector<Case> cases{};
   std::vector<CaseResult> results{};  ///< one a case
+  deck::Deck deck{};                  ///< of the first case; without members if it cannot be read
 };
 
 /// Reads a planned folder; cases that have not been run are part of it. InputError, OutputError.

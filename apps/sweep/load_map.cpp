@@ -141,9 +141,16 @@ class Drawing {
     result += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" stroke="currentColor"/>)", left, top,
                           plot_width, plot_height) +
               "\n" + text(left + plot_width / 2.0, height - 12.0, "middle", map_.x_title);
-    const std::string& y_title = map_.y_title.empty() ? map_.load_title : map_.y_title;
-    return result + fmt::format(R"svg(<g transform="translate(16 {:.1f}) rotate(-90)">)svg", top + plot_height / 2.0) +
-           text(0.0, 0.0, "middle", y_title) + "</g>\n";
+    return result + upright(16.0, map_.y_title.empty() ? load_axis() : map_.y_title);
+  }
+
+  std::string load_axis() const {
+    return map_.load_title + (map_.load_unit.empty() ? "" : ", times " + map_.load_unit);
+  }
+
+  static std::string upright(double x, const std::string& title) {
+    return fmt::format(R"svg(<g transform="translate({:.0f} {:.1f}) rotate(-90)">)svg", x, top + plot_height / 2.0) +
+           text(0.0, 0.0, "middle", title) + "</g>\n";
   }
 
   // From half way to the neighbour before to half way to the one behind.
@@ -195,7 +202,7 @@ class Drawing {
     for (const double fraction : {0.0, 0.25, 0.5, 0.75, 1.0})
       result += text(bar_left + bar_width + 6.0, y_at(fraction) + 4.0, "start",
                      short_number(loads_.low + fraction * (loads_.high - loads_.low)));
-    return result;
+    return result + upright(width - 8.0, load_axis());
   }
 
   const LoadMap& map_;

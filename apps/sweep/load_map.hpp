@@ -20,6 +20,7 @@ struct LoadMap {
   std::string x_title{};
   std::string y_title{};  ///< empty: one key alone, and loads are drawn over it
   std::string load_title{};
+  std::string load_unit{};         ///< of the loads: what λ multiplies; may be empty
   std::vector<MapPoint> points{};  ///< at least one
 };
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "apps/deck/reader.hpp"
 #include "apps/deck/toml_source.hpp"
+#include "apps/deck/value.hpp"
 #include "apps/output/files.hpp"
 #include "apps/study.hpp"
 
@@ -22,11 +24,17 @@ std::string file_name(const std::string& path) { return fs::path(path).filename(
 // What is wrong with the cases: each thing once, with the first case that has it.
 class Complaints {
  public:
-  explicit Complaints(const Sweep& sweep) : sweep_(sweep) {}
+  /// `base`: what is wrong with the deck as it stands. Cases whose values do not mend it have it too, in words that may
+  /// differ with their values.
+  Complaints(const Sweep& sweep, std::vector<Diagnostic> base) : sweep_(sweep), base_(std::move(base)) {}
 
   void add(const Case& one, const InputError& error) {
     for (const Diagnostic& diagnostic : error.diagnostics()) {
-      Diagnostic here = at_its_key(one, diagnostic);
+      const auto in_base = std::find_if(base_.begin(), base_.end(), [&](const Diagnostic& other) {
+        return std::tie(other.file, other.line, other.column, other.key) ==
+               std::tie(diagnostic.file, diagnostic.line, diagnostic.column, diagnostic.key);
+      });
+      Diagnostic here = in_base == base_.end() ? at_its_key(one, diagnostic) : *in_base;
       const auto [place, is_new] = places_.try_emplace(to_text(here), found_.size());
       if (is_new) found_.push_back({.diagnostic = std::move(here), .first = one.number});
       ++found_[place->second].cases;
@@ -65,13 +73,21 @@ class Complaints {
     return of_case < sweep_.keys.size() ? sweep_.keys[of_case] : sweep_.ties[of_case - sweep_.keys.size()].key;
   }
 
+  // Of a key that is none the value does not matter.
+  static bool names_its_key(const Diagnostic& diagnostic) {
+    const std::string last = diagnostic.key.substr(diagnostic.key.rfind('.') + 1);
+    return diagnostic.message.starts_with(deck::in_quotes(last) + " is not a key");
+  }
+
   // What a deck's reader says of a `--set` is said of the line of the sweep that the value comes from.
   Diagnostic at_its_key(const Case& one, const Diagnostic& diagnostic) const {
     const std::vector<std::string> texts = assignments(one);
     for (std::size_t i = 0; i < texts.size(); ++i) {
       if (diagnostic.file != deck::origin_of(texts[i])) continue;
-      Diagnostic here = deck::diagnostic_at(sweep_.source, key(i).position, deck::on_one_line(texts[i]),
-                                            diagnostic.message, diagnostic.cure);
+      const bool any_value = diagnostic.key == key(i).name && names_its_key(diagnostic);
+      Diagnostic here =
+          deck::diagnostic_at(sweep_.source, key(i).position, any_value ? key(i).name : deck::on_one_line(texts[i]),
+                              diagnostic.message, diagnostic.cure);
       if (!diagnostic.key.empty() && diagnostic.key != key(i).name) here.message = diagnostic.key + ": " + here.message;
       return here;
     }
@@ -79,12 +95,22 @@ class Complaints {
   }
 
   const Sweep& sweep_;
+  std::vector<Diagnostic> base_;
   std::map<std::string, std::size_t> places_;
   std::vector<Complaint> found_;
 };
 
+std::vector<Diagnostic> problems_of_base(const Plan& plan, const std::string& deck_file) {
+  try {
+    const Study study(deck::read_deck_text(plan.deck_text, deck_file));
+  } catch (const InputError& error) {
+    return error.diagnostics();
+  }
+  return {};
+}
+
 void check_cases(const Plan& plan, const std::string& deck_file) {
-  Complaints complaints(plan.sweep);
+  Complaints complaints(plan.sweep, problems_of_base(plan, deck_file));
   for (const Case& one : plan.cases) {
     try {
       const Study study(deck::read_deck_text(plan.deck_text, deck_file, assignments(one)));

@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "apps/output/event_names.hpp"
+#include "apps/output/load_text.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/version.hpp"
+#include "apps/sweep/key_unit.hpp"
 
 namespace arcwall::sweep {
 
@@ -72,6 +74,23 @@ std::vector<Load> loads(const Collection& collection) {
   return all;
 }
 
+// A key with the unit of what it holds.
+std::string key_title(const Collection& collection, const std::string& key) {
+  const std::string unit = unit_of_key(key, collection.deck.units);
+  return key + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+// What λ multiplies, where that is one load and the same for all cases.
+std::string unit_of_lambda(const Collection& collection) {
+  const auto is_load = [](const Key& key) { return key.name.starts_with("load"); };
+  const auto is_tied_load = [&](const Tie& tie) { return is_load(tie.key); };
+  const Sweep& sweep = collection.sweep;
+  if (std::any_of(sweep.keys.begin(), sweep.keys.end(), is_load)) return {};
+  if (std::any_of(sweep.ties.begin(), sweep.ties.end(), is_tied_load)) return {};
+  const std::vector<LoadText> varying = varying_loads(collection.deck);
+  return varying.size() == 1 ? plain(varying.front().size, 60) : std::string();
+}
+
 std::string overview(const Collection& collection) {
   const auto ran = std::count_if(collection.results.begin(), collection.results.end(),
                                  [](const CaseResult& result) { return result.there; });
@@ -83,7 +102,7 @@ std::string overview(const Collection& collection) {
 
 std::string failure_table(const Collection& collection) {
   const std::vector<Failure> list = failures(collection);
-  if (list.empty()) return "<p>Every case ended as its deck says.</p>\n";
+  if (list.empty()) return "<p>Every case ended as its deck says, or early behind its snap.</p>\n";
   std::string rows;
   for (const Failure& failure : list)
     rows += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n", escaped(failure.reason),
@@ -110,9 +129,12 @@ std::string maps_html(const std::vector<LoadMap>& maps) {
 
 std::vector<LoadMap> load_maps(const Collection& collection, const std::vector<std::string>& keys) {
   std::vector<LoadMap> maps;
+  const std::string unit = unit_of_lambda(collection);
   for (const Load& one : loads(collection)) {
-    LoadMap& map = maps.emplace_back(
-        LoadMap{.x_title = keys.front(), .y_title = keys.size() > 1 ? keys[1] : "", .load_title = one.title});
+    LoadMap& map = maps.emplace_back(LoadMap{.x_title = key_title(collection, keys.front()),
+                                             .y_title = keys.size() > 1 ? key_title(collection, keys[1]) : "",
+                                             .load_title = one.title,
+                                             .load_unit = unit});
     for (std::size_t i = 0; i < collection.cases.size(); ++i) {
       const CaseResult& result = collection.results[i];
       if (!result.there) continue;

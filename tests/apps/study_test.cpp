@@ -48,5 +48,35 @@ TEST(Study, RefusesAShearStiffnessBeyondNumbers) {
   EXPECT_EQ(found.front().key, "member.column");
 }
 
+std::string deck_with_wall(const std::string& side, const std::string& profile) {
+  std::string text(deck::column_deck);
+  text += "[[wall]]\nname = \"w\"\nside = \"";
+  text += side;
+  text += "\"\nprofile = { ";
+  text += profile;
+  return text += " }\n";
+}
+
+std::string said_of_wall(const std::string& side) {
+  const auto found = problems_of(deck_with_wall(side, "type = \"flat\", z = 0.5"));
+  return found.empty() ? "" : to_text(found.front());
+}
+
+TEST(Study, ASideThatIsTheWrongOneIsGuessed) {
+  EXPECT_EQ(said_of_wall("above"), "");
+  EXPECT_EQ(said_of_wall("below"),
+            "odd.toml:30:1: wall.w: member \"column\" is inside the wall at the start: node column:0 by 0.6; side = "
+            "\"below\" means that the structure stays above the wall: is \"above\" meant? Else move the wall or the "
+            "member apart");
+}
+
+TEST(Study, AWallThatIsEnteredInPartIsOnTheRightSide) {
+  const std::string deck = deck_with_wall("above", "type = \"line\", z = 0.6, slope = -0.3333333333333333");
+  const auto found = problems_of(deck);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().cure, "move the wall or the member apart");
+  EXPECT_NE(found.front().message.find("node column:1 by 0.1581"), std::string::npos) << found.front().message;
+}
+
 }  // namespace
 }  // namespace arcwall::study_test

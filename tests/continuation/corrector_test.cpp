@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "tests/support/toys.hpp"
@@ -114,6 +115,28 @@ TEST(Corrector, CountsNegativeEigenvaluesWithAllContactsHeld) {
   const auto result = corrector.inspect(held, Metric(toy.weights({1}), 1.0), {.dx = Vector::Zero(3), .dlambda = 1.0});
   ASSERT_TRUE(result.converged());
   EXPECT_EQ(result.negative, 1);
+}
+
+// x³ − 3x + 3 from 2: the second iterate lies beside the minimum at 1, from where the third correction is long. The
+// only root is that of Cardano's formula.
+TEST(Corrector, PatienceOutlastsCorrectionsThatGrow) {
+  const auto system =
+      toy([](double x) { return x * x * x - 3.0 * x + 3.0; }, [](double x) { return 3.0 * x * x - 3.0; }, 0.0);
+  const double q = 1.5, root = std::sqrt(q * q - 1.0);
+  const double exact = -std::cbrt(q + root) - std::cbrt(q - root);
+  EXPECT_EQ(status_at_fixed_load(system, at(2.0, 0.0)), CorrectorStatus::diverged);
+
+  Corrector corrector(system, {}, 1.0);
+  const auto result = corrector.correct_patiently(at(2.0, 0.0), ValueConstraint(lambda, 0.0), metric, up, 1.0);
+  ASSERT_TRUE(result.converged());
+  EXPECT_NEAR(result.state.x[0], exact, 1e-12);
+}
+
+TEST(Corrector, PatienceHasAnEnd) {
+  const auto system = toy([](double x) { return x * x + 1.0; }, [](double x) { return 2.0 * x; }, 0.0);
+  Corrector corrector(system, {}, 1.0);
+  const auto result = corrector.correct_patiently(at(0.7, 0.0), ValueConstraint(lambda, 0.0), metric, up, 1.0);
+  EXPECT_EQ(result.status, CorrectorStatus::too_many_iterations);
 }
 
 }  // namespace arcwall::corrector_test

@@ -308,6 +308,17 @@ TEST(Tracer, ANumberOfClosedContactsEndsTheBranch) {
   EXPECT_NEAR(branch.last().state.lambda, 1.0, 1e-12);
 }
 
+TEST(Tracer, AnEventOfAChosenKindEndsTheBranch) {
+  const auto system = test::fold();  // λ = −x²
+  const State start{.x = test::scalar(-1.0), .lambda = -1.0};
+  const TraceOptions options{.landmarks = {stop_at_lambda(-2.0)},
+                             .stop_events = {{.kind = EventKind::limit_point, .label = "event = limit-point"}}};
+  const Branch branch = trace(system, options, start);
+  EXPECT_EQ(branch.end.reason, EndReason::stop);
+  EXPECT_EQ(branch.end.detail, "event = limit-point");
+  EXPECT_NEAR(branch.last().state.lambda, 0.0, 1e-12);
+}
+
 TEST(Tracer, AWallThatEndsEndsTheBranch) {
   struct Ending final : test::LinearContactToy {
     Ending() : LinearContactToy(test::stopped_springs(2.0)) {}

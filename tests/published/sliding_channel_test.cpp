@@ -288,4 +288,36 @@ TEST(SlidingFoundation, FindsTheFlatPartAndItsForces) {
   }
 }
 
+// A small imperfection singles one equilibrium of the continuum out: behind λ = 14.82 two contacts become stretches,
+// then the third. The corrections behind that are long, since little resists an exchange of lengths between the three.
+TEST(NearlyPerfectChannel, AllThreeContactsBecomeStretchesOneAfterTheOther) {
+  std::vector<double> upper, lower;
+  for (const int elements : {40, 80, 160}) {
+    const SlidingModel model = channel(elements, {{.amplitude = 2e-3, .waves = 1}, {.amplitude = 3e-4, .waves = 3}});
+    const auto branches = test::follow(model.system(), model.system().rest(), until(18.0), {middle(model)});
+    EXPECT_EQ(branches.back().record.end->reason, EndReason::stop) << elements << " elements";
+    upper.push_back(test::event_of(branches, EventKind::contact_spreads, 1).state.lambda);
+    lower.push_back(test::event_of(branches, EventKind::contact_spreads, 2).state.lambda);
+  }
+  for (const auto& loads : {upper, lower})
+    EXPECT_NEAR(std::log2(std::abs((loads[1] - loads[0]) / (loads[2] - loads[1]))), 4.0, 0.3);  // order four
+  EXPECT_NEAR(upper.back(), lines, 0.005 * lines);                                              // of the perfect column
+  EXPECT_GT(lower.back(), upper.back());
+}
+
+// Beyond the load at which the flat parts buckle the path comes back, and the stretch on the lower wall becomes a point
+// at the load at which it began: from there on the path is another than that which led to it.
+TEST(NearlyPerfectChannel, IsFollowedBackFromTheBucklingOfItsFlatParts) {
+  const SlidingModel model = channel(40, {{.amplitude = 2e-3, .waves = 1}, {.amplitude = 3e-4, .waves = 3}});
+  const auto branches = test::follow(model.system(), model.system().rest(), until(60.0), {middle(model)});
+  const double began = test::event_of(branches, EventKind::contact_spreads, 2).state.lambda;
+  EXPECT_NEAR(test::event_of(branches, EventKind::contact_gathers).state.lambda, began, 1e-8);
+  for (const Event& event : test::events_of(branches)) {
+    if (event.kind == EventKind::contact_limit_point) {
+      EXPECT_LT(event.state.lambda, 5.0);
+    }
+  }
+  EXPECT_LT(branches.back().arcs.back().to.state.lambda, 14.0);
+}
+
 }  // namespace arcwall::sliding_channel_test

@@ -180,6 +180,16 @@ test('play goes to the end, and again from the start', async () => {
   await finish();
 });
 
+test('without an address the page opens at the first limit point, and play begins at the start', async () => {
+  const { page, finish } = await open(channel);
+  assert.match(await page.textContent('#happening'), /limit point/);
+  const opened = Number(await page.inputValue('#slider'));
+  const playing = await press_play(page);
+  assert.equal(playing.label, 'Pause');
+  assert.ok(playing.value < opened, `${playing.value} < ${opened}`);
+  await finish();
+});
+
 test('the curve can be saved as a picture, and its buttons send nothing anywhere', async () => {
   const { page, finish } = await open(channel);
   if (await has_plotly(page)) {

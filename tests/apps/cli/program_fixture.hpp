@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -44,6 +46,24 @@ class ProgramTest : public testing::Test {
   TemporaryFolder folder_;
   std::set<std::string> before_;
 };
+
+/// What a run of a deck without walls writes.
+inline const std::set<std::string> run_outputs{"checkpoint",  "deck.toml",   "events.json", "events.txt", "path.csv",
+                                               "report.html", "result.json", "shapes",      "shapes.pvd"};
+
+/// Steps so small that the run would take minutes.
+inline const std::string endless =
+    " --set path.max_step=1e-8 --set path.min_step=1e-12 --set path.max_points=100000000";
+
+using Json = nlohmann::json;
+
+/// The objects of a text with one a line.
+inline std::vector<Json> json_lines(const std::string& text) {
+  std::vector<Json> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(Json::parse(line));
+  return result;
+}
 
 /// Cells of a table without quotes.
 inline std::vector<std::vector<std::string>> table(const std::string& text) {

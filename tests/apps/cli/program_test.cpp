@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/apps/cli/program_fixture.hpp"
@@ -13,27 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Json = nlohmann::json;
-using Names = std::set<std::string>;
-
-const Names outputs{"checkpoint",  "deck.toml",   "events.json", "events.txt", "path.csv",
-                    "report.html", "result.json", "shapes",      "shapes.pvd"};
-
-// Steps so small that the run would take minutes.
-const std::string endless = " --set path.max_step=1e-8 --set path.min_step=1e-12 --set path.max_points=100000000";
-
-std::vector<Json> lines(const std::string& text) {
-  std::vector<Json> result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) result.push_back(Json::parse(line));
-  return result;
-}
-
 TEST_F(ProgramTest, RunWritesAFolderNamedAfterTheDeckAndPrintsTheEvents) {
   const Outcome outcome = run("run truss.toml");
 
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  EXPECT_EQ(names_in(work() / "truss"), run_outputs);
   EXPECT_EQ(outcome.out, content(work() / "truss" / "events.txt"));
   EXPECT_EQ(outcome.err.find("branch 0"), std::string::npos) << "progress without a terminal";
   const Json events = Json::parse(content(work() / "truss" / "events.json"))["events"];
@@ -91,13 +74,13 @@ TEST_F(ProgramTest, LoadIncrementsMeetTheLevelsOfTheDeck) {
 
 TEST_F(ProgramTest, ADeckAloneIsRun) {
   EXPECT_EQ(run("truss.toml --quiet").status, 0);
-  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  EXPECT_EQ(names_in(work() / "truss"), run_outputs);
 }
 
 TEST_F(ProgramTest, NoPicturesLeavesOutTheReportAndTheShapesOfAnEarlierRunToo) {
   ASSERT_EQ(run("run truss.toml").status, 0);
   ASSERT_EQ(run("run truss.toml --no-pictures").status, 0);
-  Names tables = outputs;
+  std::set<std::string> tables = run_outputs;
   for (const char* picture : {"report.html", "shapes", "shapes.pvd"}) tables.erase(picture);
   EXPECT_EQ(names_in(work() / "truss"), tables);
 }
@@ -123,7 +106,7 @@ TEST_F(ProgramTest, JsonIsOneObjectALine) {
   const Outcome outcome = run("truss.toml --json");
 
   EXPECT_EQ(outcome.status, 0);
-  const std::vector<Json> objects = lines(outcome.out);
+  const std::vector<Json> objects = json_lines(outcome.out);
   std::size_t points = 0, events = 0;
   for (const Json& object : objects) {
     ASSERT_EQ(object.size(), 1u);
@@ -180,6 +163,25 @@ TEST_F(ProgramTest, CheckNamesTheFirstGapOfAWall) {
   EXPECT_EQ(outcome.status, 0);
   expect_in("foundation: below the structure", outcome.out);
   expect_in("first gap 0.08 cm at beam:", outcome.out);
+}
+
+TEST_F(ProgramTest, CheckSaysWhereContactIsLookedForAndWhy) {
+  ASSERT_EQ(run("examples channel --out channel.toml").status, 0);
+  expect_in("anywhere along the members (sliding): the default where all members are of theory classic or elastica",
+            run("check channel.toml").out);
+  const std::string nodes = run("check channel.toml --set contact.points='\"nodes\"'").out;
+  expect_in("at the nodes of the mesh: as contact.points says", nodes);
+  expect_in("loads of snaps depend on the mesh", nodes);
+  EXPECT_EQ(run("check truss.toml").out.find("contact"), std::string::npos);
+}
+
+TEST_F(ProgramTest, AnEventOfTheDecksChoiceStopsThePath) {
+  const Outcome outcome = run("run truss.toml --set path.stop.event='\"limit-point\"'");
+  EXPECT_EQ(outcome.status, 0);
+  expect_in("ended: event = limit-point (stop)", outcome.out);
+  const Json events = Json::parse(content(work() / "truss" / "events.json"))["events"];
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[1]["kind"], "limit-point");
 }
 
 TEST_F(ProgramTest, EveryErrorOfADeckIsReportedAndNothingWritten) {
@@ -266,35 +268,6 @@ TEST_F(ProgramTest, HelpBeginsWithAnExample) {
   }
 }
 
-TEST_F(ProgramTest, LimitsOnPointsAndTimeGiveStatus6AndWhatWasTraced) {
-  EXPECT_EQ(run("truss.toml --max-points 3").status, 6);
-  const std::string csv = content(work() / "truss" / "path.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-
-  EXPECT_EQ(run("truss.toml --max-time 1e-9").status, 6);
-  const Json result = Json::parse(content(work() / "truss" / "result.json"));
-  EXPECT_EQ(result["status"], 6);
-  EXPECT_EQ(result["branches"][0]["end"]["reason"], "max_time");
-}
-
-TEST_F(ProgramTest, ResumeGoesOnBehindALimit) {
-  ASSERT_EQ(run("truss.toml --out whole").status, 0);
-  const Outcome stopped = run("truss.toml --quiet --max-points 3");
-  EXPECT_EQ(stopped.status, 6);
-  expect_in("trace-path resume truss", stopped.err);
-  EXPECT_EQ(run("resume truss --max-points 4 --quiet").status, 6);
-  const std::string csv = content(work() / "truss" / "path.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 7);
-  const Outcome ended = run("resume truss");
-  EXPECT_EQ(ended.status, 0);
-  EXPECT_EQ(ended.out, content(work() / "whole" / "events.txt"));
-  const Outcome again = run("resume truss --quiet");
-  EXPECT_EQ(again.status, 0);
-  expect_in("nothing is left to trace", again.err);
-  for (const char* name : {"path.csv", "events.json", "deck.toml", "checkpoint", "report.html"})
-    EXPECT_EQ(content(work() / "truss" / name), content(work() / "whole" / name)) << name;
-}
-
 // Whether the run ended or was stopped, byte for byte.
 TEST_F(ProgramTest, ReportIsWrittenAgainAsItWas) {
   for (const char* more : {"", " --max-points 3", " --set path.step=0.2"}) {
@@ -319,34 +292,10 @@ TEST_F(ProgramTest, ReportOfWhatIsNoRunGivesStatus5) {
   EXPECT_FALSE(std::filesystem::exists(work() / "report.html"));
 }
 
-TEST_F(ProgramTest, ResumeWithoutAWholeCheckpointGivesStatus5) {
-  expect_in("no such folder", run("resume nowhere").err);
-  EXPECT_EQ(run("resume nowhere").status, 5);
-  EXPECT_EQ(run("resume .").status, 5);
-  ASSERT_EQ(run("truss.toml --quiet").status, 0);
-  const std::string bytes = content(work() / "truss" / "checkpoint");
-  put(work() / "truss" / "checkpoint", bytes.substr(0, bytes.size() / 2));
-  const Outcome outcome = run("resume truss");
-  EXPECT_EQ(outcome.status, 5);
-  expect_in("truss/checkpoint: is damaged", outcome.err);
-}
-
-// Each point once, in whichever call it was traced.
-TEST_F(ProgramTest, JsonOfAResumedRunGoesOnBehindThatBefore) {
-  const Outcome whole = run("truss.toml --json --out whole");
-  const Outcome first = run("truss.toml --json --max-points 5"), second = run("resume truss --json");
-  std::vector<Json> parts = lines(first.out), expected = lines(whole.out);
-  std::erase_if(parts, [](const Json& line) {
-    return line.contains("end") || (line.contains("event") && line["event"]["kind"] == "end");
-  });
-  for (const Json& line : lines(second.out)) parts.push_back(line);
-  EXPECT_EQ(parts, expected);
-}
-
 // Every accepted step is a row of path.csv; what was cut back says why.
 TEST_F(ProgramTest, VerboseWritesTheLedgerOfSteps) {
   ASSERT_EQ(run("truss.toml --verbose --quiet").status, 0);
-  const std::vector<Json> steps = lines(content(work() / "truss" / "steps.jsonl"));
+  const std::vector<Json> steps = json_lines(content(work() / "truss" / "steps.jsonl"));
   const auto rows = table(content(work() / "truss" / "path.csv"));
   std::size_t accepted = 0;
   for (const Json& step : steps) {
@@ -361,7 +310,7 @@ TEST_F(ProgramTest, VerboseWritesTheLedgerOfSteps) {
 
   // Under load control the branch ends at the limit point, by steps that fail and are halved.
   ASSERT_EQ(run("truss.toml --verbose --quiet --out load --set path.method='\"load\"'").status, 3);
-  const std::vector<Json> failing = lines(content(work() / "load" / "steps.jsonl"));
+  const std::vector<Json> failing = json_lines(content(work() / "load" / "steps.jsonl"));
   EXPECT_NE(failing.back()["outcome"], "accepted");
   EXPECT_NEAR(failing.back()["radius"].get<double>(), 0.5 * failing[failing.size() - 2]["radius"].get<double>(), 1e-12);
 
@@ -376,7 +325,7 @@ TEST_F(ProgramTest, ABranchThatEndsEarlyGivesStatus3AndWhatWasTraced) {
   expect_in("turning_control", outcome.err);
   expect_in("last point: branch 0", outcome.err);
   expect_in("try: path.method = \"spherical\"", outcome.err);
-  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  EXPECT_EQ(names_in(work() / "truss"), run_outputs);
 }
 
 TEST_F(ProgramTest, ConstantLoadsThatNothingCarriesGiveStatus4) {
@@ -436,8 +385,8 @@ TEST_F(ProgramTest, LinesThatNobodyReadsEndTheRunWithStatus5AndWhatWasTraced) {
 
   EXPECT_EQ(content(work() / "status"), "5\n");
   expect_in("error: standard output cannot be written\n", outcome.err);
-  EXPECT_EQ(lines(outcome.out).size(), 1u);
-  EXPECT_EQ(names_in(work() / "truss"), outputs);
+  EXPECT_EQ(json_lines(outcome.out).size(), 1u);
+  EXPECT_EQ(names_in(work() / "truss"), run_outputs);
   const Json end = Json::parse(content(work() / "truss" / "events.json"))["events"].back();
   EXPECT_EQ(end["reason"], "interrupted");
   EXPECT_EQ(end["detail"], "standard output can no longer be written");
@@ -449,44 +398,7 @@ TEST_F(ProgramTest, LinesForAFullDeviceEndTheRunWithStatus5AndWhatWasTraced) {
 
   EXPECT_EQ(outcome.status, 5);
   expect_in("error: standard output cannot be written\n", outcome.err);
-  EXPECT_EQ(names_in(work() / "truss"), outputs);
-}
-
-TEST_F(ProgramTest, AnInterruptedRunWritesWhatItHas) {
-  const Outcome outcome =
-      shell("\"$PROGRAM\" truss.toml --quiet" + endless + " & child=$!; sleep 0.5; kill -TERM $child; wait $child");
-  EXPECT_EQ(outcome.status, 130);
-  EXPECT_EQ(names_in(work() / "truss"), outputs);
-  EXPECT_EQ(Json::parse(content(work() / "truss" / "events.json"))["events"].back()["reason"], "interrupted");
-  expect_in("trace-path resume truss goes on", outcome.err);
-}
-
-// Killed before its first point.
-TEST_F(ProgramTest, AFolderWithNothingButWhatAKilledRunWasWritingIsUsed) {
-  fs::create_directory(work() / "truss");
-  put(work() / "truss" / ".probe.1234", "");
-  put(work() / "truss" / ".checkpoint.1234", "half");
-  EXPECT_EQ(run("truss.toml --quiet").status, 0);
-  EXPECT_EQ(names_in(work() / "truss"), outputs);
-}
-
-// A killed run leaves a checkpoint and perhaps what it was writing.
-TEST_F(ProgramTest, AFolderOfAKilledRunOfTheSameDeckIsUsedAgain) {
-  const Outcome killed = shell(
-      "\"$PROGRAM\" truss.toml --quiet --checkpoint-pause 0 --set path.max_step=1e-8 --set path.min_step=1e-12 & "
-      "child=$!; until [ -e truss/checkpoint ]; do sleep 0.01; done; kill -KILL $child; wait $child");
-  EXPECT_EQ(killed.status, 128 + 9);
-  put(work() / "truss" / ".checkpoint.1234", "half");
-  fs::create_directory(work() / "truss" / "shapes");
-  put(work() / "truss" / "shapes" / ".0007.vtu.1234", "half");
-  put(work() / "truss" / ".mine.1234", "kept");
-  ASSERT_EQ(shell("cp truss.toml other.toml").status, 0);
-  EXPECT_EQ(run("other.toml --out truss").status, 5);
-  EXPECT_EQ(run("truss.toml --quiet").status, 0);
-  Names expected = outputs;
-  expected.insert(".mine.1234");
-  EXPECT_EQ(names_in(work() / "truss"), expected);
-  EXPECT_EQ(names_in(work() / "truss" / "shapes").count(".0007.vtu.1234"), 0u);
+  EXPECT_EQ(names_in(work() / "truss"), run_outputs);
 }
 
 TEST_F(ProgramTest, ExamplesAreListedAndRight) {

@@ -66,7 +66,7 @@ TEST(BadDecks, RootMaterialsAndPoints) {
       {"title = \"Everything\"", "", "title", "is missing"},
       {"title = \"Everything\"", "title = 3", "title", "3 is of the wrong type"},
       {"title = \"Everything\"", "titel = \"x\"", "titel", "did you mean title?"},
-      {"[units]", "[unit]", "unit", "did you mean units?"},
+      {"[units]", "[unit]", "unit", "did you mean [units]?"},
       {"length = \"cm\"", "", "units.length", "is missing", -1},
       {"force = \"kN\"", "force = 1", "units.force", "wrong type"},
       {"E = 2.1e4", "", "material.steel.E", "is missing", -1},
@@ -260,7 +260,19 @@ TEST(BadDecks, Path) {
       {"mid = [-0.16, 0.16]", "mdi = [-0.16, 0.16]", "path.stop.mdi", "did you mean mid?"},
       {"contacts = 40", "contacts = 0", "path.stop.contacts", "at least 1"},
       {"contacts = 40", "contacts = [1, 2]", "path.stop.contacts", "wrong type"},
+      {"contacts = 40", "event = \"limit\"", "path.stop.event", "known are contact-closes"},
+      {"contacts = 40", "event = [\"branch-pont\"]", "path.stop.event", "did you mean branch-point?"},
+      {"contacts = 40", "event = 1", "path.stop.event", "wrong type"},
   });
+}
+
+TEST(BadDecks, EventsThatStopMustBeLookedFor) {
+  const std::string text = replaced(full_deck, "contacts = 40", "event = \"limit-point\"");
+
+  EXPECT_TRUE(diagnostics_of(text).empty());
+  EXPECT_NE(all_of(diagnostics_of(replaced(text, "events = \"detect\"", "events = \"none\"")))
+                .find("path.stop: event = \"limit-point\" never happens with events = \"none\""),
+            std::string::npos);
 }
 
 TEST(BadDecks, Monitors) {
@@ -326,6 +338,25 @@ TEST(BadDecks, APointMustEndAMemberToBeSupportedOrLoaded) {
   EXPECT_NE(
       all_of(diagnostics_of(replaced(alone, "at = \"B\"", "at = \"alone\""))).find("no member ends at point alone"),
       std::string::npos);
+}
+
+// What others follow from is said before them.
+TEST(BadDecks, APartUnderAnotherNameComesFirst) {
+  const auto found = diagnostics_of(replaced(column_deck, "[member.column]", "[[members]]\nname = \"column\""));
+
+  ASSERT_GT(found.size(), 1u);
+  EXPECT_EQ(found[0].key, "members");
+  EXPECT_EQ(found[0].cure, "did you mean [member.NAME]?");
+  EXPECT_NE(all_of(diagnostics_of("title = \"x\"\nbeams = 3\n")).find("its parts are title, "), std::string::npos);
+}
+
+TEST(BadDecks, WordsOfOtherBooksAreUnderstood) {
+  for (const auto& [theirs, ours] : {std::pair("euler", "classic"), std::pair("timoshenko", "exact")}) {
+    const auto found =
+        diagnostics_of(replaced(column_deck, "theory = \"classic\"", "theory = \"" + std::string(theirs) + "\""));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].cure, "did you mean " + std::string(ours) + "?");
+  }
 }
 
 // Messages stay readable, on one line each, whatever the deck has in it.

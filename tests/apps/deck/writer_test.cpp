@@ -48,6 +48,26 @@ TEST(DeckWriter, WritesEveryDefault) {
   }
 }
 
+// In a comment, since it follows from other keys: who changes these gets another.
+TEST(DeckWriter, SaysWhereContactIsLookedForAndWhy) {
+  const std::string wall = "[[wall]]\nname = \"w\"\nside = \"above\"\nprofile = { type = \"flat\", z = 1.0 }\n";
+  const std::string text = std::string(column_deck) + wall;
+  const auto written = [](const std::string& deck) { return to_toml(read(deck)); };
+  EXPECT_NE(written(text).find("\n# points = \"sliding\": the default where all members are"), std::string::npos);
+  EXPECT_NE(written(text + "[contact]\nmethod = \"penalty\"\npenalty = 1.0\n")
+                .find("\n# points = \"nodes\": method penalty puts springs at nodes\n"),
+            std::string::npos);
+  EXPECT_NE(written(text + "[contact]\npoints = \"nodes\"\n").find("\npoints = \"nodes\"\n"), std::string::npos);
+  EXPECT_EQ(written(std::string(column_deck)).find("# points"), std::string::npos);
+  expect_same_after_writing(read(text));
+}
+
+TEST(DeckWriter, WritesEventsThatStop) {
+  const std::string deck(column_deck);
+  expect_same_after_writing(read(deck + "[path.stop]\nevent = \"limit-point\"\n"));
+  expect_same_after_writing(read(deck + "[path.stop]\nevent = [\"branch-point\", \"contact-opens\"]\n"));
+}
+
 TEST(DeckWriter, KeepsTextAndNumbersExactly) {
   Deck deck = read(column_deck);
   deck.title = "quote \" backslash \\ newline \n tab \t bell \a é λ";

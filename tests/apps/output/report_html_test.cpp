@@ -41,7 +41,7 @@ TEST(ReportData, HasCurvesEventsAndShapes) {
   EXPECT_EQ(data["columns"].dump(), R"([{"name":"mid","title":"mid [cm]"},{"name":"turn","title":"turn [rad]"}])");
   EXPECT_EQ(data["points"]["lambda"].dump(), "[0.0,0.1,0.05]");
   EXPECT_EQ(data["points"]["arc"].dump(), "[0.0,0.3,0.5]");  // ten digits
-  EXPECT_EQ(data["points"]["monitors"].dump(), "[[0.0,0.3333333333,0.2],[-0.0,1e-300,null]]");
+  EXPECT_EQ(data["points"]["monitors"].dump(), "[[0.0,0.3333333333,0.2],[0.0,0.0,null]]");
   EXPECT_EQ(data["points"]["unstable"].dump(), "[0,null,1]");
   EXPECT_EQ(data["lines"].size(), 2u);
   EXPECT_EQ(data["lines"][0]["stability"], "stable");
@@ -152,6 +152,29 @@ stop = { lambda = [-1.0, 0.6] }
   EXPECT_EQ(count(page, "</b></span> leaves at <span data-point="), record.branches.size() - 1);
   EXPECT_NE(page.find("its mirror image is not traced"), std::string::npos);
   EXPECT_NE(page.find("<dt>unknowns</dt><dd>"), std::string::npos);
+}
+
+// A rotation is measured by 1 rad, another quantity by the greatest value of its unit.
+TEST(ReportData, RoundoffIsShownAsZero) {
+  Record record = sample_record();
+  record.columns = {{"mid", "cm"}, {"side", "cm"}};
+  for (RecordPoint& point : record.points) point.monitors = {1.0, 1e-15};
+  record.points.back().monitors = {-2.0, -1e-11};
+  EXPECT_EQ(report_data(record, {})["points"]["monitors"].dump(), "[[1.0,1.0,-2.0],[0.0,0.0,-1e-11]]");
+}
+
+TEST(ReportHtml, SaysWhatLambdaMultipliesAndHowHeightsAreDrawn) {
+  const test::TracedDeck run(test::example("channel"), {"path.stop.lambda=[-1.0, 0.5]", "load.0.force=[-2.0, 0.0]"});
+  ReportContent content = report_content(run.study(), run.record());
+  content.shapes.stretch = 10.0;
+  const std::string page = own_part(report_html(run.record(), content));
+  EXPECT_EQ(data_of(page)["load_title"], "load factor λ, times 2 kN");
+  EXPECT_EQ(count(page, "λ multiplies the load at right force (-2, 0) kN."), 1u);
+  EXPECT_NE(page.find("load factor λ, times 2 kN</text>"), std::string::npos);
+  const std::size_t stage = page.find("<svg id=\"stage\""), note = page.find("Heights are drawn 10 times"),
+                    happening = page.find("id=\"happening\"");
+  EXPECT_LT(stage, note);
+  EXPECT_LT(note, happening);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/sweep/case_result.hpp"
+#include "apps/sweep/key_unit.hpp"
 #include "apps/sweep/map_axis.hpp"
 
 namespace arcwall::sweep::load_map_test {
@@ -84,6 +86,44 @@ TEST(LoadMap, EqualLoadsAreDrawn) {
   for (MapPoint& point : map.points) point.load = 1.5;
   EXPECT_EQ(count("nan", svg(map)), 0u);
   EXPECT_EQ(count("inf", svg(map)), 0u);
+}
+
+TEST(LoadMap, SaysWhatItsLoadsAreTimes) {
+  LoadMap map{.x_title = "k", .load_title = "λ of the snap", .load_unit = "2 kN"};
+  map.points.push_back({.x = 1.0, .load = 3.0});
+  map.points.push_back({.number = 1, .x = 2.0, .load = 4.0});
+  EXPECT_EQ(count("λ of the snap, times 2 kN</text>", svg(map)), 1u);  // the axis
+  map.y_title = "l";
+  for (MapPoint& point : map.points) point.y = 1.0;
+  EXPECT_EQ(count("λ of the snap, times 2 kN</text>", svg(map)), 1u);  // the bar of colours
+}
+
+TEST(UnitOfKey, IsThatOfWhatTheKeyHolds) {
+  const deck::Units units{.length = "cm", .force = "kN"};
+  const std::pair<const char*, const char*> expected[] = {{"wall.0.profile.z", "cm"},
+                                                          {"member.column.imperfection.1.amplitude", "cm"},
+                                                          {"material.steel.E", "kN/cm²"},
+                                                          {"section.s.I", "cm⁴"},
+                                                          {"load.0.force.1", "kN"},
+                                                          {"load.0.moment", "kN cm"},
+                                                          {"load.0.distributed", "kN/cm"},
+                                                          {"point.E.0", "cm"},
+                                                          {"wall.0.profile.curvature", "1/cm"},
+                                                          {"member.column.elements", ""},
+                                                          {"path.step", ""}};
+  for (const auto& [key, unit] : expected) EXPECT_EQ(unit_of_key(key, units), unit) << key;
+  EXPECT_EQ(unit_of_key("material.steel.E", {}), "");
+}
+
+// A case that ended early has told its snap, if it had one; a limit on points may have cut it off before another.
+TEST(CaseResult, AnEarlyEndBehindTheSnapIsNoFailure) {
+  const Json snap{{"kind", "limit-point"}, {"lambda", 2.0}, {"unstable_before", 0}, {"unstable_after", 1}};
+  const Json touch{{"kind", "contact-closes"}, {"lambda", 1.0}, {"unstable_before", 0}, {"unstable_after", 0}};
+  EXPECT_FALSE((CaseResult{.there = true, .status = 3, .events = {touch, snap}}.failed()));
+  EXPECT_TRUE((CaseResult{.there = true, .status = 3, .events = {touch}}.failed()));
+  EXPECT_TRUE((CaseResult{.there = true, .status = 6, .events = {touch, snap}}.failed()));
+  EXPECT_TRUE((CaseResult{.there = true, .events = {touch, snap}}.failed()));
+  EXPECT_FALSE((CaseResult{.there = true, .status = 0}.failed()));
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/deck/deck.hpp"
+
+namespace arcwall {
+
+/// A load in words.
+struct LoadText {
+  std::string text{};  ///< `at right: force (-1, 0) kN`
+  std::string size{};  ///< `2 kN`; empty without units, and of a force together with a moment
+};
+
+LoadText load_text(const deck::Load& load, const deck::Units& units);
+
+/// Those that λ multiplies.
+std::vector<LoadText> varying_loads(const deck::Deck& deck);
+
+}  // namespace arcwall

@@ -1,0 +1,134 @@
+#include "apps/member_force.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/derivative_check.hpp"
+#include "core/error.hpp"
+#include "tests/apps/deck/sample_decks.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using test::TracedDeck;
+
+std::string monitor(const std::string& name, const std::string& at, const std::string& component) {
+  return "[[monitor]]\nname = \"" + name + "\"\nat = \"" + at + "\"\ncomponent = \"" + component + "\"\n";
+}
+
+// A cantilever along x with the force (−0.3, −1) at its tip, and what it carries in the clamp and in its middle.
+std::string clamped_strip(const std::string& theory, const std::string& more = "") {
+  std::string deck = R"(
+title = "Cantilever"
+material.m = { E = 1e4, nu = 0.3 }
+section.s = { shape = "rectangle", width = 1.0, height = 0.1 }
+point = { clamp = [1.0, 0.5], tip = [3.0, 0.5] }
+support.clamp = ["x", "z", "rotation"]
+[member.beam]
+from = "clamp"
+to = "tip"
+material = "m"
+section = "s"
+elements = 8
+)" + theory + R"(
+[[load]]
+at = "tip"
+force = [-0.3, -1.0]
+[path]
+step = 0.1
+stop = { lambda = [-1.0, 1.0] }
+)" + more;
+  deck += monitor("N0", "clamp", "axial-force") + monitor("M0", "beam:0", "moment");
+  deck += monitor("N", "beam:0.5", "axial-force") + monitor("M", "beam:0.5", "moment");
+  deck += monitor("Rx", "clamp", "reaction-x") + monitor("Rm", "clamp", "reaction-moment");
+  for (const char* component : {"x", "z"})
+    deck += monitor(std::string("tip") + component, "tip", component) +
+            monitor(std::string("mid") + component, "beam:0.5", component);
+  return deck + monitor("turn", "beam:0.5", "rotation");
+}
+
+const std::string far_wall = "[[wall]]\nname = \"w\"\nside = \"below\"\nprofile = { type = \"flat\", z = -50.0 }\n";
+
+double last(const TracedDeck& run, const std::string& name) {
+  for (std::size_t i = 0; i < run.record().columns.size(); ++i)
+    if (run.record().columns[i].name == name) return run.record().points.back().monitors[i];
+  ADD_FAILURE() << name;
+  return 0.0;
+}
+
+// Equilibrium of the cut-off part, with the places where the run has them.
+void expect_balance(const TracedDeck& run) {
+  const Vec2 F(-0.3, -1.0);
+  const Vec2 arm(1.0 + last(run, "tipx") - last(run, "midx"), last(run, "tipz") - last(run, "midz"));
+  const double turn = last(run, "turn");
+  EXPECT_LT(turn, -0.3) << "the strip should bend much";
+  EXPECT_NEAR(last(run, "M"), arm.x() * F.y() - arm.y() * F.x(), 1e-8);
+  EXPECT_NEAR(last(run, "N"), F.x() * std::cos(turn) + F.y() * std::sin(turn), 1e-8);
+  EXPECT_NEAR(last(run, "M0"), -last(run, "Rm"), 1e-8);
+  EXPECT_NEAR(last(run, "N0"), 0.3 * -1.0, 1e-8);
+  EXPECT_NEAR(last(run, "N0"), -last(run, "Rx"), 1e-8);
+}
+
+void expect_gradients(const TracedDeck& run) {
+  for (const MonitorColumn& column : run.study().monitors())
+    EXPECT_LE(check_gradient(*column.quantity, run.last()), 1e-6) << column.name;
+}
+
+std::string said_of(const std::string& deck) {
+  try {
+    const TracedDeck run(deck);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST(MemberForce, BalancesWhatIsCutOff) {
+  for (const char* theory : {"theory = \"classic\"", "theory = \"elastica\"", "theory = \"exact\"\norder = 1",
+                             "theory = \"exact\"", "theory = \"essenburg\"\nalong = \"director\""}) {
+    SCOPED_TRACE(theory);
+    expect_balance(TracedDeck(clamped_strip(theory)));
+  }
+}
+
+TEST(MemberForce, BalancesOnAMeshThatSlides) {
+  for (const char* theory : {"theory = \"classic\"", "theory = \"elastica\""}) {
+    SCOPED_TRACE(theory);
+    const TracedDeck run(clamped_strip(theory, far_wall));
+    ASSERT_NE(run.study().sliding(), nullptr);
+    expect_balance(run);
+  }
+}
+
+TEST(MemberForce, HasGradients) {
+  expect_gradients(TracedDeck(clamped_strip("theory = \"classic\"")));
+  expect_gradients(TracedDeck(clamped_strip("theory = \"exact\"")));
+  expect_gradients(TracedDeck(clamped_strip("theory = \"classic\"", far_wall)));
+}
+
+TEST(MemberForce, CanStopAPath) {
+  const std::string deck = clamped_strip("theory = \"classic\"");
+  const TracedDeck run(deck::replaced(deck, "lambda = [-1.0, 1.0]", "lambda = [-1.0, 1.0], M = [-0.4, 0.4]"));
+  EXPECT_NEAR(last(run, "M"), -0.4, 1e-12);
+}
+
+TEST(MemberForce, IsRefusedWhereItIsNotOne) {
+  const std::string second = R"([member.more]
+from = "tip"
+to = "clamp"
+via = [2.0, 2.0]
+theory = "classic"
+material = "m"
+section = "s"
+elements = 8
+[[load]])";
+  const std::string both = deck::replaced(clamped_strip("theory = \"classic\""), "[[load]]", second);
+  EXPECT_NE(said_of(both).find("does not have this component"), std::string::npos);
+}
+
+}  // namespace arcwall
