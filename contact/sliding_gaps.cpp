@@ -140,14 +140,22 @@ std::optional<Passage> SlidingContact::refined(const State& from, const Directio
   const auto [a, b] = on.ends(body_, *at, s);
   const int elements = std::max(2, at->elements);
   const int first = std::clamp(static_cast<int>(std::lround(elements * (touch - a) / (b - a) - 1e-3)), 1, elements - 1);
+  const auto at_least = [&](double begin, double end) {
+    return static_cast<int>(std::ceil(body_.elements_between(run, begin, end) / coarsest));
+  };
+  const int before = std::max(first, at_least(a, start->at.s));
+  const int behind = std::max(elements - first, at_least(start->at.s, b));
   std::size_t k = 0;
   Passage passage = remeshed(from, forward, [&](SlidingDraft& draft) {
-    k = draft.insert({.point = {.obstacle = start->obstacle}, .run = run, .s = start->at.s}, first, elements - first);
+    k = draft.insert({.point = {.obstacle = start->obstacle}, .run = run, .s = start->at.s}, before, behind);
   });
   const auto& limits = layout(passage.guess.piece).limits();
-  for (std::size_t l = 0; l < limits.size(); ++l)
-    if (limits[l].bound == Bound::curvature && limits[l].which == k && limit_value(passage.guess, l) <= 0.0)
-      return std::nullopt;  // too shallow yet
+  for (std::size_t l = 0; l < limits.size(); ++l) {
+    const auto [bound, which] = limits[l];
+    const bool shallow = bound == Bound::curvature && which == k;
+    const bool cramped = bound == Bound::room;  // beside the end of the member, a load or a contact with another wall
+    if ((shallow || cramped) && limit_value(passage.guess, l) <= 0.0) return std::nullopt;
+  }
   return passage;
 }
 

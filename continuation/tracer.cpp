@@ -481,6 +481,8 @@ void Tracer::give_up() {
   } else if (controlled) {
     end_ = {.reason = EndReason::turning_control,
             .detail = "the controlled quantity turns back; use method = \"spherical\" to go on"};
+  } else if (attempt_.outcome == StepOutcome::penetrates) {
+    end_ = {.reason = EndReason::unsupported, .detail = "a wall is touched ahead where contact cannot be followed"};
   } else if (last_failure_ == CorrectorStatus::singular) {
     end_ = {.reason = EndReason::singular, .detail = "the equations are singular ahead"};
   } else if (last_failure_ == CorrectorStatus::not_finite) {

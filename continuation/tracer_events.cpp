@@ -31,6 +31,8 @@ EventDetector turning_detector(const System& system, const Metric& metric, std::
 // λ may turn twice inside a step, or nearly, and look as if it had not: then the cubic through its ends does. `part`:
 // of the lesser rate at the ends, below which the least rate inside must lie; a negative one is taken as it is.
 bool Tracer::hides_two_zeros(const Segment& segment, double part) const {
+  // Of a point within round-off of a corner and the corner itself nothing but round-off is seen.
+  if (segment.length() <= options_.guard_tolerance) return false;
   for (const EventDetector& detector : detectors_) {
     if (!detector.integral) continue;
     const double v0 = detector.integral(segment.from()), v1 = detector.integral(segment.to());

@@ -41,13 +41,18 @@ bool is_whole(const Record& record) {
 
 ArchiveModel model_of(const Study& study) { return {.system = &study.system(), .sliding = study.sliding()}; }
 
+std::shared_ptr<Study> study_of(const RunDescription& run) {
+  return std::make_shared<Study>(deck::read_deck_text(run.deck_text, run.deck, run.assignments));
+}
+
 }  // namespace
 
-RunUnderWay::RunUnderWay(RunDescription description)
+RunUnderWay::RunUnderWay(RunDescription description, std::shared_ptr<Study> study)
     : description_(std::move(description)),
-      study_(std::make_unique<Study>(
-          deck::read_deck_text(description_.deck_text, description_.deck, description_.assignments))),
+      study_(study ? std::move(study) : study_of(description_)),
       record_(std::make_unique<Record>(empty_record(*study_))) {}
+
+RunUnderWay::RunUnderWay(RunDescription description) : RunUnderWay(std::move(description), nullptr) {}
 
 bool RunUnderWay::begin(std::string& reason) {
   std::optional<State> start = study_->start(reason);
@@ -74,7 +79,11 @@ std::string RunUnderWay::checkpoint(const std::optional<BranchEnd>& stopped) {
 }
 
 RunUnderWay RunUnderWay::from(std::string_view checkpoint, const std::string& file, Resume how) {
-  const Json content = from_checkpoint(checkpoint, file);
+  return from_content(from_checkpoint(checkpoint, file), file, how);
+}
+
+RunUnderWay RunUnderWay::from_content(const Json& content, const std::string& file, Resume how,
+                                      std::shared_ptr<Study> study) {
   try {
     // What the run is of comes first: the rest can be read when its model is there.
     ArchiveReader head(content, ArchiveModel{});
@@ -85,7 +94,7 @@ RunUnderWay RunUnderWay::from(std::string_view checkpoint, const std::string& fi
     RunDescription description;
     std::optional<BranchEnd> stopped;
     head(description, stopped);
-    RunUnderWay run(std::move(description));
+    RunUnderWay run(std::move(description), std::move(study));
 
     ArchiveReader archive(content, model_of(*run.study_));
     archive(program, run.description_, stopped, run.start_);

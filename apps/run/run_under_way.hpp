@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,9 +67,16 @@ class RunUnderWay {
   /// The run of a checkpoint. Throws OutputError, which names `file`, for bytes that are none of this program.
   static RunUnderWay from(std::string_view checkpoint, const std::string& file, Resume how);
 
+  /// The same for what a checkpoint contains. A `study` is taken for what the deck in it builds; it must not be that of
+  /// another run if load increments are taken.
+  static RunUnderWay from_content(const nlohmann::json& content, const std::string& file, Resume how,
+                                  std::shared_ptr<Study> study = nullptr);
+
  private:
+  RunUnderWay(RunDescription description, std::shared_ptr<Study> study);
+
   RunDescription description_;
-  std::unique_ptr<Study> study_;
+  std::shared_ptr<Study> study_;
   std::unique_ptr<Record> record_;
   State start_{};
   std::unique_ptr<Tracing> tracing_;

@@ -9,7 +9,7 @@
 #include "tests/apps/deck/sample_decks.hpp"
 #include "tests/apps/traced_deck.hpp"
 
-namespace arcwall {
+namespace arcwall::member_force_test {
 
 namespace {
 
@@ -131,4 +131,4 @@ elements = 8
   EXPECT_NE(said_of(both).find("does not have this component"), std::string::npos);
 }
 
-}  // namespace arcwall
+}  // namespace arcwall::member_force_test

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "apps/deck/reader.hpp"
+#include "continuation/tracer.hpp"
 #include "core/error.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
 
@@ -16,6 +19,60 @@ std::vector<Diagnostic> problems_of(const std::string& text) {
     return error.diagnostics();
   }
   return {};
+}
+
+// A beam with a load at its middle comes down on a round floor at 0.42 of its length.
+struct Descent {
+  std::optional<double> touch{};  // λ
+  BranchEnd end{};
+};
+
+Descent descent(int elements) {
+  const Study study(deck::read_deck_text(R"toml(
+title = "A beam on a round floor"
+material.steel = { E = 1.0e4 }
+section.bar = { shape = "rectangle", width = 1.0, height = 0.1 }
+point = { left = [0.0, 0.0], right = [20.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "beam:0.5", force = [-0.3, -1.0] }]
+path = { step = 0.001, stop = { lambda = [-0.06, 0.06] } }
+[member.beam]
+from = "left"
+to = "right"
+theory = "classic"
+material = "steel"
+section = "bar"
+imperfection = { shape = "sine", amplitude = -0.1, waves = 1 }
+[[wall]]
+name = "floor"
+side = "below"
+profile = { type = "circle", centre = [8.0, -30.25], radius = 30.0 }
+)toml",
+                                         "floor.toml", {"member.beam.elements=" + std::to_string(elements)}));
+  std::string reason;
+  Tracer tracer(study.system(), study.start(reason).value(), study.options());
+  Descent found;
+  while (const auto arc = tracer.next())
+    for (const Event& event : arc->events)
+      if (event.kind == EventKind::contact_closes) found.touch = event.state.lambda;
+  found.end = tracer.end().value();
+  return found;
+}
+
+// Of 16 elements the last before the load is 1.3 long where the touch begins to be followed: it must be two.
+TEST(Study, ATouchBesideALoadIsFollowedWithElementsThatAreShortEnough) {
+  const Descent coarse = descent(16), fine = descent(40);
+  EXPECT_EQ(coarse.end.reason, EndReason::stop) << coarse.end.detail;
+  EXPECT_EQ(fine.end.reason, EndReason::stop);
+  ASSERT_TRUE(coarse.touch && fine.touch);
+  EXPECT_NEAR(*coarse.touch, *fine.touch, 1e-4 * *fine.touch);  // measured: 4.6·10⁻⁵
+}
+
+// Of four elements one has its end at the load and the touch in its nearer half.
+TEST(Study, ATouchTooNearToALoadEndsTheBranchAsUnsupported) {
+  const Descent found = descent(4);
+  EXPECT_FALSE(found.touch);
+  EXPECT_EQ(found.end.reason, EndReason::unsupported) << found.end.detail;
 }
 
 // Each alone is a number, but powers and quotients of them are not, or the length of an element is lost in the digits

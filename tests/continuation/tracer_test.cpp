@@ -260,6 +260,22 @@ TEST(Tracer, OpensAContactWhoseForceVanishes) {
   expect_branch_invariants(system, branch, options);
 }
 
+// The first step, of 0.1 in λ, ends within some units of the last digit of the corner at λ = 1, on either side. Between
+// such a point and the corner differences are round-off, and must not look like something that happens there.
+TEST(Tracer, AStepThatEndsWithinRoundOffOfACornerIsFollowedByTheCorner) {
+  for (const double k : {0.7, 2.0, 3.0}) {
+    const test::LinearContactToy system = test::stopped_springs(k);
+    for (int i = -20; i <= 20; ++i) {
+      SCOPED_TRACE(i);
+      const double begin = 1.1 + i * std::numeric_limits<double>::epsilon();
+      const State start{.x = Vector{{1.0, 1.0 + begin / k, begin - 1.0}}, .lambda = begin, .piece = Piece(1, 1)};
+      const Branch branch = trace(system, {.step = {.first = -0.1}, .landmarks = {stop_at_lambda(0.5)}}, start);
+      EXPECT_EQ(branch.end.reason, EndReason::stop);
+      EXPECT_NEAR(only_event(branch, EventKind::contact_opens).state.lambda, 1.0, 1e-12);
+    }
+  }
+}
+
 // A = −1, g = x: from (x, λ) = (1, −1) along x = −λ, which is unstable; at λ = 0 the contact closes and λ turns back
 // with p = −λ, which is stable.
 TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {

@@ -1,42 +1,77 @@
-// Any bytes as a checkpoint: it is refused with an OutputError, or the run goes on for some points. The first byte says
-// of which run; the rest is the content of its checkpoint, to which the right length and sum are added, since hardly
-// any altered bytes would pass these. What the run is of stays as it is: decks are the matter of the other targets.
+// Checkpoints: they are refused with an OutputError, or the run goes on. An input that begins as a checkpoint does is
+// read as a file. Of others the first byte says of which kept run they are. If it is the run's number the rest is the
+// content of a checkpoint, without the length and sum that hardly any altered bytes would have; else the rest are edits
+// of what the run kept, which leave most of it in order and get further.
+//
+// What the run is of stays as it is: decks are the matter of the other targets. To take a point costs a hundred times
+// as much as to read, so one input in sixteen does.
+#include <fuzzer/FuzzedDataProvider.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string_view>
 
 #include "apps/checkpoint/archive.hpp"
 #include "apps/checkpoint/checkpoint_file.hpp"
 #include "apps/run/run_under_way.hpp"
 #include "core/error.hpp"
+#include "tests/fuzz/edited_content.hpp"
 #include "tests/fuzz/kept_runs.hpp"
 
 namespace arcwall::fuzz {
 namespace {
 
-constexpr int most_points = 2;
+using nlohmann::json;
 
-void take_up(const nlohmann::json& kept, std::string_view bytes) try {
-  nlohmann::json content = from_cbor(bytes);
-  constexpr std::size_t version = 0, description = 1;
-  if (!content.is_array() || content.size() < 2) return;
-  content[version] = kept[version];
-  content[description] = kept[description];
-  RunUnderWay run = RunUnderWay::from(to_checkpoint(content), "checkpoint", RunUnderWay::Resume::go_on);
-  for (int points = 0; points < most_points && run.advance(); ++points) continue;
-} catch (const BadArchive&) {
+// How far the inputs came; printed at the end.
+struct Tally {
+  long taken_up = 0, gone_on = 0;
+
+  ~Tally() { std::fprintf(stderr, "taken up: %ld\ngone on: %ld\n", taken_up, gone_on); }
+} tally;
+
+// The same whenever the input is met.
+bool is_to_go_on(std::string_view bytes) {
+  constexpr std::uint32_t one_in = 16;
+  const auto add = [](std::uint32_t sum, char c) { return sum + static_cast<std::uint8_t>(c); };
+  return std::accumulate(bytes.begin(), bytes.end(), std::uint32_t{0}, add) % one_in == 0;
+}
+
+void take_up(const KeptRun& kept, json content, bool go_on) try {
+  if (!content.is_array() || content.size() < head_entries) return;
+  std::copy_n(kept.content.begin(), head_entries, content.begin());
+  RunUnderWay run = RunUnderWay::from_content(content, "checkpoint", RunUnderWay::Resume::go_on, kept.study);
+  ++tally.taken_up;
+  if (!go_on) return;
+  run.advance();
+  ++tally.gone_on;
 } catch (const OutputError&) {
 }
 
+void read_file(std::string_view bytes) try { from_checkpoint(bytes, "checkpoint"); } catch (const OutputError&) {
+}
+
+void read_content(const KeptRun& kept, std::string_view bytes, bool go_on) try {
+  take_up(kept, from_cbor(bytes), go_on);
+} catch (const BadArchive&) {
+}
+
 void read(std::string_view bytes) {
-  try {
-    from_checkpoint(bytes, "checkpoint");
-  } catch (const OutputError&) {
-  }
   if (bytes.empty()) return;
-  const auto which = static_cast<std::uint8_t>(bytes.front()) % kept_runs().size();
-  take_up(kept_runs()[which], bytes.substr(1));
+  const auto first = static_cast<std::uint8_t>(bytes.front());
+  const KeptRun& kept = kept_runs()[first % kept_runs().size()];
+  if (bytes.starts_with("arcwall")) {
+    read_file(bytes);
+  } else if (first < kept_runs().size()) {
+    read_content(kept, bytes.substr(1), is_to_go_on(bytes));
+  } else {
+    FuzzedDataProvider data(reinterpret_cast<const std::uint8_t*>(bytes.data()) + 1, bytes.size() - 1);
+    take_up(kept, edited(kept.content, data), is_to_go_on(bytes));
+  }
 }
 
 }  // namespace

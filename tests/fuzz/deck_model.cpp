@@ -1,90 +1,43 @@
-// Decks with odd values as models: what a deck builds, `check` says of it, the start, the first points of its path and
-// the files they make are values, or there is an InputError. A run that is kept after these points is read back.
-//
-// With ARCWALL_FUZZ_SHOW set in the environment the deck is printed, and the errors in it.
-#include <fuzzer/FuzzedDataProvider.h>
-
-#include <cmath>
+// Decks with odd values as models: what a deck builds, what `check` says of it and the state that it starts from are
+// values, or there is an InputError. What follows from there is the matter of deck_path.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "apps/cli/summary.hpp"
 #include "apps/deck/reader.hpp"
-#include "apps/output/contacts_csv.hpp"
-#include "apps/output/events_json.hpp"
-#include "apps/output/events_text.hpp"
-#include "apps/output/path_csv.hpp"
-#include "apps/output/result_json.hpp"
-#include "apps/run/run_under_way.hpp"
-#include "core/error.hpp"
+#include "apps/study.hpp"
 #include "tests/fuzz/mutated_deck.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace arcwall::fuzz {
 namespace {
 
-constexpr int most_points = 5;
+// Of a model of some tenths of a millisecond.
 constexpr std::int64_t most_elements = 20;
 
-// A size that a run of some milliseconds can have.
-bool is_small(const deck::Deck& deck) {
-  std::int64_t elements = 0;
-  for (const deck::Member& member : deck.members) elements += member.elements;
-  return elements <= most_elements;
+std::int64_t elements(const deck::Deck& deck) {
+  std::int64_t count = 0;
+  for (const deck::Member& member : deck.members) count += member.elements;
+  return count;
 }
 
-void check_points(const Record& record) {
-  double arc = -1.0;
-  for (const RecordPoint& point : record.points) {
-    require(std::isfinite(point.lambda) && point.state.x.allFinite(), "a point is not finite");
-    if (point.branch == 0) require(point.arc >= std::exchange(arc, point.arc), "arc lengths decrease");
-  }
-}
-
-void write(const RunUnderWay& run) {
-  contacts_csv(run.record(), UnitLabels::shown);
-  to_text(events_json(run.record()), JsonLayout::lines);
-  events_text(run.record());
-  to_text(result_json(run.study(), run.description().deck_text, run.record(), {}, 0), JsonLayout::lines);
-}
-
-void follow(const std::string& text) {
-  if (!is_small(deck::read_deck_text(text, "fuzz.toml"))) return;
-  RunUnderWay run({.deck = "fuzz.toml", .deck_text = text});
-  summary(run.study());
+void build(const std::string& text) {
+  deck::Deck deck = deck::read_deck_text(text, "fuzz.toml");
+  if (elements(deck) > most_elements) return;
+  const Study study(std::move(deck));
+  require(!summary(study).empty(), "check says nothing");
   std::string reason;
-  if (!run.begin(reason)) {
-    require(!reason.empty(), "there is no start and no reason");
-    return;
-  }
-  for (int points = 0; points < most_points && run.advance(); ++points) continue;
-  check_points(run.record());
-  if (run.record().points.empty()) return;
-  const RunUnderWay again = RunUnderWay::from(run.checkpoint(), "checkpoint", RunUnderWay::Resume::go_on);
-  require(path_csv(again.record(), UnitLabels::shown) == path_csv(run.record(), UnitLabels::shown),
-          "a run that is kept reads otherwise");
-  run.stop({.reason = EndReason::max_points, .detail = ""});
-  run.advance();
-  write(run);
+  const std::optional<State> start = study.start(reason);
+  require(start ? start->x.allFinite() && start->lambda == 0.0 : !reason.empty(),
+          "the start is not finite, or there is none for no reason");
 }
 
 }  // namespace
 }  // namespace arcwall::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  FuzzedDataProvider provider(data, size);
-  const std::string text = arcwall::fuzz::mutated_deck(provider);
-  static const bool show = std::getenv("ARCWALL_FUZZ_SHOW") != nullptr;
-  if (show) std::cout << text << std::flush;
-  try {
-    arcwall::fuzz::follow(text);
-  } catch (const arcwall::InputError& error) {
-    if (show)
-      for (const auto& diagnostic : error.diagnostics()) std::cout << "# " << to_text(diagnostic) << "\n";
-  }
-  return 0;
+  return arcwall::fuzz::with_mutated_deck(data, size, arcwall::fuzz::build);
 }

@@ -4,6 +4,7 @@
 
 #include "apps/checkpoint/checkpoint_file.hpp"
 #include "apps/cli/example_decks.hpp"
+#include "apps/deck/reader.hpp"
 #include "apps/run/run_under_way.hpp"
 #include "tests/fuzz/require.hpp"
 
@@ -18,18 +19,22 @@ std::string example(const std::string& name) {
   return {};
 }
 
-nlohmann::json kept(const std::string& name, const std::vector<std::string>& assignments, int points) {
-  RunUnderWay run({.deck = name + ".toml", .deck_text = example(name), .assignments = assignments});
+KeptRun kept(const std::string& name, const std::vector<std::string>& assignments, int points) {
+  const RunDescription description{.deck = name + ".toml", .deck_text = example(name), .assignments = assignments};
+  RunUnderWay run(description);
   std::string reason;
   require(run.begin(reason), "a base run has no start");
   for (int i = 0; i < points; ++i) run.advance();
-  return from_checkpoint(run.checkpoint(), "checkpoint");
+  KeptRun result{.content = from_checkpoint(run.checkpoint(), "checkpoint"), .study = nullptr};
+  if (!run.study().in_increments())
+    result.study = std::make_shared<Study>(deck::read_deck_text(description.deck_text, description.deck, assignments));
+  return result;
 }
 
 }  // namespace
 
-const std::vector<nlohmann::json>& kept_runs() {
-  static const std::vector<nlohmann::json> runs{
+const std::vector<KeptRun>& kept_runs() {
+  static const std::vector<KeptRun> runs{
       kept("truss", {}, 6),
       kept("channel", {"member.column.elements=4"}, 12),
       kept("channel", {"member.column.elements=4", "contact.points=\"nodes\"", "path.branches=\"all\""}, 12),

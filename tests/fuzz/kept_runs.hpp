@@ -1,12 +1,22 @@
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/study.hpp"
+
 namespace arcwall::fuzz {
 
-/// The contents of the checkpoints of some short runs: contact that slides and that does not, several branches,
-/// increments. Made at the first call.
-const std::vector<nlohmann::json>& kept_runs();
+struct KeptRun {
+  nlohmann::json content;        ///< of its checkpoint
+  std::shared_ptr<Study> study;  ///< null where each run needs its own
+};
+
+/// The first entries of a content: the version of the program, and what the run is of.
+constexpr std::size_t head_entries = 2;
+
+/// Some short runs: contact that slides and that does not, several branches, increments. Made at the first call.
+const std::vector<KeptRun>& kept_runs();
 
 }  // namespace arcwall::fuzz

@@ -1,9 +1,10 @@
 #include "tests/fuzz/mutated_deck.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <iostream>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -13,8 +14,10 @@
 #include "apps/deck/toml_source.hpp"
 #include "apps/deck/value.hpp"
 #include "apps/deck/words.hpp"
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
+#include "tests/fuzz/odd_numbers.hpp"
 
 namespace arcwall::fuzz {
 
@@ -71,11 +74,6 @@ const std::vector<std::string>& words() {
   return all;
 }
 
-template <class List>
-auto& one_of(List& list, FuzzedDataProvider& data) {
-  return list[data.ConsumeIntegralInRange<std::size_t>(0, list.size() - 1)];
-}
-
 // The parts of a table or array, those of its parts among them.
 void collect(Value& parent, std::vector<Value*>& parts) {
   for (Value& value : parent.items) {
@@ -85,25 +83,6 @@ void collect(Value& parent, std::vector<Value*>& parts) {
 }
 
 bool is_number(const Value& value) { return value.kind == Kind::integer || value.kind == Kind::number; }
-
-double odd_number(double old, FuzzedDataProvider& data) {
-  static constexpr std::array values{0.0,     -0.0,   1.0,   -1.0,  0.25,  0.5,    2.0,  3.0,    1e-300,
-                                     -5e-324, 1e-150, 1e-16, 1e-9,  -1e-9, 1e-6,   1e-3, 1e3,    1e6,
-                                     1e9,     -1e16,  1e16,  1e150, 1e300, -1e300, 0.1,  3.1415, 100.125};
-  static constexpr std::array factors{-1.0, 0.5, 2.0, 0.9, 1.1, 10.0, 0.1, 1e-3, 1e3, 1.0 + 1e-12, 1e-9, 1e9};
-  switch (data.ConsumeIntegralInRange(0, 4)) {
-    case 0:
-      return one_of(values, data);
-    case 1:
-      return old * one_of(factors, data);
-    case 2:
-      return old + one_of(values, data);
-    case 3:
-      return data.ConsumeFloatingPointInRange(-10.0, 10.0);
-    default:
-      return data.ConsumeFloatingPoint<double>();
-  }
-}
 
 /// Changes a deck, one edit after the other, as the data say.
 class Editor {
@@ -254,14 +233,28 @@ std::string document(const Value& root) {
   return text;
 }
 
-}  // namespace
-
 std::string mutated_deck(FuzzedDataProvider& data) {
   Value root = one_of(base_decks(), data);
   Editor editor(root, data);
   constexpr int most_edits = 12;
   for (int i = 0; i < most_edits && data.remaining_bytes() > 0; ++i) editor.edit();
   return document(root);
+}
+
+}  // namespace
+
+int with_mutated_deck(const std::uint8_t* data, std::size_t size, const std::function<void(const std::string&)>& use) {
+  FuzzedDataProvider provider(data, size);
+  const std::string text = mutated_deck(provider);
+  static const bool show = std::getenv("ARCWALL_FUZZ_SHOW") != nullptr;
+  if (show) std::cout << text << std::flush;
+  try {
+    use(text);
+  } catch (const InputError& error) {
+    if (show)
+      for (const Diagnostic& diagnostic : error.diagnostics()) std::cout << "# " << to_text(diagnostic) << "\n";
+  }
+  return 0;
 }
 
 }  // namespace arcwall::fuzz

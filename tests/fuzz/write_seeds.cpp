@@ -1,9 +1,11 @@
 // fuzz_seeds FOLDER: writes what the fuzz targets begin with into FOLDER/deck_text and FOLDER/checkpoint: the examples
 // and the sample decks of the tests, and checkpoints of short runs.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <string>
 
+#include "apps/checkpoint/checkpoint_file.hpp"
 #include "apps/cli/example_decks.hpp"
 #include "apps/output/files.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
@@ -25,10 +27,13 @@ void write_decks(const fs::path& folder) {
 void write_checkpoints(const fs::path& folder) {
   fs::create_directories(folder);
   for (std::size_t i = 0; i < kept_runs().size(); ++i) {
+    nlohmann::json content = kept_runs()[i].content;
+    std::fill_n(content.begin(), head_entries, nullptr);
     std::string bytes(1, static_cast<char>(i));
-    nlohmann::json::to_cbor(kept_runs()[i], bytes);
+    nlohmann::json::to_cbor(content, bytes);
     write_whole(folder / std::to_string(i), bytes);
   }
+  write_whole(folder / "whole", to_checkpoint(kept_runs().front().content));
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/output/event_names.hpp"
+#include "apps/output/shape.hpp"
 #include "apps/study.hpp"
 #include "core/text.hpp"
 #include "tests/properties/random_decks.hpp"
@@ -91,6 +93,45 @@ void check_same(Story found, Story expected, double sign = 1.0) {
   }
 }
 
+struct Way {
+  int points = 0;
+  double greatest = 0.0;  // |λ|
+  bool arrived = false;
+  std::ostringstream told{};
+};
+
+// To the end, or to where `is_there`.
+template <class IsThere>
+Way follow(Tracer& tracer, const IsThere& is_there) {
+  Way way;
+  while (const auto arc = tracer.next()) {
+    const State& here = arc->to.state;
+    ++way.points;
+    way.greatest = std::max(way.greatest, std::abs(here.lambda));
+    for (const Event& event : arc->events) {
+      way.told << "\n  " << to_text(event.kind) << " at λ = " << round_trip(event.state.lambda) << ", "
+               << here.piece.closed_count() << " closed";
+    }
+    way.arrived = is_there(here);
+    if (way.arrived) return way;
+  }
+  way.told << "\n  " << to_text(tracer.end()->reason) << " " << tracer.end()->detail << " after " << way.points
+           << " points";
+  return way;
+}
+
+// The greatest distance between places of the structure in two states, at the fractions of its members that both shapes
+// have: where forces jump or walls touch there are more [its length scale].
+double distance(const Study& study, const State& a, const State& b) {
+  const Shape first = shape_of(study, a), second = shape_of(study, b);
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < first.members.size(); ++i)
+    for (const ShapePoint& one : first.members[i].points)
+      for (const ShapePoint& other : second.members[i].points)
+        if (one.fraction == other.fraction) greatest = std::max(greatest, (one.position - other.position).norm());
+  return greatest / study.structure().length_scale();
+}
+
 bool has_walls(const Deck& deck) { return !deck.walls.empty(); }
 
 }  // namespace
@@ -130,6 +171,38 @@ RC_GTEST_PROP(Properties, OrderChangesNothing, (Deck deck)) {
   rotate(deck.loads);
   rotate(deck.walls);
   check_same(story_of(deck), expected);
+}
+
+// From the end of a path the other way, to λ = 0: one of the points there is the start. Not from the last point before
+// an early end, and not where the way back has one. Where paths come near each other a step may pass from one to the
+// other; then shorter ones do not.
+RC_GTEST_PROP(Properties, TheWayBackLeadsToTheStart, (const Deck& deck)) {
+  const Study study(deck);
+  std::string reason;
+  const State start = study.start(reason).value();
+  Tracer there(study.system(), start, study.options());
+  const Way way = follow(there, [](const State&) { return false; });
+  RC_PRE(there.end()->reason == EndReason::stop || there.end()->reason == EndReason::max_points);
+  const PathPoint& last = there.here();
+  RC_PRE(way.points > 2 && std::abs(last.tangent.dlambda) > 1e-6);
+  RC_LOG() << "there" << way.told.str() << "\n";
+
+  // Its steps grow from the first again, and it lands on λ = 0: it may take more of them.
+  const auto arrives = [&](int shorter) {
+    TraceOptions options = study.options();
+    options.max_points = shorter * (4 * way.points + 100);
+    options.step.first = std::copysign(options.step.first, -last.tangent.dlambda);
+    options.step.max /= shorter;
+    options.landmarks.assign(1, {.quantity = std::make_shared<ParameterValue>(), .value = 0.0, .label = "λ = 0"});
+    Tracer tracer(study.system(), BranchStart{.state = last.state, .lambda_scale = there.lambda_scale()}, options);
+    const Way back = follow(tracer, [&](const State& here) {
+      return std::abs(here.lambda) <= tolerance * way.greatest && distance(study, here, start) <= tolerance;
+    });
+    RC_LOG() << "back, with steps shorter by " << shorter << back.told.str() << "\n";
+    RC_PRE(back.arrived || tracer.end()->reason == EndReason::max_points);
+    return back.arrived;
+  };
+  RC_ASSERT(arrives(1) || arrives(10));
 }
 
 }  // namespace arcwall::properties_test

@@ -1,5 +1,6 @@
 #include "tests/properties/random_decks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -182,7 +183,8 @@ rc::Gen<Deck> walled_deck() {
     const double depth = gap + 0.5 * height;
     deck::Wall floor{.name = "floor", .side = deck::Side::below};
     if (*rc::gen::arbitrary<bool>()) {
-      floor.profile = deck::LineProfile{.z = -depth, .slope = *between(-0.02, 0.02)};
+      const double slope = *between(-0.02, 0.02);
+      floor.profile = deck::LineProfile{.z = -depth - std::max(0.0, slope * length), .slope = slope};
     } else {
       const double radius = *between(30.0, 100.0);
       floor.profile = deck::CircleProfile{.centre = {.x = *between(8.0, 12.0), .z = -depth - radius}, .radius = radius};

@@ -5,7 +5,7 @@
 #include "tests/apps/cli/program_fixture.hpp"
 
 // Runs that were stopped, and how they go on.
-namespace arcwall {
+namespace arcwall::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(ProgramTest, ARunThatCouldGoOnIsNotReplacedWithoutAWord) {
 }
 
 }  // namespace
-}  // namespace arcwall
+}  // namespace arcwall::resume_test

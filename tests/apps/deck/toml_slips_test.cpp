@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "tests/apps/deck/sample_decks.hpp"
 
-namespace arcwall::deck {
+namespace arcwall::deck::toml_slips_test {
 
 namespace {
 
@@ -87,4 +87,4 @@ TEST(TomlSlips, AnyTextIsLookedAtWithoutHarm) {
     }
 }
 
-}  // namespace arcwall::deck
+}  // namespace arcwall::deck::toml_slips_test
