@@ -135,9 +135,18 @@ void check_curve(Cursor& table, const Curve& curve, const Ends& ends) {
     table.report("x", "the last point " + point_text(last) + " is not where the member ends",
                  "end at " + point_text(ends.to));
   }
+  // A spline through points between which a stretch is lost in the digits of the whole cannot be computed.
+  constexpr double least_stretch = 1e-9;
+  const auto stretch = [&curve](std::size_t i) {
+    return distance({curve.x[i - 1], curve.z[i - 1]}, {curve.x[i], curve.z[i]});
+  };
+  double whole = 0.0;
+  for (std::size_t i = 1; i < curve.x.size(); ++i) whole += stretch(i);
   for (std::size_t i = 1; i < curve.x.size(); ++i) {
-    if (distance({curve.x[i - 1], curve.z[i - 1]}, {curve.x[i], curve.z[i]}) > 0.0) continue;
-    table.report("x", "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are the same",
+    if (stretch(i) > least_stretch * whole) continue;
+    table.report("x",
+                 "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are the same" +
+                     (stretch(i) > 0.0 ? " to 9 digits of the curve's length" : ""),
                  "remove one of them");
   }
 }

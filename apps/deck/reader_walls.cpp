@@ -44,6 +44,16 @@ SplineProfile read_spline(Cursor& table) {
     if (profile.x[i] > profile.x[i - 1]) continue;
     table.report("x", round_trip(profile.x[i]) + " follows " + round_trip(profile.x[i - 1]),
                  "give x in increasing order");
+    return profile;
+  }
+  // Between such points slopes are quotients of what is lost in the digits of the whole.
+  constexpr double least_step = 1e-9;
+  for (std::size_t i = 1; i < profile.x.size(); ++i) {
+    if (profile.x[i] - profile.x[i - 1] > least_step * (profile.x.back() - profile.x.front())) continue;
+    table.report("x",
+                 round_trip(profile.x[i]) + " and " + round_trip(profile.x[i - 1]) +
+                     " are the same to 9 digits of the wall's length",
+                 "remove one of them");
     break;
   }
   return profile;
