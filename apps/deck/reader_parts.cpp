@@ -28,10 +28,6 @@ std::optional<double> number_from(const std::string& text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 // The fraction must be one of 0, 1/n, 2/n, …, 1 with n the number of elements.
 bool is_node(Cursor& table, std::string_view key, const Place& place, const Deck& deck) {
   constexpr double tolerance = 1e-9;  // of the member's length; a fraction written with nine digits is good enough
@@ -65,6 +61,10 @@ bool read_point_place(Cursor& table, std::string_view key, const Reference& foun
 }
 
 }  // namespace
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 Names names_in(const Value& root) {
   Names names{.materials = keys_of(root, "material"),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/deck/cursor.hpp"
@@ -20,6 +21,7 @@ struct Names {
 };
 
 Names names_in(const Value& root);
+bool contains(const std::vector<std::string>& names, std::string_view name);
 
 void read_labels(Cursor& root, Deck& deck);
 void read_materials(Cursor& root, Deck& deck);

@@ -15,10 +15,6 @@ namespace {
 constexpr std::array<std::string_view, 10> reserved_names{"branch",    "step",     "arc",    "lambda",     "unstable",
                                                           "stability", "contacts", "energy", "iterations", "event"};
 
-bool contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 void read_monitor_name(Cursor& table, const Deck& deck, Monitor& monitor) {
   if (!table.text("name", Presence::required, monitor.name)) return;
   const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), monitor.name) != reserved_names.end();
