@@ -329,7 +329,7 @@ namespace {
 // With what λ multiplies, where that is one load: then the axis has a unit.
 std::string load_title(const ReportContent& content) {
   const bool one = content.loads.size() == 1 && !content.loads.front().size.empty();
-  return "load factor λ" + (one ? ", times " + content.loads.front().size : "");
+  return "load factor λ" + (one ? ", times " + shown_name(content.loads.front().size) : "");
 }
 
 std::string load_note(const ReportContent& content) {
