@@ -59,15 +59,15 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
       const double offset = normal_offset(w, run);
       struct Sample {
         double gap;
-        Vec2 place;
-        double rate;  // of the gap, by the place moved along the tangent
+        Vec2 face;
+        double rate;  // of the gap, by the face moved along the tangent
       };
       const auto sample = [&](Index position) {
         const AxisPlace place = mesh.node(run, position, x);
         const Vec2 t = Vec2(std::cos(place.angle), std::sin(place.angle));
         const double o = t.x() >= 0.0 ? offset : -offset;
         const Vec2 face = place.position + o * perp(t);
-        Sample out{.gap = infinity, .place = place.position, .rate = 0.0};
+        Sample out{.gap = infinity, .face = face, .rate = 0.0};
         if (!obstacles_[w].profile->covers(face.x())) return out;
         const SurfaceGap g = surface_gap(*obstacles_[w].profile, obstacles_[w].side, face);
         out.gap = g.value;
@@ -77,7 +77,7 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
       Sample before = sample(0);
       for (Index e = 0; e + 1 < mesh.nodes(run); ++e) {
         const Sample after = sample(e + 1);
-        const double length = (after.place - before.place).norm();
+        const double length = (after.face - before.face).norm();
         const double r0 = before.rate * length, r1 = after.rate * length;
         const bool far = std::min(before.gap, after.gap) > 0.5 * (std::abs(r0) + std::abs(r1));
         if (!skip[static_cast<std::size_t>(e)] && std::isfinite(before.gap) && std::isfinite(after.gap) &&

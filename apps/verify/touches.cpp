@@ -273,26 +273,41 @@ Touches touches(const Study& study, const std::vector<PlainWall>& walls, const S
   return study.contact() != nullptr ? node_touches(study, walls, state) : Touches{};
 }
 
-// Gaps between nodes are taken for cubics; an element's own shape differs from that by some hundredth of its length
-// times the cube of its end slopes.
+namespace {
+
+// The cubic on [0, 1] that has f's values and slopes at both ends.
+template <class Function>
+double cubic_of_ends(const Function& f, double t) {
+  constexpr double step = 1e-4;
+  const double from = f(0.0), to = f(1.0);
+  const double leaves = (4.0 * f(step) - 3.0 * from - f(2.0 * step)) / (2.0 * step);
+  const double arrives = (3.0 * to - 4.0 * f(1.0 - step) + f(1.0 - 2.0 * step)) / (2.0 * step);
+  const double r = 1.0 - t;
+  return from * r * r * (1.0 + 2.0 * t) + to * t * t * (1.0 + 2.0 * r) + leaves * t * r * r - arrives * t * t * r;
+}
+
+}  // namespace
+
+// Gaps between nodes are taken for the cubic that has their values and slopes; the shape of an element, and of a wall
+// along it, differs a little from that.
 LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, const State& state, int places) {
   LeastGap least;
   if (study.sliding() == nullptr) return least;
   const Sliding at{.study = study, .state = state};
   for (Index run = 0; run < at.body.runs(); ++run)
-    for (Index e = 0; e + 1 < at.mesh.nodes(run); ++e)
-      for (int i = 0; i <= places; ++i) {
-        const AxisPlace place = at.mesh.inside(run, e, double(i) / places, at.x, at.s);
-        for (const PlainWall& wall : walls) {
-          if (!wall.concerns(at.body.label({.run = run, .s = 0.0}).first)) continue;
-          const double gap = gap_of(wall, face_towards(wall, at.body.half_height(run), place));
-          if (gap >= least.value) continue;
-          const AxisPlace a = at.mesh.node(run, e, at.x), b = at.mesh.node(run, e + 1, at.x);
-          const Vec2 chord = b.position - a.position;
-          const double bend = std::abs(b.angle - a.angle);
-          least = {.value = gap, .allowance = 0.01 * chord.norm() * bend * bend * bend, .wall = wall.deck().name};
+    for (const PlainWall& wall : walls) {
+      if (!wall.concerns(at.body.label({.run = run, .s = 0.0}).first)) continue;
+      for (Index e = 0; e + 1 < at.mesh.nodes(run); ++e) {
+        const auto gap_at = [&](double t) {
+          return gap_of(wall, face_towards(wall, at.body.half_height(run), at.mesh.inside(run, e, t, at.x, at.s)));
+        };
+        for (int i = 0; i <= places; ++i) {
+          const double t = double(i) / places, gap = gap_at(t);
+          if (gap < least.value)
+            least = {.value = gap, .allowance = std::abs(gap - cubic_of_ends(gap_at, t)), .wall = wall.deck().name};
         }
       }
+    }
   return least;
 }
 
