@@ -120,6 +120,8 @@ class Tracer {
     double lambda_scale = metric_.lambda_scale();
     archive(lambda_scale, start_, step_, here_, before_, signs_, held_, after_, near_, vanishing_, nearest_, visited_,
             ahead_, others_, end_, last_failure_, obstruction_, refined_, points_, standing_);
+    archive.require(signs_.size() == (points_ == 0 ? 0 : detectors_.size()));
+    for (const Singular& singular : near_) archive.require(is_known(singular.found));
     if constexpr (Archive::reads) metric_ = Metric(system_.weights(here_.state.piece), lambda_scale);
   }
 
@@ -162,6 +164,7 @@ class Tracer {
     }
   };
 
+  bool is_known(const Found& found) const;
   std::optional<Arc> begin();
   std::optional<Arc> begin_at_branch_point();
   std::optional<Arc> advance(double s);

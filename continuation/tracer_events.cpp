@@ -163,6 +163,18 @@ Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint&
           .unstable_after = behind.unstable};
 }
 
+bool Tracer::is_known(const Found& found) const {
+  switch (found.what) {
+    case Found::What::branch_point:
+      return true;
+    case Found::What::detector:
+      return found.which < detectors_.size();
+    case Found::What::landmark:
+      return found.which < options_.landmarks.size();
+  }
+  return false;
+}
+
 std::vector<int> Tracer::signs_at(const PathPoint& point) const {
   std::vector<int> signs;
   for (const EventDetector& detector : detectors_) signs.push_back(sign_of(detector.value(point)));

@@ -114,6 +114,32 @@ TEST(Checkpoint, IsRefusedWhoseContentIsNotThatOfARun) {
   refused(Json(nullptr));
 }
 
+// Lists that belong together have lengths that do. What is taken all the same goes on, or ends with a reason.
+TEST(Checkpoint, IsRefusedOrGoesOnWithAnyListEmptied) {
+  for (const std::string example : {"lee", "channel"}) {
+    RunUnderWay run = begun(example);
+    for (int i = 0; i < 12; ++i) run.advance();
+    const Json content = from_checkpoint(run.checkpoint(), "checkpoint");
+    int refused = 0, emptied = 0;
+    const Json flat = content.flatten();
+    for (const auto& [pointer, value] : flat.items()) {
+      const Json::json_pointer list = Json::json_pointer(pointer).parent_pointer();
+      if (!pointer.ends_with("/0") || list.empty()) continue;
+      Json changed = content;
+      changed[list] = Json::array();
+      ++emptied;
+      try {
+        RunUnderWay other = RunUnderWay::from(to_checkpoint(changed), "checkpoint", Resume::go_on);
+        for (int i = 0; i < 3 && other.advance(); ++i) continue;
+      } catch (const OutputError&) {
+        ++refused;
+      }
+    }
+    EXPECT_GT(emptied, 50);
+    EXPECT_GT(refused, emptied / 2);
+  }
+}
+
 TEST(Checkpoint, TakesNoContentThatNestsWithoutEnd) {
   EXPECT_THROW(from_cbor(std::string(1'000'000, '\x81')), BadArchive);
   EXPECT_THROW(from_cbor(std::string(1'000'000, '\x9f')), BadArchive);
