@@ -59,7 +59,12 @@ class Explorer {
   void keep(Archive& archive) {
     bool under_way = tracer_ != nullptr;
     archive(lambda_scale_, current_, before_, last_, queue_, branches_, known_, stopped_, under_way);
+    const auto goes_on = [&](std::size_t branch) {
+      return under_way && !stopped_ && static_cast<int>(branch) == current_;
+    };
+    for (std::size_t i = 0; i < branches_.size(); ++i) archive.require(branches_[i].end.has_value() || goes_on(i));
     if (!under_way) return;
+    archive.require(current_ >= 0 && static_cast<std::size_t>(current_) < branches_.size());
     if constexpr (Archive::reads)
       tracer_ = std::make_unique<Tracer>(system_, BranchStart{.state = last_, .lambda_scale = lambda_scale_}, trace_,
                                          watched_);
