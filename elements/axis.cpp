@@ -20,6 +20,15 @@ using Gauss = AxisGauss<10>;
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
+// cos n φ + i sin n φ = (cos φ + i sin φ)ⁿ, by products where they are few.
+std::complex<double> multiple_turn(const std::complex<double>& once, double angle, int n) {
+  constexpr int few = 8;
+  if (n < 1 || n > few) return {std::cos(n * angle), std::sin(n * angle)};
+  std::complex<double> turned = once;
+  for (int i = 1; i < n; ++i) turned *= once;
+  return turned;
+}
+
 class StraightAxis final : public Axis {
  public:
   StraightAxis(const Vec2& from, const Vec2& to)
@@ -215,19 +224,13 @@ ImperfectAxis::ImperfectAxis(const Axis& axis, std::vector<SineDeviation> deviat
     wave_number_ = std::max(wave_number_, std::abs(wave.waves) * pi / axis_.length());
 }
 
-// sin n φ and cos n φ are the parts of (cos φ + i sin φ)ⁿ.
 ImperfectAxis::Deviation ImperfectAxis::deviation(double s) const {
-  constexpr int fewer_products = 8;
   Deviation y{.value = 0.0, .slope = 0.0, .second = 0.0};
   const double k1 = pi / axis_.length();
   const std::complex<double> once(std::cos(k1 * s), std::sin(k1 * s));
   for (const SineDeviation& wave : deviations_) {
     const double k = wave.waves * k1;
-    std::complex<double> turned = once;
-    if (std::abs(wave.waves) > fewer_products || wave.waves < 1)
-      turned = {std::cos(k * s), std::sin(k * s)};
-    else
-      for (int n = 1; n < wave.waves; ++n) turned *= once;
+    const std::complex<double> turned = multiple_turn(once, k1 * s, wave.waves);
     y.value += wave.amplitude * turned.imag();
     y.slope += wave.amplitude * k * turned.real();
     y.second -= wave.amplitude * k * k * turned.imag();

@@ -295,19 +295,22 @@ LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, cons
   if (study.sliding() == nullptr) return least;
   const Sliding at{.study = study, .state = state};
   for (Index run = 0; run < at.body.runs(); ++run)
-    for (const PlainWall& wall : walls) {
-      if (!wall.concerns(at.body.label({.run = run, .s = 0.0}).first)) continue;
-      for (Index e = 0; e + 1 < at.mesh.nodes(run); ++e) {
-        const auto gap_at = [&](double t) {
-          return gap_of(wall, face_towards(wall, at.body.half_height(run), at.mesh.inside(run, e, t, at.x, at.s)));
-        };
-        for (int i = 0; i <= places; ++i) {
-          const double t = double(i) / places, gap = gap_at(t);
-          if (gap < least.value)
-            least = {.value = gap, .allowance = std::abs(gap - cubic_of_ends(gap_at, t)), .wall = wall.deck().name};
+    for (Index e = 0; e + 1 < at.mesh.nodes(run); ++e)
+      for (int i = 0; i <= places; ++i) {
+        const double t = double(i) / places;
+        const auto place_at = [&](double fraction) { return at.mesh.inside(run, e, fraction, at.x, at.s); };
+        const AxisPlace place = place_at(t);
+        for (const PlainWall& wall : walls) {
+          if (!wall.concerns(at.body.label({.run = run, .s = 0.0}).first)) continue;
+          const auto gap_of_place = [&](const AxisPlace& there) {
+            return gap_of(wall, face_towards(wall, at.body.half_height(run), there));
+          };
+          const double gap = gap_of_place(place);
+          if (gap >= least.value) continue;
+          const double cubic = cubic_of_ends([&](double fraction) { return gap_of_place(place_at(fraction)); }, t);
+          least = {.value = gap, .allowance = std::abs(gap - cubic), .wall = wall.deck().name};
         }
       }
-    }
   return least;
 }
 
