@@ -25,10 +25,6 @@ class Lines {
   std::vector<std::vector<std::string>> rows_;
 };
 
-std::string with_unit(const std::string& number, const std::string& unit) {
-  return unit.empty() ? number : number + " " + unit;
-}
-
 // The least gap of a wall in the stress-free state, and where.
 std::string first_gap(const Study& study, const deck::Wall& wall) {
   if (study.contact() == nullptr) return "no candidates";

@@ -9,10 +9,6 @@ namespace arcwall {
 
 namespace {
 
-std::string measured(const std::string& value, const std::string& unit) {
-  return unit.empty() ? value : value + " " + unit;
-}
-
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 std::string pair_text(const deck::Vector& v) { return fmt::format("({:.6g}, {:.6g})", v.x, v.z); }
 bool acts_nowhere(const deck::Vector& v) { return v.x == 0.0 && v.z == 0.0; }
@@ -21,22 +17,26 @@ LoadText load_words(const deck::PointLoad& load, const deck::Units& units) {
   const std::string moment_unit = units.force.empty() ? "" : units.force + " " + units.length;
   const bool pushes = !acts_nowhere(load.force), turns = load.moment != 0.0;
   LoadText result{.text = "at " + to_text(load.at)};
-  if (pushes) result.text += " force " + measured(pair_text(load.force), units.force);
-  if (turns) result.text += " moment " + measured(short_number(load.moment), moment_unit);
+  if (pushes) result.text += " force " + with_unit(pair_text(load.force), units.force);
+  if (turns) result.text += " moment " + with_unit(short_number(load.moment), moment_unit);
   if (units.force.empty() || pushes == turns) return result;
-  result.size = pushes ? measured(short_number(std::hypot(load.force.x, load.force.z)), units.force)
-                       : measured(short_number(std::abs(load.moment)), moment_unit);
+  result.size = pushes ? with_unit(short_number(std::hypot(load.force.x, load.force.z)), units.force)
+                       : with_unit(short_number(std::abs(load.moment)), moment_unit);
   return result;
 }
 
 LoadText load_words(const deck::MemberLoad& load, const deck::Units& units) {
   const std::string unit = units.force.empty() || units.length.empty() ? "" : units.force + "/" + units.length;
-  LoadText result{.text = "on " + load.member + " " + measured(pair_text(load.distributed), unit)};
-  if (!unit.empty()) result.size = measured(short_number(std::hypot(load.distributed.x, load.distributed.z)), unit);
+  LoadText result{.text = "on " + load.member + " " + with_unit(pair_text(load.distributed), unit)};
+  if (!unit.empty()) result.size = with_unit(short_number(std::hypot(load.distributed.x, load.distributed.z)), unit);
   return result;
 }
 
 }  // namespace
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
 
 LoadText load_text(const deck::Load& load, const deck::Units& units) {
   return std::visit([&](const auto& action) { return load_words(action, units); }, load.action);

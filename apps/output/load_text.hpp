@@ -13,6 +13,9 @@ struct LoadText {
   std::string size{};  ///< `2 kN`; empty without units, and of a force together with a moment
 };
 
+/// A number with its unit; alone where the deck has no units.
+std::string with_unit(const std::string& number, const std::string& unit);
+
 LoadText load_text(const deck::Load& load, const deck::Units& units);
 
 /// Those that λ multiplies.

@@ -4,12 +4,12 @@
 
 #include "apps/checkpoint/archive.hpp"
 #include "apps/checkpoint/checkpoint_file.hpp"
-#include "apps/cli/example_decks.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/path_csv.hpp"
 #include "apps/run/run_under_way.hpp"
 #include "core/error.hpp"
+#include "tests/apps/traced_deck.hpp"
 
 // A run that is kept and taken up again goes on to the last bit as if it had never stopped.
 namespace arcwall::checkpoint_test {
@@ -19,15 +19,9 @@ using Json = nlohmann::json;
 using Resume = RunUnderWay::Resume;
 using Assignments = std::vector<std::string>;
 
-std::string deck_of(const std::string& example) {
-  for (const ExampleDeck& deck : example_decks())
-    if (deck.name == example) return std::string(deck.text);
-  ADD_FAILURE() << "no example " << example;
-  return {};
-}
-
 RunUnderWay begun(const std::string& example, const Assignments& assignments = {}) {
-  RunUnderWay run({.deck = example + ".toml", .deck_text = deck_of(example), .assignments = assignments});
+  RunUnderWay run(
+      {.deck = example + ".toml", .deck_text = std::string(test::example(example)), .assignments = assignments});
   std::string reason;
   EXPECT_TRUE(run.begin(reason)) << reason;
   return run;
