@@ -3,7 +3,6 @@
 #include <concepts>
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -155,6 +154,7 @@ class ArchiveReader {
 
  private:
   using Json = nlohmann::json;
+  static constexpr std::int64_t greatest_count = std::int64_t{1} << 29;  // no run counts further; sums fit every type
   struct Shared {
     ArchiveModel model;
     std::vector<std::shared_ptr<const Layout>> layouts;
@@ -189,7 +189,8 @@ class ArchiveReader {
     } else if constexpr (std::is_enum_v<T>) {
       value = static_cast<T>(whole_number(json, 0, greatest(T{})));
     } else if constexpr (std::integral<T>) {
-      value = static_cast<T>(whole_number(json, lowest<T>(), highest<T>()));
+      static_assert(sizeof(T) >= sizeof(std::int32_t));
+      value = static_cast<T>(whole_number(json, std::signed_integral<T> ? -greatest_count : 0, greatest_count));
     } else if constexpr (std::floating_point<T>) {
       require(json.is_number());
       value = json.get<T>();
@@ -218,17 +219,6 @@ class ArchiveReader {
     } else {
       structure(json, value);
     }
-  }
-
-  template <std::integral T>
-  static constexpr std::int64_t lowest() {
-    return std::signed_integral<T> ? static_cast<std::int64_t>(std::numeric_limits<T>::min()) : 0;
-  }
-  template <std::integral T>
-  static constexpr std::int64_t highest() {
-    return sizeof(T) < sizeof(std::int64_t) || std::signed_integral<T>
-               ? static_cast<std::int64_t>(std::numeric_limits<T>::max())
-               : std::numeric_limits<std::int64_t>::max();
   }
 
   std::int64_t whole_number(const Json& json, std::int64_t least, std::int64_t most) const;

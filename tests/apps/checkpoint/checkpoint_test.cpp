@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/checkpoint/archive.hpp"
@@ -106,6 +108,26 @@ TEST(Checkpoint, IsRefusedWhoseContentIsNotThatOfARun) {
   longer.push_back(0);
   refused(longer);
   refused(Json(nullptr));
+}
+
+// Sums and differences of counts are taken all along a path.
+TEST(Checkpoint, IsRefusedWithACountBeyondReason) {
+  RunUnderWay run = begun("lee");
+  for (int i = 0; i < 12; ++i) run.advance();
+  const Json content = from_checkpoint(run.checkpoint(), "checkpoint");
+  int counts = 0;
+  const Json flat = content.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (!value.is_number_integer()) continue;
+    for (const auto beyond : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1} << 31, std::int64_t{1} << 31,
+                              std::numeric_limits<std::int64_t>::max()}) {
+      Json changed = content;
+      changed[Json::json_pointer(pointer)] = beyond;
+      EXPECT_THROW(RunUnderWay::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError) << pointer;
+    }
+    ++counts;
+  }
+  EXPECT_GT(counts, 100);
 }
 
 // Lists that belong together have lengths that do. What is taken all the same goes on, or ends with a reason.
