@@ -29,6 +29,82 @@ std::complex<double> multiple_turn(const std::complex<double>& once, double angl
   return turned;
 }
 
+// Of the shortest wave over a part of a curve: a polynomial of degree 6 is its speed to round-off.
+constexpr double small_phase = 0.25;
+
+// The speed over a part of a curve, as the polynomial through its values at both ends and at Gauss's five points; by
+// u from −1 to 1.
+class PolynomialSpeed {
+ public:
+  // `speed_at` takes the fraction of the part.
+  template <typename Speed>
+  PolynomialSpeed(double first, double last, const Speed& speed_at) {
+    Values values;
+    values[0] = first;
+    values[size - 1] = last;
+    for (Index i = 1; i + 1 < size; ++i) values[i] = speed_at(0.5 + 0.5 * nodes()[i]);
+    coefficients_ = from_values() * values;
+    length_ = integral(1.0);
+  }
+
+  // As a multiple of the length of the part's axis.
+  double length() const { return 0.5 * length_; }
+
+  // The fraction of the axis at a fraction of the length, by Newton's method.
+  double place_of(double fraction) const {
+    constexpr int most_iterations = 10;
+    double u = 2.0 * fraction - 1.0;
+    for (int i = 0; i < most_iterations; ++i) {
+      const double change = (fraction * length_ - integral(u)) / value(u);
+      u += change;
+      if (std::abs(change) <= 4.0 * std::numeric_limits<double>::epsilon()) break;
+    }
+    return 0.5 + 0.5 * u;
+  }
+
+ private:
+  static constexpr Index size = 7;
+  using Values = Eigen::Matrix<double, size, 1>;
+  using Square = Eigen::Matrix<double, size, size>;
+
+  static const Values& nodes() {
+    static const Values result = [] {
+      const auto& positive = AxisGauss<5>::abscissa();  // 0 first
+      return Values{-1.0, -positive[2], -positive[1], positive[0], positive[1], positive[2], 1.0};
+    }();
+    return result;
+  }
+
+  // Coefficients of 1, u, u², … of the polynomial through values at the nodes.
+  static const Square& from_values() {
+    static const Square result = [] {
+      Square powers;
+      for (Index k = 0; k < size; ++k) powers.col(k) = nodes().array().pow(double(k));
+      return Square(powers.inverse());
+    }();
+    return result;
+  }
+
+  double value(double u) const {
+    double sum = 0.0;
+    for (Index k = size; k-- > 0;) sum = sum * u + coefficients_[k];
+    return sum;
+  }
+
+  // From −1 to u.
+  double integral(double u) const {
+    const auto antiderivative = [this](double at) {
+      double sum = 0.0;
+      for (Index k = size; k-- > 0;) sum = (sum + coefficients_[k] / double(k + 1)) * at;
+      return sum;
+    };
+    return antiderivative(u) - antiderivative(-1.0);
+  }
+
+  Values coefficients_;
+  double length_ = 0.0;
+};
+
 class StraightAxis final : public Axis {
  public:
   StraightAxis(const Vec2& from, const Vec2& to)
@@ -259,11 +335,6 @@ AxisPoint ImperfectAxis::at(double s) const {
   return {.position = point.position, .angle = point.angle};
 }
 
-Vec2 ImperfectAxis::chord(double from, double to) const {
-  const Vec2 chord = axis_.chord(from, to);
-  return deviations_.empty() ? chord : Vec2(chord + along(to).deviation - along(from).deviation);
-}
-
 double ImperfectAxis::speed(double s) const {
   if (deviations_.empty()) return 1.0;
   const Deviation y = deviation(s);
@@ -276,10 +347,38 @@ double ImperfectAxis::speed(double s) const {
 double ImperfectAxis::length(double from, double to) const {
   if (deviations_.empty()) return to - from;
   const auto here = [this](double s) { return speed(s); };
-  const double phase = axis_.is_straight() ? wave_number_ * std::abs(to - from) : infinity;
-  if (phase <= 0.25) return AxisGauss<5>::integrate(here, from, to);
-  if (phase <= 1.0) return AxisGauss<7>::integrate(here, from, to);
+  const double turned = phase(from, to);
+  if (turned <= small_phase) return AxisGauss<5>::integrate(here, from, to);
+  if (turned <= 1.0) return AxisGauss<7>::integrate(here, from, to);
   return Gauss::integrate(here, from, to);
+}
+
+// Of the shortest wave; infinite where the axis has waves of its own.
+double ImperfectAxis::phase(double from, double to) const {
+  return axis_.is_straight() ? wave_number_ * std::abs(to - from) : infinity;
+}
+
+// Arc length of the axis takes the place of its own where nothing deviates.
+DividedPart ImperfectAxis::divided(double from, double to) const {
+  DividedPart part;
+  part.at.front() = along(from);
+  part.at.back() = along(to);
+  part.chord = axis_.chord(from, to) + part.at.back().deviation - part.at.front().deviation;
+  const auto divide = [&](const auto& place_at) {
+    for (std::size_t k = 1; k + 1 < part.at.size(); ++k)
+      part.at[k] = along(place_at(double(k) / double(part.at.size() - 1)));
+  };
+  const auto linear = [&](double fraction) { return from + fraction * (to - from); };
+  if (!deviations_.empty() && phase(from, to) <= small_phase) {
+    const PolynomialSpeed speeds(part.at.front().speed, part.at.back().speed,
+                                 [&](double fraction) { return speed(linear(fraction)); });
+    part.length = (to - from) * speeds.length();
+    divide([&](double fraction) { return linear(speeds.place_of(fraction)); });
+  } else {
+    part.length = length(from, to);
+    divide([&](double fraction) { return coordinate_at(from, fraction * part.length, linear(fraction)); });
+  }
+  return part;
 }
 
 // Newton's method. What a step leaves of the error is the length between its ends less its own linear estimate, so that

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -55,6 +56,14 @@ struct DeviatedPoint {
   double turning = 0.0;  ///< d angle / ds [1/length]
 };
 
+/// A part of a deviated curve.
+struct DividedPart {
+  static constexpr int points = 4;
+  double length = 0.0;                     ///< arc length of the curve
+  Vec2 chord = Vec2::Zero();               ///< from the first end to the second [length]
+  std::array<DeviatedPoint, points> at{};  ///< at 0, ⅓, ⅔ and 1 of that length
+};
+
 /// An axis with its imperfections: the stress-free shape of the member.
 class ImperfectAxis {
  public:
@@ -67,23 +76,20 @@ class ImperfectAxis {
   /// Its position and angle alone: the curvatures are not filled in.
   AxisPoint at(double s) const;
 
-  /// From one such point to another.
-  Vec2 chord(double from, double to) const;
-
-  /// Arc length of the deviated curve per s.
-  double speed(double s) const;
-
   /// Arc length of the deviated curve between two such points.
   double length(double from, double to) const;
 
-  /// The s at which the deviated curve from `from` on has a length, sought from `guess`.
-  double coordinate_at(double from, double length, double guess) const;
+  /// The deviated curve between two such points.
+  DividedPart divided(double from, double to) const;
 
  private:
   struct Deviation {
     double value, slope, second;
   };
   Deviation deviation(double s) const;
+  double speed(double s) const;
+  double phase(double from, double to) const;
+  double coordinate_at(double from, double length, double guess) const;
 
   const Axis& axis_;
   std::vector<SineDeviation> deviations_;

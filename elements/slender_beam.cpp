@@ -8,15 +8,13 @@ namespace arcwall {
 //
 //   ∂s/∂S₁ = (1 − f) v₁/v,     ∂s/∂S₂ = f v₂/v
 StretchReference stretch_reference(const ImperfectAxis& shape, double from, double to) {
-  constexpr std::size_t samples = StretchReference::samples;
-  StretchReference stretch{.length = shape.length(from, to), .chord = shape.chord(from, to)};
-  const DeviatedPoint first = shape.along(from), last = shape.along(to);
-  for (std::size_t k = 0; k < samples; ++k) {
-    const double fraction = double(k) / double(samples - 1);
-    const bool inside = k > 0 && k + 1 < samples;
-    const DeviatedPoint point =
-        inside ? shape.along(shape.coordinate_at(from, fraction * stretch.length, from + fraction * (to - from)))
-               : (k == 0 ? first : last);
+  static_assert(StretchReference::samples == DividedPart::points);
+  const DividedPart part = shape.divided(from, to);
+  const DeviatedPoint &first = part.at.front(), &last = part.at.back();
+  StretchReference stretch{.length = part.length, .chord = part.chord};
+  for (std::size_t k = 0; k < part.at.size(); ++k) {
+    const double fraction = double(k) / double(part.at.size() - 1);
+    const DeviatedPoint& point = part.at[k];
     stretch.angles[k] = point.angle;
     stretch.angle_rate[0][k] = (1.0 - fraction) * first.speed / point.speed * point.turning;
     stretch.angle_rate[1][k] = fraction * last.speed / point.speed * point.turning;
