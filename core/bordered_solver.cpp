@@ -1,6 +1,8 @@
 #include "core/bordered_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arcwall {
 
@@ -9,7 +11,41 @@ namespace {
 // Relative size of the pivots below which a solution is not trusted unseen.
 constexpr double suspicious_pivot = 1e-13;
 constexpr double good_residual = 1e-10;
+constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr int max_refinements = 3;
+
+// r = f − J δx − F_λ δλ of a solution, and the sum of the magnitudes of its terms: below some ε of them r is round-off,
+// and no other solution is better. On a fine mesh stiffness times displacement is large beside f.
+struct Residual {
+  Vector r{}, terms{};
+
+  bool is_small(const Vector& f) const {
+    return r.norm() <= std::max(good_residual * f.norm(), rounding * terms.norm());
+  }
+};
+
+Residual residual_of(const Linearization& equations, const Vector& f, const Direction& solution) {
+  const SparseMatrix& K = equations.K;
+  const Index n = K.cols(), m = equations.B.cols();
+  Residual out{.r = f - equations.F_lambda * solution.dlambda,
+               .terms = f.cwiseAbs() + equations.F_lambda.cwiseAbs() * std::abs(solution.dlambda)};
+  const Vector& x = solution.dx;
+  const auto take = [&](Index row, double term) {
+    out.r[row] -= term;
+    out.terms[row] += std::abs(term);
+  };
+  for (Index column = 0; column < n; ++column)
+    for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
+      take(entry.row(), entry.value() * x[column]);
+      if (entry.row() != column) take(column, entry.value() * x[entry.row()]);
+    }
+  if (m == 0) return out;
+  out.r.head(n) -= equations.B * x.tail(m);
+  out.terms.head(n) += equations.B.cwiseAbs() * x.tail(m).cwiseAbs();
+  out.r.tail(m) -= equations.C * x;
+  out.terms.tail(m) += equations.C.cwiseAbs() * x.cwiseAbs();
+  return out;
+}
 
 }  // namespace
 
@@ -69,24 +105,18 @@ Matrix BorderedSolver::inverse_at_border() const {
   return inverse;
 }
 
-// Improves the solution of J X = B; false if it cannot be made good.
-bool BorderedSolver::refine(const Matrix& B, Eigen::Ref<Matrix> X) const {
-  for (int round = 0; round <= max_refinements; ++round) {
-    Matrix R = B - product(*equations_, X);
-    if (!R.allFinite()) return false;
-    if (R.norm() <= good_residual * B.norm()) return true;
-    if (!solve_inner(R)) return false;
-    X += R;
-  }
-  return false;
+bool BorderedSolver::is_suspicious() const {
+  return equations_->B.cols() > 0 || ldlt_.pivot_ratio() < suspicious_pivot;
 }
 
+// X = J⁻¹ [−F, −F_λ] taken together. Where J is nearly singular both columns are large multiples of one vector, and the
+// digits that they differ in are lost: seen from their combination, the solution that the border asks for.
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const Linearization& now = *equations_;
   columns_.resize(now.F.size(), 2);
   columns_.col(0) = -now.F;
   columns_.col(1) = -now.F_lambda;
-  if (solve_checked(columns_, 2)) {
+  if (regular_ && solve_inner(columns_) && (!is_suspicious() || make_line_good(border))) {
     out.particular = {.dx = columns_.col(0), .dlambda = 0.0};
     out.tangent = {.dx = columns_.col(1), .dlambda = 1.0};
     return true;
@@ -97,12 +127,32 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   return out.particular.dx.allFinite() && out.tangent.dx.allFinite();
 }
 
+// False where refinement does not help.
+bool BorderedSolver::make_line_good(const Row& border) {
+  const Linearization& now = *equations_;
+  for (int round = 0;; ++round) {
+    const double along = border.dx.dot(columns_.col(1)) + border.dlambda;
+    const double dlambda = -border.dx.dot(columns_.col(0)) / along;
+    const Direction closed{.dx = columns_.col(0) + dlambda * columns_.col(1), .dlambda = dlambda};
+    const Residual particular = residual_of(now, -now.F, closed);
+    const Residual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(1), .dlambda = 0.0});
+    if (!particular.r.allFinite() || !tangent.r.allFinite()) return false;
+    if (particular.is_small(now.F) && tangent.is_small(now.F_lambda)) return true;
+    if (round == max_refinements) return false;
+    Matrix correction(now.F.size(), 2);
+    correction.col(0) = particular.r - dlambda * tangent.r;  // of column 0 alone
+    correction.col(1) = tangent.r;
+    if (!solve_inner(correction)) return false;
+    columns_ += correction;
+  }
+}
+
 bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& others) {
   const Linearization& now = *equations_;
   columns_.resize(now.F.size(), 1 + others.cols());
   columns_.col(0) = -now.F_lambda;
   columns_.rightCols(others.cols()) = others;
-  if (solve_checked(columns_, 1)) {
+  if (regular_ && solve_inner(columns_) && (!is_suspicious() || make_tangent_good())) {
     out = {.dx = columns_.col(0), .dlambda = 1.0};
     others = columns_.rightCols(others.cols());
     return true;
@@ -113,12 +163,17 @@ bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& others) 
   return out.dx.allFinite();
 }
 
-// X := J⁻¹ X; false if J is singular, or so nearly that the first `checked` columns cannot be made good.
-bool BorderedSolver::solve_checked(Matrix& X, Index checked) const {
-  if (!regular_) return false;
-  const bool suspicious = equations_->B.cols() > 0 || ldlt_.pivot_ratio() < suspicious_pivot;
-  const Matrix B = suspicious ? X.leftCols(checked) : Matrix();
-  return solve_inner(X) && (!suspicious || refine(B, X.leftCols(checked)));
+bool BorderedSolver::make_tangent_good() {
+  const Linearization& now = *equations_;
+  for (int round = 0;; ++round) {
+    const Residual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(0), .dlambda = 0.0});
+    if (!tangent.r.allFinite()) return false;
+    if (tangent.is_small(now.F_lambda)) return true;
+    if (round == max_refinements) return false;
+    Matrix correction = tangent.r;
+    if (!solve_inner(correction)) return false;
+    columns_.col(0) += correction;
+  }
 }
 
 std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& f, double g) {
@@ -130,9 +185,7 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
     // δλ = (g − cᵀ J⁻¹ f) / (d − cᵀ J⁻¹ F_λ),  δx = J⁻¹ f − δλ J⁻¹ F_λ
     const double dlambda = (g - border.dx.dot(X.col(0))) / (border.dlambda - border.dx.dot(X.col(1)));
     Direction solution{.dx = X.col(0) - dlambda * X.col(1), .dlambda = dlambda};
-    const Vector r = f - now.F_lambda * dlambda - product(now, solution.dx);
-    const double scale = f.norm() + std::abs(dlambda) * now.F_lambda.norm();
-    if (solved && solution.dx.allFinite() && r.norm() <= good_residual * scale) return solution;
+    if (solved && solution.dx.allFinite() && residual_of(now, f, solution).is_small(f)) return solution;
   }
   if (!factorize_whole(border)) return std::nullopt;
   Direction solution = solve_whole(f, g);

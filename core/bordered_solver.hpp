@@ -54,8 +54,9 @@ class BorderedSolver {
 
  private:
   bool eliminate_border();
-  bool refine(const Matrix& B, Eigen::Ref<Matrix> X) const;
-  bool solve_checked(Matrix& X, Index checked) const;
+  bool is_suspicious() const;
+  bool make_line_good(const Row& border);
+  bool make_tangent_good();
   bool factorize_whole(const Row& border);
   Direction solve_whole(const Vector& f, double g) const;
 
