@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <vector>
+
+#include "core/chain_ldlt.hpp"
 
 namespace arcwall {
 
@@ -55,6 +58,7 @@ struct Ldlt::Implementation {
   cholmod_dense* solution = nullptr;  // workspaces of cholmod_solve2, kept from call to call
   cholmod_dense* workspace_y = nullptr;
   cholmod_dense* workspace_e = nullptr;
+  std::optional<ChainLdlt> chain;    // of a pattern that is a chain; then CHOLMOD has nothing to do
   std::vector<Index> columns, rows;  // the pattern that was analysed
   Index multipliers = 0, analysed_multipliers = 0;
   bool usable = false;
@@ -83,13 +87,24 @@ struct Ldlt::Implementation {
 
   bool analysed(const SparseMatrix& A) const {
     const auto n = static_cast<std::size_t>(A.cols()) + 1, nonzeros = static_cast<std::size_t>(A.nonZeros());
-    return factor != nullptr && multipliers == analysed_multipliers && columns.size() == n && rows.size() == nonzeros &&
-           std::memcmp(columns.data(), A.outerIndexPtr(), n * sizeof(Index)) == 0 &&
+    return (chain || factor != nullptr) && multipliers == analysed_multipliers && columns.size() == n &&
+           rows.size() == nonzeros && std::memcmp(columns.data(), A.outerIndexPtr(), n * sizeof(Index)) == 0 &&
            std::memcmp(rows.data(), A.innerIndexPtr(), nonzeros * sizeof(Index)) == 0;
   }
 
   void analyse(const SparseMatrix& A) {
     cholmod_l_free_factor(&factor, &common);
+    chain.reset();
+    if (const auto groups = chain_groups(A, multipliers, ChainLdlt::widest))
+      chain.emplace().analyse(A, *groups);
+    else
+      analyse_by_degree(A);
+    columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
+    rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    analysed_multipliers = multipliers;
+  }
+
+  void analyse_by_degree(const SparseMatrix& A) {
     std::vector<Index> order = structure_order(A);
     insert_multipliers(A, order);
     cholmod_sparse a = view(A);
@@ -97,9 +112,6 @@ struct Ldlt::Implementation {
     common.method[0].ordering = CHOLMOD_GIVEN;
     common.postorder = 0;
     factor = cholmod_l_analyze_p(&a, as_long(order.data()), nullptr, 0, &common);
-    columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
-    rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
-    analysed_multipliers = multipliers;
   }
 
   // Approximate minimum degree, postordered, of the leading block without multipliers.
@@ -175,6 +187,10 @@ FactorStatus Ldlt::factorize(const SparseMatrix& A) {
   self.usable = false;
   if (!Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).allFinite()) return FactorStatus::not_finite;
   if (!self.analysed(A)) self.analyse(A);
+  if (self.chain) {
+    self.usable = self.chain->factorize(A.valuePtr());
+    return self.usable ? FactorStatus::ok : FactorStatus::singular;
+  }
   if (self.factor == nullptr) return FactorStatus::singular;
   cholmod_sparse a = view(A);
   cholmod_l_factorize(&a, self.factor, &self.common);
@@ -186,6 +202,7 @@ void Ldlt::solve(Eigen::Ref<Matrix> X) const {
   Implementation& self = *implementation_;
   assert(self.usable);
   if (X.cols() == 0) return;
+  if (self.chain) return self.chain->solve(X);
   cholmod_dense b = view(X);
   cholmod_l_solve2(CHOLMOD_A, self.factor, &b, nullptr, &self.solution, nullptr, &self.workspace_y, &self.workspace_e,
                    &self.common);
@@ -195,18 +212,20 @@ void Ldlt::solve(Eigen::Ref<Matrix> X) const {
 std::optional<Inertia> Ldlt::inertia() const {
   const Implementation& self = *implementation_;
   if (!self.usable) return std::nullopt;
-  return self.inertia;
+  return self.chain ? self.chain->inertia() : self.inertia;
 }
 
 double Ldlt::pivot_ratio() const {
   const Implementation& self = *implementation_;
-  return self.usable ? self.least_pivot / self.greatest_pivot : 0.0;
+  if (!self.usable) return 0.0;
+  return self.chain ? self.chain->least_pivot() / self.chain->greatest_pivot() : self.least_pivot / self.greatest_pivot;
 }
 
 // Wilkinson: K + E = L D Lᵀ with |E| ≤ γ |L| |D| |L|ᵀ. Without pivoting L may grow; |K| alone would not show it.
 double Ldlt::roundoff(const Vector& v) const {
   const Implementation& self = *implementation_;
-  assert(self.usable && v.size() == static_cast<Index>(self.factor->n));
+  assert(self.usable);
+  if (self.chain) return std::numeric_limits<double>::epsilon() * self.chain->weighted(v);
   const auto* start = static_cast<const SuiteSparse_long*>(self.factor->p);
   const auto* count = static_cast<const SuiteSparse_long*>(self.factor->nz);
   const auto* row = static_cast<const SuiteSparse_long*>(self.factor->i);

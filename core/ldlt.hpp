@@ -6,7 +6,8 @@
 
 namespace arcwall {
 
-/// CHOLMOD's simplicial LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included.
+/// LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included: ChainLdlt where the pattern is
+/// that of a chain, CHOLMOD's simplicial one elsewhere.
 ///
 /// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown
 /// it touches, where its pivot −g S⁻¹ gᵀ is not zero, so that no pivoting is needed and no fill arises beyond that of

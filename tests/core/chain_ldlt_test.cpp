@@ -1,0 +1,164 @@
+#include "core/chain_ldlt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <numeric>
+
+#include "core/ldlt.hpp"
+#include "tests/support/dense.hpp"
+
+namespace arcwall::chain_ldlt_test {
+
+namespace {
+
+using test::full;
+using test::lower_triangle;
+using test::Numbers;
+
+// A chain of nodes with `freedoms` unknowns each, numbered at random; indefinite.
+Matrix chain(Index nodes, Index freedoms, Numbers& numbers) {
+  const Index n = nodes * freedoms;
+  std::vector<Index> place(static_cast<std::size_t>(nodes));
+  std::iota(place.begin(), place.end(), Index{0});
+  for (std::size_t k = place.size(); k > 1; --k)
+    std::swap(place[k - 1], place[static_cast<std::size_t>(0.4999 * (numbers() + 1.0) * double(k))]);
+  const auto first = [&](Index node) { return freedoms * place[static_cast<std::size_t>(node)]; };
+  Matrix A = Matrix::Zero(n, n);
+  for (Index node = 0; node < nodes; ++node) {
+    const Matrix block = numbers.matrix(freedoms, freedoms);
+    A.block(first(node), first(node), freedoms, freedoms) = block + block.transpose();
+    A.diagonal().segment(first(node), freedoms) += numbers.vector(freedoms) * 4.0;
+    if (node + 1 == nodes) continue;
+    const Matrix coupling = numbers.matrix(freedoms, freedoms);
+    A.block(first(node), first(node + 1), freedoms, freedoms) = coupling;
+    A.block(first(node + 1), first(node), freedoms, freedoms) = coupling.transpose();
+  }
+  return A;
+}
+
+Index negative(const Matrix& A) {
+  return (Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues().array() < 0.0).count();
+}
+
+}  // namespace
+
+TEST(ChainLdlt, GroupsOfAChainAreItsNodes) {
+  Numbers numbers(11);
+  for (const Index freedoms : {1, 2, 3, 5})
+    for (const Index nodes : {1, 3, 4, 7, 40}) {
+      const auto groups = chain_groups(lower_triangle(chain(nodes, freedoms, numbers)), 0, freedoms);
+      ASSERT_TRUE(groups) << nodes << " nodes of " << freedoms;
+      EXPECT_EQ(static_cast<Index>(groups->size()), nodes);
+    }
+}
+
+// A ring is a chain of pairs, and a star of three arms one of threes.
+TEST(ChainLdlt, WhatIsWiderThanAChainIsOneOfWiderGroupsOrNone) {
+  Matrix ring = Matrix::Identity(12, 12);
+  for (Index i = 0; i < 12; ++i) ring(i, (i + 1) % 12) = ring((i + 1) % 12, i) = 0.3;
+  EXPECT_FALSE(chain_groups(lower_triangle(ring), 0, 1));
+  ASSERT_TRUE(chain_groups(lower_triangle(ring), 0, 2));
+  EXPECT_EQ(chain_groups(lower_triangle(ring), 0, 2)->size(), 7U);
+  const Matrix all = Matrix::Ones(9, 9);
+  EXPECT_FALSE(chain_groups(lower_triangle(all), 0, 8));
+}
+
+TEST(ChainLdlt, PartsOfAChainNeedNotHangTogether) {
+  Matrix A = Matrix::Zero(7, 7);
+  A.diagonal() << 2.0, 3.0, -1.0, 4.0, 5.0, 1.0, 2.0;
+  A(4, 1) = A(1, 4) = 1.0;
+  A(6, 4) = A(4, 6) = -1.0;
+  A(5, 0) = A(0, 5) = 0.5;
+  const SparseMatrix lower = lower_triangle(A);
+  const auto groups = chain_groups(lower, 0, 3);
+  ASSERT_TRUE(groups);
+  ChainLdlt ldlt;
+  ldlt.analyse(lower, *groups);
+  ASSERT_TRUE(ldlt.factorize(lower.valuePtr()));
+  EXPECT_EQ(ldlt.inertia().negative, 1);
+  Matrix X = A * Matrix::Identity(7, 7);
+  ldlt.solve(X);
+  EXPECT_LE((X - Matrix::Identity(7, 7)).norm(), 1e-14);
+}
+
+TEST(ChainLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
+  Numbers numbers(12);
+  for (const Index freedoms : {1, 2, 3, 4, 5, 6, 8})
+    for (const Index nodes : {1, 3, 4, 5, 30, 64}) {
+      SCOPED_TRACE(std::to_string(nodes) + " nodes of " + std::to_string(freedoms));
+      const Matrix A = chain(nodes, freedoms, numbers);
+      const SparseMatrix lower = lower_triangle(A);
+      ChainLdlt ldlt;
+      ldlt.analyse(lower, chain_groups(lower, 0, ChainLdlt::widest).value());
+      ASSERT_TRUE(ldlt.factorize(lower.valuePtr()));
+      EXPECT_EQ(ldlt.inertia().negative, negative(A));
+      EXPECT_EQ(ldlt.inertia().positive, A.cols() - negative(A));
+      const double growth = ldlt.greatest_pivot() / ldlt.least_pivot();
+      for (const Index columns : {1, 2, 3, 4, 7}) {
+        const Matrix expected = numbers.matrix(A.cols(), columns);
+        Matrix X = A * expected;
+        ldlt.solve(X);
+        EXPECT_LE((X - expected).norm(), 1e-13 * growth * double(A.cols()) * expected.norm());
+      }
+      // |v|ᵀ |L| |D| |L|ᵀ |v| is at least |vᵀ A v|, and vᵀ A v where nothing cancels.
+      const Vector v = numbers.vector(A.cols());
+      EXPECT_GE(ldlt.weighted(v), std::abs(v.dot(A * v)) * (1.0 - 1e-12));
+    }
+}
+
+TEST(ChainLdlt, AZeroPivotIsSeen) {
+  const SparseMatrix A = lower_triangle(Matrix{{0.0, 1.0}, {1.0, 0.0}});
+  ChainLdlt ldlt;
+  ldlt.analyse(A, {{0, 1}});
+  EXPECT_FALSE(ldlt.factorize(A.valuePtr()));
+}
+
+TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
+  Numbers numbers(14);
+  for (const Index nodes : {1, 4, 5, 6, 7, 8, 30}) {
+    SCOPED_TRACE(nodes);
+    const Matrix A = chain(nodes, 3, numbers);
+    Matrix zero_pivots = A;
+    for (Index node = 0; node < nodes; ++node) zero_pivots.block(3 * node, 3 * node, 3, 3).setZero();
+    const SparseMatrix lower = lower_triangle(A);
+    SparseMatrix singular = lower;
+    for (Index column = 0; column < singular.cols(); ++column)
+      for (SparseMatrix::InnerIterator entry(singular, column); entry; ++entry)
+        entry.valueRef() = zero_pivots(entry.row(), column);
+    ChainLdlt ldlt;
+    ldlt.analyse(lower, chain_groups(lower, 0, 3).value());
+    EXPECT_FALSE(ldlt.factorize(singular.valuePtr()));
+    ASSERT_TRUE(ldlt.factorize(lower.valuePtr()));
+    Matrix X = A;
+    ldlt.solve(X);
+    EXPECT_LE((X - Matrix::Identity(A.rows(), A.cols())).norm(), 1e-8);
+  }
+}
+
+// A contact at each of some nodes: K of a chain, a multiplier for each contact.
+TEST(Ldlt, SolvesChainsWithMultipliers) {
+  Numbers numbers(13);
+  for (const Index contacts : {1, 5, 20}) {
+    SCOPED_TRACE(contacts);
+    const Index nodes = 20, freedoms = 3, n = nodes * freedoms;
+    Matrix A = Matrix::Zero(n + contacts, n + contacts);
+    A.topLeftCorner(n, n) = chain(nodes, freedoms, numbers) + 20.0 * Matrix::Identity(n, n);
+    for (Index j = 0; j < contacts; ++j) {
+      const Vector gradient = numbers.vector(freedoms);
+      A.block(n + j, freedoms * (j * nodes / contacts), 1, freedoms) = -gradient.transpose();
+      A.block(freedoms * (j * nodes / contacts), n + j, freedoms, 1) = -gradient;
+    }
+    const SparseMatrix lower = lower_triangle(A);
+    Ldlt ldlt;
+    ldlt.set_multiplier_count(contacts);
+    ASSERT_EQ(ldlt.factorize(lower), FactorStatus::ok);
+    EXPECT_EQ(ldlt.inertia()->negative, contacts);
+    const Matrix expected = numbers.matrix(A.cols(), 3);
+    Matrix X = A * expected;
+    ldlt.solve(X);
+    EXPECT_LE((X - expected).norm(), 1e-10 * expected.norm());
+  }
+}
+
+}  // namespace arcwall::chain_ldlt_test
