@@ -317,7 +317,8 @@ ImperfectAxis::Deviation ImperfectAxis::deviation(double s) const {
 // r = r_axis + y n:  r′ = a t + y′ n,  a = 1 − κ y,  and the angle turns by κ + (a y″ − y′ a′)/(a² + y′²).
 DeviatedPoint ImperfectAxis::along(double s) const {
   const AxisPoint axis = axis_.at(s);
-  DeviatedPoint point{.position = axis.position, .angle = axis.angle, .turning = axis.curvature};
+  DeviatedPoint point{
+      .position = axis.position, .deviation = Vec2::Zero(), .angle = axis.angle, .turning = axis.curvature};
   if (deviations_.empty()) return point;
   const Deviation y = deviation(s);
   const double a = 1.0 - axis.curvature * y.value;
