@@ -163,38 +163,51 @@ void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const 
       "choose units in which lengths and forces are nearer to 1, and an origin near the structure");
 }
 
+// As told, or with another number of elements, which is to find out what moves without strain.
+MemberDescription description_of(const deck::Deck& deck, const deck::Member& member, std::optional<int> elements,
+                                 const StructureOfDeck& out) {
+  const Theory theory = theory_of(member);
+  MemberDescription description{.name = member.name,
+                                .from = out.places.joints.at(member.from),
+                                .to = out.places.joints.at(member.to),
+                                .theory = theory,
+                                .order = member.order.value_or(2),
+                                .quadratic = quadratic_term(member.along),
+                                .strain = strain_of(member.strain),
+                                .section = section_of(deck, member),
+                                .elements = elements.value_or(member.elements),
+                                .hinge_from = member.hinge_from,
+                                .hinge_to = member.hinge_to};
+  description.axis =
+      make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
+  // A classic element moves without strain where one of the elastica does, and takes any bend of its axis; an exact
+  // one where one of Essenburg's does, whose thickness has a stiffness of its own.
+  if (elements && theory == Theory::elastica) description.theory = Theory::classic;
+  if (elements && theory == Theory::essenburg) description.theory = Theory::exact;
+  if (elements && description.theory == Theory::exact)
+    description.section = balanced(description.section, description.axis->length());
+  for (const deck::Imperfection& wave : member.imperfections)
+    description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
+  return description;
+}
+
+// No member is built of numbers that are out of range: its stiffness may be zero.
 void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
+  std::vector<MemberDescription> descriptions;
   for (const deck::Member& member : deck.members) {
-    const Theory theory = theory_of(member);
-    if (theory == Theory::truss && member.elements > 1)
+    descriptions.push_back(description_of(deck, member, elements, out));
+    if (!elements) check_magnitudes(deck, member, descriptions.back(), problems);
+  }
+  problems.raise();
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    const deck::Member& member = deck.members[i];
+    if (descriptions[i].theory == Theory::truss && member.elements > 1)
       problems.add(
           member.position, "member." + member.name + ".elements",
           fmt::format("a truss of {} elements is a chain of hinges that can move without strain", member.elements),
           "use elements = 1, or theory = \"classic\"");
-    MemberDescription description{.name = member.name,
-                                  .from = out.places.joints.at(member.from),
-                                  .to = out.places.joints.at(member.to),
-                                  .theory = theory,
-                                  .order = member.order.value_or(2),
-                                  .quadratic = quadratic_term(member.along),
-                                  .strain = strain_of(member.strain),
-                                  .section = section_of(deck, member),
-                                  .elements = elements.value_or(member.elements),
-                                  .hinge_from = member.hinge_from,
-                                  .hinge_to = member.hinge_to};
-    description.axis =
-        make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
-    // A classic element moves without strain where one of the elastica does, and takes any bend of its axis; an exact
-    // one where one of Essenburg's does, whose thickness has a stiffness of its own.
-    if (elements && theory == Theory::elastica) description.theory = Theory::classic;
-    if (elements && theory == Theory::essenburg) description.theory = Theory::exact;
-    if (elements && description.theory == Theory::exact)
-      description.section = balanced(description.section, description.axis->length());
-    for (const deck::Imperfection& wave : member.imperfections)
-      description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
-    check_magnitudes(deck, member, description, problems);
-    if (theory == Theory::essenburg) check_curvature(member, description, problems);
-    out.places.members[member.name] = out.builder.add_member(std::move(description));
+    if (theory_of(member) == Theory::essenburg) check_curvature(member, descriptions[i], problems);
+    out.places.members[member.name] = out.builder.add_member(std::move(descriptions[i]));
   }
 }
 

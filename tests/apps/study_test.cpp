@@ -100,9 +100,13 @@ TEST(Study, RefusesAShearStiffnessBeyondNumbers) {
   const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
                                           "theory = \"classic\"", "theory = \"exact\"");
   ASSERT_TRUE(problems_of(deck).empty());
-  const auto found = problems_of(deck::replaced(deck, "height = 0.2", "height = 0.2\nshear_correction = 1e-200"));
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found.front().key, "member.column");
+  const std::string soft = deck::replaced(deck, "height = 0.2", "height = 0.2\nshear_correction = 1e-200");
+  const std::string none = deck::replaced(soft, "E = 2.1e4", "E = 1e-200");  // the product is zero
+  for (const std::string& text : {soft, none}) {
+    const auto found = problems_of(text);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found.front().key, "member.column");
+  }
 }
 
 std::string deck_with_wall(const std::string& side, const std::string& profile) {
