@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <string_view>
 
 #include "apps/checkpoint/archive.hpp"
@@ -21,6 +20,7 @@
 #include "core/error.hpp"
 #include "tests/fuzz/edited_content.hpp"
 #include "tests/fuzz/kept_runs.hpp"
+#include "tests/fuzz/one_in.hpp"
 
 namespace arcwall::fuzz {
 namespace {
@@ -34,12 +34,7 @@ struct Tally {
   ~Tally() { std::fprintf(stderr, "taken up: %ld\ngone on: %ld\n", taken_up, gone_on); }
 } tally;
 
-// The same whenever the input is met.
-bool is_to_go_on(std::string_view bytes) {
-  constexpr std::uint32_t one_in = 128;
-  const auto add = [](std::uint32_t sum, char c) { return sum + static_cast<std::uint8_t>(c); };
-  return std::accumulate(bytes.begin(), bytes.end(), std::uint32_t{0}, add) % one_in == 0;
-}
+bool is_to_go_on(std::string_view bytes) { return is_one_in(128, bytes); }
 
 void take_up(const KeptRun& kept, json content, bool go_on) try {
   if (!content.is_array() || content.size() < head_entries) return;

@@ -1,5 +1,6 @@
 // Decks with odd values as models: what a deck builds, what `check` says of it and the state that it starts from are
-// values, or there is an InputError. What follows from there is the matter of deck_path.
+// values, or there is an InputError. What follows from there is the matter of deck_path. To bring constant loads on
+// takes up to some seconds, so one deck in 32 has to start.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "apps/deck/reader.hpp"
 #include "apps/study.hpp"
 #include "tests/fuzz/mutated_deck.hpp"
+#include "tests/fuzz/one_in.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace arcwall::fuzz {
@@ -29,6 +31,7 @@ void build(const std::string& text) {
   if (elements(deck) > most_elements) return;
   const Study study(std::move(deck));
   require(!summary(study).empty(), "check says nothing");
+  if (!is_one_in(32, text)) return;
   std::string reason;
   const std::optional<State> start = study.start(reason);
   require(start ? start->x.allFinite() && start->lambda == 0.0 : !reason.empty(),
