@@ -138,7 +138,8 @@ void check_curvature(const deck::Member& member, const MemberDescription& descri
   }
 }
 
-// Stiffnesses of an element, over their units, and its length against the coordinates, which are only so fine.
+// Stiffnesses of an element, over their units, and its length against the coordinates and the height of its section,
+// which are only so fine.
 void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const MemberDescription& description,
                       DeckProblems& problems) {
   const double h = description.axis->length() / member.elements;
@@ -150,7 +151,8 @@ void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const 
     const deck::Vector& at = deck::find(deck.points, name)->at;
     return std::max(std::abs(at.x), std::abs(at.z));
   };
-  const bool is_long_enough = h > 1e-12 * std::max(far(member.from), far(member.to));
+  const double height = description.section.height.value_or(0.0);
+  const bool is_long_enough = h > 1e-12 * std::max({far(member.from), far(member.to), height});
   const auto is_usable = [](double value) { return value > 1e-100 && value < 1e100; };
   if (is_long_enough && is_usable(h) && is_usable(EA / h) && is_usable(GA / h) && is_usable(EI / h) &&
       is_usable(EI / (h * h * h)))

@@ -95,6 +95,16 @@ TEST(Study, RefusesSizesWhoseStiffnessIsBeyondNumbers) {
   }
 }
 
+// So is its length, against the height of the section.
+TEST(Study, RefusesAnElementWithoutLengthBesideItsHeight) {
+  const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
+                                          "theory = \"classic\"", "theory = \"essenburg\"");
+  ASSERT_TRUE(problems_of(deck).empty());
+  const auto found = problems_of(deck::replaced(deck, "B = [2.0, 0.0]", "B = [2e-22, 0.0]"));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().key, "member.column");
+}
+
 // The shear stiffness is looked at where there is one.
 TEST(Study, RefusesAShearStiffnessBeyondNumbers) {
   const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
