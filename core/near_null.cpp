@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -31,6 +32,12 @@ void orthonormalise(Matrix& X) {
   X = Eigen::HouseholderQR<Matrix>(X).householderQ() * Matrix::Identity(rows, columns);
 }
 
+// Below which Rayleigh quotients do not settle: the diagonal's part of the round-off of φᵀ K φ.
+double roundoff_of_quotients(const SparseMatrix& K, const Matrix& X) {
+  const Vector diagonal = K.diagonal().cwiseAbs();
+  return std::numeric_limits<double>::epsilon() * (diagonal.transpose() * X.cwiseAbs2()).maxCoeff();
+}
+
 }  // namespace
 
 Index pair_count(const Vector& weights) {
@@ -39,7 +46,7 @@ Index pair_count(const Vector& weights) {
 }
 
 NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
-                   double relative_tolerance) {
+                   Settled settled) {
   const Index n = K.rows(), pairs = pair_count(weights);
   count = std::min(count, pairs);
   const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
@@ -66,7 +73,9 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
     values = ritz.eigenvalues()(order);
     const double scale = values.head(count).cwiseAbs().maxCoeff();
     const double change = (values - previous).head(count).cwiseAbs().maxCoeff();
-    if (change <= relative_tolerance * scale) break;
+    if (settled == Settled::fully && change <= 1e-10 * scale) break;
+    if (settled == Settled::roughly && change <= std::max(1e-6 * scale, roundoff_of_quotients(K, X.leftCols(count))))
+      break;
   }
   return {.values = values.head(count), .vectors = X.leftCols(count)};
 }

@@ -13,11 +13,15 @@ struct NearNull {
 /// How many eigenvalues K φ = μ M φ has: each unknown without weight is a multiplier, which holds one that has weight.
 Index pair_count(const Vector& weights);
 
+/// When eigenvalues count as found: once they change by 1e-10 of the greatest that is wanted; or by 1e-6, or by no more
+/// than round-off, which on very fine meshes is more.
+enum class Settled { fully, roughly };
+
 /// `count` eigenpairs (fewer if there are no more) by inverse subspace iteration with Rayleigh-Ritz
 /// projection. The factorization is that of `lower_triangle`; a tiny shift of it will do, where the matrix itself is
 /// singular. With multipliers of weight zero these are the eigenvalues of K on the space the constraints leave free.
 NearNull near_null(const Factorization& factorization, const SparseMatrix& lower_triangle, const Vector& weights,
-                   Index count, double relative_tolerance = 1e-10);
+                   Index count, Settled settled = Settled::fully);
 
 /// The pairs nearest zero, followed from matrix to matrix by one step of inverse iteration each. Near singularity one
 /// step is enough; elsewhere the values are upper bounds in magnitude that get better on the way. A vector without

@@ -1,6 +1,7 @@
 #include "core/test_function.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double clear = 4.0;      // times the round-off: what stands clear of it
 constexpr double off = 1e-12;      // relative, of the vectors V
 constexpr double nearby = 1000.0;  // times the round-off: what is looked at with Ψ
+constexpr Index most_pairs = 16;   // that are looked for
 
 // A sum of products with twice the digits (Ogita, Rump and Oishi 2005).
 class Sum {
@@ -92,9 +94,9 @@ std::optional<Nearest> nearest_pairs(const SparseMatrix& K, const Vector& weight
   Ldlt ldlt;
   ldlt.set_multiplier_count(multipliers);
   if (!factorize_nearly(K, weights, ldlt)) return std::nullopt;
-  for (Index wanted = 2;; wanted *= 2) {
-    constexpr double rough = 1e-6;  // will do: pairs that are near converge fast, and Ψ is exact
-    Nearest found{.pairs = near_null(ldlt, K, weights, wanted, rough), .roundoff = {}};
+  for (Index wanted = 2; wanted <= most_pairs; wanted *= 2) {
+    // Roughly will do: pairs that are near converge fast, and Ψ is exact.
+    Nearest found{.pairs = near_null(ldlt, K, weights, wanted, Settled::roughly), .roundoff = {}};
     const Index count = found.pairs.values.size();
     if (!found.pairs.vectors.allFinite()) return std::nullopt;
     for (Index j = 0; j < count; ++j) {
@@ -107,6 +109,7 @@ std::optional<Nearest> nearest_pairs(const SparseMatrix& K, const Vector& weight
     }
     if (found.near < count || count < wanted) return found;
   }
+  return std::nullopt;  // round-off of K hides them all
 }
 
 // σ between the eigenvalues that are near and the next one.
@@ -129,6 +132,19 @@ std::optional<Index> negative_at(const SparseMatrix& K, const Vector& weights, I
     if (std::abs(nearest.pairs.values[j] + shift) <= clear * ldlt.roundoff(nearest.pairs.vectors.col(j)))
       return std::nullopt;
   return ldlt.inertia()->negative;
+}
+
+// As many unknowns as there are vectors, held one by one where the vectors are large and differ most: a border of the
+// vectors themselves would be dense, and LU with it takes a time like the square of the number of unknowns.
+Matrix sparse_border(const Matrix& vectors, const Vector& weights) {
+  const Matrix weighted = weights.cwiseSqrt().asDiagonal() * vectors;
+  const Eigen::ColPivHouseholderQR<Matrix> by_size(weighted.transpose());
+  Matrix border = Matrix::Zero(vectors.rows(), vectors.cols());
+  for (Index j = 0; j < vectors.cols(); ++j) {
+    const Index unknown = by_size.colsPermutation().indices()[j];
+    border(unknown, j) = weights[unknown];
+  }
+  return border;
 }
 
 }  // namespace
@@ -174,6 +190,10 @@ std::optional<Index> negative_by_pivots(const Ldlt& ldlt, const Vector& weights,
 std::optional<Index> negative_count(const Ldlt& ldlt, const SparseMatrix& K, const Vector& weights, Index multipliers,
                                     const NearNull& nearest) {
   if (const auto negative = negative_by_pivots(ldlt, weights, nearest)) return negative;
+  if (nearest.values.size() > 0 && nearest.vectors.allFinite()) {
+    const QuadraticForm least = quadratic_form(K, nearest.vectors.col(0));
+    if (std::abs(least.value) <= least.roundoff) return std::nullopt;  // zero within round-off, also to Ψ
+  }
   const auto signs = sign_count_near_singularity(K, weights, multipliers);
   if (!signs || signs->undecided > 0) return std::nullopt;
   return signs->negative;
@@ -192,8 +212,8 @@ std::optional<SignCount> sign_count_near_singularity(const SparseMatrix& K, cons
 
   SignCount count{.negative = *below, .positive = n - *above, .undecided = 0};
   if (nearest->near == 0) return count;
-  const Matrix border = weights.asDiagonal() * nearest->pairs.vectors.leftCols(nearest->near);
-  const auto function = BorderedTestFunction::of(K, border);
+  const auto function =
+      BorderedTestFunction::of(K, sparse_border(nearest->pairs.vectors.leftCols(nearest->near), weights));
   if (!function) return std::nullopt;
   const Matrix gram = function->vectors().transpose() * weights.asDiagonal() * function->vectors();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> axes(-function->psi(), gram);

@@ -12,7 +12,6 @@ namespace arcwall::chain_ldlt_test {
 
 namespace {
 
-using test::full;
 using test::lower_triangle;
 using test::Numbers;
 

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include <algorithm>
+#include <limits>
 
 #include "core/ldlt.hpp"
 #include "tests/support/dense.hpp"
