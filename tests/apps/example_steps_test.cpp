@@ -23,7 +23,7 @@ test::Graph traced(const Study& study, double first, double greatest) {
 
 // Steps of a quarter and of four times the deck's give the same branches, events, contacts and counts, λ to 1e-8; and
 // none of these structures has a tangential approach.
-TEST(ExampleDecks, FindTheSameEventsWithAnyStep) {
+TEST(ExampleDecks, FindTheSameEventsWithAnyStepSlow) {
   for (const ExampleDeck& example : example_decks()) {
     SCOPED_TRACE(std::string(example.name));
     const Study study(deck::read_deck_text(example.text, std::string(example.name)));

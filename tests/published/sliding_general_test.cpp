@@ -131,7 +131,7 @@ TEST(SlidingContactPath, DoesNotDependOnTheFrame) {
 
 // The perfect column of the channel, its lower gap smaller by 1/150: the touch below comes before the forces above
 // vanish. 4.27705 and 14.9393 lie a little above the loads of equal gaps, 4.25361 and 14.82103.
-TEST(SlidingContactPath, MeetsTheNearerWallBeforeTheFartherOneIsLeft) {
+TEST(SlidingContactPath, MeetsTheNearerWallBeforeTheFartherOneIsLeftSlow) {
   const auto path = [](int elements) { return path_of(SlidingChannel{.members = one(elements), .lower = 0.14}, 20.0); };
   const std::array meshes{path(20), path(40), path(80)};
   const auto found = limits(meshes, {branches, touches, spreads, branches, touches, corner});

@@ -118,7 +118,7 @@ TEST(Verify, EveryContactLawHolds) {
   }
 }
 
-TEST(Verify, EveryTheoryAndWallHolds) {
+TEST(Verify, EveryTheoryAndWallHoldsSlow) {
   for (const std::string theory :
        {"theory = \"classic\"", "theory = \"elastica\"\norder = 4", "theory = \"elastica\"\norder = 6",
         "theory = \"exact\"\norder = 1", "theory = \"exact\"\norder = 2", "theory = \"essenburg\"\norder = 1",
