@@ -24,15 +24,19 @@ class BlockAssembly {
     return std::span(unknowns_).subspan(from, to - from);
   }
 
-  /// Adds factor · lower triangle of the n × n block (column-major, leading dimension n) into the values of a matrix
-  /// that has pattern().
-  void add(Index block, const double* K, double factor, double* values) const {
+  /// Adds factor · lower triangle of the n × n block, whose entries K(i + n·j) are (column-major), into the values of
+  /// a matrix that has pattern().
+  template <class Entries>
+  void add_entries(Index block, double factor, double* values, const Entries& K) const {
     const std::int32_t* slot = &slots_[static_cast<std::size_t>(first_slot_[static_cast<std::size_t>(block)])];
     const Index n =
         first_unknown_[static_cast<std::size_t>(block) + 1] - first_unknown_[static_cast<std::size_t>(block)];
     for (Index j = 0; j < n; ++j)
       for (Index i = j; i < n; ++i, ++slot)
-        if (*slot >= 0) values[*slot] += factor * K[i + j * n];
+        if (*slot >= 0) values[*slot] += factor * K(i + j * n);
+  }
+  void add(Index block, const double* K, double factor, double* values) const {
+    add_entries(block, factor, values, [K](Index entry) { return K[entry]; });
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct AxisPoint {
   double curvature = 0.0;       ///< d angle / d arc length [1/length]
   double curvature_rate = 0.0;  ///< d curvature / d arc length [1/length²]
 };
+
+/// 90° anticlockwise from the tangent at that angle.
+inline Vec2 axis_normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
 
 /// The stress-free axis of a member, without imperfection.
 class Axis {

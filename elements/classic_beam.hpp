@@ -4,12 +4,11 @@
 #include <memory>
 
 #include "core/types.hpp"
+#include "elements/classic_beam_energy.hpp"
 #include "elements/element.hpp"
 #include "elements/slender_beam.hpp"
 
 namespace arcwall {
-
-struct RestChord;
 
 /// A stretch of a beam between two nodes in its stress-free shape.
 struct BeamReference {
@@ -42,22 +41,19 @@ class ClassicBeam final : public Element, public SlenderBeam {
   /// The angle is quadratic along the axis; order 4 between the ends.
   BeamPlace place(const BeamEnds& ends, double xi) const override;
 
+  const ClassicBeamMaterial<double>& material() const { return material_; }
+
  private:
-  struct Deformation;
-  RestChord rest() const;
-  Deformation deform(double length, double stretch, double d1, double d2) const;
-
-  Vec2 chord_;           // stress-free
-  double chord_length_;  // its length l₀
-  double length_;        // h, of the stress-free axis
-  double b_, s_, c_;     // stress-free bend t2 − t1, skew 3 (t1 + t2) and variation of curvature
-  double shortening_;    // h/l₀ − 1
-  double EA_, EI_;
-
   // Of the stress-free state by a material coordinate; `axial` is that of l₀ (1 + p₀).
   struct Rate {
     double length = 0.0, axial = 0.0, b = 0.0, s = 0.0, c = 0.0;
   };
+
+  RestChord rest() const;
+  ChordSlopes slope_rate(const ClassicBeamEnergy<double>& at, const Rate& rest) const;
+
+  ClassicBeamMaterial<double> material_;
+  double EA_, EI_;
   std::array<Rate, 2> rates_;
 };
 

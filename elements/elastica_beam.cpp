@@ -254,9 +254,8 @@ Eigen::Vector3d ElasticaBeam::slope_rate(const ChordMotion& at, const Solution& 
 double ElasticaBeam::evaluate(const double* u, double* f, double* K) const {
   const ChordMotion at = motion_of(rest_, u);
   const Solution solution = solve(at);
-  const ChordDirection chord(at);
-  if (f != nullptr) nodal_forces(chord, at.length, solution.U(), f);
-  if (K != nullptr) nodal_stiffness(chord, at.length, solution.U(), solution.V(), K);
+  if (f != nullptr) nodal_forces(at, solution.U(), f);
+  if (K != nullptr) nodal_stiffness(at, solution.U(), solution.V(), K);
   return solution.energy;
 }
 

@@ -1,13 +1,10 @@
 #include "elements/member_point.hpp"
 
 #include <cassert>
-#include <cmath>
 
 namespace arcwall {
 
 namespace {
-
-Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
 
 double offset_of(const MemberMesh& mesh, MemberObservable::Component component) {
   switch (component) {
@@ -106,7 +103,7 @@ MemberObservable::MemberObservable(const Structure& structure, const MemberMesh&
       break;
     case Component::face_above_z:
     case Component::face_below_z:
-      origin_ = axis.position.y() + offset_of(mesh, component) * normal(axis.angle).y();
+      origin_ = axis.position.y() + offset_of(mesh, component) * axis_normal(axis.angle).y();
       break;
   }
 }

@@ -5,12 +5,6 @@
 
 namespace arcwall {
 
-namespace {
-
-Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
-
-}  // namespace
-
 PlaceObservable::PlaceObservable(const SlidingStructure& structure, const MaterialPoint& point,
                                  MemberObservable::Component component)
     : point_(point), component_(component) {
@@ -25,7 +19,7 @@ PlaceObservable::PlaceObservable(const SlidingStructure& structure, const Materi
     case Component::z:
     case Component::face_above_z:
     case Component::face_below_z:
-      origin_ = perfect.position.y() + offset_ * normal(perfect.angle).y();
+      origin_ = perfect.position.y() + offset_ * axis_normal(perfect.angle).y();
       break;
     case Component::rotation:
       origin_ = perfect.angle;
@@ -42,7 +36,7 @@ double PlaceObservable::value(const State& state) const {
     case MemberObservable::Component::z:
     case MemberObservable::Component::face_above_z:
     case MemberObservable::Component::face_below_z:
-      return at.position.y() + offset_ * normal(at.angle).y() - origin_;
+      return at.position.y() + offset_ * axis_normal(at.angle).y() - origin_;
     case MemberObservable::Component::rotation:
       return at.angle - origin_;
   }

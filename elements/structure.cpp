@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 namespace arcwall {
 
@@ -16,16 +19,20 @@ struct Local {
   double K[Element::max_unknowns * Element::max_unknowns];
 };
 
-void scatter(std::span<const Index> unknowns, const double* f, double factor, double* F) {
+template <class Entries>
+void scatter_entries(std::span<const Index> unknowns, double factor, double* F, const Entries& f) {
   for (std::size_t i = 0; i < unknowns.size(); ++i)
-    if (unknowns[i] >= 0) F[unknowns[i]] += factor * f[i];
+    if (unknowns[i] >= 0) F[unknowns[i]] += factor * f(i);
+}
+
+void scatter(std::span<const Index> unknowns, const double* f, double factor, double* F) {
+  scatter_entries(unknowns, factor, F, [f](std::size_t i) { return f[i]; });
 }
 
 }  // namespace
 
 EssenburgNode MemberSection::kinematics() const {
-  const auto normal = [](double angle) { return Vec2(-std::sin(angle), std::cos(angle)); };
-  return {.D = normal(shape.angle), .n = normal(axis.angle), .quadratic = quadratic};
+  return {.D = axis_normal(shape.angle), .n = axis_normal(axis.angle), .quadratic = quadratic};
 }
 
 MemberSection MemberMesh::section(std::size_t k) const {
@@ -66,17 +73,67 @@ void Structure::gather(Index block, const Vector& x, double* u) const {
   for (std::size_t i = 0; i < unknowns.size(); ++i) u[i] = unknowns[i] >= 0 ? x[unknowns[i]] : 0.0;
 }
 
-void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
+void Structure::arrange() {
+  std::vector<Vec2> middles;
+  for (const std::vector<Index>& freedoms : element_freedoms_) {
+    const auto node = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)].node; };
+    middles.push_back(0.5 * (position(node(freedoms.front())) + position(node(freedoms.back()))));
+  }
+  order_ = element_order(elements_, assembly_, middles);
+}
+
+void Structure::add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const {
+  for (const ElementOrder::Four& four : part.fours) {
+    constexpr int n = 6;
+    Lanes u[n], f[n], k[n * n];
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      const auto unknowns = assembly_.unknowns(four.elements[static_cast<std::size_t>(lane)]);
+      for (int i = 0; i < n; ++i) {
+        const Index unknown = unknowns[static_cast<std::size_t>(i)];
+        u[i].set(lane, unknown >= 0 ? x[unknown] : 0.0);
+      }
+    }
+    four.beams.evaluate(u, f, K != nullptr ? k : nullptr);
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      const Index e = four.elements[static_cast<std::size_t>(lane)];
+      scatter_entries(assembly_.unknowns(e), 1.0, F, [&](std::size_t i) { return f[i][lane]; });
+      if (K != nullptr) assembly_.add_entries(e, 1.0, K, [&](Index entry) { return k[entry][lane]; });
+    }
+  }
   Local local;
+  for (const Index e : part.others) {
+    gather(e, x, local.u);
+    elements_[static_cast<std::size_t>(e)]->evaluate(local.u, local.f, K != nullptr ? local.K : nullptr);
+    scatter(assembly_.unknowns(e), local.f, 1.0, F);
+    if (K != nullptr) assembly_.add(e, local.K, 1.0, K);
+  }
+}
+
+// The second part shares no entry with the first. Elements do not throw.
+void Structure::add_elements(const Vector& x, double* F, double* K) const {
+#ifdef _OPENMP
+#pragma omp parallel sections num_threads(std::min(2, omp_get_max_threads())) if (!order_.second.empty())
+#endif
+  {
+#ifdef _OPENMP
+#pragma omp section
+#endif
+    add(order_.first, x, F, K);
+#ifdef _OPENMP
+#pragma omp section
+#endif
+    add(order_.second, x, F, K);
+  }
+  add(order_.last, x, F, K);
+}
+
+void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
   for (Index i = 0; i < F.size(); ++i) {
     const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
     F[i] = -state.lambda * load_[freedom] - constant_load_[freedom];
   }
-  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
-    gather(e, state.x, local.u);
-    elements_[static_cast<std::size_t>(e)]->evaluate(local.u, local.f, nullptr);
-    scatter(assembly_.unknowns(e), local.f, 1.0, F.data());
-  }
+  add_elements(state.x, F.data(), nullptr);
+  Local local;
   for (const ElementLoad& loaded : element_loads_) {
     gather(loaded.element, state.x, local.u);
     loaded.potential->evaluate(local.u, local.f, nullptr);
@@ -100,13 +157,8 @@ void Structure::linearize(const State& state, Linearization& out) const {
     out.F_lambda[i] = -load_[freedom];
     out.F[i] = state.lambda * out.F_lambda[i] - constant_load_[freedom];
   }
+  add_elements(state.x, out.F.data(), values);
   Local local;
-  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
-    gather(e, state.x, local.u);
-    elements_[static_cast<std::size_t>(e)]->evaluate(local.u, local.f, local.K);
-    scatter(assembly_.unknowns(e), local.f, 1.0, out.F.data());
-    assembly_.add(e, local.K, 1.0, values);
-  }
   for (const ElementLoad& loaded : element_loads_) {
     const bool proportional = loaded.kind == LoadKind::proportional;
     const double factor = proportional ? state.lambda : 1.0;
@@ -172,6 +224,7 @@ std::unique_ptr<Structure> Structure::updated(const Vector& x) const {
     gather(e, x, local.u);
     moved->elements_[static_cast<std::size_t>(e)] = elements_[static_cast<std::size_t>(e)]->updated(local.u);
   }
+  moved->arrange();
   return moved;
 }
 

@@ -12,6 +12,7 @@
 #include "core/tracked_point.hpp"
 #include "elements/axis.hpp"
 #include "elements/element.hpp"
+#include "elements/element_order.hpp"
 #include "elements/essenburg_beam.hpp"
 #include "elements/section.hpp"
 #include "elements/truss.hpp"
@@ -93,6 +94,8 @@ class StructureBuilder;
 /// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
 /// rotations from the stress-free state as unknowns. Freedoms count every x, z, rotation and change of thickness;
 /// unknowns those that no support holds.
+///
+/// Two threads of OpenMP, where there are as many, evaluate 2000 elements or more. Results do not depend on it.
 class Structure final : public System {
  public:
   Index size(const Piece&) const override { return assembly_.pattern().cols(); }
@@ -179,7 +182,11 @@ class Structure final : public System {
 
   Structure(const Structure&) = default;
   Structure(Index unknowns, const std::vector<std::vector<Index>>& blocks) : assembly_(unknowns, blocks) {}
+  void arrange();  // what follows from the elements
   void gather(Index block, const Vector& x, double* u) const;
+  // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
+  void add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const;
+  void add_elements(const Vector& x, double* F, double* K) const;
 
   std::vector<Vec2> positions_;
   std::vector<Index> first_freedom_;  // x of each node; z follows
@@ -188,6 +195,7 @@ class Structure final : public System {
   std::vector<Meaning> meaning_of_freedom_;
   std::vector<Index> freedom_of_unknown_;
   std::vector<std::shared_ptr<const Element>> elements_;  // element e is block e of the assembly
+  ElementOrder order_;
   std::vector<std::vector<Index>> element_freedoms_;
   std::vector<ElementLoad> element_loads_;
   std::vector<std::vector<std::size_t>> loads_of_element_;

@@ -292,6 +292,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
       structure->elements_.push_back(make_element({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}));
   }
+  structure->arrange();
 
   const double L = structure->length_scale_;
   structure->load_ = structure->constant_load_ = Vector::Zero(static_cast<Index>(freedoms_.size()));

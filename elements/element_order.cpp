@@ -1,0 +1,78 @@
+#include "elements/element_order.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace arcwall {
+
+namespace {
+
+using Elements = std::vector<std::shared_ptr<const Element>>;
+
+constexpr std::size_t large = 2000;  // elements whose evaluation takes many times as long as to wake a thread
+
+ElementOrder::Part part_of(const Elements& elements, const std::vector<Index>& which) {
+  ElementOrder::Part part;
+  std::array<Index, Lanes::count> waiting{};
+  std::array<const ClassicBeam*, Lanes::count> beams{};
+  std::size_t count = 0;
+  for (const Index e : which) {
+    const auto* beam = dynamic_cast<const ClassicBeam*>(elements[static_cast<std::size_t>(e)].get());
+    if (beam == nullptr) {
+      part.others.push_back(e);
+      continue;
+    }
+    waiting[count] = e;
+    beams[count++] = beam;
+    if (count < waiting.size()) continue;
+    part.fours.push_back({.elements = waiting, .beams = ClassicBeamLanes(beams)});
+    count = 0;
+  }
+  part.others.insert(part.others.end(), waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
+  return part;
+}
+
+// The half of the elements that comes first along the longer side of the box around all.
+std::vector<bool> first_half(const std::vector<Vec2>& middles) {
+  Vec2 least = middles.front(), greatest = least;
+  for (const Vec2& middle : middles) {
+    least = least.cwiseMin(middle);
+    greatest = greatest.cwiseMax(middle);
+  }
+  const Index along = greatest.y() - least.y() > greatest.x() - least.x() ? 1 : 0;
+  std::vector<std::size_t> sorted(middles.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  const auto half = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), half, sorted.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(middles[a][along], a) < std::pair(middles[b][along], b);
+  });
+  std::vector<bool> first(middles.size(), false);
+  for (auto i = sorted.begin(); i != half; ++i) first[*i] = true;
+  return first;
+}
+
+}  // namespace
+
+ElementOrder element_order(const Elements& elements, const BlockAssembly& assembly, const std::vector<Vec2>& middles) {
+  std::vector<Index> first(elements.size()), second, last;
+  std::iota(first.begin(), first.end(), Index{0});
+  if (elements.size() >= large) {
+    const std::vector<bool> in_first = first_half(middles);
+    const auto middle = std::stable_partition(first.begin(), first.end(),
+                                              [&](Index e) { return in_first[static_cast<std::size_t>(e)]; });
+    std::vector<bool> touched(static_cast<std::size_t>(assembly.pattern().cols()), false);
+    for (auto e = first.begin(); e != middle; ++e)
+      for (const Index i : assembly.unknowns(*e))
+        if (i >= 0) touched[static_cast<std::size_t>(i)] = true;
+    for (auto e = middle; e != first.end(); ++e) {
+      const auto unknowns = assembly.unknowns(*e);
+      const bool shares = std::any_of(unknowns.begin(), unknowns.end(),
+                                      [&](Index i) { return i >= 0 && touched[static_cast<std::size_t>(i)]; });
+      (shares ? last : second).push_back(*e);
+    }
+    first.erase(middle, first.end());
+  }
+  return {.first = part_of(elements, first), .second = part_of(elements, second), .last = part_of(elements, last)};
+}
+
+}  // namespace arcwall

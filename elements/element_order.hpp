@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/assembly.hpp"
+#include "elements/classic_beam_lanes.hpp"
+#include "elements/element.hpp"
+
+namespace arcwall {
+
+/// The order in which the elements of a structure are added up: always the same, so that sums are, however many threads
+/// there are.
+struct ElementOrder {
+  struct Four {
+    std::array<Index, Lanes::count> elements;
+    ClassicBeamLanes beams;
+  };
+  struct Part {
+    std::vector<Four> fours;    ///< classic beams side by side
+    std::vector<Index> others;  ///< elements one by one
+
+    bool empty() const { return fours.empty() && others.empty(); }
+  };
+
+  /// The first two parts share no unknown; one of less than 2000 elements has all of them in the first.
+  Part first, second;
+  Part last;  ///< after both
+};
+
+/// `middles`: a place of each element; those of the second part lie beyond those of the first.
+ElementOrder element_order(const std::vector<std::shared_ptr<const Element>>& elements, const BlockAssembly& assembly,
+                           const std::vector<Vec2>& middles);
+
+}  // namespace arcwall
