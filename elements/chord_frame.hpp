@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "elements/lanes.hpp"
+#include "core/lanes.hpp"
 #include "elements/slender_beam.hpp"
 
 // What the unshearable elements share: their energy is a function of the chord's length l, the bend b = t2 − t1 and the

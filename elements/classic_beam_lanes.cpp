@@ -44,7 +44,7 @@ ClassicBeamLanes::ClassicBeamLanes(const std::array<const ClassicBeam*, Lanes::c
 
 void ClassicBeamLanes::evaluate(const Lanes* u, Lanes* f, Lanes* K) const {
 #ifdef __x86_64__
-  if (__builtin_cpu_supports("avx")) return evaluate_wide(material_, u, f, K);
+  if (has_wide_registers()) return evaluate_wide(material_, u, f, K);
 #endif
   evaluate_lanes(material_, u, f, K);
 }

@@ -12,12 +12,21 @@ namespace arcwall {
 struct alignas(32) Lanes {
   static constexpr int count = 4;
   using Four [[gnu::vector_size(32)]] = double;  // aligned to 16 or 32 by the target: so Lanes says it
+  typedef double AnyFour __attribute__((vector_size(32), aligned(8), may_alias));
 
   Four four;
 
   Lanes() = default;
   ARCWALL_IN_PLACE Lanes(double all) : four{all, all, all, all} {}  // NOLINT: constants stand in formulas
   ARCWALL_IN_PLACE explicit Lanes(const Four& numbers) : four(numbers) {}
+
+  /// Four numbers that follow each other, of any alignment.
+  ARCWALL_IN_PLACE static Lanes load(const double* from) {
+    Lanes loaded;
+    loaded.four = *reinterpret_cast<const AnyFour*>(from);
+    return loaded;
+  }
+  ARCWALL_IN_PLACE void store(double* to) const { *reinterpret_cast<AnyFour*>(to) = four; }
 
   double operator[](int lane) const { return four[lane]; }
   void set(int lane, double number) { four[lane] = number; }
@@ -26,8 +35,16 @@ struct alignas(32) Lanes {
   ARCWALL_IN_PLACE friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.four - b.four); }
   ARCWALL_IN_PLACE friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.four * b.four); }
   ARCWALL_IN_PLACE friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.four / b.four); }
+  ARCWALL_IN_PLACE Lanes& operator+=(const Lanes& other) { return *this = *this + other; }
+  ARCWALL_IN_PLACE Lanes& operator-=(const Lanes& other) { return *this = *this - other; }
   ARCWALL_IN_PLACE friend Lanes operator-(const Lanes& a) { return Lanes(-a.four); }
 };
+
+#ifdef __x86_64__
+/// Whether the processor has registers of four numbers. Code for those is made beside that for any processor, by
+/// [[gnu::target("avx")]].
+inline bool has_wide_registers() { return __builtin_cpu_supports("avx") != 0; }
+#endif
 
 // Functions that such formulas need, by names that numbers and lanes share.
 

@@ -1,0 +1,116 @@
+#include "core/chain_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcwall {
+
+namespace {
+
+using Neighbours = std::vector<std::vector<Index>>;  // of each unknown, itself included, sorted
+
+Neighbours neighbours(const SparseMatrix& A, Index n) {
+  Neighbours result(static_cast<std::size_t>(n));
+  for (Index column = 0; column < n; ++column)
+    for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry) {
+      if (entry.row() >= n) continue;
+      result[static_cast<std::size_t>(column)].push_back(entry.row());
+      if (entry.row() != column) result[static_cast<std::size_t>(entry.row())].push_back(column);
+    }
+  for (auto& list : result) std::sort(list.begin(), list.end());
+  return result;
+}
+
+// The unknowns with the same neighbours.
+std::vector<Index> alike(const Neighbours& neighbours, Index unknown) {
+  const std::vector<Index>& near = neighbours[static_cast<std::size_t>(unknown)];
+  std::vector<Index> result;
+  for (const Index other : near)
+    if (neighbours[static_cast<std::size_t>(other)] == near) result.push_back(other);
+  return result;
+}
+
+// What can be reached from some unknowns, by the number of steps that it takes.
+class Levels {
+ public:
+  explicit Levels(const Neighbours& neighbours) : neighbours_(neighbours), seen_(neighbours.size(), 0) {}
+
+  bool seen(Index unknown) const { return seen_[static_cast<std::size_t>(unknown)] == visit_; }
+
+  // Appends the levels of a part; false if one is wider than `widest`.
+  bool from(std::vector<Index> level, Index widest, ChainGroups& out) {
+    for (const Index unknown : level) mark(unknown);
+    while (!level.empty()) {
+      if (static_cast<Index>(level.size()) > widest) return false;
+      std::vector<Index> next;
+      for (const Index unknown : level)
+        for (const Index other : neighbours_[static_cast<std::size_t>(unknown)])
+          if (!seen(other)) {
+            mark(other);
+            next.push_back(other);
+          }
+      out.push_back(std::move(level));
+      level = std::move(next);
+    }
+    return true;
+  }
+
+  void forget() { ++visit_; }
+
+ private:
+  void mark(Index unknown) { seen_[static_cast<std::size_t>(unknown)] = visit_; }
+
+  const Neighbours& neighbours_;
+  std::vector<int> seen_;
+  int visit_ = 1;
+};
+
+// Whether all entries are in groups or between groups beside each other.
+bool is_tridiagonal(const SparseMatrix& A, const ChainGroups& groups) {
+  std::vector<Index> group(static_cast<std::size_t>(A.cols()));
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Index unknown : groups[g]) group[static_cast<std::size_t>(unknown)] = static_cast<Index>(g);
+  for (Index column = 0; column < A.cols(); ++column)
+    for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry)
+      if (std::abs(group[static_cast<std::size_t>(entry.row())] - group[static_cast<std::size_t>(column)]) > 1)
+        return false;
+  return true;
+}
+
+// Each multiplier goes to the last group that it touches.
+void insert_multipliers(const SparseMatrix& A, Index multipliers, ChainGroups& groups) {
+  const Index n = A.cols() - multipliers;
+  std::vector<std::size_t> last(static_cast<std::size_t>(multipliers), 0);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Index unknown : groups[g])
+      for (SparseMatrix::InnerIterator entry(A, unknown); entry; ++entry)
+        if (entry.row() >= n) last[static_cast<std::size_t>(entry.row() - n)] = g;
+  for (Index m = 0; m < multipliers; ++m) groups[last[static_cast<std::size_t>(m)]].push_back(n + m);
+}
+
+}  // namespace
+
+std::optional<ChainGroups> chain_groups(const SparseMatrix& A, Index multipliers, Index widest) {
+  const Index n = A.cols() - multipliers;
+  if (n == 0) return std::nullopt;
+  const Neighbours near = neighbours(A, n);
+  Levels search(near), levels(near);
+  ChainGroups groups;
+  for (Index unknown = 0; unknown < n; ++unknown) {
+    if (levels.seen(unknown)) continue;
+    // From the far end of what is found from anywhere.
+    ChainGroups found;
+    search.forget();
+    if (!search.from(alike(near, unknown), n, found)) return std::nullopt;
+    std::vector<Index> start = alike(near, found.back().front());
+    if (!levels.from(std::move(start), widest, groups)) return std::nullopt;
+  }
+  insert_multipliers(A, multipliers, groups);
+  for (const auto& group : groups)
+    if (static_cast<Index>(group.size()) > widest) return std::nullopt;
+  if (!is_tridiagonal(A, groups)) return std::nullopt;
+  return groups;
+}
+
+}  // namespace arcwall
