@@ -1,16 +1,16 @@
 #include "elements/structure.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
+#include <future>
 #include <limits>
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace arcwall {
 
 namespace {
+
+std::atomic<int> evaluation_threads = 1;
 
 // Local unknowns, forces and stiffness of one element, on the stack.
 struct Local {
@@ -30,6 +30,8 @@ void scatter(std::span<const Index> unknowns, const double* f, double factor, do
 }
 
 }  // namespace
+
+void set_evaluation_threads(int count) { evaluation_threads = count; }
 
 EssenburgNode MemberSection::kinematics() const {
   return {.D = axis_normal(shape.angle), .n = axis_normal(axis.angle), .quadratic = quadratic};
@@ -109,19 +111,14 @@ void Structure::add(const ElementOrder::Part& part, const Vector& x, double* F, 
   }
 }
 
-// The second part shares no entry with the first. Elements do not throw.
+// The second part shares no entry with the first.
 void Structure::add_elements(const Vector& x, double* F, double* K) const {
-#ifdef _OPENMP
-#pragma omp parallel sections num_threads(std::min(2, omp_get_max_threads())) if (!order_.second.empty())
-#endif
-  {
-#ifdef _OPENMP
-#pragma omp section
-#endif
+  if (evaluation_threads > 1 && !order_.second.empty()) {
+    auto beside = std::async([&] { add(order_.second, x, F, K); });
     add(order_.first, x, F, K);
-#ifdef _OPENMP
-#pragma omp section
-#endif
+    beside.get();
+  } else {
+    add(order_.first, x, F, K);
     add(order_.second, x, F, K);
   }
   add(order_.last, x, F, K);

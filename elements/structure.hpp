@@ -91,11 +91,15 @@ struct MemberMesh {
 class SlidingStructure;
 class StructureBuilder;
 
+/// How many threads evaluate a large structure, of all that the program has: 1, if nothing is said, or more, of which
+/// two have work. Results do not depend on it.
+void set_evaluation_threads(int count);
+
 /// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
 /// rotations from the stress-free state as unknowns. Freedoms count every x, z, rotation and change of thickness;
 /// unknowns those that no support holds.
 ///
-/// Two threads of OpenMP, where there are as many, evaluate 2000 elements or more. Results do not depend on it.
+/// Of 2000 elements or more two halves may be evaluated side by side: see set_evaluation_threads().
 class Structure final : public System {
  public:
   Index size(const Piece&) const override { return assembly_.pattern().cols(); }

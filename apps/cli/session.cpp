@@ -18,10 +18,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 namespace arcwall {
 
 namespace {
@@ -183,7 +179,7 @@ void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Record& rec
 std::vector<OptionDescription> session_options() {
   return {{"max-points", "N", "end after N points (status 6)"},
           {"max-time", "SECONDS", "end after that time (status 6)"},
-          {"threads", "N", "that evaluate structures of 2000 elements or more (default: 1, at most 2 have work); same files"},
+          {"threads", "N", "1 or 2, for structures of 2000 elements or more (default: 1); the files are the same"},
           {"checkpoint-pause", "SECONDS", "time between two checkpoints, 0 for one at each point (default: 5)"},
           {"json", "", "points, events and end on standard output, one JSON object a line"},
           {"no-pictures", "", "write neither report.html nor the shapes (trace-path report writes the one later)"},
@@ -206,9 +202,7 @@ ExitStatus trace_and_write(RunUnderWay& run, const OutputFolder& folder, const S
                            const Stopwatch& since_begin) {
   const InterruptGuard interrupts;
   const Stopwatch since_start;
-#ifdef _OPENMP
-  omp_set_num_threads(std::min(options.threads, omp_get_num_procs()));
-#endif
+  set_evaluation_threads(options.threads);
   CheckpointKeeper checkpoints(run, folder, options.checkpoint_pause);
   const std::optional<BranchEnd> stopped = trace(run, checkpoints, options, interrupts);
   const Record& record = run.record();
