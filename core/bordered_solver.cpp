@@ -1,8 +1,9 @@
 #include "core/bordered_solver.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+
+#include "core/bordered_residual.hpp"
 
 namespace arcwall {
 
@@ -10,42 +11,7 @@ namespace {
 
 // Relative size of the pivots below which a solution is not trusted unseen.
 constexpr double suspicious_pivot = 1e-13;
-constexpr double good_residual = 1e-10;
-constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr int max_refinements = 3;
-
-// r = f − J δx − F_λ δλ of a solution, and the sum of the magnitudes of its terms: below some ε of them r is round-off,
-// and no other solution is better. On a fine mesh stiffness times displacement is large beside f.
-struct Residual {
-  Vector r{}, terms{};
-
-  bool is_small(const Vector& f) const {
-    return r.norm() <= std::max(good_residual * f.norm(), rounding * terms.norm());
-  }
-};
-
-Residual residual_of(const Linearization& equations, const Vector& f, const Direction& solution) {
-  const SparseMatrix& K = equations.K;
-  const Index n = K.cols(), m = equations.B.cols();
-  Residual out{.r = f - equations.F_lambda * solution.dlambda,
-               .terms = f.cwiseAbs() + equations.F_lambda.cwiseAbs() * std::abs(solution.dlambda)};
-  const Vector& x = solution.dx;
-  const auto take = [&](Index row, double term) {
-    out.r[row] -= term;
-    out.terms[row] += std::abs(term);
-  };
-  for (Index column = 0; column < n; ++column)
-    for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
-      take(entry.row(), entry.value() * x[column]);
-      if (entry.row() != column) take(column, entry.value() * x[entry.row()]);
-    }
-  if (m == 0) return out;
-  out.r.head(n) -= equations.B * x.tail(m);
-  out.terms.head(n) += equations.B.cwiseAbs() * x.tail(m).cwiseAbs();
-  out.r.tail(m) -= equations.C * x;
-  out.terms.tail(m) += equations.C.cwiseAbs() * x.cwiseAbs();
-  return out;
-}
 
 }  // namespace
 
@@ -62,6 +28,7 @@ Matrix product(const Linearization& equations, const Matrix& X) {
 
 FactorStatus BorderedSolver::factorize(const Linearization& equations, Index multipliers) {
   equations_ = &equations;
+  multipliers_ = multipliers;
   ldlt_.set_multiplier_count(multipliers);
   const FactorStatus status = ldlt_.factorize(equations.K);
   regular_ = status == FactorStatus::ok && eliminate_border();
@@ -122,9 +89,10 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
     return true;
   }
   if (!factorize_whole(border)) return false;
-  out.particular = solve_whole(-now.F, 0.0);
-  out.tangent = solve_whole(Vector::Zero(now.F.size()), 1.0);
-  return out.particular.dx.allFinite() && out.tangent.dx.allFinite();
+  auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
+  if (!particular || !tangent) return false;
+  out = {.particular = std::move(*particular), .tangent = std::move(*tangent)};
+  return true;
 }
 
 // False where refinement does not help.
@@ -134,8 +102,8 @@ bool BorderedSolver::make_line_good(const Row& border) {
     const double along = border.dx.dot(columns_.col(1)) + border.dlambda;
     const double dlambda = -border.dx.dot(columns_.col(0)) / along;
     const Direction closed{.dx = columns_.col(0) + dlambda * columns_.col(1), .dlambda = dlambda};
-    const Residual particular = residual_of(now, -now.F, closed);
-    const Residual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(1), .dlambda = 0.0});
+    const BorderedResidual particular = residual_of(now, -now.F, closed);
+    const BorderedResidual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(1), .dlambda = 0.0});
     if (!particular.r.allFinite() || !tangent.r.allFinite()) return false;
     if (particular.is_small(now.F) && tangent.is_small(now.F_lambda)) return true;
     if (round == max_refinements) return false;
@@ -159,14 +127,15 @@ bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& others) 
   }
   others.resize(now.F.size(), 0);
   if (!factorize_whole(border)) return false;
-  out = solve_whole(Vector::Zero(now.F.size()), 1.0);
-  return out.dx.allFinite();
+  auto solution = whole_.solve(Vector::Zero(now.F.size()), 1.0);
+  if (solution) out = std::move(*solution);
+  return solution.has_value();
 }
 
 bool BorderedSolver::make_tangent_good() {
   const Linearization& now = *equations_;
   for (int round = 0;; ++round) {
-    const Residual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(0), .dlambda = 0.0});
+    const BorderedResidual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(0), .dlambda = 0.0});
     if (!tangent.r.allFinite()) return false;
     if (tangent.is_small(now.F_lambda)) return true;
     if (round == max_refinements) return false;
@@ -188,45 +157,13 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
     if (solved && solution.dx.allFinite() && residual_of(now, f, solution).is_small(f)) return solution;
   }
   if (!factorize_whole(border)) return std::nullopt;
-  Direction solution = solve_whole(f, g);
-  if (!solution.dx.allFinite() || !std::isfinite(solution.dlambda)) return std::nullopt;
-  return solution;
+  return whole_.solve(f, g);
 }
 
+// K's own solution for F_λ, where there is one, is mostly what K hardly resists.
 bool BorderedSolver::factorize_whole(const Row& border) {
-  const Linearization& now = *equations_;
-  const Index n = now.K.cols(), m = now.B.cols(), last = n + m;
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(static_cast<std::size_t>(2 * now.K.nonZeros() + (2 + m) * n + 1));
-  const auto add = [&](Index row, Index column, double value) {
-    if (value != 0.0) entries.emplace_back(row, column, value);
-  };
-  for (Index column = 0; column < n; ++column)
-    for (SparseMatrix::InnerIterator entry(now.K, column); entry; ++entry) {
-      add(entry.row(), column, entry.value());
-      if (entry.row() != column) add(column, entry.row(), entry.value());
-    }
-  for (Index k = 0; k < m; ++k) {
-    for (Index i = 0; i < n; ++i) add(i, n + k, now.B(i, k));
-    for (Index i = 0; i < last; ++i) add(n + k, i, now.C(k, i));
-  }
-  for (Index i = 0; i < last; ++i) {
-    add(i, last, now.F_lambda[i]);
-    add(last, i, border.dx[i]);
-  }
-  add(last, last, border.dlambda);
-  SparseMatrix whole(last + 1, last + 1);
-  whole.setFromTriplets(entries.begin(), entries.end());
-  whole.makeCompressed();
-  return lu_.factorize(whole) == FactorStatus::ok;
-}
-
-Direction BorderedSolver::solve_whole(const Vector& f, double g) const {
-  Matrix X(f.size() + 1, 1);
-  X.col(0).head(f.size()) = f;
-  X(f.size(), 0) = g;
-  lu_.solve(X);
-  return {.dx = X.col(0).head(f.size()), .dlambda = X(f.size(), 0)};
+  const bool solved = regular_ && columns_.cols() > 0 && columns_.rows() == border.dx.size() && columns_.allFinite();
+  return whole_.factorize(*equations_, border, multipliers_, solved ? Vector(columns_.rightCols(1)) : border.dx);
 }
 
 }  // namespace arcwall

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/ldlt.hpp"
-#include "core/lu.hpp"
 #include "core/system.hpp"
+#include "core/whole_solver.hpp"
 
 namespace arcwall {
 
@@ -24,7 +24,7 @@ Matrix product(const Linearization& equations, const Matrix& X);
 ///     [ cᵀ   d  ] [δλ] = [g],       J = [   C  ]
 ///
 /// Where K is singular (limit points, branch points) the elimination loses digits: the result is checked, refined, and
-/// at worst taken from the LU factorization of the whole.
+/// at worst taken from a factorization that does not need K's.
 class BorderedSolver {
  public:
   /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves.
@@ -58,11 +58,11 @@ class BorderedSolver {
   bool make_line_good(const Row& border);
   bool make_tangent_good();
   bool factorize_whole(const Row& border);
-  Direction solve_whole(const Vector& f, double g) const;
 
   const Linearization* equations_ = nullptr;
   Ldlt ldlt_;
-  Lu lu_;
+  WholeSolver whole_;
+  Index multipliers_ = 0;
   bool regular_ = false;
   Matrix columns_;                      // workspace: J⁻¹ [−F, −F_λ]
   Matrix border_;                       // K⁻¹ B

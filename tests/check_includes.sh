@@ -35,6 +35,13 @@ check continuation core continuation
 check elements core elements
 check contact core contact
 
+# What an installed header includes is installed, too.
+while IFS=: read -r file _ line; do
+  header=$(sed -E 's/.*"([^"]*)".*/\1/' <<< "$line")
+  grep -qE "(^|[ (])$(basename "$header")([ )]|\$)" "$(dirname "$header")/CMakeLists.txt" ||
+    fail "$file includes $header, which $(dirname "$header")/CMakeLists.txt does not list among its HEADERS"
+done < <(grep -nE '^#include "(core|continuation|elements|contact)/' {core,continuation,elements,contact}/*.hpp)
+
 if [[ $failures -gt 0 ]]; then
   echo "$failures lines break the star" >&2
   exit 1

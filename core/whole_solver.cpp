@@ -1,0 +1,114 @@
+#include "core/whole_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/bordered_residual.hpp"
+
+namespace arcwall {
+
+bool WholeSolver::factorize(const Linearization& equations, const Row& border, Index multipliers, const Vector& soft) {
+  equations_ = &equations;
+  border_ = border;
+  has_lu_ = false;
+  has_spring_ = equations.B.cols() == 0 && add_spring(multipliers, soft);
+  return has_spring_ || factorize_lu();
+}
+
+std::optional<Direction> WholeSolver::solve(const Vector& f, double g) {
+  if (has_spring_) {
+    if (auto solution = refined_with_spring(f, g)) return solution;
+    has_spring_ = false;
+  }
+  if (!has_lu_ && !factorize_lu()) return std::nullopt;
+  Matrix X(f.size() + 1, 1);
+  X.col(0).head(f.size()) = f;
+  X(f.size(), 0) = g;
+  lu_.solve(X);
+  if (!X.allFinite()) return std::nullopt;
+  return Direction{.dx = X.col(0).head(f.size()), .dlambda = X(f.size(), 0)};
+}
+
+// As stiff as what it is added to, in the unknown that takes most of the energy.
+bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
+  const SparseMatrix& K = equations_->K;
+  const Index n = K.cols();
+  const Vector diagonal = K.diagonal();
+  soft.head(n - multipliers).cwiseAbs2().cwiseProduct(diagonal.head(n - multipliers).cwiseAbs()).maxCoeff(&at_);
+  spring_ = std::abs(diagonal[at_]);
+  if (!(spring_ > 0.0 && std::isfinite(spring_))) return false;
+  stiffened_ = K;
+  stiffened_.coeffRef(at_, at_) += spring_;
+  ldlt_.set_multiplier_count(multipliers);
+  if (ldlt_.factorize(stiffened_) != FactorStatus::ok) return false;
+  responses_.setZero(n, 2);
+  responses_.col(0) = equations_->F_lambda;
+  responses_(at_, 1) = 1.0;
+  ldlt_.solve(responses_);
+  if (!responses_.allFinite()) return false;
+  const Row& c = border_;
+  Eigen::Matrix2d small;  // of λ and k y: (1), times k in its second equation
+  small << c.dlambda - c.dx.dot(responses_.col(0)), c.dx.dot(responses_.col(1)),  //
+      responses_(at_, 0), 1.0 / spring_ - responses_(at_, 1);
+  small_.compute(small);  // what is singular shows in the residuals
+  return true;
+}
+
+Direction WholeSolver::solve_with_spring(const Vector& f, double g) const {
+  Matrix x = f;
+  ldlt_.solve(x);
+  const Eigen::Vector2d of = small_.solve(Eigen::Vector2d(g - border_.dx.dot(x.col(0)), x(at_, 0)));
+  return {.dx = x - of[0] * responses_.col(0) + of[1] * responses_.col(1), .dlambda = of[0]};
+}
+
+std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, double g) const {
+  constexpr int most_refinements = 3;
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  Direction solution = solve_with_spring(f, g);
+  for (int round = 0;; ++round) {
+    const BorderedResidual left = residual_of(*equations_, f, solution);
+    const double gap = g - apply(border_, solution);
+    const double terms =
+        std::abs(g) + border_.dx.cwiseAbs().dot(solution.dx.cwiseAbs()) + std::abs(border_.dlambda * solution.dlambda);
+    if (!left.r.allFinite() || !std::isfinite(gap)) return std::nullopt;
+    if (left.is_small(f) && std::abs(gap) <= rounding * terms) return solution;
+    if (round == most_refinements) return std::nullopt;
+    const Direction correction = solve_with_spring(left.r, gap);
+    solution.dx += correction.dx;
+    solution.dlambda += correction.dlambda;
+  }
+}
+
+bool WholeSolver::factorize_lu() {
+  const Linearization& now = *equations_;
+  const Row& border = border_;
+  const Index n = now.K.cols(), m = now.B.cols(), last = n + m;
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  entries.reserve(static_cast<std::size_t>(2 * now.K.nonZeros() + (2 + m) * n + 1));
+  const auto add = [&](Index row, Index column, double value) {
+    if (value != 0.0) entries.emplace_back(row, column, value);
+  };
+  for (Index column = 0; column < n; ++column)
+    for (SparseMatrix::InnerIterator entry(now.K, column); entry; ++entry) {
+      add(entry.row(), column, entry.value());
+      if (entry.row() != column) add(column, entry.row(), entry.value());
+    }
+  for (Index k = 0; k < m; ++k) {
+    for (Index i = 0; i < n; ++i) add(i, n + k, now.B(i, k));
+    for (Index i = 0; i < last; ++i) add(n + k, i, now.C(k, i));
+  }
+  for (Index i = 0; i < last; ++i) {
+    add(i, last, now.F_lambda[i]);
+    add(last, i, border.dx[i]);
+  }
+  add(last, last, border.dlambda);
+  SparseMatrix whole(last + 1, last + 1);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  whole.makeCompressed();
+  has_lu_ = lu_.factorize(whole) == FactorStatus::ok;
+  return has_lu_;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <optional>
+
+#include "core/ldlt.hpp"
+#include "core/lu.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// Solves with J = ∂F/∂x bordered by F_λ and a row, where J may be singular and the whole is not (see BorderedSolver).
+///
+/// Where J = K, one spring is added to it: K + k e eᵀ with an unknown's e is regular if K's null vector has a part in
+/// that unknown, and the spring's force is the one unknown more of
+///
+///     x = X_f − λ X_λ + k y X_e,   y = eᵀ x,   cᵀ x + d λ = g,      X = (K + k e eᵀ)⁻¹ [f, F_λ, e]        (1)
+///
+/// Solutions are refined and checked; those that stay poor, and those of other J, come by LU of the whole.
+class WholeSolver {
+ public:
+  /// `equations` must outlive the use of this factorization. `soft`: a vector that is large where K's null vector is,
+  /// as far as one knows. False if the whole is singular to working precision.
+  bool factorize(const Linearization& equations, const Row& border, Index multipliers, const Vector& soft);
+
+  /// Solution for a right-hand side (f, g); empty if there is none.
+  std::optional<Direction> solve(const Vector& f, double g);
+
+ private:
+  bool add_spring(Index multipliers, const Vector& soft);
+  Direction solve_with_spring(const Vector& f, double g) const;
+  std::optional<Direction> refined_with_spring(const Vector& f, double g) const;
+  bool factorize_lu();
+
+  const Linearization* equations_ = nullptr;
+  Row border_;
+  bool has_spring_ = false, has_lu_ = false;
+  SparseMatrix stiffened_;
+  Ldlt ldlt_;
+  Index at_ = 0;         // the unknown e
+  double spring_ = 0.0;  // k
+  Matrix responses_;     // X_λ, X_e
+  Eigen::PartialPivLU<Eigen::Matrix2d> small_;
+  Lu lu_;
+};
+
+}  // namespace arcwall

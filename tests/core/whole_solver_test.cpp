@@ -1,0 +1,110 @@
+#include "core/whole_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+
+#include "tests/support/dense.hpp"
+
+namespace arcwall::whole_solver_test {
+
+namespace {
+
+constexpr Index n = 14;
+
+// Eigenvalues of both signs, of which the first `zeros` vanish.
+struct Singular {
+  Matrix K;
+  Matrix nulls;
+
+  Singular(Index zeros, test::Numbers& numbers) {
+    const Matrix Q = Eigen::HouseholderQR<Matrix>(numbers.matrix(n, n)).householderQ();
+    Vector values(n);
+    for (Index i = 0; i < n; ++i) values[i] = i < zeros ? 0.0 : double(i + 1) * (i % 2 == 0 ? 1.0 : -1.0);
+    const Matrix A = Q * values.asDiagonal() * Q.transpose();
+    K = 0.5 * (A + A.transpose());
+    nulls = Q.leftCols(zeros);
+  }
+};
+
+Linearization equations(const Matrix& K, const Vector& F_lambda) {
+  Linearization now;
+  now.F = Vector::Zero(K.rows());
+  now.K = test::lower_triangle(K);
+  now.F_lambda = F_lambda;
+  return now;
+}
+
+// Against LU with complete pivoting of the dense whole.
+void expect_solution(const Linearization& now, const Row& border, WholeSolver& solver, test::Numbers& numbers) {
+  const Index size = now.K.cols();
+  Matrix whole(size + 1, size + 1);
+  whole << test::full(now.K), now.F_lambda, border.dx.transpose(), border.dlambda;
+  Vector right(size + 1);
+  right << numbers.vector(size), 0.7;
+  const Vector expected = Eigen::FullPivLU<Matrix>(whole).solve(right);
+  const auto solution = solver.solve(right.head(size), right[size]);
+  ASSERT_TRUE(solution);
+  EXPECT_LE((solution->dx - expected.head(size)).norm(), 1e-9 * expected.norm());
+  EXPECT_NEAR(solution->dlambda, expected[size], 1e-9 * expected.norm());
+}
+
+}  // namespace
+
+TEST(WholeSolver, SolvesWhereKIsSingular) {
+  test::Numbers numbers(61);
+  for (int round = 0; round < 20; ++round) {
+    const Singular at(1, numbers);
+    const Linearization now = equations(at.K, at.nulls.col(0) + 0.3 * numbers.vector(n));
+    const Row border{.dx = at.nulls.col(0) + 0.3 * numbers.vector(n), .dlambda = 0.2};
+    WholeSolver solver;
+    ASSERT_TRUE(solver.factorize(now, border, 0, at.nulls.col(0)));
+    expect_solution(now, border, solver, numbers);
+  }
+}
+
+// The spring is put where it stiffens nothing.
+TEST(WholeSolver, SolvesAlsoWhereTheSoftDirectionIsMistaken) {
+  test::Numbers numbers(62);
+  Matrix K = Matrix::Zero(n, n);
+  K.topLeftCorner(n - 1, n - 1) = 2.0 * Matrix::Identity(n - 1, n - 1);
+  K(0, 1) = K(1, 0) = 0.5;
+  const Linearization now = equations(K, Vector::Unit(n, n - 1) + numbers.vector(n));
+  const Row border{.dx = Vector::Unit(n, n - 1) + 0.1 * numbers.vector(n), .dlambda = 0.2};
+  WholeSolver solver;
+  ASSERT_TRUE(solver.factorize(now, border, 0, Vector::Unit(n, 0)));
+  expect_solution(now, border, solver, numbers);
+}
+
+TEST(WholeSolver, SolvesSaddlePoints) {
+  test::Numbers numbers(63);
+  constexpr Index m = 2;
+  const Singular at(1, numbers);
+  Matrix K = Matrix::Zero(n + m, n + m);
+  K.topLeftCorner(n, n) = at.K;
+  K.bottomLeftCorner(m, n) = numbers.matrix(m, n);
+  K.bottomLeftCorner(m, n) -= K.bottomLeftCorner(m, n) * at.nulls * at.nulls.transpose();  // still singular
+  K.topRightCorner(n, m) = K.bottomLeftCorner(m, n).transpose();
+  Vector soft = Vector::Zero(n + m);
+  soft.head(n) = at.nulls.col(0);
+  const Linearization now = equations(K, soft + 0.3 * numbers.vector(n + m));
+  const Row border{.dx = soft + 0.3 * numbers.vector(n + m), .dlambda = 0.2};
+  WholeSolver solver;
+  ASSERT_TRUE(solver.factorize(now, border, m, soft));
+  expect_solution(now, border, solver, numbers);
+}
+
+TEST(WholeSolver, SaysWhereOneBorderIsNotEnough) {
+  test::Numbers numbers(64);
+  const Singular at(2, numbers);
+  const Linearization now = equations(at.K, numbers.vector(n));
+  const Row border{.dx = numbers.vector(n), .dlambda = 0.2};
+  WholeSolver solver;
+  const bool factorized = solver.factorize(now, border, 0, at.nulls.col(0));
+  const Vector f = numbers.vector(n);
+  const auto solution = factorized ? solver.solve(f, 0.7) : std::nullopt;
+  // What round-off lets pass is no small solution.
+  EXPECT_GT(solution ? solution->dx.norm() : infinity, 1e9 * f.norm());
+}
+
+}  // namespace arcwall::whole_solver_test
