@@ -201,7 +201,7 @@ struct Chain {
 };
 
 // Widths with code of their own.
-using Widths = std::integer_sequence<Index, 1, 2, 3, 4, 6, 8>;
+using Widths = std::integer_sequence<Index, 1, 2, 3, 4, 5, 6, 8>;
 
 template <Index... widths>
 Index next_width(Index width, std::integer_sequence<Index, widths...>) {
