@@ -258,9 +258,15 @@ void SlidingContact::for_each_force(const State& state, const Visit& visit) cons
 
 void SlidingContact::residual(const State& state, Eigen::Ref<Vector> F) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Index n = on.mesh().unknowns(), m = border_width(state.piece);
+  on.mesh().residual(on.x_of(state), on.s_of(state), state.lambda, F.head(on.mesh().unknowns()));
+  add_contact(state, F);
+}
+
+// The forces on the structure, and the equations of contact.
+void SlidingContact::add_contact(const State& state, Eigen::Ref<Vector> F) const {
+  const SlidingContactLayout& on = layout(state.piece);
+  const Index m = border_width(state.piece);
   const Vector x = on.x_of(state);
-  on.mesh().residual(x, on.s_of(state), state.lambda, F.head(n));
   const auto add = [&](const Touch& at, const Eigen::Vector3d& gradient, double force) {
     const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
     for (std::size_t i = 0; i < 3; ++i)
@@ -294,7 +300,8 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
   if (!out.pattern_of || *out.pattern_of != state.piece) lay_out(state, out);
 
   out.F.resize(size);
-  residual(state, out.F);
+  out.F.head(n) = inner.F;
+  add_contact(state, out.F);
   out.F_lambda.setZero(size);
   out.F_lambda.head(n) = inner.F_lambda;
   out.B.setZero(size - m, m);

@@ -143,6 +143,7 @@ class SlidingContact final : public System {
   bool lies_by_itself(const State& state, std::size_t k) const;
   template <typename Visit>
   void for_each_force(const State& state, const Visit& visit) const;
+  void add_contact(const State& state, Eigen::Ref<Vector> F) const;
   void lay_out(const State& state, Linearization& out) const;
 
   struct Lifting {

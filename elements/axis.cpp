@@ -360,12 +360,13 @@ double ImperfectAxis::phase(double from, double to) const {
 }
 
 // Arc length of the axis takes the place of its own where nothing deviates.
-DividedPart ImperfectAxis::divided(double from, double to) const {
+DividedPart ImperfectAxis::divided(double from, double to, DividedPart::Inside inside) const {
   DividedPart part;
   part.at.front() = along(from);
   part.at.back() = along(to);
   part.chord = axis_.chord(from, to) + part.at.back().deviation - part.at.front().deviation;
   const auto divide = [&](const auto& place_at) {
+    if (inside == DividedPart::Inside::left_out) return;
     for (std::size_t k = 1; k + 1 < part.at.size(); ++k)
       part.at[k] = along(place_at(double(k) / double(part.at.size() - 1)));
   };

@@ -62,6 +62,8 @@ struct DeviatedPoint {
 
 /// A part of a deviated curve.
 struct DividedPart {
+  enum class Inside { wanted, left_out };  ///< the points between the ends
+
   static constexpr int points = 4;
   double length = 0.0;                     ///< arc length of the curve
   Vec2 chord = Vec2::Zero();               ///< from the first end to the second [length]
@@ -83,8 +85,8 @@ class ImperfectAxis {
   /// Arc length of the deviated curve between two such points.
   double length(double from, double to) const;
 
-  /// The deviated curve between two such points.
-  DividedPart divided(double from, double to) const;
+  /// The deviated curve between two such points. Points that are left out are zero.
+  DividedPart divided(double from, double to, DividedPart::Inside inside = DividedPart::Inside::wanted) const;
 
  private:
   struct Deviation {

@@ -27,7 +27,7 @@ class ClassicBeam final : public Element, public SlenderBeam {
   /// Between fixed material points: `force_rate` is zero.
   ClassicBeam(const BeamReference& reference, double EA, double EI);
 
-  /// Between points that may slide.
+  /// Between points that may slide. Angles inside do not matter.
   ClassicBeam(const StretchReference& stretch, double EA, double EI);
 
   int unknown_count() const override { return 6; }

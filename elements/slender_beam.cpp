@@ -1,18 +1,30 @@
 #include "elements/slender_beam.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace arcwall {
+
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
 
 // A point at the fraction f of the length, ∫ v ds from S₁ = f ∫ v ds from S₁ to S₂, moves with the ends at the rates
 //
 //   ∂s/∂S₁ = (1 − f) v₁/v,     ∂s/∂S₂ = f v₂/v
-StretchReference stretch_reference(const ImperfectAxis& shape, double from, double to) {
+StretchReference stretch_reference(const ImperfectAxis& shape, double from, double to, DividedPart::Inside inside) {
   static_assert(StretchReference::samples == DividedPart::points);
-  const DividedPart part = shape.divided(from, to);
+  const DividedPart part = shape.divided(from, to, inside);
   const DeviatedPoint &first = part.at.front(), &last = part.at.back();
   StretchReference stretch{.length = part.length, .chord = part.chord};
   for (std::size_t k = 0; k < part.at.size(); ++k) {
+    const bool end = k == 0 || k + 1 == part.at.size();
+    if (!end && inside == DividedPart::Inside::left_out) {
+      stretch.angles[k] = stretch.angle_rate[0][k] = stretch.angle_rate[1][k] = not_known;
+      continue;
+    }
     const double fraction = double(k) / double(part.at.size() - 1);
     const DeviatedPoint& point = part.at[k];
     stretch.angles[k] = point.angle;

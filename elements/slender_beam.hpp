@@ -20,8 +20,9 @@ struct StretchReference {
   std::array<std::array<double, samples>, 2> angle_rate{};
 };
 
-/// The stretch between two points of a member's stress-free shape.
-StretchReference stretch_reference(const ImperfectAxis& shape, double from, double to);
+/// The stretch between two points of a member's stress-free shape. Angles inside that are left out are NaN.
+StretchReference stretch_reference(const ImperfectAxis& shape, double from, double to,
+                                   DividedPart::Inside inside = DividedPart::Inside::wanted);
 
 /// Where the two ends of a beam element are: all that its energy depends on.
 struct BeamEnds {

@@ -152,14 +152,15 @@ SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index run, Index position,
 
 StretchReference SlidingStructureMesh::reference(Index run, Index position, const Vector& s) const {
   const SlidingStructure::Run& described = structure_.at(run);
+  using Inside = DividedPart::Inside;
   return stretch_reference(*described.shape, described.offset + coordinate(run, position, s),
-                           described.offset + coordinate(run, position + 1, s));
+                           described.offset + coordinate(run, position + 1, s),
+                           described.theory == Theory::elastica ? Inside::wanted : Inside::left_out);
 }
 
 template <typename Visit>
-void SlidingStructureMesh::with_beam(Index run, Index position, const Vector& s, const Visit& visit) const {
+void SlidingStructureMesh::with_beam(Index run, const StretchReference& stretch, const Visit& visit) const {
   const SlidingStructure::Run& described = structure_.at(run);
-  const StretchReference stretch = reference(run, position, s);
   const double EA = described.section.EA(), EI = described.section.EI();
   if (described.theory == Theory::elastica) {
     visit(ElasticaBeam(stretch, EA, EI, described.order == 6 ? ElasticaOrder::six : ElasticaOrder::four));
@@ -172,14 +173,14 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index run, Index po
                                                              const Vector& s, double lambda, bool with_rates) const {
   const SlidingStructure::Run& described = structure_.at(run);
   const Ends at = ends(run, position, x);
+  const StretchReference stretch = reference(run, position, s);
   BeamResponse beam_response;
-  with_beam(run, position, s, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
+  with_beam(run, stretch, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
   Response out{.energy = beam_response.energy,
                .force = spread(beam_response.force),
                .stiffness = spread(beam_response.stiffness),
                .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
   if (described.load.isZero() && described.constant_load.isZero()) return out;
-  const StretchReference stretch = reference(run, position, s);
   const auto add = [&](const Vec2& load, double factor) {
     const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
     out.energy += factor * response.energy;
@@ -328,7 +329,7 @@ AxisPlace SlidingStructureMesh::inside(Index run, Index position, double fractio
   if (fraction >= 1.0) return node(run, position + 1, x);
   const Ends at = ends(run, position, x);
   AxisPlace place;
-  with_beam(run, position, s, [&](const auto& beam) {
+  with_beam(run, reference(run, position, s), [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), fraction);
     place = {.position = at.first + local.offset, .angle = local.angle};
   });
@@ -344,7 +345,7 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
   gradient.ds.setZero(3, m);
   const Ends at = ends(point.run, e, x);
   const auto to = assembly_.unknowns(mesh_of(point.run).first_element + e);
-  with_beam(point.run, e, s, [&](const auto& beam) {
+  with_beam(point.run, reference(point.run, e, s), [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
     for (int row = 0; row < 3; ++row) {
       StretchLoad::Vector6 d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));

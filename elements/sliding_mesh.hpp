@@ -86,9 +86,9 @@ class SlidingStructureMesh final : public SlidingMesh {
   };
   Response respond(Index run, Index position, const Vector& x, const Vector& s, double lambda, bool with_rates) const;
 
-  // visit(beam) with the beam of an element, by value.
+  // visit(beam) with the beam of a stretch, by value.
   template <typename Visit>
-  void with_beam(Index run, Index position, const Vector& s, const Visit& visit) const;
+  void with_beam(Index run, const StretchReference& stretch, const Visit& visit) const;
   template <typename Visit>
   void for_each_rate(Index run, Index position, const Response& response, const Visit& visit) const;
 
