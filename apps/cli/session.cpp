@@ -17,6 +17,7 @@
 #include "apps/output/result_json.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "elements/structure.hpp"
 
 namespace arcwall {
 

@@ -202,7 +202,7 @@ TEST(PinnedSemicircle, BranchAndLimitPointsConverge) {
 }
 
 // R = EI = 1, inextensible: 1/EA → 0 by extrapolation.
-TEST(PinnedSemicircle, BranchAndLimitPointsOfTheInextensibleArch) {
+TEST(PinnedSemicircle, BranchAndLimitPointsOfTheInextensibleArchSlow) {
   for (const BeamTheory& theory : test::elastica_theories()) {
     struct Expected {
       std::size_t branch;
@@ -222,7 +222,7 @@ TEST(PinnedSemicircle, BranchAndLimitPointsOfTheInextensibleArch) {
 }
 
 // The same, clamped: it reaches its limit points without swaying.
-TEST(ClampedSemicircle, LimitPointsOfTheInextensibleArch) {
+TEST(ClampedSemicircle, LimitPointsOfTheInextensibleArchSlow) {
   for (const BeamTheory& theory : test::elastica_theories())
     for (const std::size_t number : {0U, 1U}) {
       const double exact = number == 0 ? 10.457262701909803 : 4.510753685275968;

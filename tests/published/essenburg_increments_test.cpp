@@ -18,7 +18,7 @@ constexpr ContactLaw springs{.method = ContactLaw::Method::penalty, .stiffness =
 
 // 40 quadratic elements on the half. Increments that are not iterated lag before the contact by their first order; the
 // vertical displacements move by some 1e-6 with the increments, forces by 1e-4 of themselves.
-TEST(EssenburgIncrements, OnTheFoundationHaveTheUpdatedLagrangianLaw) {
+TEST(EssenburgIncrements, OnTheFoundationHaveTheUpdatedLagrangianLawSlow) {
   struct Listed {
     double moment, bottom, R;
   };

@@ -52,7 +52,7 @@ constexpr double critical = 13.885942905964721;  // P_c
 
 }  // namespace
 
-TEST(RoordasFrame, BothBranchesAreThoseOfTheElastica) {
+TEST(RoordasFrame, BothBranchesAreThoseOfTheElasticaSlow) {
   struct Sample {
     double rotation, load;
   };

@@ -201,7 +201,7 @@ TEST(SlidingContactPath, TurnsAtTheLoadMaximumOfItsOuterArcs) {
 }
 
 // Walls that both rise by 3°, the column level between them.
-TEST(SlidingContactPath, FindsItsEventsBetweenInclinedWalls) {
+TEST(SlidingContactPath, FindsItsEventsBetweenInclinedWallsSlow) {
   const auto path = [](int elements) {
     return path_of(SlidingChannel{.members = one(elements), .slope = std::tan(3.0 * pi / 180.0)}, 8.0);
   };
@@ -245,7 +245,7 @@ TEST(SlidingContactPath, EndsWhereAFreeEndLiesDownOrStandsUpright) {
 
 // A load that acts 0.02 off the axis at the left end bends the column before it buckles: it touches aside the middle,
 // slides on, and its flat part buckles off the wall unsymmetrically.
-TEST(SlidingContactPath, SlidesOffTheMiddle) {
+TEST(SlidingContactPath, SlidesOffTheMiddleSlow) {
   const auto path = [](int elements) { return path_of(SlidingChannel{.members = one(elements), .end_moment = -0.02}); };
   const std::array meshes{path(20), path(40), path(80)};
   const auto found = limits(meshes, {touches, spreads, branches, touches, corner});
