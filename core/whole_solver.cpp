@@ -1,9 +1,8 @@
 #include "core/whole_solver.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <vector>
 
 #include "core/bordered_residual.hpp"
 
@@ -34,9 +33,10 @@ std::optional<Direction> WholeSolver::solve(const Vector& f, double g) {
 // As stiff as what it is added to, in the unknown that takes most of the energy.
 bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   const SparseMatrix& K = equations_->K;
-  const Index n = K.cols();
+  const Index n = K.cols(), free = n - multipliers;
+  if (free == 0) return false;
   const Vector diagonal = K.diagonal();
-  soft.head(n - multipliers).cwiseAbs2().cwiseProduct(diagonal.head(n - multipliers).cwiseAbs()).maxCoeff(&at_);
+  soft.head(free).cwiseAbs2().cwiseProduct(diagonal.head(free).cwiseAbs()).maxCoeff(&at_);
   spring_ = std::abs(diagonal[at_]);
   if (!(spring_ > 0.0 && std::isfinite(spring_))) return false;
   stiffened_ = K;
@@ -49,7 +49,7 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   ldlt_.solve(responses_);
   if (!responses_.allFinite()) return false;
   const Row& c = border_;
-  Eigen::Matrix2d small;  // of λ and k y: (1), times k in its second equation
+  Eigen::Matrix2d small;  // of λ and k y: (1), its second equation over k
   small << c.dlambda - c.dx.dot(responses_.col(0)), c.dx.dot(responses_.col(1)),  //
       responses_(at_, 0), 1.0 / spring_ - responses_(at_, 1);
   small_.compute(small);  // what is singular shows in the residuals
