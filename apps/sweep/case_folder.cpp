@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -30,6 +32,17 @@ bool is_named(int descriptor, const fs::path& path) {
   }, named{};
   return ::fstat(descriptor, &held) == 0 && ::stat(path.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
          held.st_ino == named.st_ino;
+}
+
+// False if another process holds the lock. One that was killed may take a moment to end: it may be waiting for the
+// disk. File systems that cannot lock a folder say so by other errors; cases are then run unlocked.
+bool lock(int descriptor) {
+  using namespace std::chrono_literals;
+  for (auto waited = 0ms; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; waited += 10ms) {
+    if (waited >= 500ms) return false;
+    std::this_thread::sleep_for(10ms);
+  }
+  return true;
 }
 
 void clear(const fs::path& folder) {
@@ -70,8 +83,7 @@ std::optional<CaseDraft> CaseDraft::claim(const fs::path& sweep_folder, int numb
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0 && errno == ENOENT) return std::nullopt;
   if (descriptor < 0) fail(path, "cannot be opened", std::generic_category().message(errno));
-  // File systems that cannot lock a folder say so by other errors; cases are then run unlocked.
-  const bool held_by_another = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const bool held_by_another = !lock(descriptor);
   CaseDraft draft(path, target, descriptor);
   if (held_by_another || !is_named(descriptor, path)) {
     draft.path_.clear();

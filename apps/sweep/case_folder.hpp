@@ -29,6 +29,10 @@ class CaseDraft {
 
   const std::filesystem::path& path() const { return path_; }
 
+  /// Descriptor that carries the lock. A process that works on the case inherits it: when this one is killed, the case
+  /// is free once that has ended, too, and nothing of it can appear in the folder of the next.
+  int lock_descriptor() const { return descriptor_; }
+
   /// Gives the folder its name, in one step.
   void publish();
 
@@ -37,7 +41,7 @@ class CaseDraft {
       : path_(std::move(path)), target_(std::move(target)), descriptor_(descriptor) {}
 
   std::filesystem::path path_, target_;
-  int descriptor_;  // of the folder; carries the lock, which ends with the process whatever ends it
+  int descriptor_;  // of the folder; the lock ends with the processes that have it, whatever ends them
 };
 
 }  // namespace arcwall::sweep

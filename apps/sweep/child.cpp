@@ -22,6 +22,7 @@ struct Prepared {
   const char* folder = nullptr;
   const char* messages = nullptr;
   pid_t parent = 0;
+  int kept_open = -1;
 };
 
 [[noreturn]] void become(const Prepared& prepared) {
@@ -35,6 +36,7 @@ struct Prepared {
   ::close(nothing);
   ::close(messages);
   if (::chdir(prepared.folder) != 0) ::_exit(not_started);
+  if (prepared.kept_open >= 0 && ::fcntl(prepared.kept_open, F_SETFD, 0) != 0) ::_exit(not_started);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -50,7 +52,8 @@ pid_t start(const ChildCommand& command) {
   Prepared prepared{.program = command.program.c_str(),
                     .folder = command.folder.c_str(),
                     .messages = command.messages.c_str(),
-                    .parent = ::getpid()};
+                    .parent = ::getpid(),
+                    .kept_open = command.kept_open};
   for (std::string& word : words) prepared.arguments.push_back(word.data());
   prepared.arguments.push_back(nullptr);
   const pid_t child = ::fork();

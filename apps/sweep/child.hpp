@@ -14,6 +14,7 @@ struct ChildCommand {
   std::vector<std::string> arguments{};
   std::filesystem::path folder{};
   std::filesystem::path messages{};
+  int kept_open = -1;  ///< a descriptor that the program inherits, though it is closed in others; −1: none
 };
 
 /// How a process ended.

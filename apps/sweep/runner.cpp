@@ -77,18 +77,20 @@ class Pool {
       return;
     }
     RunningCase& added = running_.emplace_back(RunningCase{.one = &one, .draft = std::move(*draft)});
-    added.child = start(command(one, added.draft.path()));
+    added.child = start(command(one, added.draft));
     if (request_.most_seconds) added.deadline = after(*request_.most_seconds + request_.patience);
   }
 
   // Without pictures: they are many times as large as the rest, and `trace-path report` draws those of a case. The
   // folder is named from the sweep's, so that messages are the same wherever that is.
-  ChildCommand command(const Case& one, const fs::path& draft) const {
+  ChildCommand command(const Case& one, const CaseDraft& claimed) const {
+    const fs::path& draft = claimed.path();
     const std::string folder = fs::path(draft.parent_path().filename() / draft.filename()).string();
     ChildCommand result{.program = request_.program,
                         .arguments = {"run", "./" + one.deck, "--out", folder, "--force", "--quiet", "--no-pictures"},
                         .folder = request_.folder,
-                        .messages = fs::absolute(draft / messages_file_name)};
+                        .messages = fs::absolute(draft / messages_file_name),
+                        .kept_open = claimed.lock_descriptor()};
     std::vector<std::string>& words = result.arguments;
     if (request_.most_seconds) words.insert(words.end(), {"--max-time", round_trip(*request_.most_seconds)});
     words.insert(words.end(), request_.options.begin(), request_.options.end());

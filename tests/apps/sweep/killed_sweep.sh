@@ -55,7 +55,9 @@ kill_group() {
 compare() {
   "$program" sweep collect "$1" >"$1.txt"
   for file in "${files[@]}"; do
-    cmp "whole/$file" "$1/$file" || fail "$file differs: $2"
+    cmp "whole/$file" "$1/$file" && continue
+    if [[ $file == *.csv ]]; then diff "whole/$file" "$1/$file" >&2 || true; fi
+    fail "$file differs: $2"
   done
   [[ -z $(find "$1/cases" -name '.*') ]] || fail "something is left in $1/cases: $2"
 }

@@ -186,8 +186,23 @@ TEST_F(SweepProgramTest, ACaseThatAnotherProcessRunsIsLeftToIt) {
       "\"$PROGRAM\" sweep run study --quiet -- --set path.max_step=1e-8 --set path.min_step=1e-12 "
       "--set path.max_points=100000000 & child=$!; "
       "until [ -e study/cases/.00000/messages.txt ]; do sleep 0.05; done; "
-      "\"$PROGRAM\" sweep run study; kill -TERM $child; wait $child");
+      "\"$PROGRAM\" sweep run study; "
+      // The process of the case holds it as well.
+      "grep -l cases/.00000 --include=cmdline -r /proc/[0-9]*/cmdline 2>/dev/null | while read -r cmdline; do "
+      "readlink ${cmdline%cmdline}fd/* | grep 'cases/.00000$' | sed 's/.*study/held: study/'; done; "
+      "kill -TERM $child; wait $child");
   expect_in("0 of 1 cases have results, 0 of them new; another process is running 1", outcome.out);
+  expect_in("held: study/cases/.00000", outcome.out);
+}
+
+// As when a sweep was killed while the process of a case waits for the disk.
+TEST_F(SweepProgramTest, ACaseIsBegunAnewOnceItsOldProcessHasEnded) {
+  plan("title = \"t\"\ndeck = \"truss.toml\"\n[[list]]\npath.step = 1.0\n");
+  const Outcome outcome = shell(
+      "mkdir -p study/cases/.00000; flock study/cases/.00000 sleep 0.2 & "
+      "until ! flock --nonblock study/cases/.00000 true; do sleep 0.01; done; "
+      "\"$PROGRAM\" sweep run study; wait");
+  expect_in("1 of 1 cases have results, 1 of them new", outcome.out);
 }
 
 TEST_F(SweepProgramTest, TheReportIsOnePageWithoutNetworkThatTrustsNoText) {
