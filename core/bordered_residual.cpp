@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace arcwall {
 
 bool BorderedResidual::is_small(const Vector& f) const {
   constexpr double good = 1e-10;  // of f
-  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   return r.norm() <= std::max(good * f.norm(), rounding * terms.norm());
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "core/system.hpp"
 
 namespace arcwall {
@@ -7,6 +9,8 @@ namespace arcwall {
 /// r = f − J δx − F_λ δλ of a solution, and the sum of the magnitudes of its terms: below some ε of them r is
 /// round-off, and no other solution is better. On a fine mesh stiffness times displacement is large beside f.
 struct BorderedResidual {
+  static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+
   Vector r{}, terms{};
 
   bool is_small(const Vector& f) const;

@@ -148,7 +148,8 @@ bool BorderedSolver::make_tangent_good() {
 std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& f, double g) {
   const Linearization& now = *equations_;
   if (regular_) {
-    Matrix X(f.size(), 2);
+    Matrix& X = columns_;
+    X.resize(f.size(), 2);
     X << f, now.F_lambda;
     const bool solved = solve_inner(X);
     // δλ = (g − cᵀ J⁻¹ f) / (d − cᵀ J⁻¹ F_λ),  δx = J⁻¹ f − δλ J⁻¹ F_λ
@@ -160,7 +161,7 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
   return whole_.solve(f, g);
 }
 
-// K's own solution for F_λ, where there is one, is mostly what K hardly resists.
+// K's own solutions, where there are any (the last for F_λ or for what is tracked), are mostly what K hardly resists.
 bool BorderedSolver::factorize_whole(const Row& border) {
   const bool solved = regular_ && columns_.cols() > 0 && columns_.rows() == border.dx.size() && columns_.allFinite();
   return whole_.factorize(*equations_, border, multipliers_, solved ? Vector(columns_.rightCols(1)) : border.dx);

@@ -1,7 +1,6 @@
 #include "core/whole_solver.hpp"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/bordered_residual.hpp"
@@ -65,7 +64,6 @@ Direction WholeSolver::solve_with_spring(const Vector& f, double g) const {
 
 std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, double g) const {
   constexpr int most_refinements = 3;
-  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   Direction solution = solve_with_spring(f, g);
   for (int round = 0;; ++round) {
     const BorderedResidual left = residual_of(*equations_, f, solution);
@@ -73,7 +71,7 @@ std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, doubl
     const double terms =
         std::abs(g) + border_.dx.cwiseAbs().dot(solution.dx.cwiseAbs()) + std::abs(border_.dlambda * solution.dlambda);
     if (!left.r.allFinite() || !std::isfinite(gap)) return std::nullopt;
-    if (left.is_small(f) && std::abs(gap) <= rounding * terms) return solution;
+    if (left.is_small(f) && std::abs(gap) <= BorderedResidual::rounding * terms) return solution;
     if (round == most_refinements) return std::nullopt;
     const Direction correction = solve_with_spring(left.r, gap);
     solution.dx += correction.dx;
