@@ -67,6 +67,11 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
   return arrived({.state = state}, metric, along);
 }
 
+void Corrector::track_from(const NearNull& nearest) {
+  tracker_.start_from(nearest.vectors);
+  solver_.expect_soft(nearest.soft());
+}
+
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count) const {
   if (!solver_.inner_is_regular()) return std::nullopt;
   return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count);

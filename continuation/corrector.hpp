@@ -66,7 +66,7 @@ class Corrector {
   CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);
 
   /// From where the eigenpairs nearest zero are followed, instead of the point reached last.
-  void track_from(const NearNull& nearest) { tracker_.start_from(nearest.vectors); }
+  void track_from(const NearNull& nearest);
 
  private:
   CorrectorResult iterate(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,

@@ -35,6 +35,11 @@ Piece strongly_closed(const System& system, const State& state, double force_tol
   return piece;
 }
 
+void StabilityCounter::track_from(const NearNull& nearest) {
+  tracker_.start_from(nearest.vectors);
+  solver_.expect_soft(nearest.soft());
+}
+
 // With weak contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0}, so a
 // count of 0 there means stable; it contains {G_S v = 0, G_W v = 0}, so a count above 0 there means unstable.
 StabilityCount StabilityCounter::count(const State& state, std::optional<Index> negative_held) {

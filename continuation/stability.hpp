@@ -35,7 +35,7 @@ class StabilityCounter {
   std::optional<Index> negative_on(const State& state);
 
   /// From where the eigenpairs nearest zero are followed, instead of the state counted last.
-  void track_from(const NearNull& nearest) { tracker_.start_from(nearest.vectors); }
+  void track_from(const NearNull& nearest);
 
  private:
   const System& system_;

@@ -30,6 +30,9 @@ class BorderedSolver {
   /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves.
   FactorStatus factorize(const Linearization& equations, Index multipliers);
 
+  /// See Ldlt.
+  void expect_soft(const Matrix& vectors) { ldlt_.expect_soft(vectors); }
+
   /// `border` closes the system where K alone is singular; the line itself does not depend on it.
   /// False if the bordered matrix is singular too.
   bool line(const Row& border, EquilibriumLine& out);

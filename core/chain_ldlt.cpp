@@ -16,7 +16,7 @@ Index rounded_up(Index count) { return (count + Lanes::count - 1) / Lanes::count
 
 }  // namespace
 
-void ChainLdlt::analyse(const SparseMatrix& A, const ChainGroups& groups) {
+ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups) {
   Index greatest = 1;
   for (const auto& group : groups) greatest = std::max(greatest, static_cast<Index>(group.size()));
   width_ = elimination_width(greatest);
@@ -25,7 +25,7 @@ void ChainLdlt::analyse(const SparseMatrix& A, const ChainGroups& groups) {
 
   const ChainRound& first = rounds_.front();
   std::vector<Index> group_of(static_cast<std::size_t>(A.cols())), row_of(static_cast<std::size_t>(A.cols()));
-  pivots_.resize(static_cast<std::size_t>(A.cols()));
+  pivot_places_.resize(static_cast<std::size_t>(A.cols()));
   places_.resize(static_cast<std::size_t>(A.cols()));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto group = static_cast<Index>(g), size = static_cast<Index>(groups[g].size());
@@ -33,7 +33,7 @@ void ChainLdlt::analyse(const SparseMatrix& A, const ChainGroups& groups) {
       const auto unknown = static_cast<std::size_t>(groups[g][static_cast<std::size_t>(k)]);
       group_of[unknown] = group;
       row_of[unknown] = k;
-      pivots_[unknown] = pivot_place(group, k);
+      pivot_places_[unknown] = pivot_place(group, k);
       const bool goes = first.eliminates(group);
       const Index stride = goes ? first.stride : first.left_stride;
       const Index start = goes ? first.right_hand_side : first.right_hand_side_left;
@@ -100,25 +100,26 @@ std::int32_t ChainLdlt::pivot_place(Index group, Index row) const {
   return static_cast<std::int32_t>(round->diagonal_at(group, packed(row, row)));
 }
 
-bool ChainLdlt::factorize(const double* values) {
+bool ChainLdlt::factorize(const SparseMatrix& A) {
+  const double* values = A.valuePtr();
   std::fill_n(numbers_.begin(), first_size_, 0.0);
   for (const std::int32_t place : filling_) numbers_[static_cast<std::size_t>(place)] = 1.0;
   for (std::size_t i = 0; i < slots_.size(); ++i) numbers_[static_cast<std::size_t>(slots_[i])] = values[i];
   eliminate_rounds(width_, rounds_, numbers_.data(), coupling_.data());
 
-  inertia_ = {};
+  pivots_ = {};
   double least = infinity, greatest = 0.0, sum = 0.0;  // of 1/|d|
-  for (const std::int32_t place : pivots_) {
+  for (const std::int32_t place : pivot_places_) {
     const double reciprocal = numbers_[static_cast<std::size_t>(place)], magnitude = std::abs(reciprocal);
-    inertia_.negative += reciprocal < 0.0 ? 1 : 0;
+    pivots_.signs.negative += reciprocal < 0.0 ? 1 : 0;
     least = std::min(least, magnitude);
     greatest = std::max(greatest, magnitude);
     sum += magnitude;  // NaN if any is, which minima and maxima pass over
   }
-  inertia_.positive = static_cast<Index>(pivots_.size()) - inertia_.negative;
+  pivots_.signs.positive = static_cast<Index>(pivot_places_.size()) - pivots_.signs.negative;
   if (!(least > 0.0 && sum < infinity)) return false;
-  least_pivot_ = 1.0 / greatest;
-  greatest_pivot_ = 1.0 / least;
+  pivots_.least = 1.0 / greatest;
+  pivots_.greatest = 1.0 / least;
   return true;
 }
 

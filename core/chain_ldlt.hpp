@@ -5,7 +5,7 @@
 
 #include "core/chain_elimination.hpp"
 #include "core/chain_groups.hpp"
-#include "core/factorization.hpp"
+#include "core/symmetric_factors.hpp"
 
 namespace arcwall {
 
@@ -13,25 +13,17 @@ namespace arcwall {
 /// those that are left. Groups of one round have nothing to do with each other, so that several are worked on at once,
 /// and short parts of a chain are eliminated first: those are stiff, while the leading parts of a long column may be
 /// critical by themselves. No pivoting; the unknowns of a group follow each other in their order.
-class ChainLdlt {
+class ChainLdlt final : public SymmetricFactors {
  public:
   /// The greatest group for which this is meant.
   static constexpr Index widest = 8;
 
-  void analyse(const SparseMatrix& lower_triangle, const ChainGroups& groups);
+  ChainLdlt(const SparseMatrix& lower_triangle, const ChainGroups& groups);
 
-  /// The values of a matrix with the pattern analysed. False if a pivot is zero or not finite.
-  bool factorize(const double* values);
-
-  /// X := A⁻¹ X.
-  void solve(Eigen::Ref<Matrix> X) const;
-
-  const Inertia& inertia() const { return inertia_; }
-  double least_pivot() const { return least_pivot_; }        ///< in magnitude
-  double greatest_pivot() const { return greatest_pivot_; }  ///< in magnitude
-
-  /// |v|ᵀ |L| |D| |L|ᵀ |v|
-  double weighted(const Vector& v) const;
+  bool factorize(const SparseMatrix& lower_triangle) override;
+  void solve(Eigen::Ref<Matrix> X) const override;
+  Pivots pivots() const override { return pivots_; }
+  double weighted(const Vector& v) const override;
 
  private:
   struct Place {  // of an entry of a right-hand side: the row's start, in units of right-hand sides, and the group in
@@ -42,18 +34,17 @@ class ChainLdlt {
   void lay_out_rounds(Index groups);
   std::int32_t pivot_place(Index group, Index row) const;
 
-  Index width_ = 0;                    // of all groups: the greatest, rounded up to a width with code of its own
-  std::vector<ChainRound> rounds_;     // of elimination
-  std::vector<std::int32_t> slots_;    // of each value of the matrix in numbers_
-  std::vector<std::int32_t> filling_;  // places of ones on the diagonal of groups that are less wide
-  std::vector<std::int32_t> pivots_;   // of each unknown, of 1/d, in numbers_
-  std::vector<Place> places_;          // of each unknown in the first round's right-hand side
-  std::vector<double> numbers_;        // matrices of all rounds, then their factors
-  std::vector<double> coupling_;       // workspace: between groups that are left
-  mutable std::vector<double> work_;   // right-hand sides
-  Index first_size_ = 0;               // of the numbers of the first round
-  Inertia inertia_{};
-  double least_pivot_ = 0.0, greatest_pivot_ = 0.0;
+  Index width_ = 0;                         // of all groups: the greatest, rounded up to a width with code of its own
+  std::vector<ChainRound> rounds_;          // of elimination
+  std::vector<std::int32_t> slots_;         // of each value of the matrix in numbers_
+  std::vector<std::int32_t> filling_;       // places of ones on the diagonal of groups that are less wide
+  std::vector<std::int32_t> pivot_places_;  // of each unknown, of 1/d, in numbers_
+  std::vector<Place> places_;               // of each unknown in the first round's right-hand side
+  std::vector<double> numbers_;             // matrices of all rounds, then their factors
+  std::vector<double> coupling_;            // workspace: between groups that are left
+  mutable std::vector<double> work_;        // right-hand sides
+  Index first_size_ = 0;                    // of the numbers of the first round
+  Pivots pivots_;
 };
 
 }  // namespace arcwall

@@ -7,7 +7,8 @@
 namespace arcwall {
 
 /// LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included: ChainLdlt where the pattern is
-/// that of a chain, CHOLMOD's simplicial one elsewhere.
+/// that of a chain, CHOLMOD's supernodal LLᵀ with springs (sprung_cholesky.hpp) for large structures of many couplings,
+/// its simplicial LDLᵀ elsewhere.
 ///
 /// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown
 /// it touches, where its pivot −g S⁻¹ gᵀ is not zero, so that no pivoting is needed and no fill arises beyond that of
@@ -21,6 +22,10 @@ class Ldlt final : public Factorization {
 
   /// The last `count` unknowns are multipliers; takes effect with the next new pattern.
   void set_multiplier_count(Index count);
+
+  /// Columns that the matrices to come hardly resist, as far as one knows; none by default. Where they are found makes
+  /// large indefinite matrices quicker; results depend on them within round-off.
+  void expect_soft(const Matrix& vectors);
 
   FactorStatus factorize(const SparseMatrix& lower_triangle) override;
   void solve(Eigen::Ref<Matrix> X) const override;

@@ -40,6 +40,13 @@ double roundoff_of_quotients(const SparseMatrix& K, const Matrix& X) {
 
 }  // namespace
 
+Matrix NearNull::soft() const {
+  std::vector<Index> chosen;
+  for (Index j = 0; j < values.size(); ++j)
+    if (j == 0 || values[j] < 0.0) chosen.push_back(j);
+  return vectors(Eigen::all, chosen);
+}
+
 Index pair_count(const Vector& weights) {
   const Index weighted = (weights.array() > 0.0).count();
   return std::max<Index>(0, 2 * weighted - weights.size());

@@ -8,6 +8,9 @@ namespace arcwall {
 struct NearNull {
   Vector values{};   ///< by increasing magnitude
   Matrix vectors{};  ///< columns, φᵀ M φ = 1
+
+  /// The vectors that K may not resist a step further: the nearest one, and those of negative values.
+  Matrix soft() const;
 };
 
 /// How many eigenvalues K φ = μ M φ has: each unknown without weight is a multiplier, which holds one that has weight.

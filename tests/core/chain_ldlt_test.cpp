@@ -72,10 +72,9 @@ TEST(ChainLdlt, PartsOfAChainNeedNotHangTogether) {
   const SparseMatrix lower = lower_triangle(A);
   const auto groups = chain_groups(lower, 0, 3);
   ASSERT_TRUE(groups);
-  ChainLdlt ldlt;
-  ldlt.analyse(lower, *groups);
-  ASSERT_TRUE(ldlt.factorize(lower.valuePtr()));
-  EXPECT_EQ(ldlt.inertia().negative, 1);
+  ChainLdlt ldlt(lower, *groups);
+  ASSERT_TRUE(ldlt.factorize(lower));
+  EXPECT_EQ(ldlt.pivots().signs.negative, 1);
   Matrix X = A * Matrix::Identity(7, 7);
   ldlt.solve(X);
   EXPECT_LE((X - Matrix::Identity(7, 7)).norm(), 1e-14);
@@ -88,12 +87,11 @@ TEST(ChainLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
       SCOPED_TRACE(std::to_string(nodes) + " nodes of " + std::to_string(freedoms));
       const Matrix A = chain(nodes, freedoms, numbers);
       const SparseMatrix lower = lower_triangle(A);
-      ChainLdlt ldlt;
-      ldlt.analyse(lower, chain_groups(lower, 0, ChainLdlt::widest).value());
-      ASSERT_TRUE(ldlt.factorize(lower.valuePtr()));
-      EXPECT_EQ(ldlt.inertia().negative, negative(A));
-      EXPECT_EQ(ldlt.inertia().positive, A.cols() - negative(A));
-      const double growth = ldlt.greatest_pivot() / ldlt.least_pivot();
+      ChainLdlt ldlt(lower, chain_groups(lower, 0, ChainLdlt::widest).value());
+      ASSERT_TRUE(ldlt.factorize(lower));
+      EXPECT_EQ(ldlt.pivots().signs.negative, negative(A));
+      EXPECT_EQ(ldlt.pivots().signs.positive, A.cols() - negative(A));
+      const double growth = ldlt.pivots().greatest / ldlt.pivots().least;
       for (const Index columns : {1, 2, 3, 4, 7}) {
         const Matrix expected = numbers.matrix(A.cols(), columns);
         Matrix X = A * expected;
@@ -108,9 +106,8 @@ TEST(ChainLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
 
 TEST(ChainLdlt, AZeroPivotIsSeen) {
   const SparseMatrix A = lower_triangle(Matrix{{0.0, 1.0}, {1.0, 0.0}});
-  ChainLdlt ldlt;
-  ldlt.analyse(A, {{0, 1}});
-  EXPECT_FALSE(ldlt.factorize(A.valuePtr()));
+  ChainLdlt ldlt(A, ChainGroups{{0, 1}});
+  EXPECT_FALSE(ldlt.factorize(A));
 }
 
 TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
@@ -125,10 +122,9 @@ TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
     for (Index column = 0; column < singular.cols(); ++column)
       for (SparseMatrix::InnerIterator entry(singular, column); entry; ++entry)
         entry.valueRef() = zero_pivots(entry.row(), column);
-    ChainLdlt ldlt;
-    ldlt.analyse(lower, chain_groups(lower, 0, 3).value());
-    EXPECT_FALSE(ldlt.factorize(singular.valuePtr()));
-    ASSERT_TRUE(ldlt.factorize(lower.valuePtr()));
+    ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value());
+    EXPECT_FALSE(ldlt.factorize(singular));
+    ASSERT_TRUE(ldlt.factorize(lower));
     Matrix X = A;
     ldlt.solve(X);
     EXPECT_LE((X - Matrix::Identity(A.rows(), A.cols())).norm(), 1e-8);

@@ -1,0 +1,272 @@
+#include "core/sprung_cholesky.hpp"
+
+#include <dlfcn.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/cholmod_factor.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr Index large = 50000;    // unknowns from which this pays
+constexpr double coupled = 40.0;  // operations per entry of L from which dense blocks pay
+constexpr double stiff = 8.0;     // springs, over what they are added to: S loses a digit at most
+constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr std::size_t most_springs = 32;  // what needs more is refused: each costs a factorization
+
+// CHOLMOD asks for four threads for loops over single blocks, whatever the machine has; waiting for each other takes
+// them longer than the work. Where no region of OpenMP may be active, one thread does all. Only if CHOLMOD has loaded
+// that library there is something to be told.
+class OneThread {
+ public:
+  OneThread() {
+    if (set_levels_ != nullptr) set_levels_(0);
+  }
+  ~OneThread() {
+    if (set_levels_ != nullptr) set_levels_(before_);
+  }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  template <typename Function>
+  static Function* found(const char* name) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+  }
+
+  void (*set_levels_)(int) = found<void(int)>("omp_set_max_active_levels");
+  int before_ = set_levels_ != nullptr ? found<int()>("omp_get_max_active_levels")() : 0;
+};
+
+class SprungCholesky final : public SymmetricFactors {
+ public:
+  explicit SprungCholesky(const SparseMatrix& A) {
+    cholmod_common& common = llt_.common;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    cholmod_sparse a = cholmod_view(A);
+    // Nested dissection where the library has it.
+    for (const int ordering : {CHOLMOD_METIS, CHOLMOD_AMD}) {
+      common.method[0].ordering = ordering;
+      llt_.factor = cholmod_l_analyze(&a, &common);
+      if (llt_.factor != nullptr) return;
+    }
+  }
+
+  // Springs stand from here on alone, so that results do not depend on what was done before.
+  void expect_soft(const Matrix& vectors) override {
+    soft_ = vectors;
+    springs_.clear();
+    refuses_ = false;
+  }
+
+  bool factorize(const SparseMatrix& A) override {
+    if (llt_.factor == nullptr || refuses_) return false;
+    const OneThread one_thread;
+    choose_springs(A);
+    while (!factorize_with_springs(A))
+      if (springs_.size() == most_springs || !add_spring(A, stiffest_part(A, unresisted()))) {
+        refuses_ = true;
+        return false;
+      }
+    return read_pivots() && eliminate_springs();
+  }
+
+  bool refuses_some() const override { return true; }
+
+  // (1)
+  void solve(Eigen::Ref<Matrix> X) const override {
+    const OneThread one_thread;
+    llt_.solve(X);
+    if (springs_.empty()) return;
+    const Matrix forces = springs_left_.solve(at_springs(X));
+    X.noalias() += responses_ * forces;
+  }
+
+  Pivots pivots() const override { return pivots_; }
+
+  // Of K̂: what springs add to the diagonal and take away again is in it.
+  double weighted(const Vector& v) const override {
+    const Vector u = v(llt_.order()).cwiseAbs();
+    double sum = 0.0;
+    for (const Block& block : blocks())
+      for (Index j = 0; j < block.columns; ++j) {
+        double z = 0.0;  // (|L|ᵀ |v|)_j
+        for (Index i = j; i < block.rows; ++i) z += std::abs(block.values[j * block.rows + i]) * u[block.row[i]];
+        sum += z * z;
+      }
+    return sum;
+  }
+
+ private:
+  struct Spring {
+    Index at;  // unknown
+    double k;
+  };
+
+  // A dense block of L, whose first rows are those of its columns; column by column.
+  struct Block {
+    Index first, columns, rows;
+    const SuiteSparse_long* row;
+    const double* values;
+  };
+
+  std::vector<Block> blocks() const {
+    const cholmod_factor& L = *llt_.factor;
+    const auto* column = static_cast<const SuiteSparse_long*>(L.super);
+    const auto* rows = static_cast<const SuiteSparse_long*>(L.pi);
+    const auto* values = static_cast<const SuiteSparse_long*>(L.px);
+    std::vector<Block> blocks;
+    for (std::size_t s = 0; s < L.nsuper; ++s)
+      blocks.push_back({.first = column[s],
+                        .columns = column[s + 1] - column[s],
+                        .rows = rows[s + 1] - rows[s],
+                        .row = static_cast<const SuiteSparse_long*>(L.s) + rows[s],
+                        .values = static_cast<const double*>(L.x) + values[s]});
+    return blocks;
+  }
+
+  void choose_springs(const SparseMatrix& A) {
+    if (soft_.rows() == A.cols())
+      for (const auto& vector : soft_.colwise()) add_spring(A, stiffest_part(A, vector));
+    soft_.resize(0, 0);
+    for (Spring& spring : springs_) spring.k = stiffness_of(A, spring.at);
+    std::erase_if(springs_, [](const Spring& spring) { return spring.k == 0.0; });
+  }
+
+  // The unknown in which a vector has most of its energy.
+  static Index stiffest_part(const SparseMatrix& A, const Vector& vector) {
+    Index at = 0;
+    vector.cwiseAbs2().cwiseProduct(A.diagonal().cwiseAbs()).maxCoeff(&at);
+    return at;
+  }
+
+  // False if there is one already, or nothing that tells how stiff it should be.
+  bool add_spring(const SparseMatrix& A, Index at) {
+    const double k = stiffness_of(A, at);
+    const bool stands = std::any_of(springs_.begin(), springs_.end(), [&](const Spring& one) { return one.at == at; });
+    if (stands || !(k > 0.0)) return false;
+    springs_.push_back({.at = at, .k = k});
+    return true;
+  }
+
+  static double stiffness_of(const SparseMatrix& A, Index at) {
+    const Index diagonal = A.outerIndexPtr()[at];
+    const bool there = diagonal < A.nonZeros() && A.innerIndexPtr()[diagonal] == at;
+    return there ? stiff * std::abs(A.valuePtr()[diagonal]) : 0.0;
+  }
+
+  // False if a pivot is not positive.
+  bool factorize_with_springs(const SparseMatrix& A) {
+    cholmod_sparse a = cholmod_view(A);
+    if (!springs_.empty()) {
+      sprung_.assign(A.valuePtr(), A.valuePtr() + A.nonZeros());
+      for (const Spring& spring : springs_) sprung_[static_cast<std::size_t>(A.outerIndexPtr()[spring.at])] += spring.k;
+      a.x = sprung_.data();
+    }
+    cholmod_l_factorize(&a, llt_.factor, &llt_.common);
+    return llt_.factor->minor == llt_.factor->n;
+  }
+
+  // Where the pivot of column j has failed, K̂ does not resist v = (−K̂₁₁⁻¹ K̂₁ⱼ, 1, 0):  vᵀ K̂ v = dⱼ ≤ 0. By the columns
+  // of L before j:  Lᵀ v = 0 there.
+  Vector unresisted() const {
+    const auto failed = static_cast<Index>(llt_.factor->minor);
+    Vector v = Vector::Zero(llt_.size());
+    v[failed] = 1.0;
+    const std::vector<Block> all = blocks();
+    for (auto block = all.rbegin(); block != all.rend(); ++block)
+      for (Index j = std::min(block->columns, failed - block->first) - 1; j >= 0; --j) {
+        const double* column = block->values + j * block->rows;
+        double sum = 0.0;
+        for (Index i = j + 1; i < block->rows && block->row[i] <= failed; ++i) sum += column[i] * v[block->row[i]];
+        v[block->first + j] = -sum / column[j];
+      }
+    Vector by_unknowns(v.size());
+    by_unknowns(llt_.order()) = v;
+    return by_unknowns;
+  }
+
+  bool read_pivots() {
+    const cholmod_factor& L = *llt_.factor;
+    if (llt_.common.status < CHOLMOD_OK || L.xtype != CHOLMOD_REAL) return false;
+    pivots_ = {};
+    bool usable = true;
+    for (const Block& block : blocks())
+      for (Index j = 0; j < block.columns; ++j)
+        usable = pivots_.add(std::pow(block.values[j * block.rows + j], 2)) && usable;
+    return usable;
+  }
+
+  // Y and S. Seen from K, each eigenvalue of k S stands for a pivot over the stiffness of a spring; it is the
+  // difference of 1 and of what may be as much.
+  bool eliminate_springs() {
+    const auto count = static_cast<Index>(springs_.size());
+    responses_.setZero(llt_.size(), count);
+    if (count == 0) return true;
+    Vector k(count);
+    for (Index j = 0; j < count; ++j) {
+      const Spring& spring = springs_[static_cast<std::size_t>(j)];
+      responses_(spring.at, j) = 1.0;
+      k[j] = spring.k;
+    }
+    llt_.solve(responses_);
+    Matrix S = -at_springs(responses_);
+    S.diagonal() += k.cwiseInverse();
+    if (!S.allFinite()) return false;
+    springs_left_.compute(S);
+    const Vector root = k.cwiseSqrt();
+    const Matrix scaled = root.asDiagonal() * (0.5 * (S + S.transpose())) * root.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled, Eigen::EigenvaluesOnly);
+    bool usable = eigen.info() == Eigen::Success;
+    for (const double value : eigen.eigenvalues())
+      usable = pivots_.add(value * k.maxCoeff()) && std::abs(value) > rounding && usable;
+    pivots_.signs.positive = llt_.size() - pivots_.signs.negative;
+    return usable;
+  }
+
+  // Eᵀ X
+  Matrix at_springs(const Eigen::Ref<const Matrix>& X) const {
+    Matrix rows(static_cast<Index>(springs_.size()), X.cols());
+    for (Index j = 0; j < rows.rows(); ++j) rows.row(j) = X.row(springs_[static_cast<std::size_t>(j)].at);
+    return rows;
+  }
+
+  CholmodFactor llt_;
+  Matrix soft_;  // vectors that have no springs yet
+  bool refuses_ = false;
+  std::vector<Spring> springs_;
+  std::vector<double> sprung_;                // values of K̂
+  Matrix responses_;                          // Y
+  Eigen::PartialPivLU<Matrix> springs_left_;  // S
+  Pivots pivots_;
+};
+
+// Whether dense blocks pay, as CHOLMOD itself decides: in an order that costs next to nothing to find.
+bool couples_widely(const SparseMatrix& A) {
+  CholmodFactor simplicial;
+  simplicial.common.supernodal = CHOLMOD_SIMPLICIAL;
+  simplicial.common.method[0].ordering = CHOLMOD_AMD;
+  cholmod_sparse a = cholmod_view(A);
+  simplicial.factor = cholmod_l_analyze(&a, &simplicial.common);
+  return simplicial.factor != nullptr && simplicial.common.fl >= coupled * simplicial.common.lnz;
+}
+
+}  // namespace
+
+std::unique_ptr<SymmetricFactors> sprung_cholesky(const SparseMatrix& A) {
+  if (A.cols() < large || !couples_widely(A)) return nullptr;
+  return any_sprung_cholesky(A);
+}
+
+std::unique_ptr<SymmetricFactors> any_sprung_cholesky(const SparseMatrix& A) {
+  return std::make_unique<SprungCholesky>(A);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,16 @@
+#include "core/symmetric_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+bool Pivots::add(double pivot) {
+  const double magnitude = std::abs(pivot);
+  (pivot < 0.0 ? signs.negative : signs.positive) += 1;
+  least = std::min(least, magnitude);
+  greatest = std::max(greatest, magnitude);
+  return magnitude > 0.0 && magnitude < infinity;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/factorization.hpp"
+
+namespace arcwall {
+
+/// Signs and magnitudes of pivots.
+struct Pivots {
+  Inertia signs{};
+  double least = infinity, greatest = 0.0;  ///< in magnitude
+
+  /// False for a pivot that is zero or not finite.
+  bool add(double pivot);
+};
+
+/// L D Lᵀ of the symmetric matrices of one pattern, by one of the ways that Ldlt chooses among.
+class SymmetricFactors {
+ public:
+  virtual ~SymmetricFactors() = default;
+
+  /// The lower triangle of a matrix with the pattern analysed, its entries finite. False if a pivot is zero or not
+  /// finite, or the matrix is none that this way serves.
+  virtual bool factorize(const SparseMatrix& lower_triangle) = 0;
+
+  /// Whether there are regular matrices that this way does not serve.
+  virtual bool refuses_some() const { return false; }
+
+  /// X := A⁻¹ X.
+  virtual void solve(Eigen::Ref<Matrix> X) const = 0;
+
+  virtual Pivots pivots() const = 0;
+
+  /// |v|ᵀ |L| |D| |L|ᵀ |v|
+  virtual double weighted(const Vector& v) const = 0;
+
+  /// Columns that the matrices to come hardly resist, as far as one knows.
+  virtual void expect_soft(const Matrix&) {}
+};
+
+}  // namespace arcwall
