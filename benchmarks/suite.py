@@ -134,9 +134,10 @@ class Suite:
     def program(self, name: str) -> str:
         return str(self.build / ("apps" if name == "trace-path" else "benchmarks") / name)
 
-    def traced(self, case: str, size: int, deck: str, values: list, threads: int | None = None, **more) -> TracePath:
+    def traced(self, case: str, size: int, deck: str, values: list, threads: int | None = None,
+               options: tuple = (), **more) -> TracePath:
         out = self.scratch / f"{case}-{size}-{threads or 1}"
-        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--out", str(out), "--force", "--quiet"]
+        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--out", str(out), "--force", "--quiet", *options]
         for value in values:
             command += ["--set", value]
         if threads:
@@ -158,6 +159,9 @@ class Suite:
             yield Process("chain_yardstick", "lee", n, [self.program("chain_yardstick"), str(n)], rounds=few)
             yield self.split("lee", n, rounds=few)
             yield self.traced("lee", n, "examples/lee.toml", [*values, "path.watch=[]"], rounds=few)
+            if n == 20:
+                yield self.traced("lee without pictures", n, "examples/lee.toml", [*values, "path.watch=[]"],
+                                  options=("--no-pictures",))
 
     def decks(self) -> Iterator[Process]:
         for case, deck in self.wanted([], [("semicircle with all branches", "docs/validation/semicircle.toml"),

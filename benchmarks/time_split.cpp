@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct Task {
   ExploreOptions explore{};
   Index elements = 0;
   Index nodes = 0;
+  int most_past_limit = std::numeric_limits<int>::max();  // points
 };
 
 // What arcs without events took, so that steps with and without closed contacts can be compared.
@@ -91,7 +93,9 @@ Measured traced(const Task& task) {
     Explorer explorer(system, task.start, options, task.watched, task.explore);
     double last = cpu_seconds();
     Index linearizations = 0;
-    while (const auto step = explorer.next()) {
+    while (measured.tally.points_past_limit < task.most_past_limit) {
+      const auto step = explorer.next();
+      if (!step) break;
       const double now = cpu_seconds();
       const Index used = system.times().linearizations - linearizations;
       auto& costs = step->arc.to.state.piece.closed_count() > 0 ? measured.step_costs.closed : measured.step_costs.open;
@@ -152,7 +156,8 @@ void print(const std::string& work, long size, const Task& task, const Measured&
 
 void trace(const std::string& work, long size, const Task& task) { print(work, size, task, traced(task)); }
 
-void trace_model(const std::string& work, long size, Model (*make)(Index)) {
+// Of stars and frames what lies around the first limit point is wanted: in large ones others follow it close by.
+void trace_model(const std::string& work, long size, Model (*make)(Index), int most_past_limit) {
   const Model model = make(size);
   TraceOptions options{.step = {.first = model.first_step}};
   options.landmarks.push_back({.quantity = model.down, .value = model.end, .stops = true, .label = "down"});
@@ -161,7 +166,8 @@ void trace_model(const std::string& work, long size, Model (*make)(Index)) {
          .start = rest(*model.structure),
          .options = options,
          .elements = model.elements,
-         .nodes = model.structure->node_count()});
+         .nodes = model.structure->node_count(),
+         .most_past_limit = most_past_limit});
 }
 
 int trace_deck(const std::string& name, const std::string& file, long size,
@@ -184,10 +190,10 @@ int trace_deck(const std::string& name, const std::string& file, long size,
   return 0;
 }
 
-constexpr int star_arms = 20;
+constexpr int arm_elements = 100;  // more would only make K of single arms worse conditioned
 
 Model lee(Index elements) { return lee_frame(static_cast<int>(elements)); }
-Model star(Index unknowns) { return star_of_arches(star_arms, static_cast<int>(unknowns / (3 * star_arms))); }
+Model star(Index unknowns) { return star_of_arches(static_cast<int>(unknowns / (3 * arm_elements)), arm_elements); }
 Model frame(Index unknowns) { return square_frame(square_side(unknowns)); }
 
 int run(const std::vector<std::string>& words) {
@@ -201,7 +207,8 @@ int run(const std::vector<std::string>& words) {
         << "usage: time_split lee ELEMENTS | star UNKNOWNS | frame UNKNOWNS | deck NAME FILE SIZE [KEY=VALUE …]\n";
     return 2;
   }
-  trace_model(work, size, make);
+  constexpr int shown = 12, all = std::numeric_limits<int>::max();
+  trace_model(work, size, make, work == "lee" ? all : shown);
   return 0;
 }
 

@@ -15,7 +15,7 @@ namespace arcwall {
 
 namespace {
 
-constexpr Index large = 50000;    // unknowns from which this pays
+constexpr Index large = 5000;     // unknowns from which this pays
 constexpr double coupled = 40.0;  // operations per entry of L from which dense blocks pay
 constexpr double stiff = 8.0;     // springs, over what they are added to: S loses a digit at most
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();

@@ -76,6 +76,7 @@ class Goal:
         return [self.what, f"{'≥' if self.at_least else '≤'} {self.bound:g}", shown(value), "yes" if met else "**no**"]
 
 
+CHOLMODS = [f"CHOLMOD {which}" for which in ("simplicial AMD", "simplicial METIS", "supernodal METIS")]
 PER_ITERATION = "per iteration and element"
 
 
@@ -125,9 +126,12 @@ def closed_against_open(size: int) -> Callable[[Figures], float | None]:
 
 
 def solver_against_cholmod(size: int) -> Callable[[Figures], float | None]:
+    """Over the best that CHOLMOD does of itself."""
     def figure(f: Figures) -> float | None:
-        return f.ratio(("frame_solver", "frame arcwall", size, "factorization and two solutions"),
-                       ("frame_solver", "frame CHOLMOD simplicial AMD", size, "factorization and two solutions"))
+        def of(which: str) -> float | None:
+            return f.of("frame_solver", f"frame {which}", size, "factorization and two solutions")
+        theirs = [time for which in CHOLMODS if (time := of(which))]
+        return of("arcwall") / min(theirs) if of("arcwall") and theirs else None
     return figure
 
 
@@ -155,6 +159,9 @@ GOALS = [
     Goal("iterations a point", 4.2, iterations_a_point),
     Goal("Lee's frame, 20 elements: the whole process, over the yardstick's", 3.0,
          lambda f: f.ratio(("trace-path", "lee", 20, "process"), ("chain_yardstick", "lee", 20, "process"))),
+    Goal("the same with neither report nor shapes, which the yardstick does not write", 3.0,
+         lambda f: f.ratio(("trace-path", "lee without pictures", 20, "process"),
+                           ("chain_yardstick", "lee", 20, "process"))),
     Goal("channel, 80 elements, all events: the whole process [s]", 0.15,
          lambda f: f.of("trace-path", "channel", 80, "process")),
     Goal("foundation: GetFEM's path over arcwall's", 50.0, foundation_against_getfem, at_least=True),
@@ -164,8 +171,8 @@ GOALS = [
     Goal("channel at nodes, 80 elements: time per change of contact and element [µs]", 3.0,
          contact_time("channel at nodes", 80)),
     Goal("the same with 1280 elements", 3.0, contact_time("channel at nodes", 1280)),
-    *(Goal(f"square frame, {size} unknowns: factorization and two solutions, over CHOLMOD's called directly", 1.1,
-           solver_against_cholmod(size)) for size in (10000, 100000, 1000000)),
+    *(Goal(f"square frame, {size} unknowns: factorization and two solutions, over the best of CHOLMOD's called directly",
+           1.1, solver_against_cholmod(size)) for size in (10000, 100000, 1000000)),
     Goal("square frame, 100000 unknowns: everything else over these", 0.3, beside_solver(100000)),
     Goal("square frame, 1000000 unknowns: everything else over these", 0.1, beside_solver(1000000)),
 ]
@@ -300,7 +307,7 @@ def threads(f: Figures) -> str:
 
 def frames(f: Figures) -> str:
     rows = []
-    by = ["arcwall", "CHOLMOD simplicial AMD", "CHOLMOD simplicial METIS", "CHOLMOD supernodal METIS"]
+    by = ["arcwall", *CHOLMODS]
     for size in f.sizes("frame_solver", "frame arcwall"):
         base = f.of("frame_solver", "frame CHOLMOD simplicial AMD", size, "factorization and two solutions")
         each = [f.of("frame_solver", f"frame {one}", size, "factorization and two solutions") for one in by]
