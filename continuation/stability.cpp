@@ -38,6 +38,7 @@ Piece strongly_closed(const System& system, const State& state, double force_tol
 void StabilityCounter::track_from(const NearNull& nearest) {
   tracker_.start_from(nearest.vectors);
   solver_.expect_soft(nearest.soft());
+  last_.reset();
 }
 
 // With weak contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0}, so a
@@ -54,6 +55,14 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
+  if (!last_ || last_->piece != state.piece || last_->lambda != state.lambda || last_->x != state.x) {
+    last_negative_ = counted_on(state);
+    last_ = state;
+  }
+  return last_negative_;
+}
+
+std::optional<Index> StabilityCounter::counted_on(const State& state) {
   system_.linearize(state, now_);
   const Index multipliers = system_.multiplier_count(state.piece);
   const FactorStatus status = solver_.factorize(now_, multipliers);

@@ -40,9 +40,13 @@ class StabilityCounter {
  private:
   const System& system_;
   double force_tolerance_;
+  std::optional<Index> counted_on(const State& state);
+
   Linearization now_;
   BorderedSolver solver_;
   NearNullTracker tracker_;
+  std::optional<State> last_;           // the state counted last: what pivots leave undecided takes long
+  std::optional<Index> last_negative_;  // on it
 };
 
 /// The piece on which only the contacts that carry more than the tolerance are closed.
