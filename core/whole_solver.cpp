@@ -11,7 +11,7 @@ bool WholeSolver::factorize(const Linearization& equations, const Row& border, I
   equations_ = &equations;
   border_ = border;
   has_lu_ = false;
-  has_spring_ = equations.B.cols() == 0 && add_spring(multipliers, soft);
+  has_spring_ = add_spring(multipliers, soft);
   return has_spring_ || factorize_lu();
 }
 
@@ -42,24 +42,47 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   stiffened_.coeffRef(at_, at_) += spring_;
   ldlt_.set_multiplier_count(multipliers);
   if (ldlt_.factorize(stiffened_) != FactorStatus::ok) return false;
-  responses_.setZero(n, 2);
-  responses_.col(0) = equations_->F_lambda;
-  responses_(at_, 1) = 1.0;
+  const Index m = equations_->B.cols(), lambda = m, force = m + 1;
+  responses_.setZero(n, m + 2);
+  responses_.leftCols(m) = equations_->B;
+  responses_.col(lambda) = equations_->F_lambda.head(n);
+  responses_(at_, force) = -1.0;
   ldlt_.solve(responses_);
   if (!responses_.allFinite()) return false;
-  const Row& c = border_;
-  Eigen::Matrix2d small;  // of λ and k y: (1), its second equation over k
-  small << c.dlambda - c.dx.dot(responses_.col(0)), c.dx.dot(responses_.col(1)),  //
-      responses_(at_, 0), 1.0 / spring_ - responses_(at_, 1);
+  // (1) of s, λ and p, its last equation over −k
+  Matrix small = rows_of(responses_);
+  small *= -1.0;
+  small.topLeftCorner(m, m) += equations_->C.rightCols(m);
+  small.col(lambda).head(m) += equations_->F_lambda.tail(m);
+  small.row(lambda).head(m) += border_.dx.tail(m).transpose();
+  small(lambda, lambda) += border_.dlambda;
+  small(force, force) -= 1.0 / spring_;
   small_.compute(small);  // what is singular shows in the residuals
   return true;
 }
 
+// What the rows of the small system are of x: C_x x, c_xᵀ x, eᵀ x.
+Matrix WholeSolver::rows_of(const Matrix& x) const {
+  const Index n = x.rows(), m = equations_->B.cols();
+  Matrix rows(m + 2, x.cols());
+  rows.topRows(m) = equations_->C.leftCols(n) * x;
+  rows.row(m) = border_.dx.head(n).transpose() * x;
+  rows.row(m + 1) = x.row(at_);
+  return rows;
+}
+
 Direction WholeSolver::solve_with_spring(const Vector& f, double g) const {
-  Matrix x = f;
+  const Index n = equations_->K.cols(), m = equations_->B.cols();
+  Matrix x = f.head(n);
   ldlt_.solve(x);
-  const Eigen::Vector2d of = small_.solve(Eigen::Vector2d(g - border_.dx.dot(x.col(0)), x(at_, 0)));
-  return {.dx = x - of[0] * responses_.col(0) + of[1] * responses_.col(1), .dlambda = of[0]};
+  Vector right = -rows_of(x);
+  right.head(m) += f.tail(m);
+  right[m] += g;
+  const Vector of = small_.solve(right);
+  Direction solution{.dx = Vector(n + m), .dlambda = of[m]};
+  solution.dx.head(n) = x - responses_ * of;
+  solution.dx.tail(m) = of.head(m);
+  return solution;
 }
 
 std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, double g) const {

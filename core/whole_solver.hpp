@@ -11,12 +11,13 @@ namespace arcwall {
 
 /// Solves with J = ∂F/∂x bordered by F_λ and a row, where J may be singular and the whole is not (see BorderedSolver).
 ///
-/// Where J = K, one spring is added to it: K + k e eᵀ with an unknown's e is regular if K's null vector has a part in
-/// that unknown, and the spring's force is the one unknown more of
+/// One spring is added to K: K + k e eᵀ with an unknown's e is regular if K's null vector has a part in that unknown,
+/// and the spring's force p is one unknown more. With J = [K B; C_x C_s] and δx = (x, s)
 ///
-///     x = X_f − λ X_λ + k y X_e,   y = eᵀ x,   cᵀ x + d λ = g,      X = (K + k e eᵀ)⁻¹ [f, F_λ, e]        (1)
+///     x = X_f − X_B s − X_λ λ + X_e p,      X = (K + k e eᵀ)⁻¹ [f_x, B, F_λx, e],
+///     C_x x + C_s s + F_λs λ = f_s,         c_xᵀ x + c_sᵀ s + d λ = g,         p = k eᵀ x                       (1)
 ///
-/// Solutions are refined and checked; those that stay poor, and those of other J, come by LU of the whole.
+/// Solutions are refined and checked; those that stay poor come by LU of the whole.
 class WholeSolver {
  public:
   /// `equations` must outlive the use of this factorization. `soft`: a vector that is large where K's null vector is,
@@ -28,6 +29,7 @@ class WholeSolver {
 
  private:
   bool add_spring(Index multipliers, const Vector& soft);
+  Matrix rows_of(const Matrix& x) const;
   Direction solve_with_spring(const Vector& f, double g) const;
   std::optional<Direction> refined_with_spring(const Vector& f, double g) const;
   bool factorize_lu();
@@ -39,8 +41,8 @@ class WholeSolver {
   Ldlt ldlt_;
   Index at_ = 0;         // the unknown e
   double spring_ = 0.0;  // k
-  Matrix responses_;     // X_λ, X_e
-  Eigen::PartialPivLU<Eigen::Matrix2d> small_;
+  Matrix responses_;     // X_B, X_λ, −X_e
+  Eigen::PartialPivLU<Matrix> small_;
   Lu lu_;
 };
 

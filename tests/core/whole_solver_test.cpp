@@ -37,16 +37,23 @@ Linearization equations(const Matrix& K, const Vector& F_lambda) {
 
 // Against LU with complete pivoting of the dense whole.
 void expect_solution(const Linearization& now, const Row& border, WholeSolver& solver, test::Numbers& numbers) {
-  const Index size = now.K.cols();
-  Matrix whole(size + 1, size + 1);
-  whole << test::full(now.K), now.F_lambda, border.dx.transpose(), border.dlambda;
-  Vector right(size + 1);
-  right << numbers.vector(size), 0.7;
+  const Index size = now.K.cols(), m = now.B.cols(), last = size + m;
+  Matrix whole = Matrix::Zero(last + 1, last + 1);
+  whole.topLeftCorner(size, size) = test::full(now.K);
+  if (m > 0) {
+    whole.block(0, size, size, m) = now.B;
+    whole.block(size, 0, m, last) = now.C;
+  }
+  whole.col(last).head(last) = now.F_lambda;
+  whole.row(last).head(last) = border.dx.transpose();
+  whole(last, last) = border.dlambda;
+  Vector right(last + 1);
+  right << numbers.vector(last), 0.7;
   const Vector expected = Eigen::FullPivLU<Matrix>(whole).solve(right);
-  const auto solution = solver.solve(right.head(size), right[size]);
+  const auto solution = solver.solve(right.head(last), right[last]);
   ASSERT_TRUE(solution);
-  EXPECT_LE((solution->dx - expected.head(size)).norm(), 1e-9 * expected.norm());
-  EXPECT_NEAR(solution->dlambda, expected[size], 1e-9 * expected.norm());
+  EXPECT_LE((solution->dx - expected.head(last)).norm(), 1e-9 * expected.norm());
+  EXPECT_NEAR(solution->dlambda, expected[last], 1e-9 * expected.norm());
 }
 
 }  // namespace
@@ -61,6 +68,25 @@ TEST(WholeSolver, SolvesWhereKIsSingular) {
     ASSERT_TRUE(solver.factorize(now, border, 0, at.nulls.col(0)));
     expect_solution(now, border, solver, numbers);
   }
+}
+
+// Points of contact that slide stand last in x, and J is not symmetric.
+TEST(WholeSolver, SolvesWhereKIsSingularInsideABorder) {
+  test::Numbers numbers(64);
+  for (const Index m : {1, 2, 4})
+    for (int round = 0; round < 10; ++round) {
+      SCOPED_TRACE(m);
+      const Singular at(1, numbers);
+      Linearization now = equations(at.K, numbers.vector(n + m));
+      now.F = Vector::Zero(n + m);
+      now.B = numbers.matrix(n, m);
+      now.C = numbers.matrix(m, n + m);
+      now.C.rightCols(m) += 3.0 * Matrix::Identity(m, m);
+      const Row border{.dx = numbers.vector(n + m), .dlambda = 0.2};
+      WholeSolver solver;
+      ASSERT_TRUE(solver.factorize(now, border, 0, at.nulls.col(0)));
+      expect_solution(now, border, solver, numbers);
+    }
 }
 
 // The spring is put where it stiffens nothing.
