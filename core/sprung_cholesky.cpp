@@ -19,7 +19,6 @@ constexpr Index large = 5000;     // unknowns from which this pays
 constexpr double coupled = 40.0;  // operations per entry of L from which dense blocks pay
 constexpr double stiff = 8.0;     // springs, over what they are added to: S loses a digit at most
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-constexpr std::size_t most_springs = 32;  // what needs more is refused: each costs a factorization
 
 // CHOLMOD asks for four threads for loops over single blocks, whatever the machine has; waiting for each other takes
 // them longer than the work. Where no region of OpenMP may be active, one thread does all. Only if CHOLMOD has loaded
@@ -55,8 +54,9 @@ class SprungCholesky final : public SymmetricFactors {
     for (const int ordering : {CHOLMOD_METIS, CHOLMOD_AMD}) {
       common.method[0].ordering = ordering;
       llt_.factor = cholmod_l_analyze(&a, &common);
-      if (llt_.factor != nullptr) return;
+      if (llt_.factor != nullptr) break;
     }
+    most_springs_ = std::max(least_worth_, common.fl / (8.0 * common.lnz));
   }
 
   // Springs stand from here on alone, so that results do not depend on what was done before.
@@ -71,7 +71,7 @@ class SprungCholesky final : public SymmetricFactors {
     const OneThread one_thread;
     choose_springs(A);
     while (!factorize_with_springs(A))
-      if (springs_.size() == most_springs || !add_spring(A, stiffest_part(A, unresisted()))) {
+      if (double(springs_.size()) >= most_springs_ || !add_spring(A, stiffest_part(A, unresisted()))) {
         refuses_ = true;
         return false;
       }
@@ -238,7 +238,12 @@ class SprungCholesky final : public SymmetricFactors {
     return rows;
   }
 
+  // A spring takes a factorization that fails, once a step, and a solution with each matrix. Simplicial LDLᵀ loses by
+  // as much more as there are more operations an entry of L.
+  static constexpr double least_worth_ = 32.0;
+
   CholmodFactor llt_;
+  double most_springs_ = 0.0;
   Matrix soft_;  // vectors that have no springs yet
   bool refuses_ = false;
   std::vector<Spring> springs_;
