@@ -295,10 +295,11 @@ Passage SlidingContact::spread(const State& state, const std::vector<std::size_t
     const int behind = draft.elements_behind(*k);
     double& s = draft.s[static_cast<Index>(*k)];
     s -= 0.5 * length;
+    const double asked = body_.elements_between(draft.runs[*k], s, s + length);
     draft.forces[*k] *= 0.5;
     draft.insert(
         {.point = draft.points[*k], .run = draft.runs[*k], .s = s + length, .closed = true, .force = draft.forces[*k]},
-        span == Span::flat ? 1 : 2, behind);
+        span == Span::flat ? 1 : std::max(2, static_cast<int>(std::lround(asked))), behind);
     draft.points[*k].behind = span;
   }
   Passage passage = up_to(length, std::make_shared<SpanLength>(points.front()), Passage::Change::spreads,

@@ -235,6 +235,18 @@ TEST(SlidingChannelThirdHarmonic, HasOneLimitPoint) {
   EXPECT_GE(std::log2((limits[0] - limits[1]) / (limits[1] - limits[2])), 3.8);
 }
 
+// The shortest stretch of contact is a thousandth of the member: here it has several elements from the start.
+TEST(SlidingChannelThirdHarmonic, LiesDownOnMeshesFinerThanTheShortestStretchSlow) {
+  const SlidingModel model = channel(1280, test::snapping_imperfection());
+  const auto branches = test::follow(model.system(), model.system().rest(), until(7.5));
+  ASSERT_EQ(branches.size(), 1U);
+  const auto events = test::events_of(branches);
+  ASSERT_GE(events.size(), 3U);
+  EXPECT_EQ(events[1].kind, EventKind::contact_spreads);
+  EXPECT_EQ(events[2].kind, EventKind::limit_point);
+  EXPECT_NEAR(events[2].state.lambda, 6.863204701, 4e-6 * events[2].state.lambda);
+}
+
 // A point contact from 0.448961073442, a line from 1.34307213737; at M₀ = 5 and 10 the flat part reaches 0.4818518221
 // and 0.6330999632 from the middle to each side, the floor bears 19.7690983 and 57.5371015. Already at 10 elements the
 // errors are below 3e-6, where the classic beam has a remainder of order two (extension under large shear forces).
