@@ -44,15 +44,15 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   if (ldlt_.factorize(stiffened_) != FactorStatus::ok) return false;
   const Index m = equations_->B.cols(), lambda = m, force = m + 1;
   responses_.setZero(n, m + 2);
-  responses_.leftCols(m) = equations_->B;
+  if (m > 0) responses_.leftCols(m) = equations_->B;
   responses_.col(lambda) = equations_->F_lambda.head(n);
   responses_(at_, force) = -1.0;
   ldlt_.solve(responses_);
   if (!responses_.allFinite()) return false;
-  // (1) of s, λ and p, its last equation over −k
+  // (1) of s, λ and p, its last equation over −k; without a border B and C have no size at all
   Matrix small = rows_of(responses_);
   small *= -1.0;
-  small.topLeftCorner(m, m) += equations_->C.rightCols(m);
+  if (m > 0) small.topLeftCorner(m, m) += equations_->C.rightCols(m);
   small.col(lambda).head(m) += equations_->F_lambda.tail(m);
   small.row(lambda).head(m) += border_.dx.tail(m).transpose();
   small(lambda, lambda) += border_.dlambda;
@@ -65,7 +65,7 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
 Matrix WholeSolver::rows_of(const Matrix& x) const {
   const Index n = x.rows(), m = equations_->B.cols();
   Matrix rows(m + 2, x.cols());
-  rows.topRows(m) = equations_->C.leftCols(n) * x;
+  if (m > 0) rows.topRows(m) = equations_->C.leftCols(n) * x;
   rows.row(m) = border_.dx.head(n).transpose() * x;
   rows.row(m + 1) = x.row(at_);
   return rows;
