@@ -137,7 +137,8 @@ class Suite:
     def traced(self, case: str, size: int, deck: str, values: list, threads: int | None = None,
                options: tuple = (), **more) -> TracePath:
         out = self.scratch / f"{case}-{size}-{threads or 1}"
-        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--out", str(out), "--force", "--quiet", *options]
+        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--out", str(out), "--force", "--quiet",
+                   *options]
         for value in values:
             command += ["--set", value]
         if threads:

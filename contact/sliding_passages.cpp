@@ -18,6 +18,11 @@ namespace {
 
 constexpr int fewest_pressed = 6;  // elements of a pressed part that lifts off inside
 
+// How many elements the mesh of a run asks for between two places.
+int elements_asked(const SlidingBody& body, Index run, double from, double to, int fewest) {
+  return std::max(fewest, static_cast<int>(std::lround(body.elements_between(run, from, to))));
+}
+
 // s of the point behind `k` less that of k.
 class SpanLength final : public Observable {
  public:
@@ -198,8 +203,7 @@ std::vector<Passage> SlidingContact::passages(const State& state, const Directio
       return {with_elements(state, forward, which, (on.segments()[which].elements + 1) / 2)};
     case Bound::half_wave: {
       const Index run = on.segments()[which].run;
-      const double asked = body_.elements_between(run, 0.0, body_.length(run));
-      return {with_elements(state, forward, which, std::max(8, static_cast<int>(std::lround(asked))))};
+      return {with_elements(state, forward, which, elements_asked(body_, run, 0.0, body_.length(run), 8))};
     }
     case Bound::straight:
       return {with_elements(state, forward, which, 1)};
@@ -295,11 +299,11 @@ Passage SlidingContact::spread(const State& state, const std::vector<std::size_t
     const int behind = draft.elements_behind(*k);
     double& s = draft.s[static_cast<Index>(*k)];
     s -= 0.5 * length;
-    const double asked = body_.elements_between(draft.runs[*k], s, s + length);
+    const int between_them = span == Span::flat ? 1 : elements_asked(body_, draft.runs[*k], s, s + length, 2);
     draft.forces[*k] *= 0.5;
     draft.insert(
         {.point = draft.points[*k], .run = draft.runs[*k], .s = s + length, .closed = true, .force = draft.forces[*k]},
-        span == Span::flat ? 1 : std::max(2, static_cast<int>(std::lround(asked))), behind);
+        between_them, behind);
     draft.points[*k].behind = span;
   }
   Passage passage = up_to(length, std::make_shared<SpanLength>(points.front()), Passage::Change::spreads,
@@ -420,7 +424,7 @@ void SlidingContact::add_split(const State& state, const std::vector<std::size_t
     const bool at_first = place - begin < 0.5 * h, at_last = end - place < 0.5 * h;
     const double left = at_first ? begin : at_last ? end - length : place - 0.5 * length;
     const auto elements = [&](double begin_at, double end_at, int fewest) {
-      return std::max(fewest, static_cast<int>(std::lround(body_.elements_between(held.run, begin_at, end_at))));
+      return elements_asked(body_, held.run, begin_at, end_at, fewest);
     };
     const int across = elements(left, left + length, 2);
     const double next = draft.s[part.first_point + 1];  // up to where it has lifted before

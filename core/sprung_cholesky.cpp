@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/cholmod_factor.hpp"
+#include "core/soft_place.hpp"
 
 namespace arcwall {
 
@@ -18,6 +19,9 @@ namespace {
 constexpr Index large = 5000;     // unknowns from which this pays
 constexpr double coupled = 40.0;  // operations per entry of L from which dense blocks pay
 constexpr double stiff = 8.0;     // springs, over what they are added to: S loses a digit at most
+// With more than so many a matrix is refused. A spring takes a factorization that fails, once a step, and a solution
+// with each matrix; the more operations there are an entry of L, the more is lost by single columns.
+constexpr double worth_springs = 32.0;
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 // CHOLMOD asks for four threads for loops over single blocks, whatever the machine has; waiting for each other takes
@@ -56,7 +60,7 @@ class SprungCholesky final : public SymmetricFactors {
       llt_.factor = cholmod_l_analyze(&a, &common);
       if (llt_.factor != nullptr) break;
     }
-    most_springs_ = std::max(least_worth_, common.fl / (8.0 * common.lnz));
+    most_springs_ = std::max(worth_springs, common.fl / (8.0 * common.lnz));
   }
 
   // Springs stand from here on alone, so that results do not depend on what was done before.
@@ -71,7 +75,7 @@ class SprungCholesky final : public SymmetricFactors {
     const OneThread one_thread;
     choose_springs(A);
     while (!factorize_with_springs(A))
-      if (double(springs_.size()) >= most_springs_ || !add_spring(A, stiffest_part(A, unresisted()))) {
+      if (double(springs_.size()) >= most_springs_ || !add_spring(A, soft_place(A.diagonal(), unresisted()))) {
         refuses_ = true;
         return false;
       }
@@ -134,17 +138,10 @@ class SprungCholesky final : public SymmetricFactors {
 
   void choose_springs(const SparseMatrix& A) {
     if (soft_.rows() == A.cols())
-      for (const auto& vector : soft_.colwise()) add_spring(A, stiffest_part(A, vector));
+      for (const auto& vector : soft_.colwise()) add_spring(A, soft_place(A.diagonal(), vector));
     soft_.resize(0, 0);
     for (Spring& spring : springs_) spring.k = stiffness_of(A, spring.at);
     std::erase_if(springs_, [](const Spring& spring) { return spring.k == 0.0; });
-  }
-
-  // The unknown in which a vector has most of its energy.
-  static Index stiffest_part(const SparseMatrix& A, const Vector& vector) {
-    Index at = 0;
-    vector.cwiseAbs2().cwiseProduct(A.diagonal().cwiseAbs()).maxCoeff(&at);
-    return at;
   }
 
   // False if there is one already, or nothing that tells how stiff it should be.
@@ -237,10 +234,6 @@ class SprungCholesky final : public SymmetricFactors {
     for (Index j = 0; j < rows.rows(); ++j) rows.row(j) = X.row(springs_[static_cast<std::size_t>(j)].at);
     return rows;
   }
-
-  // A spring takes a factorization that fails, once a step, and a solution with each matrix. Simplicial LDLᵀ loses by
-  // as much more as there are more operations an entry of L.
-  static constexpr double least_worth_ = 32.0;
 
   CholmodFactor llt_;
   double most_springs_ = 0.0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/bordered_residual.hpp"
+#include "core/soft_place.hpp"
 
 namespace arcwall {
 
@@ -35,7 +36,7 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   const Index n = K.cols(), free = n - multipliers;
   if (free == 0) return false;
   const Vector diagonal = K.diagonal();
-  soft.head(free).cwiseAbs2().cwiseProduct(diagonal.head(free).cwiseAbs()).maxCoeff(&at_);
+  at_ = soft_place(diagonal.head(free), soft.head(free));
   spring_ = std::abs(diagonal[at_]);
   if (!(spring_ > 0.0 && std::isfinite(spring_))) return false;
   stiffened_ = K;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "core/ldlt.hpp"
@@ -81,7 +81,7 @@ TEST(SprungCholesky, CountsAndSolvesWithNegativeEigenvalues) {
   }
 }
 
-TEST(SprungCholesky, ASoftVectorThatIsExpectedSparesAFactorization) {
+TEST(SprungCholesky, ServesWithASoftVectorThatIsExpected) {
   Numbers numbers(32);
   const Vector values = grid_eigenvalues(20);
   const double shift = shift_for(1, values);
