@@ -1,20 +1,22 @@
-# SuiteSparse's CHOLMOD and UMFPACK, which come without a CMake configuration on Debian 12.
+# SuiteSparse's CHOLMOD and UMFPACK, which come without a CMake configuration on Debian 12, and the LAPACK they need.
 # Defines SuiteSparse::cholmod and SuiteSparse::umfpack.
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(SuiteSparse_CHOLMOD_LIBRARY cholmod)
 find_library(SuiteSparse_UMFPACK_LIBRARY umfpack)
 find_library(SuiteSparse_AMD_LIBRARY amd)
 find_library(SuiteSparse_CONFIG_LIBRARY suitesparseconfig)
+find_library(SuiteSparse_LAPACK_LIBRARY lapack)
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(SuiteSparse REQUIRED_VARS SuiteSparse_INCLUDE_DIR SuiteSparse_CHOLMOD_LIBRARY
-  SuiteSparse_UMFPACK_LIBRARY SuiteSparse_AMD_LIBRARY SuiteSparse_CONFIG_LIBRARY)
+  SuiteSparse_UMFPACK_LIBRARY SuiteSparse_AMD_LIBRARY SuiteSparse_CONFIG_LIBRARY
+  SuiteSparse_LAPACK_LIBRARY)
 
 if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::cholmod)
   add_library(SuiteSparse::cholmod UNKNOWN IMPORTED)
   set_target_properties(SuiteSparse::cholmod PROPERTIES IMPORTED_LOCATION "${SuiteSparse_CHOLMOD_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${SuiteSparse_INCLUDE_DIR}"
-    INTERFACE_LINK_LIBRARIES "${SuiteSparse_AMD_LIBRARY};${SuiteSparse_CONFIG_LIBRARY}")
+    INTERFACE_LINK_LIBRARIES "${SuiteSparse_AMD_LIBRARY};${SuiteSparse_CONFIG_LIBRARY};${SuiteSparse_LAPACK_LIBRARY}")
   add_library(SuiteSparse::umfpack UNKNOWN IMPORTED)
   set_target_properties(SuiteSparse::umfpack PROPERTIES IMPORTED_LOCATION "${SuiteSparse_UMFPACK_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${SuiteSparse_INCLUDE_DIR}"

@@ -71,11 +71,11 @@ struct CholmodFactor {
     return {static_cast<const SuiteSparse_long*>(factor->Perm), size()};
   }
 
-  /// X := (L D Lᵀ)⁻¹ X.
-  void solve(Eigen::Ref<Matrix> X) const {
+  /// X := (Pᵀ L D Lᵀ P)⁻¹ X, or with another of CHOLMOD's systems, as CHOLMOD_L.
+  void solve(Eigen::Ref<Matrix> X, int system = CHOLMOD_A) const {
     if (X.cols() == 0) return;
     cholmod_dense b = cholmod_view(X);
-    cholmod_l_solve2(CHOLMOD_A, factor, &b, nullptr, &solution_, nullptr, &workspace_y_, &workspace_e_, &shared());
+    cholmod_l_solve2(system, factor, &b, nullptr, &solution_, nullptr, &workspace_y_, &workspace_e_, &shared());
     X = Eigen::Map<const Matrix>(static_cast<const double*>(solution_->x), X.rows(), X.cols());
   }
 

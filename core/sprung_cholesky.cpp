@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/cholmod_factor.hpp"
+#include "core/dense_ldlt.hpp"
 #include "core/soft_place.hpp"
 
 namespace arcwall {
@@ -67,6 +68,7 @@ class SprungCholesky final : public SymmetricFactors {
   void expect_soft(const Matrix& vectors) override {
     soft_ = vectors;
     springs_.clear();
+    root_is_held_ = false;
     refuses_ = false;
   }
 
@@ -75,11 +77,11 @@ class SprungCholesky final : public SymmetricFactors {
     const OneThread one_thread;
     choose_springs(A);
     while (!factorize_with_springs(A))
-      if (double(springs_.size()) >= most_springs_ || !add_spring(A, soft_place(A.diagonal(), unresisted()))) {
+      if (!support_more(A)) {
         refuses_ = true;
         return false;
       }
-    return read_pivots() && eliminate_springs();
+    return read_pivots() && release_root(A) && eliminate_springs();
   }
 
   bool refuses_some() const override { return true; }
@@ -87,7 +89,7 @@ class SprungCholesky final : public SymmetricFactors {
   // (1)
   void solve(Eigen::Ref<Matrix> X) const override {
     const OneThread one_thread;
-    llt_.solve(X);
+    solve_sprung(X);
     if (springs_.empty()) return;
     const Matrix forces = springs_left_.solve(at_springs(X));
     X.noalias() += responses_ * forces;
@@ -121,20 +123,36 @@ class SprungCholesky final : public SymmetricFactors {
     const double* values;
   };
 
-  std::vector<Block> blocks() const {
+  Block block(std::size_t s) const {
     const cholmod_factor& L = *llt_.factor;
     const auto* column = static_cast<const SuiteSparse_long*>(L.super);
     const auto* rows = static_cast<const SuiteSparse_long*>(L.pi);
     const auto* values = static_cast<const SuiteSparse_long*>(L.px);
+    return {.first = column[s],
+            .columns = column[s + 1] - column[s],
+            .rows = rows[s + 1] - rows[s],
+            .row = static_cast<const SuiteSparse_long*>(L.s) + rows[s],
+            .values = static_cast<const double*>(L.x) + values[s]};
+  }
+
+  std::vector<Block> blocks() const {
     std::vector<Block> blocks;
-    for (std::size_t s = 0; s < L.nsuper; ++s)
-      blocks.push_back({.first = column[s],
-                        .columns = column[s + 1] - column[s],
-                        .rows = rows[s + 1] - rows[s],
-                        .row = static_cast<const SuiteSparse_long*>(L.s) + rows[s],
-                        .values = static_cast<const double*>(L.x) + values[s]});
+    for (std::size_t s = 0; s < llt_.factor->nsuper; ++s) blocks.push_back(block(s));
     return blocks;
   }
+
+  // The last block: what is left when two halves are eliminated that it alone joins.
+  Block root() const {
+    const cholmod_factor& L = *llt_.factor;
+    return block(L.nsuper - 1);
+  }
+
+  Eigen::Map<const Matrix> root_factor() const {
+    const Block last = root();
+    return {last.values, last.columns, last.columns};
+  }
+
+  auto root_unknowns() const { return llt_.order().tail(root().columns); }
 
   void choose_springs(const SparseMatrix& A) {
     if (soft_.rows() == A.cols())
@@ -142,6 +160,15 @@ class SprungCholesky final : public SymmetricFactors {
     soft_.resize(0, 0);
     for (Spring& spring : springs_) spring.k = stiffness_of(A, spring.at);
     std::erase_if(springs_, [](const Spring& spring) { return spring.k == 0.0; });
+  }
+
+  // Where the matrix fails. False if that is of no use.
+  bool support_more(const SparseMatrix& A) {
+    if (!root_is_held_ && static_cast<Index>(llt_.factor->minor) >= root().first) {
+      root_is_held_ = true;
+      return true;
+    }
+    return double(springs_.size()) < most_springs_ && add_spring(A, soft_place(A.diagonal(), unresisted()));
   }
 
   // False if there is one already, or nothing that tells how stiff it should be.
@@ -162,9 +189,13 @@ class SprungCholesky final : public SymmetricFactors {
   // False if a pivot is not positive.
   bool factorize_with_springs(const SparseMatrix& A) {
     cholmod_sparse a = cholmod_view(A);
-    if (!springs_.empty()) {
+    if (root_is_held_ || !springs_.empty()) {
       sprung_.assign(A.valuePtr(), A.valuePtr() + A.nonZeros());
-      for (const Spring& spring : springs_) sprung_[static_cast<std::size_t>(A.outerIndexPtr()[spring.at])] += spring.k;
+      const auto add = [&](Index at, double k) { sprung_[static_cast<std::size_t>(A.outerIndexPtr()[at])] += k; };
+      for (const Spring& spring : springs_) add(spring.at, spring.k);
+      if (root_is_held_)
+        for (const Index at : root_unknowns())
+          if (const double k = stiffness_of(A, at); k > 0.0) add(at, k);
       a.x = sprung_.data();
     }
     cholmod_l_factorize(&a, llt_.factor, &llt_.common);
@@ -196,9 +227,45 @@ class SprungCholesky final : public SymmetricFactors {
     pivots_ = {};
     bool usable = true;
     for (const Block& block : blocks())
-      for (Index j = 0; j < block.columns; ++j)
+      for (Index j = 0; j < block.columns && !(root_is_held_ && block.first == root().first); ++j)
         usable = pivots_.add(std::pow(block.values[j * block.rows + j], 2)) && usable;
     return usable;
+  }
+
+  // (2)
+  bool release_root(const SparseMatrix& A) {
+    if (!root_is_held_) return true;
+    constexpr Index panel = 128;
+    const auto L = root_factor();
+    Matrix S = Matrix::Zero(L.rows(), L.rows());
+    for (Index from = 0; from < L.rows(); from += panel) {
+      const Index left = L.rows() - from, width = std::min(panel, left);
+      Matrix columns = L.block(from, from, left, width);
+      columns.topRows(width).triangularView<Eigen::StrictlyUpper>().setZero();
+      S.bottomRightCorner(left, left).selfadjointView<Eigen::Lower>().rankUpdate(columns);
+    }
+    const auto unknowns = root_unknowns();
+    for (Index j = 0; j < unknowns.size(); ++j) S(j, j) -= stiffness_of(A, unknowns[j]);
+    if (!root_.factorize(std::move(S))) return false;
+    pivots_.add(root_.pivots());
+    return true;
+  }
+
+  // X := (K + E k Eᵀ)⁻¹ X. (2)
+  void solve_sprung(Eigen::Ref<Matrix> X) const {
+    if (!root_is_held_) {
+      llt_.solve(X);
+      return;
+    }
+    const auto L = root_factor().triangularView<Eigen::Lower>();
+    Matrix y = X(llt_.order(), Eigen::all);
+    llt_.solve(y, CHOLMOD_L);
+    auto at_root = y.bottomRows(root().columns);
+    Matrix forces = L * at_root;
+    root_.solve(forces);
+    at_root = L.transpose() * forces;
+    llt_.solve(y, CHOLMOD_Lt);
+    X(llt_.order(), Eigen::all) = y;
   }
 
   // Y and S. Seen from K, each eigenvalue of k S stands for a pivot over the stiffness of a spring; it is the
@@ -213,7 +280,7 @@ class SprungCholesky final : public SymmetricFactors {
       responses_(spring.at, j) = 1.0;
       k[j] = spring.k;
     }
-    llt_.solve(responses_);
+    solve_sprung(responses_);
     Matrix S = -at_springs(responses_);
     S.diagonal() += k.cwiseInverse();
     if (!S.allFinite()) return false;
@@ -239,6 +306,8 @@ class SprungCholesky final : public SymmetricFactors {
   double most_springs_ = 0.0;
   Matrix soft_;  // vectors that have no springs yet
   bool refuses_ = false;
+  bool root_is_held_ = false;
+  DenseLdlt root_;  // S_r
   std::vector<Spring> springs_;
   std::vector<double> sprung_;                // values of K̂
   Matrix responses_;                          // Y

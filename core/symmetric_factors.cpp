@@ -13,4 +13,11 @@ bool Pivots::add(double pivot) {
   return magnitude > 0.0 && magnitude < infinity;
 }
 
+void Pivots::add(const Pivots& others) {
+  signs.negative += others.signs.negative;
+  signs.positive += others.signs.positive;
+  least = std::min(least, others.least);
+  greatest = std::max(greatest, others.greatest);
+}
+
 }  // namespace arcwall

@@ -11,6 +11,9 @@ struct Pivots {
 
   /// False for a pivot that is zero or not finite.
   bool add(double pivot);
+
+  /// Those of another part.
+  void add(const Pivots& others);
 };
 
 /// L D Lᵀ of the symmetric matrices of one pattern, by one of the ways that Ldlt chooses among.
