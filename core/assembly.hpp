@@ -28,18 +28,34 @@ class BlockAssembly {
   /// a matrix that has pattern().
   template <class Entries>
   void add_entries(Index block, double factor, double* values, const Entries& K) const {
-    const std::int32_t* slot = &slots_[static_cast<std::size_t>(first_slot_[static_cast<std::size_t>(block)])];
+    const std::int32_t* slot = slots(block);
     const Index n =
         first_unknown_[static_cast<std::size_t>(block) + 1] - first_unknown_[static_cast<std::size_t>(block)];
     for (Index j = 0; j < n; ++j)
       for (Index i = j; i < n; ++i, ++slot)
         if (*slot >= 0) values[*slot] += factor * K(i + j * n);
   }
+
   void add(Index block, const double* K, double factor, double* values) const {
     add_entries(block, factor, values, [K](Index entry) { return K[entry]; });
   }
 
+  /// The same with factor 1 for a block whose size the compiler knows: without loops.
+  template <int n, class Entries>
+  void add_entries(Index block, double* values, const Entries& K) const {
+    const std::int32_t* slot = slots(block);
+#pragma GCC unroll 8
+    for (int j = 0; j < n; ++j)
+#pragma GCC unroll 8
+      for (int i = j; i < n; ++i, ++slot)
+        if (*slot >= 0) values[*slot] += K(i + j * n);
+  }
+
  private:
+  const std::int32_t* slots(Index block) const {
+    return &slots_[static_cast<std::size_t>(first_slot_[static_cast<std::size_t>(block)])];
+  }
+
   SparseMatrix pattern_;
   std::vector<Index> unknowns_, first_unknown_, first_slot_;
   std::vector<std::int32_t> slots_;  // position in the values, −1 where a row or column is held

@@ -99,7 +99,7 @@ void Structure::add(const ElementOrder::Part& part, const Vector& x, double* F, 
     for (int lane = 0; lane < Lanes::count; ++lane) {
       const Index e = four.elements[static_cast<std::size_t>(lane)];
       scatter_entries(assembly_.unknowns(e), 1.0, F, [&](std::size_t i) { return f[i][lane]; });
-      if (K != nullptr) assembly_.add_entries(e, 1.0, K, [&](Index entry) { return k[entry][lane]; });
+      if (K != nullptr) assembly_.add_entries<n>(e, K, [&](Index entry) { return k[entry][lane]; });
     }
   }
   Local local;
