@@ -123,7 +123,8 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
   const auto root = bracketed_root(value, 0.0, start, 1.0, v1, options_.localisation);
   if (!root || (!seen.contains(root->at) && !look(root->at))) return std::nullopt;
 
-  // Secants, as long as the value gets less: then it is round-off.
+  // Secants, as long as they make the value much less: then it is round-off.
+  constexpr double much_less = 0.1;
   const double tolerance = std::max(options_.localisation, 1e-10);
   auto best = seen.find(root->at);
   double width = tolerance;
@@ -136,7 +137,7 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
     width = std::max(tolerance, std::abs(best->second.v / slope));
     if (!(t > 0.0 && t < 1.0) || !look(t)) break;
     const auto next = seen.find(t);
-    const bool noisy = std::abs(next->second.v) >= 0.5 * std::abs(best->second.v);
+    const bool noisy = std::abs(next->second.v) >= much_less * std::abs(best->second.v);
     if (std::abs(next->second.v) < std::abs(best->second.v)) best = next;
     width = std::max(tolerance, std::abs(best->second.v / slope));
     if (noisy) break;
