@@ -77,6 +77,13 @@ std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count)
   return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count);
 }
 
+std::optional<Index> Corrector::count_here(const NearNull& nearest) const {
+  if (now_.B.cols() > 0) return negative_eigenvalues(system_, at_, solver_);
+  const Index multipliers = system_.multiplier_count(at_.piece);
+  const auto negative = negative_count(solver_.inner(), now_.K, system_.weights(at_.piece), multipliers, nearest);
+  return negative ? std::optional(*negative - multipliers) : std::nullopt;
+}
+
 std::optional<Matrix> Corrector::responses(Matrix columns) const {
   if (!solver_.inner_is_regular()) return std::nullopt;
   solver_.inner().solve(columns);
@@ -95,6 +102,7 @@ std::optional<Vector> Corrector::right_null(const Vector& left) {
 
 // Evaluates and factorizes at a state; `converged` means that both could be done.
 CorrectorStatus Corrector::look(const State& state) {
+  at_ = state;
   system_.linearize(state, now_);
   if (!now_.F.allFinite()) return CorrectorStatus::not_finite;
   const FactorStatus status = solver_.factorize(now_, system_.multiplier_count(state.piece));

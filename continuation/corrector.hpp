@@ -26,7 +26,7 @@ struct CorrectorResult {
   State state{};                    ///< the last iterate, also when not converged
   Direction tangent{};              ///< unit tangent there, of either orientation; only when converged
   std::optional<Index> negative{};  ///< eigenvalues of K below zero with all closed contacts held; empty: the pivots do
-                                    ///< not tell, StabilityCounter::negative_on may
+                                    ///< not tell, count_here() may
   NearNull nearest{};               ///< estimates of the eigenpairs nearest zero, at most two; none where K is singular
   int iterations = 0;
   std::optional<ConstraintRoots> roots{};  ///< of the last correction
@@ -65,6 +65,13 @@ class Corrector {
   /// Tangent and signs at a state that is already on the path.
   CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);
 
+  /// Negative eigenvalues of K at the state reached last, as CorrectorResult::negative, but also where the pivots do
+  /// not tell; `nearest`: the pairs that were found there. Empty where K is singular.
+  std::optional<Index> count_here(const NearNull& nearest) const;
+
+  /// Whether this is the state reached last.
+  bool is_at(const State& state) const { return at_ == state; }
+
   /// From where the eigenpairs nearest zero are followed, instead of the point reached last.
   void track_from(const NearNull& nearest);
 
@@ -78,6 +85,7 @@ class Corrector {
   const System& system_;
   CorrectorOptions options_;
   double load_floor_;
+  State at_;  // of the matrix at hand
   Linearization now_;
   BorderedSolver solver_;
   EquilibriumLine line_;

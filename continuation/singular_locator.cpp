@@ -292,7 +292,7 @@ std::optional<SingularLocator::Sample> SingularLocator::sample_at(const Segment&
   const Direction& forward = segment.from().tangent;
   CorrectorResult at = corrector_.correct(guess, plane, metric, forward, 1e-2 * L);
   if (!at.converged() || metric.norm(difference(at.state, guess)) > 0.05 * L) return std::nullopt;
-  if (!at.negative) at.negative = counter_.negative_on(at.state);
+  if (!at.negative) at.negative = corrector_.count_here(at.nearest);
   if (metric.inner(at.tangent, forward) < 0.0) at.tangent = reversed(std::move(at.tangent));
   Sample sample{.t = t,
                 .state = std::move(at.state),

@@ -29,8 +29,7 @@ class SingularLocator {
   enum class What { eigenvalue, turning };
 
   /// Both must outlive this.
-  SingularLocator(const System& system, Corrector& corrector)
-      : system_(system), corrector_(corrector), counter_(system, 0.0) {}
+  SingularLocator(const System& system, Corrector& corrector) : system_(system), corrector_(corrector) {}
 
   /// The first places, in their order, where the number of negative eigenvalues changes: `before` and `after` at the
   /// segment's ends, not equal, λ not turning. Empty if the ends do not seem to belong to one arc; shorter steps will
@@ -69,7 +68,6 @@ class SingularLocator {
 
   const System& system_;
   Corrector& corrector_;
-  StabilityCounter counter_;
   std::vector<Sample> seen_;  // on the segment under way
 };
 

@@ -55,11 +55,13 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
-  if (!last_ || last_->piece != state.piece || last_->lambda != state.lambda || last_->x != state.x) {
-    last_negative_ = counted_on(state);
-    last_ = state;
-  }
+  if (last_ != state) remember(state, counted_on(state));
   return last_negative_;
+}
+
+void StabilityCounter::remember(const State& state, std::optional<Index> negative) {
+  last_ = state;
+  last_negative_ = negative;
 }
 
 std::optional<Index> StabilityCounter::counted_on(const State& state) {

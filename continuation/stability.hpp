@@ -34,6 +34,9 @@ class StabilityCounter {
   /// Negative eigenvalues with all contacts of the state's piece held; empty where K is singular.
   std::optional<Index> negative_on(const State& state);
 
+  /// What was counted elsewhere: negative_on() need not count again there.
+  void remember(const State& state, std::optional<Index> negative);
+
   /// From where the eigenpairs nearest zero are followed, instead of the state counted last.
   void track_from(const NearNull& nearest);
 

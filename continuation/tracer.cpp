@@ -421,7 +421,9 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
 
 // The count of negative eigenvalues where the pivots do not tell it.
 void Tracer::decide_count(PathPoint& point) {
-  if (!point.held) point.held = point.count.unstable = counter_.negative_on(point.state);
+  if (point.held) return;
+  if (corrector_.is_at(point.state)) counter_.remember(point.state, corrector_.count_here(point.nearest));
+  point.held = point.count.unstable = counter_.negative_on(point.state);
 }
 
 // Whether the step passes a point: it lies beside the chord, and on the path as exactly as such points are located.

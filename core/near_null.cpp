@@ -53,12 +53,14 @@ Index pair_count(const Vector& weights) {
 }
 
 NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
-                   Settled settled) {
+                   Settled settled, const Matrix& start) {
   const Index n = K.rows(), pairs = pair_count(weights);
   count = std::min(count, pairs);
   const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
   if (block == 0) return {};
   Matrix X = start_block(n, block);
+  const Index known = std::min(start.cols(), block);
+  X.leftCols(known) = start.leftCols(known);
   Vector values = Vector::Constant(block, infinity);
   for (int round = 0; round < max_rounds; ++round) {
     X = weights.asDiagonal() * X;

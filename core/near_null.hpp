@@ -23,8 +23,9 @@ enum class Settled { fully, roughly };
 /// `count` eigenpairs (fewer if there are no more) by inverse subspace iteration with Rayleigh-Ritz
 /// projection. The factorization is that of `lower_triangle`; a tiny shift of it will do, where the matrix itself is
 /// singular. With multipliers of weight zero these are the eigenvalues of K on the space the constraints leave free.
+/// `start`: columns that are near the vectors wanted, if such are known.
 NearNull near_null(const Factorization& factorization, const SparseMatrix& lower_triangle, const Vector& weights,
-                   Index count, Settled settled = Settled::fully);
+                   Index count, Settled settled = Settled::fully, const Matrix& start = {});
 
 /// The pairs nearest zero, followed from matrix to matrix by one step of inverse iteration each. Near singularity one
 /// step is enough; elsewhere the values are upper bounds in magnitude that get better on the way. A vector without

@@ -55,6 +55,10 @@ struct State {
   Vector x{};           ///< unknowns; their number depends on the piece
   double lambda = 0.0;  ///< the path parameter
   Piece piece{};        ///< empty for a system without guards
+
+  friend bool operator==(const State& a, const State& b) {
+    return a.piece == b.piece && a.lambda == b.lambda && a.x.size() == b.x.size() && a.x == b.x;
+  }
 };
 
 /// A covector of (x, λ): the derivative of one scalar function of the state.

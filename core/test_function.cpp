@@ -56,10 +56,9 @@ SparseMatrix bordered(const SparseMatrix& K, const Matrix& B) {
 }
 
 SparseMatrix shifted(const SparseMatrix& K, const Vector& weights, double shift) {
-  SparseMatrix diagonal(K.rows(), K.cols());
-  diagonal.reserve(Eigen::VectorX<Index>::Ones(K.cols()));
-  for (Index i = 0; i < K.cols(); ++i) diagonal.insert(i, i) = shift * weights[i];
-  SparseMatrix sum = K + diagonal;
+  SparseMatrix sum = K;
+  for (Index i = 0; i < K.cols(); ++i)
+    if (weights[i] > 0.0) sum.coeffRef(i, i) += shift * weights[i];
   sum.makeCompressed();
   return sum;
 }
@@ -90,24 +89,27 @@ struct Nearest {
   Index near = 0;  // of them so near that Ψ has to decide
 };
 
-std::optional<Nearest> nearest_pairs(const SparseMatrix& K, const Vector& weights, Index multipliers) {
-  Ldlt ldlt;
-  ldlt.set_multiplier_count(multipliers);
-  if (!factorize_nearly(K, weights, ldlt)) return std::nullopt;
+enum class IfZero { go_on, give_up };  // within round-off: the pair nearest zero
+
+// `ldlt`: of K or nearly; `start`: of the vectors.
+std::optional<Nearest> nearest_pairs(const Ldlt& ldlt, const SparseMatrix& K, const Vector& weights, Matrix start,
+                                     IfZero if_zero) {
   for (Index wanted = 2; wanted <= most_pairs; wanted *= 2) {
     // Roughly will do: pairs that are near converge fast, and Ψ is exact.
-    Nearest found{.pairs = near_null(ldlt, K, weights, wanted, Settled::roughly), .roundoff = {}};
+    Nearest found{.pairs = near_null(ldlt, K, weights, wanted, Settled::roughly, start), .roundoff = {}};
     const Index count = found.pairs.values.size();
     if (!found.pairs.vectors.allFinite()) return std::nullopt;
     for (Index j = 0; j < count; ++j) {
       const Vector v = found.pairs.vectors.col(j);
       const QuadraticForm form = quadratic_form(K, v);
+      if (j == 0 && form.is_zero() && if_zero == IfZero::give_up) return std::nullopt;
       // The pair's own value has the round-off of the greatest entries of K, also where v is zero.
       found.pairs.values[j] = form.value / (weights.array() * v.array().square()).sum();
       found.roundoff.push_back(std::max(form.roundoff, ldlt.roundoff(v)));
       if (std::abs(found.pairs.values[j]) <= nearby * found.roundoff.back()) found.near = j + 1;
     }
     if (found.near < count || count < wanted) return found;
+    start = std::move(found.pairs.vectors);
   }
   return std::nullopt;  // round-off of K hides them all
 }
@@ -123,10 +125,8 @@ double separating_shift(const Nearest& nearest) {
 }
 
 // Negative eigenvalues of K + shift W, if the shift keeps clear of round-off.
-std::optional<Index> negative_at(const SparseMatrix& K, const Vector& weights, Index multipliers, double shift,
-                                 const Nearest& nearest) {
-  Ldlt ldlt;
-  ldlt.set_multiplier_count(multipliers);
+std::optional<Index> negative_at(const SparseMatrix& K, const Vector& weights, double shift, const Nearest& nearest,
+                                 Ldlt& ldlt) {
   if (ldlt.factorize(shifted(K, weights, shift)) != FactorStatus::ok) return std::nullopt;
   for (Index j = 0; j < nearest.pairs.values.size(); ++j)
     if (std::abs(nearest.pairs.values[j] + shift) <= clear * ldlt.roundoff(nearest.pairs.vectors.col(j)))
@@ -145,6 +145,37 @@ Matrix sparse_border(const Matrix& vectors, const Vector& weights) {
     border(unknown, j) = weights[unknown];
   }
   return border;
+}
+
+// The eigenvalues near zero are those of Vᵀ K V = −Ψ; rotated to its principal axes, each is a quadratic form whose
+// round-off is known. V is off by round-off times the condition of the bordered matrix, and the form by its square.
+std::optional<SignCount> signs_beside(const std::optional<Nearest>& nearest, const SparseMatrix& K,
+                                      const Vector& weights, Index multipliers) {
+  if (!nearest) return std::nullopt;
+  const Index n = K.cols();
+  const double shift = separating_shift(*nearest);
+  Ldlt ldlt;
+  ldlt.set_multiplier_count(multipliers);
+  const auto below = negative_at(K, weights, shift, *nearest, ldlt);
+  const auto above = negative_at(K, weights, -shift, *nearest, ldlt);
+  if (!below || !above || *above - *below != nearest->near) return std::nullopt;
+
+  SignCount count{.negative = *below, .positive = n - *above, .undecided = 0};
+  if (nearest->near == 0) return count;
+  const auto function =
+      BorderedTestFunction::of(K, sparse_border(nearest->pairs.vectors.leftCols(nearest->near), weights));
+  if (!function) return std::nullopt;
+  const Matrix gram = function->vectors().transpose() * weights.asDiagonal() * function->vectors();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> axes(-function->psi(), gram);
+  if (axes.info() != Eigen::Success) return std::nullopt;
+  const Matrix principal = function->vectors() * axes.eigenvectors();
+  const double of_vectors = off * off * greatest_value(K, weights);
+  for (Index j = 0; j < nearest->near; ++j) {
+    const QuadraticForm form = quadratic_form(K, principal.col(j));
+    const bool zero = std::abs(form.value) <= std::max(form.roundoff, of_vectors);
+    ++(zero ? count.undecided : form.value < 0.0 ? count.negative : count.positive);
+  }
+  return count;
 }
 
 }  // namespace
@@ -187,45 +218,25 @@ std::optional<Index> negative_by_pivots(const Ldlt& ldlt, const Vector& weights,
   return decided ? std::optional(inertia->negative) : std::nullopt;
 }
 
+std::optional<SignCount> sign_count_near_singularity(const SparseMatrix& K, const Vector& weights, Index multipliers) {
+  Ldlt ldlt;
+  ldlt.set_multiplier_count(multipliers);
+  if (!factorize_nearly(K, weights, ldlt)) return std::nullopt;
+  return signs_beside(nearest_pairs(ldlt, K, weights, Matrix(K.cols(), 0), IfZero::go_on), K, weights, multipliers);
+}
+
 std::optional<Index> negative_count(const Ldlt& ldlt, const SparseMatrix& K, const Vector& weights, Index multipliers,
                                     const NearNull& nearest) {
   if (const auto negative = negative_by_pivots(ldlt, weights, nearest)) return negative;
-  if (nearest.values.size() > 0 && nearest.vectors.allFinite()) {
-    const QuadraticForm least = quadratic_form(K, nearest.vectors.col(0));
-    if (std::abs(least.value) <= least.roundoff) return std::nullopt;  // zero within round-off, also to Ψ
-  }
-  const auto signs = sign_count_near_singularity(K, weights, multipliers);
+  const bool known = nearest.values.size() > 0 && nearest.vectors.allFinite();
+  if (known && quadratic_form(K, nearest.vectors.col(0)).is_zero()) return std::nullopt;  // also to Ψ
+  std::optional<SignCount> signs;
+  if (known && ldlt.inertia())
+    signs = signs_beside(nearest_pairs(ldlt, K, weights, nearest.vectors, IfZero::give_up), K, weights, multipliers);
+  else
+    signs = sign_count_near_singularity(K, weights, multipliers);
   if (!signs || signs->undecided > 0) return std::nullopt;
   return signs->negative;
-}
-
-// The eigenvalues near zero are those of Vᵀ K V = −Ψ; rotated to its principal axes, each is a quadratic form whose
-// round-off is known. V is off by round-off times the condition of the bordered matrix, and the form by its square.
-std::optional<SignCount> sign_count_near_singularity(const SparseMatrix& K, const Vector& weights, Index multipliers) {
-  const Index n = K.cols();
-  const auto nearest = nearest_pairs(K, weights, multipliers);
-  if (!nearest) return std::nullopt;
-  const double shift = separating_shift(*nearest);
-  const auto below = negative_at(K, weights, multipliers, shift, *nearest);
-  const auto above = negative_at(K, weights, multipliers, -shift, *nearest);
-  if (!below || !above || *above - *below != nearest->near) return std::nullopt;
-
-  SignCount count{.negative = *below, .positive = n - *above, .undecided = 0};
-  if (nearest->near == 0) return count;
-  const auto function =
-      BorderedTestFunction::of(K, sparse_border(nearest->pairs.vectors.leftCols(nearest->near), weights));
-  if (!function) return std::nullopt;
-  const Matrix gram = function->vectors().transpose() * weights.asDiagonal() * function->vectors();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> axes(-function->psi(), gram);
-  if (axes.info() != Eigen::Success) return std::nullopt;
-  const Matrix principal = function->vectors() * axes.eigenvectors();
-  const double of_vectors = off * off * greatest_value(K, weights);
-  for (Index j = 0; j < nearest->near; ++j) {
-    const QuadraticForm form = quadratic_form(K, principal.col(j));
-    const bool zero = std::abs(form.value) <= std::max(form.roundoff, of_vectors);
-    ++(zero ? count.undecided : form.value < 0.0 ? count.negative : count.positive);
-  }
-  return count;
 }
 
 }  // namespace arcwall

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "core/ldlt.hpp"
@@ -31,6 +32,8 @@ class BorderedTestFunction {
 struct QuadraticForm {
   double value = 0.0;
   double roundoff = 0.0;  ///< ε |v|ᵀ |K| |v|
+
+  bool is_zero() const { return std::abs(value) <= roundoff; }  ///< within round-off
 };
 
 QuadraticForm quadratic_form(const SparseMatrix& lower_triangle, const Vector& v);
