@@ -115,10 +115,16 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
   };
   // Near the zero the bracket need not be closed from both sides, unless another lies at the start.
   const double near_zero = std::abs(start) > 1e-2 * range ? 1e-4 : 0.0;
+  // Between near points a value that is off their straight line by more than they differ is round-off.
+  constexpr double straight = 1e-3;
+  double blurred = 0.0;
   const auto value = [&](double t) -> std::optional<double> {
+    const auto behind = seen.lower_bound(t), before = std::prev(behind);
+    const double width = behind->first - before->first, change = behind->second.v - before->second.v;
     if (!look(t)) return std::nullopt;
-    const double v = seen.at(t).v;
-    return std::abs(v) <= near_zero * range ? 0.0 : v;
+    const double v = seen.at(t).v, off = v - before->second.v - (t - before->first) / width * change;
+    if (width <= straight && std::abs(off) > std::abs(change)) blurred = width;
+    return blurred > 0.0 || std::abs(v) <= near_zero * range ? 0.0 : v;
   };
   const auto root = bracketed_root(value, 0.0, start, 1.0, v1, options_.localisation);
   if (!root || (!seen.contains(root->at) && !look(root->at))) return std::nullopt;
@@ -127,8 +133,8 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
   constexpr double much_less = 0.1;
   const double tolerance = std::max(options_.localisation, 1e-10);
   auto best = seen.find(root->at);
-  double width = tolerance;
-  for (int secant = 0; secant < 4 && std::abs(best->second.v) > tolerance * range; ++secant) {
+  double width = std::max(tolerance, blurred);
+  for (int secant = 0; secant < 4 && blurred == 0.0 && std::abs(best->second.v) > tolerance * range; ++secant) {
     const auto behind = std::next(best), before = best == seen.begin() ? behind : std::prev(best);
     const bool ahead = behind != seen.end() && behind->first - best->first < best->first - before->first;
     const auto& other = ahead ? behind : before;

@@ -30,6 +30,10 @@ FactorStatus BorderedSolver::factorize(const Linearization& equations, Index mul
   equations_ = &equations;
   multipliers_ = multipliers;
   ldlt_.set_multiplier_count(multipliers);
+  const SparseMatrix& K = equations.K;
+  Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
+  ldlt_.trust_pattern(pattern.piece && pattern == pattern_);
+  pattern_ = std::move(pattern);
   const FactorStatus status = ldlt_.factorize(equations.K);
   regular_ = status == FactorStatus::ok && eliminate_border();
   return status;

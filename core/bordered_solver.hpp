@@ -56,6 +56,14 @@ class BorderedSolver {
   bool inner_is_regular() const { return regular_; }
 
  private:
+  // As long as a linearization stays where it is and on one piece, so does the pattern of its K.
+  struct Pattern {
+    const Index* rows = nullptr;
+    Index nonzeros = 0;
+    std::optional<Piece> piece{};
+    bool operator==(const Pattern&) const = default;
+  };
+
   bool eliminate_border();
   bool is_suspicious() const;
   bool make_line_good(const Row& border);
@@ -63,6 +71,7 @@ class BorderedSolver {
   bool factorize_whole(const Row& border);
 
   const Linearization* equations_ = nullptr;
+  Pattern pattern_;
   Ldlt ldlt_;
   WholeSolver whole_;
   Index multipliers_ = 0;

@@ -18,12 +18,14 @@ struct Ldlt::Implementation {
   Matrix soft;
   std::vector<Index> columns, rows;  // the pattern that was analysed
   Index multipliers = 0, analysed_multipliers = 0;
+  bool trusted = false;  // the pattern
 
   bool analysed(const SparseMatrix& A) const {
     const auto n = static_cast<std::size_t>(A.cols()) + 1, nonzeros = static_cast<std::size_t>(A.nonZeros());
     return factors != nullptr && multipliers == analysed_multipliers && columns.size() == n &&
-           rows.size() == nonzeros && std::memcmp(columns.data(), A.outerIndexPtr(), n * sizeof(Index)) == 0 &&
-           std::memcmp(rows.data(), A.innerIndexPtr(), nonzeros * sizeof(Index)) == 0;
+           rows.size() == nonzeros &&
+           (trusted || (std::memcmp(columns.data(), A.outerIndexPtr(), n * sizeof(Index)) == 0 &&
+                        std::memcmp(rows.data(), A.innerIndexPtr(), nonzeros * sizeof(Index)) == 0));
   }
 
   void analyse(const SparseMatrix& A) {
@@ -64,6 +66,8 @@ void Ldlt::expect_soft(const Matrix& vectors) {
   self.soft = vectors;
   if (self.factors) self.factors->expect_soft(vectors);
 }
+
+void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
 
 FactorStatus Ldlt::factorize(const SparseMatrix& A) {
   assert(A.isCompressed() && A.rows() == A.cols());

@@ -27,6 +27,10 @@ class Ldlt final : public Factorization {
   /// large indefinite matrices quicker; results depend on them within round-off.
   void expect_soft(const Matrix& vectors);
 
+  /// Whether the matrices to come are known to have the pattern of the last one, so that it is not compared; false by
+  /// default.
+  void trust_pattern(bool same);
+
   FactorStatus factorize(const SparseMatrix& lower_triangle) override;
   void solve(Eigen::Ref<Matrix> X) const override;
   std::optional<Inertia> inertia() const override;
