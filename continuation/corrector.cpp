@@ -104,7 +104,7 @@ std::optional<Vector> Corrector::right_null(const Vector& left) {
 CorrectorStatus Corrector::look(const State& state) {
   at_ = state;
   system_.linearize(state, now_);
-  if (!now_.F.allFinite()) return CorrectorStatus::not_finite;
+  if (!all_finite(now_.F)) return CorrectorStatus::not_finite;
   const FactorStatus status = solver_.factorize(now_, system_.multiplier_count(state.piece));
   return status == FactorStatus::not_finite ? CorrectorStatus::not_finite : CorrectorStatus::converged;
 }
@@ -116,7 +116,7 @@ bool Corrector::find_line(const Metric& metric, const Direction& along) {
   const double component = metric.inner(line_.particular, line_.tangent);
   line_.particular.dx -= component * line_.tangent.dx;
   line_.particular.dlambda -= component * line_.tangent.dlambda;
-  return line_.tangent.dx.allFinite() && line_.particular.dx.allFinite();
+  return all_finite(line_.tangent.dx) && all_finite(line_.particular.dx);
 }
 
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {

@@ -56,7 +56,7 @@ bool BorderedSolver::solve_inner(Matrix& X) const {
   const Index n = now.K.cols(), m = now.B.cols();
   if (m == 0) {
     ldlt_.solve(X);
-    return X.allFinite();
+    return all_finite(X);
   }
   Matrix Y = X.topRows(n);
   ldlt_.solve(Y);
@@ -64,7 +64,7 @@ bool BorderedSolver::solve_inner(Matrix& X) const {
   Y.noalias() -= border_ * s;
   X.topRows(n) = Y;
   X.bottomRows(m) = s;
-  return X.allFinite();
+  return all_finite(X);
 }
 
 Matrix BorderedSolver::inverse_at_border() const {

@@ -162,6 +162,26 @@ struct Chain {
       }
   }
 
+  // uᵀ |d| u with u = |L|ᵀ v_j + |Z_a| v_a + |Z_b| v_b
+  static double weighted(const ChainRound& round, const double* numbers, const double* v, const double* left) {
+    Lanes sum = 0.0;
+    for (Index i = 0; i < round.stride; i += lanes) {
+      const auto number = [&](Index place) { return magnitude(load(numbers + place + i)); };
+      for (Index r = 0; r < B; ++r) {
+        Lanes u = load(v + r * round.stride + i);
+        for (Index k = r + 1; k < B; ++k)
+          u += number(round.diagonal + packed(k, r) * round.stride) * load(v + k * round.stride + i);
+        for (Index c = 0; c < B; ++c) {
+          const double* entry = left + c * round.left_stride + i;
+          u += number(round.before + (r * B + c) * round.stride) * load(entry);
+          u += number(round.behind + (r * B + c) * round.stride) * load(entry + 1);
+        }
+        sum += u * u / number(round.diagonal + packed(r, r) * round.stride);
+      }
+    }
+    return sum[0] + sum[1] + sum[2] + sum[3];
+  }
+
   // From those that are left of a round to the next one's, and back.
   template <Index R, bool back>
   static void exchange(const ChainRound& round, const ChainRound& next, double* left, double* eliminated,
@@ -181,6 +201,17 @@ struct Chain {
       if (k > 0) pass_on(rounds[k - 1], rounds[k], coupling, numbers);
       eliminate(rounds[k], numbers, coupling);
     }
+  }
+
+  static double weighted(const std::vector<ChainRound>& rounds, const double* numbers, double* work) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < rounds.size(); ++k) {
+      const ChainRound& round = rounds[k];
+      double *eliminated = work + round.right_hand_side, *left = work + round.right_hand_side_left;
+      if (k > 0) exchange<1, false>(rounds[k - 1], round, work + rounds[k - 1].right_hand_side_left, eliminated, left);
+      sum += weighted(round, numbers, eliminated, left);
+    }
+    return sum;
   }
 
   template <Index R>
@@ -232,6 +263,13 @@ void solve_rounds(Index width, Index columns, const std::vector<ChainRound>& rou
     if (columns == 2) Chain<B.value>::template solve<2>(rounds, numbers, work);
   };
   with_width(width, solve, Widths{});
+}
+
+double weighted_rounds(Index width, const std::vector<ChainRound>& rounds, const double* numbers, double* work) {
+  double sum = 0.0;
+  with_width(
+      width, [&](auto B) { sum = Chain<B.value>::weighted(rounds, numbers, work); }, Widths{});
+  return sum;
 }
 
 }  // namespace arcwall

@@ -40,4 +40,7 @@ void eliminate_rounds(Index width, const std::vector<ChainRound>& rounds, double
 void solve_rounds(Index width, Index columns, const std::vector<ChainRound>& rounds, const double* numbers,
                   double* work);
 
+/// |v|ᵀ |L| |D| |L|ᵀ |v| of one column |v|, whose place in the work is that of a right-hand side.
+double weighted_rounds(Index width, const std::vector<ChainRound>& rounds, const double* numbers, double* work);
+
 }  // namespace arcwall

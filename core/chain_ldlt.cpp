@@ -143,48 +143,13 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
   if (column < X.cols()) solve_columns(std::integral_constant<Index, 1>{}, column);
 }
 
-// z = |v_j| + |Z_a| |v_a| + |Z_b| |v_b| of each group eliminated, then zᵀ |L| |d| |L|ᵀ z.
 double ChainLdlt::weighted(const Vector& v) const {
-  const Index B = width_;
-  const auto number = [&](Index place) { return std::abs(numbers_[static_cast<std::size_t>(place)]); };
-  std::vector<double> all(static_cast<std::size_t>(B * (rounds_.front().eliminated + rounds_.front().left)), 0.0);
-  double sum = 0.0;
-  // Entries of the groups of this round, one after the other.
+  std::fill(work_.begin(), work_.end(), 0.0);
   for (Index j = 0; j < v.size(); ++j) {
     const Place& place = places_[static_cast<std::size_t>(j)];
-    const ChainRound& round = rounds_.front();
-    const bool left = place.row >= round.right_hand_side_left;
-    const Index group = round.left == 0 ? 0 : 2 * place.group + (left ? 0 : 1);
-    const Index row = (place.row - (left ? round.right_hand_side_left : round.right_hand_side)) / place.stride;
-    all[static_cast<std::size_t>(B * group + row)] = std::abs(v[j]);
+    work_[static_cast<std::size_t>(place.row + place.group)] = std::abs(v[j]);
   }
-  for (const ChainRound& round : rounds_) {
-    const auto at = [&](Index group, Index row) {
-      const auto place = static_cast<std::size_t>(B * group + row);
-      return place < all.size() ? all[place] : 0.0;
-    };
-    for (Index i = 0; i < round.eliminated; ++i) {
-      const Index group = round.left == 0 ? 0 : 2 * i + 1;
-      std::array<double, widest> z{};
-      for (Index r = 0; r < B; ++r) {
-        double& entry = z[static_cast<std::size_t>(r)] = at(group, r);
-        if (round.left == 0) continue;
-        for (Index c = 0; c < B; ++c)
-          entry += number(round.before + (r * B + c) * round.stride + i) * at(group - 1, c) +
-                   number(round.behind + (r * B + c) * round.stride + i) * at(group + 1, c);
-      }
-      for (Index r = 0; r < B; ++r) {
-        double u = z[static_cast<std::size_t>(r)];
-        for (Index k = r + 1; k < B; ++k)
-          u += number(round.diagonal + packed(k, r) * round.stride + i) * z[static_cast<std::size_t>(k)];
-        sum += u * u / number(round.diagonal + packed(r, r) * round.stride + i);
-      }
-    }
-    for (Index i = 0; i < round.left; ++i)
-      for (Index r = 0; r < B; ++r) all[static_cast<std::size_t>(B * i + r)] = at(2 * i, r);
-    all.resize(static_cast<std::size_t>(B * round.left));
-  }
-  return sum;
+  return weighted_rounds(width_, rounds_, numbers_.data(), work_.data());
 }
 
 }  // namespace arcwall

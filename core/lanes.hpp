@@ -62,6 +62,8 @@ ARCWALL_IN_PLACE Lanes square_root(const Lanes& x) {
   return root;
 }
 
+ARCWALL_IN_PLACE Lanes magnitude(const Lanes& x) { return Lanes(x.four < 0.0 ? -x.four : x.four); }
+
 inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
 ARCWALL_IN_PLACE Lanes arc_tangent(const Lanes& y, const Lanes& x) {
   Lanes angle;

@@ -71,7 +71,7 @@ void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
 
 FactorStatus Ldlt::factorize(const SparseMatrix& A) {
   assert(A.isCompressed() && A.rows() == A.cols());
-  if (!Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).allFinite()) {
+  if (!all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()))) {
     implementation_->usable = nullptr;
     return FactorStatus::not_finite;
   }

@@ -118,15 +118,16 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights) {
 // θ/(yᵀ W y).
 NearNull NearNullTracker::advance(const Vector& weights, const Matrix& Y) {
   const Index block = X_.cols();
-  if (block == 0 || !Y.allFinite()) return {};
-  const Matrix A = X_.transpose() * (weights.asDiagonal() * Y);
+  if (block == 0 || !all_finite(Y)) return {};
+  // A few columns: products of large blocks would only be prepared longer than they take.
+  const Matrix A = X_.transpose().lazyProduct(weights.asDiagonal() * Y);
   const Eigen::SelfAdjointEigenSolver<Matrix> ritz(0.5 * (A + A.transpose()));
   std::vector<Index> order(static_cast<std::size_t>(block));
   std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]); });
   order.resize(static_cast<std::size_t>(std::min<Index>(2, block)));
-  X_ = Y * ritz.eigenvectors()(Eigen::all, order);
+  X_ = Y.lazyProduct(Matrix(ritz.eigenvectors()(Eigen::all, order)));
   NearNull pairs{.values = Vector(X_.cols()), .vectors = {}};
   for (Index j = 0; j < X_.cols(); ++j) {
     const double squared = (weights.array() * X_.col(j).array().square()).sum();

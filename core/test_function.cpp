@@ -213,7 +213,7 @@ std::optional<Index> negative_by_pivots(const Ldlt& ldlt, const Vector& weights,
   const auto inertia = ldlt.inertia();
   if (!inertia) return std::nullopt;
   if (pair_count(weights) == 0) return inertia->negative;
-  if (nearest.values.size() == 0 || !nearest.vectors.allFinite()) return std::nullopt;
+  if (nearest.values.size() == 0 || !all_finite(nearest.vectors)) return std::nullopt;
   const bool decided = std::abs(nearest.values[0]) > clear * ldlt.roundoff(nearest.vectors.col(0));
   return decided ? std::optional(inertia->negative) : std::nullopt;
 }

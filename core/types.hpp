@@ -17,6 +17,12 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Whether all entries are numbers: 0 · x is none where x is not finite. In one pass without branches.
+template <typename Entries>
+bool all_finite(const Eigen::DenseBase<Entries>& entries) {
+  return (entries.derived().array() * 0.0).sum() == 0.0;
+}
+
 /// v turned by +90° (anticlockwise).
 inline Vec2 perp(const Vec2& v) { return {-v.y(), v.x()}; }
 
