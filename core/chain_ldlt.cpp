@@ -57,6 +57,13 @@ ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups) {
                group / 2;
       slots_.push_back(static_cast<std::int32_t>(slot));
     }
+
+  std::vector<bool> taken(static_cast<std::size_t>(first_size_), false);
+  for (const auto* places : {&slots_, &filling_})
+    for (const std::int32_t place : *places) taken[static_cast<std::size_t>(place)] = true;
+  empty_.clear();
+  for (Index place = 0; place < first_size_; ++place)
+    if (!taken[static_cast<std::size_t>(place)]) empty_.push_back(static_cast<std::int32_t>(place));
 }
 
 // Where the numbers of each round stand, and ones on the diagonal of what is only there to fill the lanes: in later
@@ -102,7 +109,7 @@ std::int32_t ChainLdlt::pivot_place(Index group, Index row) const {
 
 bool ChainLdlt::factorize(const SparseMatrix& A) {
   const double* values = A.valuePtr();
-  std::fill_n(numbers_.begin(), first_size_, 0.0);
+  for (const std::int32_t place : empty_) numbers_[static_cast<std::size_t>(place)] = 0.0;
   for (const std::int32_t place : filling_) numbers_[static_cast<std::size_t>(place)] = 1.0;
   for (std::size_t i = 0; i < slots_.size(); ++i) numbers_[static_cast<std::size_t>(slots_[i])] = values[i];
   eliminate_rounds(width_, rounds_, numbers_.data(), coupling_.data());

@@ -38,6 +38,7 @@ class ChainLdlt final : public SymmetricFactors {
   std::vector<ChainRound> rounds_;          // of elimination
   std::vector<std::int32_t> slots_;         // of each value of the matrix in numbers_
   std::vector<std::int32_t> filling_;       // places of ones on the diagonal of groups that are less wide
+  std::vector<std::int32_t> empty_;         // places of the first round that no value goes to
   std::vector<std::int32_t> pivot_places_;  // of each unknown, of 1/d, in numbers_
   std::vector<Place> places_;               // of each unknown in the first round's right-hand side
   std::vector<double> numbers_;             // matrices of all rounds, then their factors
