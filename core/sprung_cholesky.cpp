@@ -101,12 +101,16 @@ class SprungCholesky final : public SymmetricFactors {
   double weighted(const Vector& v) const override {
     const Vector u = v(llt_.order()).cwiseAbs();
     double sum = 0.0;
-    for (const Block& block : blocks())
+    Vector at_rows;
+    for (const Block& block : blocks()) {
+      at_rows.resize(block.rows);
+      for (Index i = 0; i < block.rows; ++i) at_rows[i] = u[block.row[i]];
       for (Index j = 0; j < block.columns; ++j) {
-        double z = 0.0;  // (|L|ᵀ |v|)_j
-        for (Index i = j; i < block.rows; ++i) z += std::abs(block.values[j * block.rows + i]) * u[block.row[i]];
-        sum += z * z;
+        const Index rows = block.rows - j;
+        const Eigen::Map<const Vector> column(block.values + j * block.rows + j, rows);
+        sum += std::pow(column.cwiseAbs().dot(at_rows.tail(rows)), 2);  // (|L|ᵀ |v|)_j
       }
+    }
     return sum;
   }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/branch.hpp"
 #include "tests/support/toys.hpp"
 
@@ -88,6 +90,19 @@ TEST(EventDetector, SeesAZeroOnALimitPointBesideIt) {
   const Branch branch = round_the_fold({passes(0.0)});
   EXPECT_EQ(events_of(branch, EventKind::limit_point).size(), 1U);
   EXPECT_NEAR(only_event(branch, EventKind::user).state.x[0], 0.0, 1e-7);
+}
+
+// 1e-3 of round-off in a value hide its zero in as much of the path: none of the many within is found to more digits.
+TEST(EventDetector, SaysHowFarRoundoffHidesItsZero) {
+  EventDetector rough = passes(0.37);
+  rough.value = [](const PathPoint& point) {
+    const double x = point.state.x[0];
+    return x - 0.37 + 1e-3 * std::sin(1e11 * x);
+  };
+  const Event event = only_event(along_line({rough}), EventKind::user);
+  EXPECT_NEAR(event.state.x[0], 0.37, 2e-3);
+  EXPECT_GE(event.localised, 1e-6);
+  EXPECT_LE(event.localised, 2e-3);
 }
 
 }  // namespace arcwall::event_detector_test
