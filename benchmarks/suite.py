@@ -96,6 +96,10 @@ class TracePath(Process):
 
     out: Path = Path()
 
+    def run(self, launcher: str, sheet: Sheet) -> None:
+        shutil.rmtree(self.out, ignore_errors=True)  # what replaces another run would also remove its files
+        super().run(launcher, sheet)
+
     def read(self, printed: str, sheet: Sheet) -> None:
         result = json.loads((self.out / "result.json").read_text())
         for name, value in result["counts"].items():
