@@ -20,6 +20,11 @@ struct Chain {
   static constexpr Index triangle = packed(B, 0);
   using Block = std::array<std::array<Lanes, B>, B>;
 
+  // Of a packed triangle.
+  static constexpr std::size_t in_triangle(Index row, Index column) {
+    return static_cast<std::size_t>(packed(row, column));
+  }
+
   ARCWALL_IN_PLACE static void load_block(const double* from, Index stride, Block& block) {
     for (Index row = 0; row < B; ++row)
       for (Index column = 0; column < B; ++column) at(block, row, column) = load(from + (row * B + column) * stride);
@@ -40,19 +45,19 @@ struct Chain {
       load_block(before, round.stride, a);
       load_block(behind, round.stride, b);
       for (Index c = 0; c < B; ++c) {
-        const Lanes reciprocal = 1.0 / D[packed(c, c)];
+        const Lanes reciprocal = 1.0 / D[in_triangle(c, c)];
         std::array<Lanes, B> column;
-        for (Index r = c + 1; r < B; ++r) column[static_cast<std::size_t>(r)] = D[packed(r, c)];
+        for (Index r = c + 1; r < B; ++r) column[static_cast<std::size_t>(r)] = D[in_triangle(r, c)];
         for (Index r = c + 1; r < B; ++r) {
           const Lanes l = column[static_cast<std::size_t>(r)] * reciprocal;
-          for (Index k = c + 1; k <= r; ++k) D[packed(r, k)] -= l * column[static_cast<std::size_t>(k)];
+          for (Index k = c + 1; k <= r; ++k) D[in_triangle(r, k)] -= l * column[static_cast<std::size_t>(k)];
           for (Index k = 0; k < B; ++k) {
             at(a, r, k) -= l * at(a, c, k);
             at(b, r, k) -= l * at(b, c, k);
           }
-          D[packed(r, c)] = l;
+          D[in_triangle(r, c)] = l;
         }
-        D[packed(c, c)] = reciprocal;
+        D[in_triangle(c, c)] = reciprocal;
       }
       for (Index k = 0; k < triangle; ++k) store(D[static_cast<std::size_t>(k)], diagonal + k * round.stride);
 
@@ -75,7 +80,7 @@ struct Chain {
                                      Block& z) {
     for (Index row = 0; row < B; ++row)
       for (Index column = 0; column < B; ++column) {
-        at(z, row, column) = at(y, row, column) * D[packed(row, row)];
+        at(z, row, column) = at(y, row, column) * D[in_triangle(row, row)];
         store(at(z, row, column), to + (row * B + column) * stride);
       }
   }

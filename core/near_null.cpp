@@ -60,7 +60,7 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
   if (block == 0) return {};
   Matrix X = start_block(n, block);
   const Index known = std::min(start.cols(), block);
-  X.leftCols(known) = start.leftCols(known);
+  if (known > 0) X.leftCols(known) = start.leftCols(known);
   Vector values = Vector::Constant(block, infinity);
   for (int round = 0; round < max_rounds; ++round) {
     X = weights.asDiagonal() * X;
