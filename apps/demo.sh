@@ -3,6 +3,7 @@
 #
 # The results go into out/channel of the source folder, or into DIR.
 set -euo pipefail
+export PATH  # bash has one where the environment has none; CMake finds its own files by it
 
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

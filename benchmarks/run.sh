@@ -8,6 +8,7 @@
 # build/benchmarks/performance.md. --peers installs and runs other programs beside; --skip leaves out what "case size"
 # matches.
 set -euo pipefail
+export PATH  # bash has one where the environment has none; CMake finds its own files by it
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 folder=build/benchmarks

@@ -6,6 +6,7 @@
 # --sanitize builds with clang and the address and undefined-behaviour sanitizers, in a folder of its own.
 # Examples: bash tests/run.sh -R Tracer; bash tests/run.sh --sanitize -LE slow
 set -euo pipefail
+export PATH  # bash has one where the environment has none; CMake finds its own files by it
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=build/tests
