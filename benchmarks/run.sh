@@ -3,8 +3,8 @@
 #
 #   bash benchmarks/run.sh [--quick] [--peers] [--skip REGEX]
 #
-# Figures go into build/benchmarks/performance.csv. The whole suite takes some hours, nearly all of them for 10⁶ unknowns,
-# and writes docs/performance.md. --quick leaves the large sizes out, takes some minutes and writes
+# Figures go into build/benchmarks/performance.csv. The whole suite takes half an hour, most of it for 10⁶ unknowns, and
+# writes docs/performance.md. --quick leaves the large sizes out, takes some minutes and writes
 # build/benchmarks/performance.md. --peers installs and runs other programs beside; --skip leaves out what "case size"
 # matches.
 set -euo pipefail
