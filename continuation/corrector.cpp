@@ -74,7 +74,10 @@ void Corrector::track_from(const NearNull& nearest) {
 
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count) const {
   if (!solver_.inner_is_regular()) return std::nullopt;
-  return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count);
+  const bool followed =
+      now_.B.cols() == 0 && tracker_.vectors().rows() == now_.K.cols() && all_finite(tracker_.vectors());
+  return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count, Settled::fully,
+                            followed ? tracker_.vectors() : Matrix());
 }
 
 std::optional<Index> Corrector::count_here(const NearNull& nearest) const {

@@ -35,6 +35,9 @@ class NearNullTracker {
   /// Goes on from these vectors; their number of rows may be that of another piece.
   void start_from(const Matrix& vectors) { X_ = vectors; }
 
+  /// Those at hand: the pairs' after advance().
+  const Matrix& vectors() const { return X_; }
+
   /// Right-hand sides W X, whose solutions with K `advance` wants; few columns, none if W has no entry above zero.
   Matrix right_hand_sides(const Vector& weights);
 
