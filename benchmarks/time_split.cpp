@@ -17,7 +17,7 @@
 #include "apps/study.hpp"
 #include "benchmarks/figures.hpp"
 #include "benchmarks/models.hpp"
-#include "benchmarks/timed_ldlt.hpp"
+#include "benchmarks/timed_solvers.hpp"
 #include "benchmarks/timed_system.hpp"
 #include "continuation/explorer.hpp"
 #include "core/error.hpp"
@@ -79,7 +79,7 @@ struct Measured {
   StepCosts step_costs{};
   double seconds = 0.0, all_parts = 0.0;  // without and with a look at the clock for each part
   TimedSystem::Times system{};
-  LdltTimes ldlt{};
+  SolverTimes ldlt{};
 };
 
 Measured traced(const Task& task) {
@@ -87,7 +87,7 @@ Measured traced(const Task& task) {
   Measured measured;
   TraceOptions options = task.options;
   options.ledger = [&](const StepAttempt& attempt) { measured.tally.attempted += attempt.iterations + 1; };
-  const LdltTimes before = ldlt_times();
+  const SolverTimes before = solver_times();
   {
     const double start = cpu_seconds();
     Explorer explorer(system, task.start, options, task.watched, task.explore);
@@ -107,14 +107,14 @@ Measured traced(const Task& task) {
     measured.seconds = measured.all_parts = cpu_seconds() - start;
   }
   measured.system = system.times();
-  measured.ldlt = ldlt_times() - before;
+  measured.ldlt = solver_times() - before;
   return measured;
 }
 
 void print(const std::string& work, long size, const Task& task, const Measured& measured) {
   const Tally& tally = measured.tally;
   const TimedSystem::Times& system = measured.system;
-  const LdltTimes& ldlt = measured.ldlt;
+  const SolverTimes& ldlt = measured.ldlt;
   const double seconds = measured.seconds;
   const auto figure = [&](const char* name, const char* unit, double value) {
     print_figure(work, size, name, unit, value);
@@ -141,6 +141,7 @@ void print(const std::string& work, long size, const Task& task, const Measured&
   count("events", tally.events);
   count("contact changes", tally.contact_changes);
   count("first limit", tally.first_limit);
+  count("iterations in all", ldlt.iterations);
   count("linearizations", system.linearizations);
   count("linearizations of steps", tally.attempted);
   count("factorizations", ldlt.factorizations);

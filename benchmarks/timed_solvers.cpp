@@ -1,6 +1,7 @@
-#include "benchmarks/timed_ldlt.hpp"
+#include "benchmarks/timed_solvers.hpp"
 
 #include "benchmarks/timed_system.hpp"
+#include "core/bordered_solver.hpp"
 #include "core/ldlt.hpp"
 
 // As GNU ld's --wrap wants it: calls of the mangled name go to __wrap_…, __real_… is the library's function. A member
@@ -9,22 +10,26 @@
 #define ARCWALL_SOLVE                                                                           \
   "_ZNK7arcwall4Ldlt5solveEN5Eigen3RefINS1_6MatrixIdLin1ELin1ELi0ELin1ELin1EEELi0ENS1_11OuterS" \
   "trideILin1EEEEE"
+#define ARCWALL_LINE "_ZN7arcwall14BorderedSolver4lineERKNS_3RowERNS_15EquilibriumLineE"
 
 namespace arcwall::bench {
 
 namespace {
 
-LdltTimes times;
+SolverTimes times;
 
 }  // namespace
 
-const LdltTimes& ldlt_times() { return times; }
+const SolverTimes& solver_times() { return times; }
 
 FactorStatus real_factorize(Ldlt* self, const SparseMatrix& matrix) __asm__("__real_" ARCWALL_FACTORIZE);
 void real_solve(const Ldlt* self, Eigen::Ref<Matrix> X) __asm__("__real_" ARCWALL_SOLVE);
 
+bool real_line(BorderedSolver* self, const Row& border, EquilibriumLine& out) __asm__("__real_" ARCWALL_LINE);
+
 FactorStatus timed_factorize(Ldlt* self, const SparseMatrix& matrix) __asm__("__wrap_" ARCWALL_FACTORIZE);
 void timed_solve(const Ldlt* self, Eigen::Ref<Matrix> X) __asm__("__wrap_" ARCWALL_SOLVE);
+bool counted_line(BorderedSolver* self, const Row& border, EquilibriumLine& out) __asm__("__wrap_" ARCWALL_LINE);
 
 FactorStatus timed_factorize(Ldlt* self, const SparseMatrix& matrix) {
   const ScopedTimer timer(times.factorization);
@@ -37,6 +42,12 @@ void timed_solve(const Ldlt* self, Eigen::Ref<Matrix> X) {
   ++times.solutions;
   times.columns += X.cols();
   real_solve(self, X);
+}
+
+// A line is found once an iteration.
+bool counted_line(BorderedSolver* self, const Row& border, EquilibriumLine& out) {
+  ++times.iterations;
+  return real_line(self, border, out);
 }
 
 }  // namespace arcwall::bench
