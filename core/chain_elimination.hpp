@@ -22,6 +22,8 @@ struct ChainRound {
   Index right_hand_side = 0, right_hand_side_left = 0;  // places in the work, in units of right-hand sides
 
   bool eliminates(Index group) const { return left == 0 || group % 2 == 1; }
+  /// Where 1/d of row k of those eliminated begin.
+  Index diagonal_row(Index row) const { return diagonal + (row * (row + 1) / 2 + row) * stride; }
   Index diagonal_at(Index group, Index entry) const {
     return eliminates(group) ? diagonal + entry * stride + group / 2 : kept + entry * left_stride + group / 2;
   }

@@ -11,59 +11,117 @@ namespace arcwall {
 namespace {
 
 constexpr Index most_columns = 2;  // that are solved for at once
+constexpr Index together = 64;     // groups whose numbers are brought to their places before the next ones
 
 Index rounded_up(Index count) { return (count + Lanes::count - 1) / Lanes::count * Lanes::count; }
 
+// Whether an index is the next one at a constant distance; then it is taken in.
+template <class Steps>
+bool extended(Steps& steps, std::int32_t index) {
+  if (steps.count == 1) steps.step = index - steps.first;
+  if (index != steps.first + steps.count * steps.step) return false;
+  ++steps.count;
+  return true;
+}
+
 }  // namespace
 
-ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups) {
+ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups) : unknowns_(A.cols()) {
   Index greatest = 1;
   for (const auto& group : groups) greatest = std::max(greatest, static_cast<Index>(group.size()));
   width_ = elimination_width(greatest);
   assert(width_ > 0);
   lay_out_rounds(static_cast<Index>(groups.size()));
 
-  const ChainRound& first = rounds_.front();
   std::vector<Index> group_of(static_cast<std::size_t>(A.cols())), row_of(static_cast<std::size_t>(A.cols()));
-  pivot_places_.resize(static_cast<std::size_t>(A.cols()));
-  places_.resize(static_cast<std::size_t>(A.cols()));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto group = static_cast<Index>(g), size = static_cast<Index>(groups[g].size());
     for (Index k = 0; k < size; ++k) {
       const auto unknown = static_cast<std::size_t>(groups[g][static_cast<std::size_t>(k)]);
       group_of[unknown] = group;
       row_of[unknown] = k;
-      pivot_places_[unknown] = pivot_place(group, k);
-      const bool goes = first.eliminates(group);
-      const Index stride = goes ? first.stride : first.left_stride;
-      const Index start = goes ? first.right_hand_side : first.right_hand_side_left;
-      places_[unknown] = {.row = static_cast<std::int32_t>(start + k * stride),
-                          .stride = static_cast<std::int32_t>(stride),
-                          .group = static_cast<std::int32_t>(group / 2)};
     }
-    for (Index k = size; k < width_; ++k)
-      filling_.push_back(static_cast<std::int32_t>(first.diagonal_at(group, packed(k, k))));
+    for (Index k = size; k < width_; ++k) {
+      filling_.push_back(static_cast<std::int32_t>(rounds_.front().diagonal_at(group, packed(k, k))));
+      unused_.push_back({.pivot = pivot_place(group, k), .first = pivot_place(group, 0)});
+    }
   }
+  lay_out_values(A, group_of, row_of);
+  lay_out_unknowns(groups);
+}
 
-  slots_.clear();
+void ChainLdlt::lay_out_values(const SparseMatrix& A, const std::vector<Index>& group_of,
+                               const std::vector<Index>& row_of) {
+  constexpr std::int32_t none = -1, filled = -2;
+  const ChainRound& first = rounds_.front();
+  std::vector<std::int32_t> value_at(static_cast<std::size_t>(first_size_), none);
+  std::int32_t value = 0;
   for (Index column = 0; column < A.cols(); ++column)
     for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry) {
       auto one = static_cast<std::size_t>(entry.row()), other = static_cast<std::size_t>(column);
       if (!first.eliminates(group_of[one])) std::swap(one, other);
       const Index group = group_of[one], row = row_of[one], other_row = row_of[other];
-      Index slot = first.diagonal_at(group, packed(std::max(row, other_row), std::min(row, other_row)));
+      Index place = first.diagonal_at(group, packed(std::max(row, other_row), std::min(row, other_row)));
       if (group_of[other] != group)
-        slot = (group_of[other] < group ? first.before : first.behind) + (row * width_ + other_row) * first.stride +
-               group / 2;
-      slots_.push_back(static_cast<std::int32_t>(slot));
+        place = (group_of[other] < group ? first.before : first.behind) + (row * width_ + other_row) * first.stride +
+                group / 2;
+      value_at[static_cast<std::size_t>(place)] = value++;
     }
+  for (const std::int32_t place : filling_) value_at[static_cast<std::size_t>(place)] = filled;
 
-  std::vector<bool> taken(static_cast<std::size_t>(first_size_), false);
-  for (const auto* places : {&slots_, &filling_})
-    for (const std::int32_t place : *places) taken[static_cast<std::size_t>(place)] = true;
+  struct Places {
+    Index first, count;
+  };
+  std::vector<Places> rows;
+  const Index square = width_ * width_, triangle = packed(width_, 0);
+  for (Index k = 0; k < triangle; ++k) rows.push_back({first.kept + k * first.left_stride, first.left_stride});
+  for (Index k = 0; k < triangle; ++k) rows.push_back({first.diagonal + k * first.stride, first.stride});
+  for (Index k = 0; k < square; ++k) rows.push_back({first.before + k * first.stride, first.stride});
+  for (Index k = 0; k < square; ++k) rows.push_back({first.behind + k * first.stride, first.stride});
+
+  value_runs_.clear();
   empty_.clear();
-  for (Index place = 0; place < first_size_; ++place)
-    if (!taken[static_cast<std::size_t>(place)]) empty_.push_back(static_cast<std::int32_t>(place));
+  for (Index from = 0; from < first.left_stride; from += together)
+    for (const Places& row : rows) {
+      bool follows = false;
+      for (Index i = from; i < std::min(from + together, row.count); ++i) {
+        const auto place = static_cast<std::int32_t>(row.first + i);
+        const std::int32_t here = value_at[static_cast<std::size_t>(place)];
+        if (here == none) empty_.push_back(place);
+        if (here < 0) {
+          follows = false;
+        } else if (!std::exchange(follows, true) || !extended(value_runs_.back().values, here)) {
+          value_runs_.push_back({.place = place, .values = {.first = here}});
+        }
+      }
+    }
+}
+
+void ChainLdlt::lay_out_unknowns(const ChainGroups& groups) {
+  const ChainRound& first = rounds_.front();
+  const auto count = static_cast<Index>(groups.size());
+  unknown_runs_.clear();
+  for (Index from = 0; from < count; from += 2 * together)
+    for (const bool goes : {false, true})
+      for (Index k = 0; k < width_; ++k) {
+        const Index stride = goes ? first.stride : first.left_stride;
+        const Index row = (goes ? first.right_hand_side : first.right_hand_side_left) + k * stride;
+        bool follows = false;
+        for (Index g = from; g < std::min(from + 2 * together, count); ++g) {
+          if (first.eliminates(g) != goes) continue;
+          const std::vector<Index>& group = groups[static_cast<std::size_t>(g)];
+          if (k >= static_cast<Index>(group.size())) {
+            follows = false;
+            continue;
+          }
+          const auto unknown = static_cast<std::int32_t>(group[static_cast<std::size_t>(k)]);
+          if (!std::exchange(follows, true) || !extended(unknown_runs_.back().unknowns, unknown))
+            unknown_runs_.push_back({.row = static_cast<std::int32_t>(row),
+                                     .stride = static_cast<std::int32_t>(stride),
+                                     .group = static_cast<std::int32_t>(g / 2),
+                                     .unknowns = {.first = unknown}});
+        }
+      }
 }
 
 // Where the numbers of each round stand, and ones on the diagonal of what is only there to fill the lanes: in later
@@ -109,41 +167,79 @@ std::int32_t ChainLdlt::pivot_place(Index group, Index row) const {
 
 bool ChainLdlt::factorize(const SparseMatrix& A) {
   const double* values = A.valuePtr();
-  for (const std::int32_t place : empty_) numbers_[static_cast<std::size_t>(place)] = 0.0;
-  for (const std::int32_t place : filling_) numbers_[static_cast<std::size_t>(place)] = 1.0;
-  for (std::size_t i = 0; i < slots_.size(); ++i) numbers_[static_cast<std::size_t>(slots_[i])] = values[i];
-  eliminate_rounds(width_, rounds_, numbers_.data(), coupling_.data());
+  double* numbers = numbers_.data();
+  for (const std::int32_t place : empty_) numbers[place] = 0.0;
+  for (const std::int32_t place : filling_) numbers[place] = 1.0;
+  for (const ValueRun& run : value_runs_)
+    for (std::int32_t i = 0; i < run.values.count; ++i) numbers[run.place + i] = values[run.values.at(i)];
+  eliminate_rounds(width_, rounds_, numbers, coupling_.data());
+  return read_pivots();
+}
 
-  pivots_ = {};
-  double least = infinity, greatest = 0.0, sum = 0.0;  // of 1/|d|
-  for (const std::int32_t place : pivot_places_) {
-    const double reciprocal = numbers_[static_cast<std::size_t>(place)], magnitude = std::abs(reciprocal);
-    pivots_.signs.negative += reciprocal < 0.0 ? 1 : 0;
-    least = std::min(least, magnitude);
-    greatest = std::max(greatest, magnitude);
-    sum += magnitude;  // NaN if any is, which minima and maxima pass over
+// Of four at a time, so that none waits for another. Places that no unknown has are given a pivot of their group: they
+// have nothing to do with the others, and their right-hand sides are zero.
+bool ChainLdlt::read_pivots() {
+  struct Seen {  // of 1/|d|
+    double least = infinity, greatest = 0.0, sum = 0.0;
+    Index negative = 0;
+
+    void add(double reciprocal) {
+      const double magnitude = std::abs(reciprocal);
+      least = std::min(least, magnitude);
+      greatest = std::max(greatest, magnitude);
+      sum += magnitude;  // NaN if any is, which minima and maxima pass over
+      negative += reciprocal < 0.0;
+    }
+  };
+  std::array<Seen, 4> seen;
+  double* numbers = numbers_.data();
+  Index repeated = 0;  // negative ones
+  for (const auto& [unused, first] : unused_) {
+    numbers[unused] = numbers[first];
+    repeated += numbers[first] < 0.0;
   }
-  pivots_.signs.positive = static_cast<Index>(pivot_places_.size()) - pivots_.signs.negative;
-  if (!(least > 0.0 && sum < infinity)) return false;
-  pivots_.least = 1.0 / greatest;
-  pivots_.greatest = 1.0 / least;
-  return true;
+  for (const ChainRound& round : rounds_)
+    for (Index k = 0; k < width_; ++k) {
+      const double* row = numbers + round.diagonal_row(k);
+      Index i = 0;
+      for (; i + 4 <= round.eliminated; i += 4)
+        for (Index one = 0; one < 4; ++one) seen[static_cast<std::size_t>(one)].add(row[i + one]);
+      for (; i < round.eliminated; ++i) seen.front().add(row[i]);
+    }
+
+  pivots_ = {.signs = {.negative = -repeated}};
+  double sum = 0.0;
+  for (const Seen& part : seen) {
+    pivots_.signs.negative += part.negative;
+    pivots_.least = std::min(pivots_.least, 1.0 / part.greatest);
+    pivots_.greatest = std::max(pivots_.greatest, 1.0 / part.least);
+    sum += part.sum;
+  }
+  pivots_.signs.positive = unknowns_ - pivots_.signs.negative;
+  return pivots_.greatest < infinity && sum < infinity;
 }
 
 void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
   const auto solve_columns = [&](auto count, Index first) {
     constexpr Index R = count.value;
     // Entries of R columns lie in turns.
-    const auto entry = [&](Index unknown, Index r) -> double& {
-      const Place& place = places_[static_cast<std::size_t>(unknown)];
-      return work_[static_cast<std::size_t>(R * place.row + r * place.stride + place.group)];
+    const auto row = [&](const UnknownRun& run, Index r) {
+      return work_.data() + R * run.row + r * run.stride + run.group;
     };
     std::fill(work_.begin(), work_.end(), 0.0);
-    for (Index j = 0; j < X.rows(); ++j)
-      for (Index r = 0; r < R; ++r) entry(j, r) = X(j, first + r);
+    for (const UnknownRun& run : unknown_runs_)
+      for (Index r = 0; r < R; ++r) {
+        double* to = row(run, r);
+        const double* from = &X(0, first + r);
+        for (std::int32_t i = 0; i < run.unknowns.count; ++i) to[i] = from[run.unknowns.at(i)];
+      }
     solve_rounds(width_, R, rounds_, numbers_.data(), work_.data());
-    for (Index j = 0; j < X.rows(); ++j)
-      for (Index r = 0; r < R; ++r) X(j, first + r) = entry(j, r);
+    for (const UnknownRun& run : unknown_runs_)
+      for (Index r = 0; r < R; ++r) {
+        const double* from = row(run, r);
+        double* to = &X(0, first + r);
+        for (std::int32_t i = 0; i < run.unknowns.count; ++i) to[run.unknowns.at(i)] = from[i];
+      }
   };
   Index column = 0;
   for (; column + 2 <= X.cols(); column += 2) solve_columns(std::integral_constant<Index, 2>{}, column);
@@ -152,11 +248,9 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
 
 double ChainLdlt::weighted(const Vector& v) const {
   std::fill(work_.begin(), work_.end(), 0.0);
-  for (Index j = 0; j < v.size(); ++j) {
-    const Place& place = places_[static_cast<std::size_t>(j)];
-    work_[static_cast<std::size_t>(place.row + place.group)] = std::abs(v[j]);
-  }
+  for (const UnknownRun& run : unknown_runs_)
+    for (std::int32_t i = 0; i < run.unknowns.count; ++i)
+      work_[static_cast<std::size_t>(run.row + run.group + i)] = std::abs(v[run.unknowns.at(i)]);
   return weighted_rounds(width_, rounds_, numbers_.data(), work_.data());
 }
-
 }  // namespace arcwall

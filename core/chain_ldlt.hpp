@@ -21,30 +21,52 @@ class ChainLdlt final : public SymmetricFactors {
   ChainLdlt(const SparseMatrix& lower_triangle, const ChainGroups& groups);
 
   bool factorize(const SparseMatrix& lower_triangle) override;
+  bool sees_what_is_not_finite() const override { return true; }
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
   double weighted(const Vector& v) const override;
 
  private:
-  struct Place {  // of an entry of a right-hand side: the row's start, in units of right-hand sides, and the group in
-                  // it
+  // Indices at a constant distance from each other.
+  struct Steps {
+    std::int32_t first = 0, step = 0, count = 1;
+
+    std::int32_t at(std::int32_t i) const { return first + i * step; }
+  };
+  // Values of the matrix whose places in numbers_ follow each other.
+  struct ValueRun {
+    std::int32_t place;
+    Steps values;
+  };
+  // Unknowns of groups that follow each other in one row of right-hand sides in the first round's work: the row's
+  // start, in units of right-hand sides, its stride and the first group in it.
+  struct UnknownRun {
     std::int32_t row, stride, group;
+    Steps unknowns;
+  };
+  // Of a group's place that no unknown has: its pivot, and that of the group's first unknown.
+  struct Unused {
+    std::int32_t pivot, first;
   };
 
   void lay_out_rounds(Index groups);
+  void lay_out_values(const SparseMatrix& A, const std::vector<Index>& group_of, const std::vector<Index>& row_of);
+  void lay_out_unknowns(const ChainGroups& groups);
   std::int32_t pivot_place(Index group, Index row) const;
+  bool read_pivots();
 
-  Index width_ = 0;                         // of all groups: the greatest, rounded up to a width with code of its own
-  std::vector<ChainRound> rounds_;          // of elimination
-  std::vector<std::int32_t> slots_;         // of each value of the matrix in numbers_
-  std::vector<std::int32_t> filling_;       // places of ones on the diagonal of groups that are less wide
-  std::vector<std::int32_t> empty_;         // places of the first round that no value goes to
-  std::vector<std::int32_t> pivot_places_;  // of each unknown, of 1/d, in numbers_
-  std::vector<Place> places_;               // of each unknown in the first round's right-hand side
-  std::vector<double> numbers_;             // matrices of all rounds, then their factors
-  std::vector<double> coupling_;            // workspace: between groups that are left
-  mutable std::vector<double> work_;        // right-hand sides
-  Index first_size_ = 0;                    // of the numbers of the first round
+  Index width_ = 0;  // of all groups: the greatest, rounded up to a width with code of its own
+  Index unknowns_ = 0;
+  std::vector<ChainRound> rounds_;     // of elimination
+  std::vector<ValueRun> value_runs_;   // of the matrix
+  std::vector<std::int32_t> filling_;  // places of ones on the diagonal of groups that are less wide
+  std::vector<std::int32_t> empty_;    // places of the first round that no value goes to
+  std::vector<Unused> unused_;         // pivots
+  std::vector<UnknownRun> unknown_runs_;
+  std::vector<double> numbers_;       // matrices of all rounds, then their factors
+  std::vector<double> coupling_;      // workspace: between groups that are left
+  mutable std::vector<double> work_;  // right-hand sides
+  Index first_size_ = 0;              // of the numbers of the first round
   Pivots pivots_;
 };
 

@@ -41,16 +41,20 @@ struct Ldlt::Implementation {
   }
 
   // Simplicial LDLᵀ serves all matrices.
-  bool factorize(const SparseMatrix& A) {
+  FactorStatus factorize(const SparseMatrix& A) {
+    const auto is_finite = [&] { return all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros())); };
     usable = nullptr;
     if (!analysed(A)) analyse(A);
+    const bool asks = !factors->sees_what_is_not_finite();
+    if (asks && !is_finite()) return FactorStatus::not_finite;
     if (factors->factorize(A)) {
       usable = factors.get();
     } else if (factors->refuses_some()) {
       if (!others) others = simplicial_ldlt(A, multipliers);
       if (others->factorize(A)) usable = others.get();
     }
-    return usable != nullptr;
+    if (usable != nullptr) return FactorStatus::ok;
+    return asks || is_finite() ? FactorStatus::singular : FactorStatus::not_finite;
   }
 };
 
@@ -71,11 +75,7 @@ void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
 
 FactorStatus Ldlt::factorize(const SparseMatrix& A) {
   assert(A.isCompressed() && A.rows() == A.cols());
-  if (!all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()))) {
-    implementation_->usable = nullptr;
-    return FactorStatus::not_finite;
-  }
-  return implementation_->factorize(A) ? FactorStatus::ok : FactorStatus::singular;
+  return implementation_->factorize(A);
 }
 
 void Ldlt::solve(Eigen::Ref<Matrix> X) const {

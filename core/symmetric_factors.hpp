@@ -25,6 +25,9 @@ class SymmetricFactors {
   /// finite, or the matrix is none that this way serves.
   virtual bool factorize(const SparseMatrix& lower_triangle) = 0;
 
+  /// Whether entries may be other than finite: then no pivot is spared from them, and factorize() is false.
+  virtual bool sees_what_is_not_finite() const { return false; }
+
   /// Whether there are regular matrices that this way does not serve.
   virtual bool refuses_some() const { return false; }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/ldlt.hpp"
 #include "tests/support/dense.hpp"
@@ -131,6 +133,22 @@ TEST(ChainLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
       EXPECT_NEAR(ldlt.weighted(v), expected, 1e-13 * growth * double(A.cols()) * expected);
       EXPECT_GE(expected, std::abs(v.dot(A * v)));
     }
+}
+
+// Wherever it stands: so that the entries need not be looked at one by one.
+TEST(ChainLdlt, AnEntryThatIsNotFiniteIsSeen) {
+  Numbers numbers(6);
+  for (const Index nodes : {1, 2, 5, 12}) {
+    SparseMatrix lower = lower_triangle(chain(nodes, 2, numbers));
+    ChainLdlt ldlt(lower, chain_groups(lower, 0, 4).value());
+    for (Index i = 0; i < lower.nonZeros(); ++i)
+      for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
+        const double good = std::exchange(lower.valuePtr()[i], bad);
+        EXPECT_FALSE(ldlt.factorize(lower)) << nodes << " nodes, value " << i << " is " << bad;
+        lower.valuePtr()[i] = good;
+      }
+    EXPECT_TRUE(ldlt.factorize(lower));
+  }
 }
 
 TEST(ChainLdlt, AZeroPivotIsSeen) {
