@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,15 +41,23 @@ class BlockAssembly {
     add_entries(block, factor, values, [K](Index entry) { return K[entry]; });
   }
 
-  /// The same with factor 1 for a block whose size the compiler knows: without loops.
-  template <int n, class Entries>
-  void add_entries(Index block, double* values, const Entries& K) const {
-    const std::int32_t* slot = slots(block);
+  /// The lower triangles of several n × n blocks, `K(entry, which)`, with factor 1: where no unknown is `held`,
+  /// without a question.
+  template <int n, std::size_t count, class Entries>
+  void add_entries(const std::array<Index, count>& blocks, bool held, double* values, const Entries& K) const {
+    if (held) {
+      for (std::size_t which = 0; which < count; ++which)
+        add_entries(blocks[which], 1.0, values, [&](Index entry) { return K(entry, which); });
+      return;
+    }
+    std::array<const std::int32_t*, count> slot;
+    for (std::size_t which = 0; which < count; ++which) slot[which] = slots(blocks[which]);
+    int next = 0;
 #pragma GCC unroll 8
     for (int j = 0; j < n; ++j)
 #pragma GCC unroll 8
-      for (int i = j; i < n; ++i, ++slot)
-        if (*slot >= 0) values[*slot] += K(i + j * n);
+      for (int i = j; i < n; ++i, ++next)
+        for (std::size_t which = 0; which < count; ++which) values[slot[which][next]] += K(i + j * n, which);
   }
 
  private:

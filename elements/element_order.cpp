@@ -11,7 +11,11 @@ using Elements = std::vector<std::shared_ptr<const Element>>;
 
 constexpr std::size_t large = 2000;  // elements whose evaluation takes many times as long as to wake a thread
 
-ElementOrder::Part part_of(const Elements& elements, const std::vector<Index>& which) {
+ElementOrder::Part part_of(const Elements& elements, const BlockAssembly& assembly, const std::vector<Index>& which) {
+  const auto is_held = [&](Index e) {
+    const auto unknowns = assembly.unknowns(e);
+    return std::any_of(unknowns.begin(), unknowns.end(), [](Index i) { return i < 0; });
+  };
   ElementOrder::Part part;
   std::array<Index, Lanes::count> waiting{};
   std::array<const ClassicBeam*, Lanes::count> beams{};
@@ -25,7 +29,8 @@ ElementOrder::Part part_of(const Elements& elements, const std::vector<Index>& w
     waiting[count] = e;
     beams[count++] = beam;
     if (count < waiting.size()) continue;
-    part.fours.push_back({.elements = waiting, .beams = ClassicBeamLanes(beams)});
+    const bool held = std::any_of(waiting.begin(), waiting.end(), is_held);
+    part.fours.push_back({.elements = waiting, .beams = ClassicBeamLanes(beams), .held = held});
     count = 0;
   }
   part.others.insert(part.others.end(), waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
@@ -72,7 +77,9 @@ ElementOrder element_order(const Elements& elements, const BlockAssembly& assemb
     }
     first.erase(middle, first.end());
   }
-  return {.first = part_of(elements, first), .second = part_of(elements, second), .last = part_of(elements, last)};
+  return {.first = part_of(elements, assembly, first),
+          .second = part_of(elements, assembly, second),
+          .last = part_of(elements, assembly, last)};
 }
 
 }  // namespace arcwall

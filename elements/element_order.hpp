@@ -16,6 +16,7 @@ struct ElementOrder {
   struct Four {
     std::array<Index, Lanes::count> elements;
     ClassicBeamLanes beams;
+    bool held;  ///< any of their unknowns
   };
   struct Part {
     std::vector<Four> fours;    ///< classic beams side by side

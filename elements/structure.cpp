@@ -84,24 +84,30 @@ void Structure::arrange() {
   order_ = element_order(elements_, assembly_, middles);
 }
 
+// Entry by entry: what goes to one place from one beam and from the next is far apart.
+void Structure::add(const ElementOrder::Four& four, const Vector& x, double* F, double* K) const {
+  constexpr int n = 6;
+  Lanes u[n], f[n], k[n * n];
+  std::array<const Index*, Lanes::count> unknowns;
+  for (std::size_t lane = 0; lane < unknowns.size(); ++lane)
+    unknowns[lane] = assembly_.unknowns(four.elements[lane]).data();
+  const auto value = [&](std::size_t lane, int i) {
+    const Index unknown = unknowns[lane][i];
+    return unknown >= 0 ? x[unknown] : 0.0;
+  };
+  for (int i = 0; i < n; ++i) u[i] = Lanes(value(0, i), value(1, i), value(2, i), value(3, i));
+  four.beams.evaluate(u, f, K != nullptr ? k : nullptr);
+  for (int i = 0; i < n; ++i)
+    for (std::size_t lane = 0; lane < unknowns.size(); ++lane)
+      if (const Index unknown = unknowns[lane][i]; !four.held || unknown >= 0)
+        F[unknown] += f[i][static_cast<int>(lane)];
+  if (K == nullptr) return;
+  assembly_.add_entries<n>(four.elements, four.held, K,
+                           [&](Index entry, std::size_t lane) { return k[entry][static_cast<int>(lane)]; });
+}
+
 void Structure::add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const {
-  for (const ElementOrder::Four& four : part.fours) {
-    constexpr int n = 6;
-    Lanes u[n], f[n], k[n * n];
-    for (int lane = 0; lane < Lanes::count; ++lane) {
-      const auto unknowns = assembly_.unknowns(four.elements[static_cast<std::size_t>(lane)]);
-      for (int i = 0; i < n; ++i) {
-        const Index unknown = unknowns[static_cast<std::size_t>(i)];
-        u[i].set(lane, unknown >= 0 ? x[unknown] : 0.0);
-      }
-    }
-    four.beams.evaluate(u, f, K != nullptr ? k : nullptr);
-    for (int lane = 0; lane < Lanes::count; ++lane) {
-      const Index e = four.elements[static_cast<std::size_t>(lane)];
-      scatter_entries(assembly_.unknowns(e), 1.0, F, [&](std::size_t i) { return f[i][lane]; });
-      if (K != nullptr) assembly_.add_entries<n>(e, K, [&](Index entry) { return k[entry][lane]; });
-    }
-  }
+  for (const ElementOrder::Four& four : part.fours) add(four, x, F, K);
   Local local;
   for (const Index e : part.others) {
     gather(e, x, local.u);

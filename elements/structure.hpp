@@ -190,6 +190,7 @@ class Structure final : public System {
   void gather(Index block, const Vector& x, double* u) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
   void add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const;
+  void add(const ElementOrder::Four& four, const Vector& x, double* F, double* K) const;
   void add_elements(const Vector& x, double* F, double* K) const;
 
   std::vector<Vec2> positions_;
