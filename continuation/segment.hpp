@@ -10,12 +10,13 @@ class Segment {
  public:
   /// All three must outlive the segment.
   Segment(const Metric& metric, const PathPoint& from, const PathPoint& to)
-      : from_(from), to_(to), chord_(difference(to.state, from.state)), length_(metric.norm(chord_)) {}
+      : metric_(metric), from_(from), to_(to), chord_(difference(to.state, from.state)), length_(metric.norm(chord_)) {}
 
   const PathPoint& from() const { return from_; }
   const PathPoint& to() const { return to_; }
   const Direction& chord() const { return chord_; }
   double length() const { return length_; }
+  double cosine(const Direction& tangent) const { return metric_.inner(chord_, tangent) / length_; }
 
   /// The state at fraction t of the chord, by Hermite's cubic.
   State at(double t) const;
@@ -25,6 +26,7 @@ class Segment {
   std::optional<double> first_zero(double v0, double rate0, double v1, double rate1, double noise) const;
 
  private:
+  const Metric& metric_;
   const PathPoint& from_;
   const PathPoint& to_;
   Direction chord_;

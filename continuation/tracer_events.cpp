@@ -4,10 +4,26 @@
 #include <limits>
 #include <map>
 
+#include "continuation/path_tolerances.hpp"
 #include "continuation/tracer.hpp"
 #include "core/root_find.hpp"
 
 namespace arcwall {
+
+namespace {
+
+// Where the cubic through a quantity at the ends of a segment turns, given its rates there: nearer than the straight
+// line through the rates vanishes.
+std::optional<double> turn_of(const std::function<double(const PathPoint&)>& quantity, const Segment& segment,
+                              double rate0, double rate1) {
+  const double L = segment.length();
+  // Of the arc length over that of the chord, where the path leaves it at an angle.
+  const auto stretch = [&](const PathPoint& point) { return 1.0 / segment.cosine(point.tangent); };
+  return cubic_turn(quantity(segment.from()), rate0 * L * stretch(segment.from()), quantity(segment.to()),
+                    rate1 * L * stretch(segment.to()));
+}
+
+}  // namespace
 
 EventDetector limit_point_detector(const Metric& metric) {
   const double scale = metric.lambda_scale();
@@ -31,8 +47,8 @@ EventDetector turning_detector(const System& system, const Metric& metric, std::
 // λ may turn twice inside a step, or nearly, and look as if it had not: then the cubic through its ends does. `part`:
 // of the lesser rate at the ends, below which the least rate inside must lie; a negative one is taken as it is.
 bool Tracer::hides_two_zeros(const Segment& segment, double part) const {
-  // Of a point within round-off of a corner and the corner itself nothing but round-off is seen.
-  if (segment.length() <= options_.guard_tolerance) return false;
+  // Between a point so near a corner and the corner itself nothing but round-off is seen.
+  if (segment.length() <= same_place) return false;
   for (const EventDetector& detector : detectors_) {
     if (!detector.integral) continue;
     const double v0 = detector.integral(segment.from()), v1 = detector.integral(segment.to());
@@ -126,7 +142,15 @@ std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
     if (width <= straight && std::abs(off) > std::abs(change)) blurred = width;
     return blurred > 0.0 || std::abs(v) <= near_zero * range ? 0.0 : v;
   };
-  const auto root = bracketed_root(value, 0.0, start, 1.0, v1, options_.localisation);
+  double from = 0.0, at_from = start, until = 1.0, at_until = v1;
+  if (const auto turn = detector.integral ? turn_of(detector.integral, segment, v0, v1) : std::nullopt) {
+    if (!look(*turn)) return std::nullopt;
+    const double v = seen.at(*turn).v;
+    const bool before = v * start > 0.0;
+    (before ? from : until) = *turn;
+    (before ? at_from : at_until) = v;
+  }
+  const auto root = bracketed_root(value, from, at_from, until, at_until, options_.localisation);
   if (!root || (!seen.contains(root->at) && !look(root->at))) return std::nullopt;
 
   // Secants, as long as they make the value much less: then it is round-off.

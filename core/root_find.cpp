@@ -86,6 +86,12 @@ std::optional<double> first_cubic_zero(double v0, double d0, double v1, double d
   return std::nullopt;
 }
 
+std::optional<double> cubic_turn(double v0, double d0, double v1, double d1) {
+  if (!(d0 * d1 < 0.0)) return std::nullopt;
+  const std::vector<double> turns = Cubic(v0, d0, v1, d1).turning_points();
+  return turns.size() == 1 ? std::optional(turns.front()) : std::nullopt;
+}
+
 double least_cubic_value(double v0, double d0, double v1, double d1) {
   const Cubic v(v0, d0, v1, d1);
   double least = std::min(v0, v1);

@@ -20,6 +20,9 @@ std::optional<Root> bracketed_root(const std::function<std::optional<double>(dou
 /// not count, one at 1 does when the sign changes there or v1 is zero. Empty if there is none.
 std::optional<double> first_cubic_zero(double v0, double d0, double v1, double d1);
 
+/// Where that cubic turns in (0, 1), its slopes at 0 and 1 of opposite signs; else empty.
+std::optional<double> cubic_turn(double v0, double d0, double v1, double d1);
+
 /// The least value of that cubic on [0, 1].
 double least_cubic_value(double v0, double d0, double v1, double d1);
 
