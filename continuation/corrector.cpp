@@ -23,10 +23,11 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
     result.status = status;
     return std::move(result);
   };
+  const Row border = metric.row(along);
   double previous = length;
   while (result.iterations < options.max_iterations) {
     if (const auto status = look(result.state); status != CorrectorStatus::converged) return ended(status);
-    if (!find_line(metric, along)) return ended(CorrectorStatus::singular);
+    if (!find_line(metric, border)) return ended(CorrectorStatus::singular);
     result.roots = constraint.advance(result.state, line_.particular, line_.tangent);
     if (!result.roots) return ended(CorrectorStatus::complex_roots);
     const double tau = result.roots->taken;
@@ -105,7 +106,7 @@ std::optional<Vector> Corrector::right_null(const Vector& left) {
 
 // Evaluates and factorizes at a state; `converged` means that both could be done.
 CorrectorStatus Corrector::look(const State& state) {
-  at_ = state;
+  arrived_ = false;
   system_.linearize(state, now_);
   if (!all_finite(now_.F)) return CorrectorStatus::not_finite;
   const FactorStatus status = solver_.factorize(now_, system_.multiplier_count(state.piece));
@@ -113,18 +114,22 @@ CorrectorStatus Corrector::look(const State& state) {
 }
 
 // The line (1), its tangent of unit length and its particular solution normal to it.
-bool Corrector::find_line(const Metric& metric, const Direction& along) {
-  if (!solver_.line(metric.row(along), line_)) return false;
-  line_.tangent = unit(metric, std::move(line_.tangent));
-  const double component = metric.inner(line_.particular, line_.tangent);
-  line_.particular.dx -= component * line_.tangent.dx;
-  line_.particular.dlambda -= component * line_.tangent.dlambda;
-  return all_finite(line_.tangent.dx) && all_finite(line_.particular.dx);
+bool Corrector::find_line(const Metric& metric, const Row& border) {
+  if (!solver_.line(border, line_)) return false;
+  auto& [particular, tangent] = line_;
+  const double scale = 1.0 / metric.norm(tangent), component = metric.inner(particular, tangent) * scale * scale;
+  particular.dx -= component * tangent.dx;
+  particular.dlambda -= component * tangent.dlambda;
+  tangent.dx *= scale;
+  tangent.dlambda *= scale;
+  return scale > 0.0 && std::isfinite(component);
 }
 
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {
   result.status = look(result.state);
   if (result.status != CorrectorStatus::converged) return result;
+  at_ = result.state;
+  arrived_ = true;
   // Pairs near zero are followed where there is no border.
   Matrix columns(now_.F.size(), 0);
   if (now_.B.cols() == 0) columns = tracker_.right_hand_sides(metric.weights());

@@ -70,7 +70,7 @@ class Corrector {
   std::optional<Index> count_here(const NearNull& nearest) const;
 
   /// Whether this is the state reached last.
-  bool is_at(const State& state) const { return at_ == state; }
+  bool is_at(const State& state) const { return arrived_ && at_ == state; }
 
   /// From where the eigenpairs nearest zero are followed, instead of the point reached last.
   void track_from(const NearNull& nearest);
@@ -79,13 +79,14 @@ class Corrector {
   CorrectorResult iterate(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
                           double length, const CorrectorOptions& options);
   CorrectorStatus look(const State& state);
-  bool find_line(const Metric& metric, const Direction& along);
+  bool find_line(const Metric& metric, const Row& border);
   CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Direction& along);
 
   const System& system_;
   CorrectorOptions options_;
   double load_floor_;
-  State at_;  // of the matrix at hand
+  State at_;              // reached last
+  bool arrived_ = false;  // the matrix at hand is that of this state
   Linearization now_;
   BorderedSolver solver_;
   EquilibriumLine line_;

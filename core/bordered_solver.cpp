@@ -88,8 +88,10 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   columns_.col(0) = -now.F;
   columns_.col(1) = -now.F_lambda;
   if (regular_ && solve_inner(columns_) && (!is_suspicious() || make_line_good(border))) {
-    out.particular = {.dx = columns_.col(0), .dlambda = 0.0};
-    out.tangent = {.dx = columns_.col(1), .dlambda = 1.0};
+    out.particular.dx = columns_.col(0);
+    out.particular.dlambda = 0.0;
+    out.tangent.dx = columns_.col(1);
+    out.tangent.dlambda = 1.0;
     return true;
   }
   if (!factorize_whole(border)) return false;
