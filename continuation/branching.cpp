@@ -12,18 +12,19 @@ namespace arcwall {
 namespace {
 
 constexpr double negligible = 1e-6;  // ratio of two coefficients below which the first is zero
+constexpr double rate_step = 1e-3;   // h of differences for a rate [path metric]
 
 // Algebraic branching equation a α² + 2 b α β = 0 for tangents α φ + β t, t the tangent we came along:
 //   α = 0 (the old branch) or α : β = −2 b : a.
 void find_other_tangent(const System& system, const Metric& metric, const Vector& left, BranchPoint& point) {
   Linearization beside;
-  const EigenvalueRate a = eigenvalue_rate(system, point.state, point.mode, left, point.mode.dx, beside);
-  const EigenvalueRate b = eigenvalue_rate(system, point.state, point.along, left, point.mode.dx, beside);
-  const bool symmetric = std::abs(a.value) <= std::max(negligible * std::abs(b.value), a.roundoff);
+  const double b = eigenvalue_rate(system, point.state, point.along, left, point.mode.dx, beside);
+  const double a = eigenvalue_rate(system, point.state, point.mode, left, point.mode.dx, beside);
+  const bool symmetric = std::abs(a) <= std::max(negligible * std::abs(b), eigenvalue_rate_roundoff(left, beside));
   point.type = symmetric ? BranchType::symmetric : BranchType::asymmetric;
   Direction other = point.mode;
   if (!symmetric) {
-    const double beta = -a.value / (2.0 * b.value);
+    const double beta = -a / (2.0 * b);
     other.dx += beta * point.along.dx;
     other.dlambda += beta * point.along.dlambda;
   }
@@ -39,18 +40,20 @@ Matrix across(const Matrix& vectors, const Metric& metric, const Direction& alon
 }  // namespace
 
 // ψᵀ (J(x + h d) − J(x − h d)) φ / 2h, ψ and φ the left and right null vectors of J = ∂F/∂x.
-EigenvalueRate eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
-                               const Vector& mode, Linearization& workspace) {
-  constexpr double h = 1e-3;  // [path metric]
-  EigenvalueRate rate;
+double eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
+                       const Vector& mode, Linearization& workspace) {
+  double rate = 0.0;
   for (const double sign : {1.0, -1.0}) {
-    system.linearize(moved(state, d, sign * h), workspace);
-    rate.value += sign * left.dot(product(workspace, mode).col(0)) / (2.0 * h);
+    system.linearize(moved(state, d, sign * rate_step), workspace);
+    rate += sign * left.dot(product(workspace, mode).col(0)) / (2.0 * rate_step);
   }
-  const Vector size = left.head(workspace.K.cols()).cwiseAbs();
-  rate.roundoff = 10.0 * std::numeric_limits<double>::epsilon() *
-                  size.dot(workspace.K.cwiseAbs().selfadjointView<Eigen::Lower>() * size) / h;
   return rate;
+}
+
+double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspace) {
+  const Vector size = left.head(workspace.K.cols()).cwiseAbs();
+  return 10.0 * std::numeric_limits<double>::epsilon() *
+         size.dot(workspace.K.cwiseAbs().selfadjointView<Eigen::Lower>() * size) / rate_step;
 }
 
 BranchPoint branch_point_at(const System& system, Corrector& corrector, const Metric& metric,

@@ -8,14 +8,13 @@
 
 namespace arcwall {
 
-/// φᵀ (∂K·d) φ by central differences: how fast an eigenvalue changes along a direction, and the round-off of that. The
-/// first φ is the left null vector of ∂F/∂x, the second the right one.
-struct EigenvalueRate {
-  double value = 0.0, roundoff = 0.0;
-};
+/// φᵀ (∂K·d) φ by central differences: how fast an eigenvalue changes along a direction. The first φ is the left null
+/// vector of ∂F/∂x, the second the right one.
+double eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
+                       const Vector& mode, Linearization& workspace);
 
-EigenvalueRate eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
-                               const Vector& mode, Linearization& workspace);
+/// What round-off may make of that; `workspace` as the rate left it.
+double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspace);
 
 /// What a singular place is: its modes, its type and the tangents of the branches that cross there. Where no mode can
 /// be computed, `mode` stays empty.

@@ -40,11 +40,11 @@ double angle_between(const Metric& metric, const Direction& a, const Direction& 
 }
 
 // λ₀ of the metric: the load that would move the structure by 1 if it stayed linear.
-double natural_lambda_scale(const System& system, const State& start, double first) {
-  Metric metric(system.weights(start.piece), 1.0);
-  Corrector corrector(system, {}, std::abs(first));
+double natural_lambda_scale(const System& system, Corrector& corrector, const State& start, double first) {
+  const Metric metric(system.weights(start.piece), 1.0);
   const Direction up{.dx = Vector::Zero(start.x.size()), .dlambda = 1.0};
   const CorrectorResult at = corrector.inspect(start, metric, up);
+  corrector.track_from({});
   if (!at.converged()) return std::abs(first);
   const double scale = std::abs(at.tangent.dlambda) / std::sqrt(metric.inner_x(at.tangent, at.tangent));
   return std::isfinite(scale) && scale > 0.0 ? scale : std::abs(first);
@@ -56,10 +56,10 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
     : system_(system),
       options_(std::move(options)),
       watched_(std::move(watched)),
-      metric_(system.weights(start.state.piece), start.lambda_scale
-                                                     ? *start.lambda_scale
-                                                     : natural_lambda_scale(system, start.state, options_.step.first)),
       corrector_(system, options_.corrector, std::abs(options_.step.first)),
+      metric_(system.weights(start.state.piece),
+              start.lambda_scale ? *start.lambda_scale
+                                 : natural_lambda_scale(system, corrector_, start.state, options_.step.first)),
       counter_(system, options_.guard_tolerance),
       step_(options_.step, options_.step.max),
       start_(std::move(start)) {

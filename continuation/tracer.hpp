@@ -236,8 +236,8 @@ class Tracer {
   TraceOptions options_;
   std::vector<Watch> watched_;
   std::vector<EventDetector> detectors_;
-  Metric metric_;
   Corrector corrector_;
+  Metric metric_;
   StabilityCounter counter_;
   StepControl step_;
   PathPoint here_;

@@ -230,7 +230,7 @@ bool Tracer::dips(const Segment& segment, Index here, Index there) {
   }
   const auto rate = [&](const PathPoint& point, Index mode) {
     const Vector vector = point.nearest.vectors.col(mode);
-    return sign * eigenvalue_rate(system_, point.state, point.tangent, vector, vector, beside_).value;
+    return sign * eigenvalue_rate(system_, point.state, point.tangent, vector, vector, beside_);
   };
   const double r0 = rate(from, here), r1 = rate(to, there);
   return least_cubic_value(sign * v0, r0 * L, sign * v1, r1 * L) <= deep * least;
@@ -241,7 +241,7 @@ bool Tracer::rises_from_zero(const Segment& segment, Index there) {
   const PathPoint& to = segment.to();
   const double v1 = to.nearest.values[there];
   const Vector vector = to.nearest.vectors.col(there);
-  const double rate = eigenvalue_rate(system_, to.state, to.tangent, vector, vector, beside_).value;
+  const double rate = eigenvalue_rate(system_, to.state, to.tangent, vector, vector, beside_);
   return (v1 > 0.0) == (rate > 0.0) && std::abs(v1) <= segment.length() * std::abs(rate);
 }
 
