@@ -158,16 +158,18 @@ std::optional<Arc> Tracer::advance(double s) {
   auto step = singular.empty() ? take_clear_of_singular(s) : std::optional(Step{.to = singular.front().at});
   if (!step) return std::nullopt;
   if (step->family) step->to.held = std::nullopt;
-  const PathPoint beyond = step->to;
-  if (singular.empty() && options_.events != EventSearch::none && !find_singular(beyond, singular))
+  if (singular.empty() && options_.events != EventSearch::none && !find_singular(step->to, singular))
     return rejected(StepOutcome::events_unclear);
 
   std::optional<Found> found;
-  if (!singular.empty()) {
-    found = singular.front().found;
-    step->to = singular.front().at;
+  PathPoint beyond;  // where the step led that ends at an event
+  const auto end_at = [&](const Found& event, PathPoint at) {
+    if (!found) beyond = std::move(step->to);
+    found = event;
+    step->to = std::move(at);
     step->corner = false;
-  }
+  };
+  if (!singular.empty()) end_at(singular.front().found, singular.front().at);
   if (options_.events != EventSearch::none || !options_.landmarks.empty()) {
     while (auto next = earliest(Segment(metric_, here_, step->to), found)) {
       constexpr double same = 1e-9;  // what was located lies at the end itself
@@ -175,9 +177,7 @@ std::optional<Arc> Tracer::advance(double s) {
       auto at = locate(*next, step->to);
       if (!at) return rejected(StepOutcome::events_unclear);
       singular.clear();
-      step->to = std::move(*at);
-      step->corner = false;
-      found = next;
+      end_at(*next, std::move(*at));
     }
   }
   const double length = Segment(metric_, here_, step->to).length();
@@ -267,6 +267,7 @@ std::optional<Tracer::Step> Tracer::take_clear_of_singular(double s) {
   constexpr double beside_singular = 0.93;
   auto step = take(s);
   if (!step || step->corner || step->to.held || !held_ || options_.events != EventSearch::locate) return step;
+  corrector_.track_from(nearest_);
   auto shorter = take(beside_singular * s);
   return shorter && shorter->to.held ? shorter : step;
 }
@@ -278,7 +279,6 @@ std::optional<Tracer::Step> Tracer::take(double s) {
       leaves ? std::make_unique<PlaneConstraint>(metric_, here_.state, start_.mode,
                                                  s * metric_.inner(here_.tangent, start_.mode))
              : step_constraint(options_.method, metric_, here_.state, here_.tangent, s, options_.control.get());
-  corrector_.track_from(nearest_);
   CorrectorResult result = corrector_.correct(predicted(s), *constraint, metric_, here_.tangent, s);
   if (!result.converged() && before_)
     result = corrector_.correct(moved(here_.state, here_.tangent, s), *constraint, metric_, here_.tangent, s);

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <optional>
+#include <utility>
 
 #include "core/ldlt.hpp"
 #include "core/system.hpp"
@@ -31,7 +32,7 @@ class BorderedSolver {
   FactorStatus factorize(const Linearization& equations, Index multipliers);
 
   /// See Ldlt.
-  void expect_soft(const Matrix& vectors) { ldlt_.expect_soft(vectors); }
+  void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
 
   /// `border` closes the system where K alone is singular; the line itself does not depend on it.
   /// False if the bordered matrix is singular too.

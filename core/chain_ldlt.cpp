@@ -17,8 +17,8 @@ Index rounded_up(Index count) { return (count + Lanes::count - 1) / Lanes::count
 
 // Whether an index is the next one at a constant distance; then it is taken in.
 template <class Steps>
-bool extended(Steps& steps, std::int32_t index) {
-  if (steps.count == 1) steps.step = index - steps.first;
+bool extended(Steps& steps, Index index) {
+  if (steps.count == 1) steps.step = static_cast<std::int32_t>(index - steps.first);
   if (index != steps.first + steps.count * steps.step) return false;
   ++steps.count;
   return true;
@@ -43,7 +43,7 @@ ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups) : unknown
     }
     for (Index k = size; k < width_; ++k) {
       filling_.push_back(static_cast<std::int32_t>(rounds_.front().diagonal_at(group, packed(k, k))));
-      unused_.push_back({.pivot = pivot_place(group, k), .first = pivot_place(group, 0)});
+      unused_.push_back({.pivot = pivot_place(group, k), .first = pivot_place(group, 0), .side = side_of(group, k, 0)});
     }
   }
   lay_out_values(A, group_of, row_of);
@@ -98,30 +98,35 @@ void ChainLdlt::lay_out_values(const SparseMatrix& A, const std::vector<Index>& 
 }
 
 void ChainLdlt::lay_out_unknowns(const ChainGroups& groups) {
-  const ChainRound& first = rounds_.front();
   const auto count = static_cast<Index>(groups.size());
   unknown_runs_.clear();
   for (Index from = 0; from < count; from += 2 * together)
-    for (const bool goes : {false, true})
+    for (const Index first : {0, 1})
       for (Index k = 0; k < width_; ++k) {
-        const Index stride = goes ? first.stride : first.left_stride;
-        const Index row = (goes ? first.right_hand_side : first.right_hand_side_left) + k * stride;
         bool follows = false;
-        for (Index g = from; g < std::min(from + 2 * together, count); ++g) {
-          if (first.eliminates(g) != goes) continue;
+        for (Index g = from + first; g < std::min(from + 2 * together, count); g += 2) {
           const std::vector<Index>& group = groups[static_cast<std::size_t>(g)];
           if (k >= static_cast<Index>(group.size())) {
             follows = false;
             continue;
           }
-          const auto unknown = static_cast<std::int32_t>(group[static_cast<std::size_t>(k)]);
+          const Index unknown = group[static_cast<std::size_t>(k)];
           if (!std::exchange(follows, true) || !extended(unknown_runs_.back().unknowns, unknown))
-            unknown_runs_.push_back({.row = static_cast<std::int32_t>(row),
-                                     .stride = static_cast<std::int32_t>(stride),
-                                     .group = static_cast<std::int32_t>(g / 2),
-                                     .unknowns = {.first = unknown}});
+            unknown_runs_.push_back(side_of(g, k, unknown));
         }
       }
+}
+
+// Where a row of a group has its right-hand side in the first round.
+ChainLdlt::UnknownRun ChainLdlt::side_of(Index group, Index row, Index unknown) const {
+  const ChainRound& first = rounds_.front();
+  const bool goes = first.eliminates(group);
+  const Index stride = goes ? first.stride : first.left_stride;
+  const Index start = goes ? first.right_hand_side : first.right_hand_side_left;
+  return {.row = static_cast<std::int32_t>(start + row * stride),
+          .stride = static_cast<std::int32_t>(stride),
+          .group = static_cast<std::int32_t>(group / 2),
+          .unknowns = {.first = static_cast<std::int32_t>(unknown)}};
 }
 
 // Where the numbers of each round stand, and ones on the diagonal of what is only there to fill the lanes: in later
@@ -194,9 +199,9 @@ bool ChainLdlt::read_pivots() {
   std::array<Seen, 4> seen;
   double* numbers = numbers_.data();
   Index repeated = 0;  // negative ones
-  for (const auto& [unused, first] : unused_) {
-    numbers[unused] = numbers[first];
-    repeated += numbers[first] < 0.0;
+  for (const Unused& place : unused_) {
+    numbers[place.pivot] = numbers[place.first];
+    repeated += numbers[place.first] < 0.0;
   }
   for (const ChainRound& round : rounds_)
     for (Index k = 0; k < width_; ++k) {
@@ -219,6 +224,20 @@ bool ChainLdlt::read_pivots() {
   return pivots_.greatest < infinity && sum < infinity;
 }
 
+// What right-hand sides do not fill: what there is only to fill the lanes, and places that no unknown has.
+void ChainLdlt::clear_unused(Index columns) const {
+  double* work = work_.data();
+  for (const ChainRound& round : rounds_)
+    for (Index k = 0; k < width_ * columns; ++k) {
+      double* row = work + columns * round.right_hand_side + k * round.stride;
+      std::fill(row + round.eliminated, row + round.stride, 0.0);
+      row = work + columns * round.right_hand_side_left + k * round.left_stride;
+      std::fill(row + round.left, row + round.left_stride, 0.0);
+    }
+  for (const Unused& place : unused_)
+    for (Index r = 0; r < columns; ++r) work[columns * place.side.row + r * place.side.stride + place.side.group] = 0.0;
+}
+
 void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
   const auto solve_columns = [&](auto count, Index first) {
     constexpr Index R = count.value;
@@ -226,7 +245,7 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
     const auto row = [&](const UnknownRun& run, Index r) {
       return work_.data() + R * run.row + r * run.stride + run.group;
     };
-    std::fill(work_.begin(), work_.end(), 0.0);
+    clear_unused(R);
     for (const UnknownRun& run : unknown_runs_)
       for (Index r = 0; r < R; ++r) {
         double* to = row(run, r);
@@ -247,7 +266,7 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
 }
 
 double ChainLdlt::weighted(const Vector& v) const {
-  std::fill(work_.begin(), work_.end(), 0.0);
+  clear_unused(1);
   for (const UnknownRun& run : unknown_runs_)
     for (std::int32_t i = 0; i < run.unknowns.count; ++i)
       work_[static_cast<std::size_t>(run.row + run.group + i)] = std::abs(v[run.unknowns.at(i)]);

@@ -44,9 +44,10 @@ class ChainLdlt final : public SymmetricFactors {
     std::int32_t row, stride, group;
     Steps unknowns;
   };
-  // Of a group's place that no unknown has: its pivot, and that of the group's first unknown.
+  // A place of a group that no unknown has: its pivot, that of the group's first unknown, and its right-hand side.
   struct Unused {
     std::int32_t pivot, first;
+    UnknownRun side;
   };
 
   void lay_out_rounds(Index groups);
@@ -54,6 +55,8 @@ class ChainLdlt final : public SymmetricFactors {
   void lay_out_unknowns(const ChainGroups& groups);
   std::int32_t pivot_place(Index group, Index row) const;
   bool read_pivots();
+  UnknownRun side_of(Index group, Index row, Index unknown) const;
+  void clear_unused(Index columns) const;
 
   Index width_ = 0;  // of all groups: the greatest, rounded up to a width with code of its own
   Index unknowns_ = 0;

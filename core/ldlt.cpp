@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/chain_ldlt.hpp"
@@ -65,10 +66,10 @@ Ldlt& Ldlt::operator=(Ldlt&&) noexcept = default;
 
 void Ldlt::set_multiplier_count(Index count) { implementation_->multipliers = count; }
 
-void Ldlt::expect_soft(const Matrix& vectors) {
+void Ldlt::expect_soft(Matrix vectors) {
   Implementation& self = *implementation_;
-  self.soft = vectors;
-  if (self.factors) self.factors->expect_soft(vectors);
+  self.soft = std::move(vectors);
+  if (self.factors) self.factors->expect_soft(self.soft);
 }
 
 void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }

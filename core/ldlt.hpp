@@ -25,7 +25,7 @@ class Ldlt final : public Factorization {
 
   /// Columns that the matrices to come hardly resist, as far as one knows; none by default. Where they are found makes
   /// large indefinite matrices quicker; results depend on them within round-off.
-  void expect_soft(const Matrix& vectors);
+  void expect_soft(Matrix vectors);
 
   /// Whether the matrices to come are known to have the pattern of the last one, so that it is not compared; false by
   /// default.
