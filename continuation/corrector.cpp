@@ -131,8 +131,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   at_ = result.state;
   arrived_ = true;
   // Pairs near zero are followed where there is no border.
-  Matrix columns(now_.F.size(), 0);
-  if (now_.B.cols() == 0) columns = tracker_.right_hand_sides(metric.weights());
+  Matrix columns = now_.B.cols() == 0 ? tracker_.right_hand_sides(metric.weights(), 1) : Matrix(now_.F.size(), 1);
   Direction tangent;
   if (!solver_.tangent(metric.row(along), tangent, columns)) {
     result.status = CorrectorStatus::singular;
@@ -142,7 +141,8 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   if (now_.B.cols() > 0) {
     result.negative = negative_eigenvalues(system_, result.state, solver_);
   } else {
-    if (columns.cols() > 0) result.nearest = tracker_.advance(metric.weights(), columns);
+    if (const Index others = columns.cols() - 1; others > 0)
+      result.nearest = tracker_.advance(metric.weights(), columns.rightCols(others));
     if (const auto negative = negative_by_pivots(solver_.inner(), metric.weights(), result.nearest))
       result.negative = *negative - system_.multiplier_count(result.state.piece);
   }

@@ -94,7 +94,7 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
     out.tangent.dlambda = 1.0;
     return true;
   }
-  if (!factorize_whole(border)) return false;
+  if (!factorize_whole(border, columns_)) return false;
   auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (!particular || !tangent) return false;
   out = {.particular = std::move(*particular), .tangent = std::move(*tangent)};
@@ -121,33 +121,32 @@ bool BorderedSolver::make_line_good(const Row& border) {
   }
 }
 
-bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& others) {
+bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns) {
   const Linearization& now = *equations_;
-  columns_.resize(now.F.size(), 1 + others.cols());
-  columns_.col(0) = -now.F_lambda;
-  columns_.rightCols(others.cols()) = others;
-  if (regular_ && solve_inner(columns_) && (!is_suspicious() || make_tangent_good())) {
-    out = {.dx = columns_.col(0), .dlambda = 1.0};
-    others = columns_.rightCols(others.cols());
+  columns.col(0) = -now.F_lambda;
+  if (regular_ && solve_inner(columns) && (!is_suspicious() || make_tangent_good(columns))) {
+    out.dx = columns.col(0);
+    out.dlambda = 1.0;
     return true;
   }
-  others.resize(now.F.size(), 0);
-  if (!factorize_whole(border)) return false;
+  const bool found = factorize_whole(border, columns);
+  columns.resize(now.F.size(), 1);
+  if (!found) return false;
   auto solution = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (solution) out = std::move(*solution);
   return solution.has_value();
 }
 
-bool BorderedSolver::make_tangent_good() {
+bool BorderedSolver::make_tangent_good(Matrix& columns) {
   const Linearization& now = *equations_;
   for (int round = 0;; ++round) {
-    const BorderedResidual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(0), .dlambda = 0.0});
+    const BorderedResidual tangent = residual_of(now, -now.F_lambda, {.dx = columns.col(0), .dlambda = 0.0});
     if (!tangent.r.allFinite()) return false;
     if (tangent.is_small(now.F_lambda)) return true;
     if (round == max_refinements) return false;
     Matrix correction = tangent.r;
     if (!solve_inner(correction)) return false;
-    columns_.col(0) += correction;
+    columns.col(0) += correction;
   }
 }
 
@@ -163,14 +162,14 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
     Direction solution{.dx = X.col(0) - dlambda * X.col(1), .dlambda = dlambda};
     if (solved && solution.dx.allFinite() && residual_of(now, f, solution).is_small(f)) return solution;
   }
-  if (!factorize_whole(border)) return std::nullopt;
+  if (!factorize_whole(border, columns_)) return std::nullopt;
   return whole_.solve(f, g);
 }
 
 // K's own solutions, where there are any (the last for F_λ or for what is tracked), are mostly what K hardly resists.
-bool BorderedSolver::factorize_whole(const Row& border) {
-  const bool solved = regular_ && columns_.cols() > 0 && columns_.rows() == border.dx.size() && columns_.allFinite();
-  return whole_.factorize(*equations_, border, multipliers_, solved ? Vector(columns_.rightCols(1)) : border.dx);
+bool BorderedSolver::factorize_whole(const Row& border, const Matrix& columns) {
+  const bool solved = regular_ && columns.cols() > 0 && columns.rows() == border.dx.size() && columns.allFinite();
+  return whole_.factorize(*equations_, border, multipliers_, solved ? Vector(columns.rightCols(1)) : border.dx);
 }
 
 }  // namespace arcwall

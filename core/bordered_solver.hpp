@@ -38,9 +38,10 @@ class BorderedSolver {
   /// False if the bordered matrix is singular too.
   bool line(const Row& border, EquilibriumLine& out);
 
-  /// The tangent of the line alone, not normalised, and `others` := K⁻¹ others by the way, unchecked; no column is left
-  /// of them where K is singular. False if the bordered matrix is singular too.
-  bool tangent(const Row& border, Direction& out, Matrix& others);
+  /// The tangent of the line alone, not normalised. Column 0 of `columns` is a workspace, the others become K⁻¹ times
+  /// themselves by the way, unchecked; none of them is left where K is singular. False if the bordered matrix is
+  /// singular too.
+  bool tangent(const Row& border, Direction& out, Matrix& columns);
 
   /// Solution of the bordered system for one right-hand side (f, g), with column F_λ; empty if it is singular.
   std::optional<Direction> solve(const Row& border, const Vector& f, double g);
@@ -68,8 +69,8 @@ class BorderedSolver {
   bool eliminate_border();
   bool is_suspicious() const;
   bool make_line_good(const Row& border);
-  bool make_tangent_good();
-  bool factorize_whole(const Row& border);
+  bool make_tangent_good(Matrix& columns);
+  bool factorize_whole(const Row& border, const Matrix& columns);
 
   const Linearization* equations_ = nullptr;
   Pattern pattern_;

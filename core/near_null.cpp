@@ -89,18 +89,18 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
   return {.values = values.head(count), .vectors = X.leftCols(count)};
 }
 
-Matrix NearNullTracker::right_hand_sides(const Vector& weights) {
+Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   const Index n = weights.size(), block = std::min<Index>(3, pair_count(weights));
   const Index kept = std::max<Index>(0, std::min(X_.cols(), block - 1));
   if (start_.rows() != n || start_.cols() != block) start_ = start_block(n, block);
   // Contact forces, which come and go at the end, have no weight and need no start.
   const Index common = std::min(X_.rows(), n);
-  Matrix X = start_;
-  if (kept > 0) {
-    X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
-    X.bottomLeftCorner(n - common, kept).setZero();
-  }
-  Matrix WX(n, block);
+  Matrix X(n, block);
+  X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
+  X.bottomLeftCorner(n - common, kept).setZero();
+  X.rightCols(block - kept) = start_.rightCols(block - kept);
+  Matrix columns(n, front + block);
+  auto WX = columns.rightCols(block);
   for (Index j = 0; j < block; ++j) {
     for (Index i = 0; i < j; ++i) X.col(j) -= WX.col(i).dot(X.col(j)) * X.col(i);
     WX.col(j) = weights.cwiseProduct(X.col(j));
@@ -110,13 +110,13 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights) {
     WX.col(j) *= scale;
   }
   X_ = std::move(X);
-  return WX;
+  return columns;
 }
 
 // On the span of X, W-orthonormal, K⁻¹ is A = Xᵀ W K⁻¹ W X. Its greatest eigenvalues θ in magnitude belong to pairs
 // near zero, and never to a mixture of far ones, as the least of Xᵀ K X may. y = K⁻¹ W X c has the Rayleigh quotient
 // θ/(yᵀ W y).
-NearNull NearNullTracker::advance(const Vector& weights, const Matrix& Y) {
+NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& Y) {
   const Index block = X_.cols();
   if (block == 0 || !all_finite(Y)) return {};
   // A few columns: products of large blocks would only be prepared longer than they take.

@@ -39,10 +39,11 @@ class NearNullTracker {
   const Matrix& vectors() const { return X_; }
 
   /// Right-hand sides W X, whose solutions with K `advance` wants; few columns, none if W has no entry above zero.
-  Matrix right_hand_sides(const Vector& weights);
+  /// Before them `front` columns are left for others.
+  Matrix right_hand_sides(const Vector& weights, Index front = 0);
 
   /// `solutions`: K⁻¹ W X. Gives the pairs, at most two.
-  NearNull advance(const Vector& weights, const Matrix& solutions);
+  NearNull advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions);
 
  private:
   Matrix X_;  // W-orthonormal between right_hand_sides and advance
