@@ -333,20 +333,20 @@ struct Elimination {
   }
 };
 
-// One vector of four and fused operations where the processor has them: what these round differently is one of many
-// ways to round the factors.
+// One vector of four where the processor has them. Factors are the same numbers everywhere, and a pivot that vanishes
+// exactly does so: k − (k/k) k would not by fused operations. Solutions have these, too.
 #ifdef __x86_64__
-#define ARCWALL_WIDE [[gnu::target("avx,fma")]]
-ARCWALL_WIDE void eliminate_wide(const Elimination& chain, double* numbers, double* coupling) {
+[[gnu::target("avx")]] void eliminate_wide(const Elimination& chain, double* numbers, double* coupling) {
   chain.eliminate(numbers, coupling);
 }
-ARCWALL_WIDE void solve_wide(const Elimination& chain, Index columns, const double* numbers, double* work) {
+[[gnu::target("avx,fma")]] void solve_wide(const Elimination& chain, Index columns, const double* numbers,
+                                           double* work) {
   chain.solve(columns, numbers, work);
 }
-ARCWALL_WIDE double weighted_wide(const Elimination& chain, const double* numbers, double* work) {
+[[gnu::target("avx,fma")]] double weighted_wide(const Elimination& chain, const double* numbers, double* work) {
   return chain.weighted(numbers, work);
 }
-bool is_wide() { return __builtin_cpu_supports("avx") != 0 && __builtin_cpu_supports("fma") != 0; }
+bool has_fused_operations() { return has_wide_registers() && __builtin_cpu_supports("fma") != 0; }
 #endif
 
 }  // namespace
@@ -356,7 +356,7 @@ Index elimination_width(Index greatest) { return next_width(greatest, Widths{});
 void eliminate_rounds(Index width, const std::vector<ChainRound>& rounds, double* numbers, double* coupling) {
   const Elimination chain{width, rounds};
 #ifdef __x86_64__
-  if (is_wide()) return eliminate_wide(chain, numbers, coupling);
+  if (has_wide_registers()) return eliminate_wide(chain, numbers, coupling);
 #endif
   chain.eliminate(numbers, coupling);
 }
@@ -365,7 +365,7 @@ void solve_rounds(Index width, Index columns, const std::vector<ChainRound>& rou
                   double* work) {
   const Elimination chain{width, rounds};
 #ifdef __x86_64__
-  if (is_wide()) return solve_wide(chain, columns, numbers, work);
+  if (has_fused_operations()) return solve_wide(chain, columns, numbers, work);
 #endif
   chain.solve(columns, numbers, work);
 }
@@ -373,7 +373,7 @@ void solve_rounds(Index width, Index columns, const std::vector<ChainRound>& rou
 double weighted_rounds(Index width, const std::vector<ChainRound>& rounds, const double* numbers, double* work) {
   const Elimination chain{width, rounds};
 #ifdef __x86_64__
-  if (is_wide()) return weighted_wide(chain, numbers, work);
+  if (has_fused_operations()) return weighted_wide(chain, numbers, work);
 #endif
   return chain.weighted(numbers, work);
 }
