@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/lanes.hpp"
 #include "core/lu.hpp"
 
 namespace arcwall {
@@ -19,48 +18,6 @@ constexpr double clear = 4.0;      // times the round-off: what stands clear of 
 constexpr double off = 1e-12;      // relative, of the vectors V
 constexpr double nearby = 1000.0;  // times the round-off: what is looked at with Ψ
 constexpr Index most_pairs = 16;   // that are looked for
-
-// A number as it is rounded: no operation behind it is joined with the one that made it.
-ARCWALL_IN_PLACE double rounded(double x) {
-#ifdef __x86_64__
-  asm("" : "+x"(x));
-#endif
-  return x;
-}
-
-// A sum of products with twice the digits (Ogita, Rump and Oishi 2005).
-class Sum {
- public:
-  ARCWALL_IN_PLACE void add(double a, double b) {
-    const double product = rounded(a * b), low = std::fma(a, b, -product);
-    const double sum = high_ + product, part = sum - high_;
-    low_ += ((high_ - (sum - part)) + (product - part)) + low;
-    high_ = sum;
-  }
-  double value() const { return high_ + low_; }
-
- private:
-  double high_ = 0.0, low_ = 0.0;
-};
-
-ARCWALL_IN_PLACE QuadraticForm form_of(const SparseMatrix& K, const Vector& v) {
-  Sum sum, rest;  // side by side: neither waits for the other
-  double magnitude = 0.0;
-  for (Index column = 0; column < K.cols(); ++column)
-    for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
-      const double factor = entry.row() == column ? v[column] : 2.0 * v[column];
-      const double product = rounded(entry.value() * v[entry.row()]);
-      sum.add(product, factor);
-      rest.add(std::fma(entry.value(), v[entry.row()], -product), factor);
-      magnitude += std::abs(product * factor);
-    }
-  return {.value = sum.value() + rest.value(), .roundoff = epsilon * magnitude};
-}
-
-// std::fma is a call where the compiler may not count on the instruction.
-#ifdef __x86_64__
-[[gnu::target("fma")]] QuadraticForm fused_form(const SparseMatrix& K, const Vector& v) { return form_of(K, v); }
-#endif
 
 SparseMatrix bordered(const SparseMatrix& K, const Matrix& B) {
   const Index n = K.cols(), k = B.cols();
@@ -221,13 +178,6 @@ std::optional<BorderedTestFunction> BorderedTestFunction::of(const SparseMatrix&
   const Matrix psi = X.bottomRows(k);
   function.psi_ = 0.5 * (psi + psi.transpose());
   return function;
-}
-
-QuadraticForm quadratic_form(const SparseMatrix& K, const Vector& v) {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("fma")) return fused_form(K, v);
-#endif
-  return form_of(K, v);
 }
 
 std::optional<Index> negative_by_pivots(const Ldlt& ldlt, const Vector& weights, const NearNull& nearest) {

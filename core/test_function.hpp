@@ -5,6 +5,7 @@
 
 #include "core/ldlt.hpp"
 #include "core/near_null.hpp"
+#include "core/quadratic_form.hpp"
 
 namespace arcwall {
 
@@ -26,17 +27,6 @@ class BorderedTestFunction {
  private:
   Matrix psi_, vectors_;
 };
-
-/// vᵀ K v, summed with twice the digits, and by how much it changes at most when each entry of K does in its last
-/// digit.
-struct QuadraticForm {
-  double value = 0.0;
-  double roundoff = 0.0;  ///< ε |v|ᵀ |K| |v|
-
-  bool is_zero() const { return std::abs(value) <= roundoff; }  ///< within round-off
-};
-
-QuadraticForm quadratic_form(const SparseMatrix& lower_triangle, const Vector& v);
 
 /// Signs of the eigenvalues of a symmetric matrix.
 struct SignCount {

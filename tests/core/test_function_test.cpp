@@ -190,4 +190,15 @@ TEST(TestFunction, QuadraticFormsKeepTheirDigits) {
   EXPECT_DOUBLE_EQ(quadratic_form(lower_triangle(A), Vector{{-2.0, 7.0}}).value, 8.0 + 84.0 + 245.0);
 }
 
+// Entries are summed in groups, whose number need not divide theirs; integers are summed exactly.
+TEST(TestFunction, QuadraticFormsHaveAllEntries) {
+  for (const Index n : {1, 2, 7, 15, 16, 31, 40}) {
+    const Matrix A = Matrix::NullaryExpr(n, n, [](Index i, Index j) { return double((i * j + i + j) % 7 - 3); });
+    const Vector v = Vector::NullaryExpr(n, [](Index i) { return double(i % 5 - 2); });
+    const QuadraticForm form = quadratic_form(lower_triangle(A), v);
+    EXPECT_EQ(form.value, v.dot(A * v)) << n;
+    EXPECT_EQ(form.roundoff, epsilon * v.cwiseAbs().dot(A.cwiseAbs() * v.cwiseAbs())) << n;
+  }
+}
+
 }  // namespace arcwall::test_function_test
