@@ -161,7 +161,9 @@ class Suite:
             few = 2 if n > 2000 else None
             values = [f"member.column.elements={n // 2}", f"member.short.elements={n // 10}",
                       f"member.long.elements={n - n // 2 - n // 10}"]
-            yield Process("chain_yardstick", "lee", n, [self.program("chain_yardstick"), str(n)], rounds=few)
+            yardstick = [self.program("chain_yardstick"), str(n)]
+            yield Process("chain_yardstick", "lee", n, yardstick, rounds=few)
+            yield Process("chain_yardstick again", "lee", n, [*yardstick, "5" if n <= 5000 else "1"], rounds=few)
             yield self.split("lee", n, rounds=few)
             yield self.traced("lee", n, "examples/lee.toml", [*values, "path.watch=[]"], rounds=few)
             if n == 20:
