@@ -82,10 +82,7 @@ std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count)
 }
 
 std::optional<Index> Corrector::count_here(const NearNull& nearest) const {
-  if (now_.B.cols() > 0) return negative_eigenvalues(system_, at_, solver_);
-  const Index multipliers = system_.multiplier_count(at_.piece);
-  const auto negative = negative_count(solver_.inner(), now_.K, system_.weights(at_.piece), multipliers, nearest);
-  return negative ? std::optional(*negative - multipliers) : std::nullopt;
+  return negative_eigenvalues(system_, at_, solver_, now_, nearest);
 }
 
 std::optional<Matrix> Corrector::responses(Matrix columns) const {

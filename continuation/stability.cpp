@@ -26,6 +26,14 @@ std::optional<Index> negative_eigenvalues(const System& system, const State& sta
   return held + (eigen.eigenvalues().array() < 0.0).count();
 }
 
+std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
+                                          const Linearization& equations, const NearNull& nearest) {
+  if (equations.B.cols() > 0) return negative_eigenvalues(system, state, solver);
+  const Index multipliers = system.multiplier_count(state.piece);
+  const auto negative = negative_count(solver.inner(), equations.K, system.weights(state.piece), multipliers, nearest);
+  return negative ? std::optional(*negative - multipliers) : std::nullopt;
+}
+
 Piece strongly_closed(const System& system, const State& state, double force_tolerance) {
   Piece piece = state.piece;
   if (piece.empty()) return piece;
@@ -66,20 +74,17 @@ void StabilityCounter::remember(const State& state, std::optional<Index> negativ
 
 std::optional<Index> StabilityCounter::counted_on(const State& state) {
   system_.linearize(state, now_);
-  const Index multipliers = system_.multiplier_count(state.piece);
-  const FactorStatus status = solver_.factorize(now_, multipliers);
-  if (system_.border_width(state.piece) > 0)
-    return status == FactorStatus::ok ? negative_eigenvalues(system_, state, solver_) : std::nullopt;
-  if (status == FactorStatus::not_finite) return std::nullopt;
-  const Vector weights = system_.weights(state.piece);
+  const FactorStatus status = solver_.factorize(now_, system_.multiplier_count(state.piece));
+  const bool regular = status == FactorStatus::ok, bordered = now_.B.cols() > 0;
+  if (status == FactorStatus::not_finite || (bordered && !regular)) return std::nullopt;
   NearNull nearest;
-  if (status == FactorStatus::ok) {
+  if (regular && !bordered) {
+    const Vector weights = system_.weights(state.piece);
     Matrix columns = tracker_.right_hand_sides(weights);
     solver_.inner().solve(columns);
     nearest = tracker_.advance(weights, columns);
   }
-  const auto negative = negative_count(solver_.inner(), now_.K, weights, multipliers, nearest);
-  return negative ? std::optional(*negative - multipliers) : std::nullopt;
+  return negative_eigenvalues(system_, state, solver_, now_, nearest);
 }
 
 }  // namespace arcwall

@@ -22,6 +22,11 @@ struct StabilityCount {
 /// state; what a border holds gives way by System::border_springs. Empty where K is singular.
 std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver);
 
+/// The same, where there is no border also where the pivots do not tell; `equations`: those factorized, `nearest`: the
+/// eigenpairs nearest zero that were found there.
+std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
+                                          const Linearization& equations, const NearNull& nearest);
+
 /// Counts, with its own factorization; keeps workspaces from call to call.
 class StabilityCounter {
  public:

@@ -102,12 +102,13 @@ class SprungCholesky final : public SymmetricFactors {
     const Vector u = v(llt_.order()).cwiseAbs();
     double sum = 0.0;
     Vector at_rows;
-    for (const Block& block : blocks()) {
-      at_rows.resize(block.rows);
-      for (Index i = 0; i < block.rows; ++i) at_rows[i] = u[block.row[i]];
-      for (Index j = 0; j < block.columns; ++j) {
-        const Index rows = block.rows - j;
-        const Eigen::Map<const Vector> column(block.values + j * block.rows + j, rows);
+    for (std::size_t s = 0; s < llt_.factor->nsuper; ++s) {
+      const Block part = block(s);
+      at_rows.resize(part.rows);
+      for (Index i = 0; i < part.rows; ++i) at_rows[i] = u[part.row[i]];
+      for (Index j = 0; j < part.columns; ++j) {
+        const Index rows = part.rows - j;
+        const Eigen::Map<const Vector> column(part.values + j * part.rows + j, rows);
         sum += std::pow(column.cwiseAbs().dot(at_rows.tail(rows)), 2);  // (|L|ᵀ |v|)_j
       }
     }
@@ -137,12 +138,6 @@ class SprungCholesky final : public SymmetricFactors {
             .rows = rows[s + 1] - rows[s],
             .row = static_cast<const SuiteSparse_long*>(L.s) + rows[s],
             .values = static_cast<const double*>(L.x) + values[s]};
-  }
-
-  std::vector<Block> blocks() const {
-    std::vector<Block> blocks;
-    for (std::size_t s = 0; s < llt_.factor->nsuper; ++s) blocks.push_back(block(s));
-    return blocks;
   }
 
   // The last block: what is left when two halves are eliminated that it alone joins.
@@ -212,14 +207,15 @@ class SprungCholesky final : public SymmetricFactors {
     const auto failed = static_cast<Index>(llt_.factor->minor);
     Vector v = Vector::Zero(llt_.size());
     v[failed] = 1.0;
-    const std::vector<Block> all = blocks();
-    for (auto block = all.rbegin(); block != all.rend(); ++block)
-      for (Index j = std::min(block->columns, failed - block->first) - 1; j >= 0; --j) {
-        const double* column = block->values + j * block->rows;
+    for (std::size_t s = llt_.factor->nsuper; s-- > 0;) {
+      const Block part = block(s);
+      for (Index j = std::min(part.columns, failed - part.first) - 1; j >= 0; --j) {
+        const double* column = part.values + j * part.rows;
         double sum = 0.0;
-        for (Index i = j + 1; i < block->rows && block->row[i] <= failed; ++i) sum += column[i] * v[block->row[i]];
-        v[block->first + j] = -sum / column[j];
+        for (Index i = j + 1; i < part.rows && part.row[i] <= failed; ++i) sum += column[i] * v[part.row[i]];
+        v[part.first + j] = -sum / column[j];
       }
+    }
     Vector by_unknowns(v.size());
     by_unknowns(llt_.order()) = v;
     return by_unknowns;
@@ -230,9 +226,12 @@ class SprungCholesky final : public SymmetricFactors {
     if (llt_.common.status < CHOLMOD_OK || L.xtype != CHOLMOD_REAL) return false;
     pivots_ = {};
     bool usable = true;
-    for (const Block& block : blocks())
-      for (Index j = 0; j < block.columns && !(root_is_held_ && block.first == root().first); ++j)
-        usable = pivots_.add(std::pow(block.values[j * block.rows + j], 2)) && usable;
+    const std::size_t end = root_is_held_ ? L.nsuper - 1 : L.nsuper;
+    for (std::size_t s = 0; s < end; ++s) {
+      const Block part = block(s);
+      for (Index j = 0; j < part.columns; ++j)
+        usable = pivots_.add(std::pow(part.values[j * part.rows + j], 2)) && usable;
+    }
     return usable;
   }
 
