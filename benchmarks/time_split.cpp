@@ -164,10 +164,13 @@ void print(const std::string& work, long size, const Task& task, const Measured&
 void trace(const std::string& work, long size, const Task& task) {
   constexpr Index small = 5000;
   constexpr int times = 5;
+  constexpr double slow = 2.0;  // [s]: once is enough
   times_parts = false;
   double untouched = infinity;
-  for (int round = 0; round < times && task.elements <= small; ++round)
+  for (int round = 0; round < times && task.elements <= small; ++round) {
     untouched = std::min(untouched, traced(task).seconds);
+    if (untouched > slow) break;
+  }
   times_parts = true;
   Measured measured = traced(task);
   if (task.elements <= small) measured.seconds = untouched;

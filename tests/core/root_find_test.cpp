@@ -121,6 +121,24 @@ TEST(FirstCubicZero, AgreesWithAFineSearchOnManyCubics) {
   EXPECT_GT(found, 100);
 }
 
+TEST(CubicTurn, IsWhereTheSlopeVanishesIfThoseAtTheEndsDiffer) {
+  test::Numbers numbers(12);
+  int found = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double v0 = numbers(), d0 = 6.0 * numbers(), v1 = numbers(), d1 = 6.0 * numbers();
+    const auto turn = cubic_turn(v0, d0, v1, d1);
+    ASSERT_EQ(turn.has_value(), d0 * d1 < 0.0);
+    if (!turn) continue;
+    ++found;
+    constexpr double h = 1e-4;
+    EXPECT_TRUE(*turn > 0.0 && *turn < 1.0);
+    // The third derivative is below 96.
+    EXPECT_NEAR(cubic(v0, d0, v1, d1, *turn + h), cubic(v0, d0, v1, d1, *turn - h), 96.0 / 3.0 * h * h * h + 1e-14);
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_EQ(cubic_turn(0.0, 1.0, 0.0, -1.0), 0.5);
+}
+
 TEST(LeastCubicValue, IsTheLeastOfAFineSearch) {
   test::Numbers numbers(11);
   for (int i = 0; i < 300; ++i) {
