@@ -96,8 +96,10 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   // Contact forces, which come and go at the end, have no weight and need no start.
   const Index common = std::min(X_.rows(), n);
   Matrix X(n, block);
-  X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
-  X.bottomLeftCorner(n - common, kept).setZero();
+  if (kept > 0) {
+    X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
+    X.bottomLeftCorner(n - common, kept).setZero();
+  }
   X.rightCols(block - kept) = start_.rightCols(block - kept);
   Matrix columns(n, front + block);
   auto WX = columns.rightCols(block);
