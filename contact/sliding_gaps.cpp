@@ -31,7 +31,9 @@ std::optional<Least> least_inside(double v0, double r0, double v1, double r1) {
     if (a <= 0.0) return std::nullopt;
     t = (root - b) / (3.0 * a);
   }
-  if (!(t >= 0.0 && t <= 1.0)) return std::nullopt;
+  constexpr double at_node = 1e-9;  // which both elements miss by round-off, or neither
+  if (!(t >= -at_node && t <= 1.0 + at_node)) return std::nullopt;
+  t = std::clamp(t, 0.0, 1.0);
   return Least{.at = t, .value = v0 + t * (r0 + t * (b + t * a))};
 }
 

@@ -360,6 +360,7 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
     step.to = std::move(*at);
     step.slack = std::max(0.0, -step.to.guards.minCoeff());
     step.family = leads_to_family(step);
+    if (step.family && segment.length() > same_place) step.to.tangent = tangent_from(here_, step.to);
     if (step.slack <= options_.guard_tolerance || step.family) return true;
     if (step.slack <= together * options_.guard_tolerance && (!nearly || step.slack < nearly->slack)) nearly = step;
     const auto before = first_crossing(Segment(metric_, here_, step.to));
@@ -370,6 +371,18 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
   return step.corner && step.slack <= together * options_.guard_tolerance;
 }
 
+// At the end of a parabola that begins at a point with its tangent.
+Direction Tracer::tangent_from(const PathPoint& from, const PathPoint& to) const {
+  const Direction chord = difference(to.state, from.state);
+  const double L = metric_.norm(chord);
+  Direction tangent{.dx = 2.0 / L * chord.dx - from.tangent.dx,
+                    .dlambda = 2.0 / L * chord.dlambda - from.tangent.dlambda};
+  const double length = metric_.norm(tangent);
+  tangent.dx /= length;
+  tangent.dlambda /= length;
+  return tangent;
+}
+
 // A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.
 bool Tracer::lands_where_it_began(const PathPoint& at, Index guard) const {
   return guard >= static_cast<Index>(at.state.piece.size()) && here_.guards[guard] <= options_.guard_tolerance &&
@@ -377,7 +390,8 @@ bool Tracer::lands_where_it_began(const PathPoint& at, Index guard) const {
 }
 
 // Where a continuum of equilibria lies ahead, the equations are singular at the corner: guards that should vanish
-// together miss each other by more than elsewhere, and eigenvalues that should be zero have no sure sign.
+// together miss each other by more than elsewhere, eigenvalues that should be zero have no sure sign, and the tangent
+// is any.
 bool Tracer::leads_to_family(const Step& step) const {
   constexpr double singular = 1e-6;  // in the scale of guards
   const PathPoint& at = step.to;

@@ -184,6 +184,7 @@ class Tracer {
   bool land(Step& step, GuardCrossing crossing);
   bool lands_where_it_began(const PathPoint& at, Index guard) const;
   bool leads_to_family(const Step& step) const;
+  Direction tangent_from(const PathPoint& from, const PathPoint& to) const;
 
   bool find_singular(const PathPoint& to, std::vector<Singular>& found);
   bool find_limit_point(const PathPoint& to, std::vector<Singular>& found);

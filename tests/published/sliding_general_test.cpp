@@ -177,6 +177,19 @@ TEST(SlidingContactPath, EndsInAFamilyBetweenClampedEnds) {
   EXPECT_NEAR(std::log2((end(0) - end(1)) / (end(1) - end(2))), 4.0, 0.4);
 }
 
+// The equations are singular at that end, and the touchdown is at a node: whatever round-off makes of both.
+TEST(SlidingContactPath, EndsInThatFamilyByAnyMeshAndStep) {
+  for (int elements = 10; elements < 60; elements += 2)
+    for (const double scale : {0.3, 0.5, 0.7, 0.9, 1.0, 1.1, 1.4}) {
+      SCOPED_TRACE(std::to_string(elements) + " elements, steps by " + std::to_string(scale));
+      const Path path = path_of(SlidingChannel{.members = one(elements), .clamped = true}, 10.0, scale);
+      std::vector<EventKind> kinds;
+      for (const Event& event : path.events()) kinds.push_back(event.kind);
+      EXPECT_EQ(kinds, (std::vector{branches, touches}));
+      EXPECT_EQ(path.end(), EndReason::family);
+    }
+}
+
 // The line branch between walls 0.6 apart from the axis ends in a load maximum, where each outer arc alone loses its
 // stability: two modes at one place, a fold and a branch point that meet. P a²/EI = 2.7532 for inextensible
 // arcs, 1.3383; extension takes a hundredth off.
