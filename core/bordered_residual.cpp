@@ -1,36 +1,45 @@
 #include "core/bordered_residual.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcwall {
 
-bool BorderedResidual::is_small(const Vector& f) const {
-  constexpr double good = 1e-10;  // of f
-  return r.norm() <= std::max(good * f.norm(), rounding * terms.norm());
+BorderedResidual::BorderedResidual(const Linearization& equations, Vector f, const Eigen::Ref<const Vector>& dx,
+                                   double dlambda)
+    : equations_(equations), f_(std::move(f)), dx_(dx), dlambda_(dlambda) {
+  const Index n = equations_.K.cols(), m = equations_.B.cols();
+  r_ = f_;
+  if (dlambda_ != 0.0) r_ -= equations_.F_lambda * dlambda_;
+  r_.head(n).noalias() -= equations_.K.selfadjointView<Eigen::Lower>() * dx_.head(n);
+  if (m == 0) return;
+  r_.head(n).noalias() -= equations_.B * dx_.tail(m);
+  r_.tail(m).noalias() -= equations_.C * dx_;
 }
 
-BorderedResidual residual_of(const Linearization& equations, const Vector& f, const Direction& solution) {
-  const SparseMatrix& K = equations.K;
-  const Index n = K.cols(), m = equations.B.cols();
-  BorderedResidual out{.r = f - equations.F_lambda * solution.dlambda,
-                       .terms = f.cwiseAbs() + equations.F_lambda.cwiseAbs() * std::abs(solution.dlambda)};
-  const Vector& x = solution.dx;
-  const auto take = [&](Index row, double term) {
-    out.r[row] -= term;
-    out.terms[row] += std::abs(term);
-  };
+// The terms of the diagonal alone are some of them, and often enough.
+bool BorderedResidual::is_small() const {
+  constexpr double good = 1e-10;  // of f
+  const Index n = equations_.K.cols();
+  const double size = r_.norm();
+  if (size <= good * f_.norm()) return true;
+  if (size <= rounding * equations_.K.diagonal().cwiseProduct(dx_.head(n)).norm()) return true;
+  return size <= rounding * terms().norm();
+}
+
+Vector BorderedResidual::terms() const {
+  const SparseMatrix& K = equations_.K;
+  const Index n = K.cols(), m = equations_.B.cols();
+  Vector terms = f_.cwiseAbs() + equations_.F_lambda.cwiseAbs() * std::abs(dlambda_);
   for (Index column = 0; column < n; ++column)
     for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
-      take(entry.row(), entry.value() * x[column]);
-      if (entry.row() != column) take(column, entry.value() * x[entry.row()]);
+      terms[entry.row()] += std::abs(entry.value() * dx_[column]);
+      if (entry.row() != column) terms[column] += std::abs(entry.value() * dx_[entry.row()]);
     }
-  if (m == 0) return out;
-  out.r.head(n) -= equations.B * x.tail(m);
-  out.terms.head(n) += equations.B.cwiseAbs() * x.tail(m).cwiseAbs();
-  out.r.tail(m) -= equations.C * x;
-  out.terms.tail(m) += equations.C.cwiseAbs() * x.cwiseAbs();
-  return out;
+  if (m == 0) return terms;
+  terms.head(n) += equations_.B.cwiseAbs() * dx_.tail(m).cwiseAbs();
+  terms.tail(m) += equations_.C.cwiseAbs() * dx_.cwiseAbs();
+  return terms;
 }
 
 }  // namespace arcwall

@@ -6,16 +6,26 @@
 
 namespace arcwall {
 
-/// r = f − J δx − F_λ δλ of a solution, and the sum of the magnitudes of its terms: below some ε of them r is
-/// round-off, and no other solution is better. On a fine mesh stiffness times displacement is large beside f.
-struct BorderedResidual {
+/// What a solution leaves of J δx + F_λ δλ = f: r = f − J δx − F_λ δλ. Below some ε of the sum of its terms' magnitudes
+/// r is round-off, and no other solution is better. On a fine mesh stiffness times displacement is large beside f.
+class BorderedResidual {
+ public:
   static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-  Vector r{}, terms{};
+  /// `equations` and `dx` must outlive this.
+  BorderedResidual(const Linearization& equations, Vector f, const Eigen::Ref<const Vector>& dx, double dlambda);
 
-  bool is_small(const Vector& f) const;
+  const Vector& r() const { return r_; }
+  bool is_small() const;
+
+ private:
+  Vector terms() const;
+
+  const Linearization& equations_;
+  Vector f_;
+  Eigen::Ref<const Vector> dx_;
+  double dlambda_;
+  Vector r_;
 };
-
-BorderedResidual residual_of(const Linearization& equations, const Vector& f, const Direction& solution);
 
 }  // namespace arcwall

@@ -107,15 +107,15 @@ bool BorderedSolver::make_line_good(const Row& border) {
   for (int round = 0;; ++round) {
     const double along = border.dx.dot(columns_.col(1)) + border.dlambda;
     const double dlambda = -border.dx.dot(columns_.col(0)) / along;
-    const Direction closed{.dx = columns_.col(0) + dlambda * columns_.col(1), .dlambda = dlambda};
-    const BorderedResidual particular = residual_of(now, -now.F, closed);
-    const BorderedResidual tangent = residual_of(now, -now.F_lambda, {.dx = columns_.col(1), .dlambda = 0.0});
-    if (!particular.r.allFinite() || !tangent.r.allFinite()) return false;
-    if (particular.is_small(now.F) && tangent.is_small(now.F_lambda)) return true;
+    const Vector closed = columns_.col(0) + dlambda * columns_.col(1);
+    const BorderedResidual particular(now, -now.F, closed, dlambda);
+    const BorderedResidual tangent(now, -now.F_lambda, columns_.col(1), 0.0);
+    if (!particular.r().allFinite() || !tangent.r().allFinite()) return false;
+    if (particular.is_small() && tangent.is_small()) return true;
     if (round == max_refinements) return false;
     Matrix correction(now.F.size(), 2);
-    correction.col(0) = particular.r - dlambda * tangent.r;  // of column 0 alone
-    correction.col(1) = tangent.r;
+    correction.col(0) = particular.r() - dlambda * tangent.r();  // of column 0 alone
+    correction.col(1) = tangent.r();
     if (!solve_inner(correction)) return false;
     columns_ += correction;
   }
@@ -140,11 +140,11 @@ bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns)
 bool BorderedSolver::make_tangent_good(Matrix& columns) {
   const Linearization& now = *equations_;
   for (int round = 0;; ++round) {
-    const BorderedResidual tangent = residual_of(now, -now.F_lambda, {.dx = columns.col(0), .dlambda = 0.0});
-    if (!tangent.r.allFinite()) return false;
-    if (tangent.is_small(now.F_lambda)) return true;
+    const BorderedResidual tangent(now, -now.F_lambda, columns.col(0), 0.0);
+    if (!tangent.r().allFinite()) return false;
+    if (tangent.is_small()) return true;
     if (round == max_refinements) return false;
-    Matrix correction = tangent.r;
+    Matrix correction = tangent.r();
     if (!solve_inner(correction)) return false;
     columns.col(0) += correction;
   }
@@ -160,7 +160,7 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
     // δλ = (g − cᵀ J⁻¹ f) / (d − cᵀ J⁻¹ F_λ),  δx = J⁻¹ f − δλ J⁻¹ F_λ
     const double dlambda = (g - border.dx.dot(X.col(0))) / (border.dlambda - border.dx.dot(X.col(1)));
     Direction solution{.dx = X.col(0) - dlambda * X.col(1), .dlambda = dlambda};
-    if (solved && solution.dx.allFinite() && residual_of(now, f, solution).is_small(f)) return solution;
+    if (solved && solution.dx.allFinite() && BorderedResidual(now, f, solution.dx, dlambda).is_small()) return solution;
   }
   if (!factorize_whole(border, columns_)) return std::nullopt;
   return whole_.solve(f, g);

@@ -90,14 +90,14 @@ std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, doubl
   constexpr int most_refinements = 3;
   Direction solution = solve_with_spring(f, g);
   for (int round = 0;; ++round) {
-    const BorderedResidual left = residual_of(*equations_, f, solution);
+    const BorderedResidual left(*equations_, f, solution.dx, solution.dlambda);
     const double gap = g - apply(border_, solution);
     const double terms =
         std::abs(g) + border_.dx.cwiseAbs().dot(solution.dx.cwiseAbs()) + std::abs(border_.dlambda * solution.dlambda);
-    if (!left.r.allFinite() || !std::isfinite(gap)) return std::nullopt;
-    if (left.is_small(f) && std::abs(gap) <= BorderedResidual::rounding * terms) return solution;
+    if (!left.r().allFinite() || !std::isfinite(gap)) return std::nullopt;
+    if (left.is_small() && std::abs(gap) <= BorderedResidual::rounding * terms) return solution;
     if (round == most_refinements) return std::nullopt;
-    const Direction correction = solve_with_spring(left.r, gap);
+    const Direction correction = solve_with_spring(left.r(), gap);
     solution.dx += correction.dx;
     solution.dlambda += correction.dlambda;
   }
