@@ -76,6 +76,11 @@ class ImperfectAxis {
   /// `axis` must outlive this.
   ImperfectAxis(const Axis& axis, std::vector<SineDeviation> deviations);
 
+  /// Of the axis itself.
+  bool is_straight() const { return axis_.is_straight(); }
+  double axis_length() const { return axis_.length(); }
+  const std::vector<SineDeviation>& deviations() const { return deviations_; }
+
   /// The deviated curve at arc length s of the axis.
   DeviatedPoint along(double s) const;
 

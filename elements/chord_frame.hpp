@@ -53,15 +53,24 @@ inline ChordMotion motion_of(const RestChord& rest, const double* u) {
   return motion_of(rest.chord.x(), rest.chord.y(), rest.length, u);
 }
 
-/// From places.
-inline ChordMotion motion_of(const RestChord& rest, const BeamEnds& ends) {
-  const double l = ends.chord.norm(), direction = std::atan2(ends.chord.y(), ends.chord.x());
-  return {.x = ends.chord.x(),
-          .y = ends.chord.y(),
+/// From places: the chord (x, y) and the angles of the tangents now, and what the chord's length and its angles against
+/// the tangents were.
+template <class Real>
+ARCWALL_IN_PLACE BasicChordMotion<Real> motion_between(const Real& x, const Real& y, const Real& angle1,
+                                                       const Real& angle2, const Real& rest_length,
+                                                       const Real& rest_slope1, const Real& rest_slope2) {
+  const Real l = square_root(x * x + y * y), direction = arc_tangent(y, x);
+  return {.x = x,
+          .y = y,
           .length = l,
-          .stretch = l - rest.length,
-          .d1 = within_half_a_turn(ends.angle1 - direction - rest.slope1),
-          .d2 = within_half_a_turn(ends.angle2 - direction - rest.slope2)};
+          .stretch = l - rest_length,
+          .d1 = within_half_a_turn(angle1 - direction - rest_slope1),
+          .d2 = within_half_a_turn(angle2 - direction - rest_slope2)};
+}
+
+inline ChordMotion motion_of(const RestChord& rest, const BeamEnds& ends) {
+  return motion_between(ends.chord.x(), ends.chord.y(), ends.angle1, ends.angle2, rest.length, rest.slope1,
+                        rest.slope2);
 }
 
 // A function of the bend b = t2 − t1 and the skew σ = 3 (t1 + t2) of an element, with its derivatives.

@@ -13,49 +13,18 @@ BeamReference beam_reference(const StretchReference& stretch) {
 
 }  // namespace
 
-ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI) : EA_(EA), EI_(EI) {
-  const double h = reference.length;
-  const double b = reference.slope2 - reference.slope1, s = 3.0 * (reference.slope1 + reference.slope2);
-  material_ = {.x = reference.chord.x(),
-               .y = reference.chord.y(),
-               .chord = reference.chord.norm(),
-               .length = h,
-               .b = b,
-               .s = s,
-               .c = variation(b, s).value,
-               .shortening = shortening(b, s).value,
-               .stretching = EA / h,
-               .bending = EI / h,
-               .tilting = 4.0 * EI * EI / (EA * h),
-               .flexibility = 24.0 * EI / EA};
-}
+ClassicBeam::ClassicBeam(const BeamReference& reference, double EA, double EI)
+    : material_(classic_beam_material(reference.chord.x(), reference.chord.y(), reference.chord.norm(),
+                                      reference.length, reference.slope1, reference.slope2, EA, EI)),
+      EA_(EA),
+      EI_(EI) {}
 
 ClassicBeam::ClassicBeam(const StretchReference& stretch, double EA, double EI)
     : ClassicBeam(beam_reference(stretch), EA, EI) {
   const std::array<RestChord, 2> chords = rest_chord_rate(stretch);
-  const BendTerm p = shortening(material_.b, material_.s), v = variation(material_.b, material_.s);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const RestChord& rate = chords[i];
-    const double b = rate.slope2 - rate.slope1, s = 3.0 * (rate.slope1 + rate.slope2);
-    rates_[i] = {.length = stretch.length_rate[i],
-                 .axial = rate.length * (1.0 + p.value) + material_.chord * (p.b * b + p.s * s),
-                 .b = b,
-                 .s = s,
-                 .c = v.b * b + v.s * s};
-  }
-}
-
-// Of the slopes of ClassicBeamEnergy, where l, b and σ stay and the stress-free state changes: all of (1) there is of
-// order −1 in h, and the rest is in ε, b⁰, c⁰ and σ⁰.
-ChordSlopes ClassicBeam::slope_rate(const ClassicBeamEnergy<double>& at, const Rate& rest) const {
-  const ChordSlopes U = at.slopes();
-  const double N_rate = -material_.stretching * rest.axial, with_h = -rest.length / material_.length;
-  const double tilt = 2.0 * material_.tilting * rest.s;
-  return {.l = with_h * U.l + N_rate * (1.0 + at.p.value) + tilt * at.ds * at.g.l,
-          .b = with_h * U.b + N_rate * at.l * at.p.b - material_.bending * (rest.b + rest.c * at.v.b / 3.0) +
-               tilt * at.ds * at.g.q * at.q_b,
-          .s = with_h * U.s + N_rate * at.l * at.p.s - material_.bending * rest.c * at.v.s / 3.0 +
-               tilt * (at.g.value + at.ds * at.g.q * at.q_s)};
+  for (std::size_t i = 0; i < 2; ++i)
+    rates_[i] =
+        classic_beam_rate(material_, stretch.length_rate[i], chords[i].length, chords[i].slope1, chords[i].slope2);
 }
 
 inline RestChord ClassicBeam::rest() const {
@@ -86,7 +55,7 @@ void ClassicBeam::respond(const BeamEnds& ends, bool with_rates, BeamResponse& o
   respond_along(at, U.slopes(), U.curvatures(), out);
   if (!with_rates) return;
   for (std::size_t i = 0; i < 2; ++i) {
-    const ChordSlopes rate = slope_rate(U, rates_[i]);
+    const ChordSlopes rate = U.slope_rates(rates_[i]);
     out.force_rate[i] = chord_gradient(at).transpose() * Eigen::Vector3d(rate.l, rate.b, rate.s);
   }
 }

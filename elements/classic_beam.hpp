@@ -44,17 +44,11 @@ class ClassicBeam final : public Element, public SlenderBeam {
   const ClassicBeamMaterial<double>& material() const { return material_; }
 
  private:
-  // Of the stress-free state by a material coordinate; `axial` is that of l₀ (1 + p₀).
-  struct Rate {
-    double length = 0.0, axial = 0.0, b = 0.0, s = 0.0, c = 0.0;
-  };
-
   RestChord rest() const;
-  ChordSlopes slope_rate(const ClassicBeamEnergy<double>& at, const Rate& rest) const;
 
   ClassicBeamMaterial<double> material_;
   double EA_, EI_;
-  std::array<Rate, 2> rates_;
+  std::array<ClassicBeamRate<double>, 2> rates_;
 };
 
 }  // namespace arcwall

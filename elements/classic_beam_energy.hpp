@@ -19,6 +19,46 @@ struct ClassicBeamMaterial {
   Real flexibility;  // 24 EI/EA
 };
 
+/// Of a stress-free axis of the length `length`, whose chord (x, y) of the length `chord` it leaves at the angles
+/// `slope1` and `slope2`.
+template <class Real>
+ARCWALL_IN_PLACE ClassicBeamMaterial<Real> classic_beam_material(const Real& x, const Real& y, const Real& chord,
+                                                                 const Real& length, const Real& slope1,
+                                                                 const Real& slope2, double EA, double EI) {
+  const Real b = slope2 - slope1, s = 3.0 * (slope1 + slope2);
+  return {.x = x,
+          .y = y,
+          .chord = chord,
+          .length = length,
+          .b = b,
+          .s = s,
+          .c = variation(b, s).value,
+          .shortening = shortening(b, s).value,
+          .stretching = EA / length,
+          .bending = EI / length,
+          .tilting = 4.0 * EI * EI / (EA * length),
+          .flexibility = 24.0 * EI / EA};
+}
+
+/// Rates of the stress-free state by a material coordinate; `axial` is that of l₀ (1 + p₀).
+template <class Real>
+struct ClassicBeamRate {
+  Real length = 0.0, axial = 0.0, b = 0.0, s = 0.0, c = 0.0;
+};
+
+/// From those of h, of the chord's length and of the angles at its ends.
+template <class Real>
+ARCWALL_IN_PLACE ClassicBeamRate<Real> classic_beam_rate(const ClassicBeamMaterial<Real>& of, const Real& length,
+                                                         const Real& chord, const Real& slope1, const Real& slope2) {
+  const BasicBendTerm<Real> p = shortening(of.b, of.s), v = variation(of.b, of.s);
+  const Real b = slope2 - slope1, s = 3.0 * (slope1 + slope2);
+  return {.length = length,
+          .axial = chord * (1.0 + p.value) + of.chord * (p.b * b + p.s * s),
+          .b = b,
+          .s = s,
+          .c = v.b * b + v.s * s};
+}
+
 // With end slopes t_i = θ_i − (β − β₀) + t_i⁰ against the chord l at angle β, and b, σ and c as in chord_frame.hpp:
 //
 //   U = ½ EA h ε² + EI/(2h) [(b − b⁰)² + (c − c⁰)²/3] − 4 EI² (σ − σ⁰)² q / [EA h (l² + 24 q EI/EA)]   (1)
@@ -80,6 +120,19 @@ struct ClassicBeamEnergy {
         .bs = all * (p.b * p.s) + Nl * p.bs + bending * (v.b * v.s + dc * v.bs) - tilt1_q * q_b - tilt_qq * (q_b * q_s),
         .ss = all * (p.s * p.s) + Nl * p.ss + bending * (v.s * v.s + dc * v.ss) - 2.0 * (tilt * g.value) -
               2.0 * (tilt1_q * q_s) - tilt_qq * (q_s * q_s) - tilt_q * (1.0 / 180.0)};
+  }
+
+  /// Of the slopes, where l, b and σ stay and the stress-free state changes: all of (1) is of order −1 in h, and the
+  /// rest is in ε, b⁰, c⁰ and σ⁰.
+  ARCWALL_IN_PLACE BasicChordSlopes<Real> slope_rates(const ClassicBeamRate<Real>& rest) const {
+    const BasicChordSlopes<Real> U = slopes();
+    const Real N_rate = -material.stretching * rest.axial, with_h = -rest.length / material.length;
+    const Real tilt = 2.0 * material.tilting * rest.s;
+    return {.l = with_h * U.l + N_rate * (1.0 + p.value) + tilt * ds * g.l,
+            .b = with_h * U.b + N_rate * l * p.b - material.bending * (rest.b + rest.c * v.b * (1.0 / 3.0)) +
+                 tilt * ds * g.q * q_b,
+            .s = with_h * U.s + N_rate * l * p.s - material.bending * rest.c * v.s * (1.0 / 3.0) +
+                 tilt * (g.value + ds * g.q * q_s)};
   }
 
  private:

@@ -77,6 +77,7 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, Cu
       blocks.push_back({first[0], first[1], first[2], second[0], second[1], second[2]});
     }
   assembly_ = BlockAssembly(unknowns, blocks);
+  number_fours();
 
   // Means over all nodes, held ones included: they count as zeros.
   const double L = structure.length_scale_;
@@ -84,6 +85,38 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, Cu
   for (Index r = 0; r < structure.runs(); ++r)
     for (Index i = 0; i < nodes(r); ++i)
       if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = 1.0 / double(rotations);
+}
+
+void SlidingStructureMesh::number_fours() {
+  Index first_breakpoint = 0;
+  for (Index r = 0; r < structure_.runs(); ++r) {
+    const std::vector<int>& segments = cut_[static_cast<std::size_t>(r)];
+    const auto last_segment = static_cast<Index>(segments.size()) - 1;
+    Index first = 0;
+    for (Index segment = 0; segment <= last_segment; ++segment) {
+      const int n = segments[static_cast<std::size_t>(segment)];
+      for (int i = 0; i < n; i += Lanes::count) {
+        Four four{.run = r,
+                  .position = first + i,
+                  .count = std::min(Lanes::count, n - i),
+                  .breakpoint = {segment == 0 ? held : first_breakpoint + segment - 1,
+                                 segment == last_segment ? held : first_breakpoint + segment},
+                  .from_first = {},
+                  .held = false};
+        for (int k = 0; k <= Lanes::count; ++k) four.from_first[static_cast<std::size_t>(k)] = double(i + k) / n;
+        if (!structure_.at(r).beams) {
+          for (int k = 0; k < four.count; ++k) others_.emplace_back(r, four.position + k);
+          continue;
+        }
+        for (int k = 0; k < four.count; ++k)
+          for (const Index unknown : assembly_.unknowns(mesh_of(r).first_element + four.position + k))
+            four.held = four.held || unknown == held;
+        fours_.push_back(four);
+      }
+      first += n;
+    }
+    first_breakpoint += last_segment;
+  }
 }
 
 SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(Index a, Index b, double length, double r) const {
@@ -180,7 +213,7 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index run, Index po
                .force = spread(beam_response.force),
                .stiffness = spread(beam_response.stiffness),
                .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
-  if (described.load.isZero() && described.constant_load.isZero()) return out;
+  if (!described.carries_load()) return out;
   const auto add = [&](const Vec2& load, double factor) {
     const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
     out.energy += factor * response.energy;
@@ -211,13 +244,73 @@ void SlidingStructureMesh::residual(const Vector& x, const Vector& s, double lam
   for (Index i = 0; i < F.size(); ++i)
     if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
       F[i] = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
-  for (Index r = 0; r < structure_.runs(); ++r)
-    for (Index e = 0; e < mesh_of(r).elements; ++e) {
-      const Six f = respond(r, e, x, s, lambda, false).force;
-      const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
-      for (std::size_t i = 0; i < 6; ++i)
-        if (to[i] != held) F[to[i]] += f[static_cast<Index>(i)];
+  for (const Four& four : fours_) add(four, x, s, F, nullptr);
+  for (const auto& [r, e] : others_) {
+    const Six f = respond(r, e, x, s, lambda, false).force;
+    const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
+    for (std::size_t i = 0; i < 6; ++i)
+      if (to[i] != held) F[to[i]] += f[static_cast<Index>(i)];
+  }
+}
+
+// Their forces, and where `out` is not null the derivatives of these. The last stands in for those that are missing.
+void SlidingStructureMesh::add(const Four& four, const Vector& x, const Vector& s, Eigen::Ref<Vector> F,
+                               Linearization* out) const {
+  using Wanted = SlidingBeamLanes::Wanted;
+  std::array<double, Lanes::count + 1> S;
+  std::array<AxisPlace, Lanes::count + 1> places;
+  for (int k = 0; k <= four.count; ++k) {
+    S[static_cast<std::size_t>(k)] = structure_.at(four.run).offset + coordinate(four.run, four.position + k, s);
+    places[static_cast<std::size_t>(k)] = node(four.run, four.position + k, x);
+  }
+  const auto end = [&](std::size_t which) {
+    SlidingBeamLanes::End of_each;
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      const std::size_t k = static_cast<std::size_t>(std::min(lane, four.count - 1)) + which;
+      of_each.s.set(lane, S[k]);
+      of_each.x.set(lane, places[k].position.x());
+      of_each.z.set(lane, places[k].position.y());
+      of_each.angle.set(lane, places[k].angle);
     }
+    return of_each;
+  };
+  const bool between_breakpoints = four.breakpoint[0] != held || four.breakpoint[1] != held;
+  const Wanted wanted = out == nullptr ? Wanted::force : between_breakpoints ? Wanted::rates : Wanted::stiffness;
+  SlidingBeamLanes::Response response;
+  structure_.at(four.run).beams->respond(end(0), end(1), wanted, response);
+
+  std::array<Index, Lanes::count> blocks;
+  for (int lane = 0; lane < Lanes::count; ++lane)
+    blocks[static_cast<std::size_t>(lane)] =
+        mesh_of(four.run).first_element + four.position + std::min(lane, four.count - 1);
+  for (int lane = 0; lane < four.count; ++lane) {
+    const auto to = assembly_.unknowns(blocks[static_cast<std::size_t>(lane)]);
+    for (std::size_t i = 0; i < 6; ++i)
+      if (to[i] != held) F[to[i]] += response.force[i][lane];
+  }
+  if (out == nullptr) return;
+  const auto entry_of = [&](Index entry, std::size_t lane) {
+    return response.stiffness[entry][static_cast<int>(lane)];
+  };
+  if (four.count == Lanes::count) {
+    assembly_.add_entries<6>(blocks, four.held, out->K.valuePtr(), entry_of);
+  } else {
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(four.count); ++lane)
+      assembly_.add_entries(blocks[lane], 1.0, out->K.valuePtr(), [&](Index entry) { return entry_of(entry, lane); });
+  }
+  for (std::size_t b = 0; b < 2; ++b) {
+    if (four.breakpoint[b] == held) continue;
+    double* rates = out->B.col(four.breakpoint[b]).data();
+    for (int lane = 0; lane < four.count; ++lane) {
+      const auto fraction = [&](int k) { return four.from_first[static_cast<std::size_t>(k)]; };
+      const double r1 = fraction(lane), r2 = fraction(lane + 1);
+      const double weight1 = b == 0 ? 1.0 - r1 : r1, weight2 = b == 0 ? 1.0 - r2 : r2;
+      const auto to = assembly_.unknowns(blocks[static_cast<std::size_t>(lane)]);
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held)
+          rates[to[i]] += weight1 * response.force_rate[0][i][lane] + weight2 * response.force_rate[1][i][lane];
+    }
+  }
 }
 
 void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const {
@@ -232,22 +325,22 @@ void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double la
       out.F_lambda[i] = -structure_.load_[freedom];
       out.F[i] = lambda * out.F_lambda[i] - structure_.constant_load_[freedom];
     }
-  for (Index r = 0; r < structure_.runs(); ++r)
-    for (Index e = 0; e < mesh_of(r).elements; ++e) {
-      const Response response = respond(r, e, x, s, lambda, m > 0);
-      const Index block = mesh_of(r).first_element + e;
-      const auto to = assembly_.unknowns(block);
-      for (std::size_t i = 0; i < 6; ++i) {
-        if (to[i] == held) continue;
-        out.F[to[i]] += response.force[static_cast<Index>(i)];
-        out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
-      }
-      assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
-      for_each_rate(r, e, response, [&](Index k, const Six& rate) {
-        for (std::size_t i = 0; i < 6; ++i)
-          if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];
-      });
+  for (const Four& four : fours_) add(four, x, s, out.F, &out);
+  for (const auto& [r, e] : others_) {
+    const Response response = respond(r, e, x, s, lambda, m > 0);
+    const Index block = mesh_of(r).first_element + e;
+    const auto to = assembly_.unknowns(block);
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (to[i] == held) continue;
+      out.F[to[i]] += response.force[static_cast<Index>(i)];
+      out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
     }
+    assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
+    for_each_rate(r, e, response, [&](Index k, const Six& rate) {
+      for (std::size_t i = 0; i < 6; ++i)
+        if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];
+    });
+  }
 }
 
 double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lambda) const {

@@ -5,6 +5,7 @@
 
 #include "core/assembly.hpp"
 #include "elements/distributed_load.hpp"
+#include "elements/sliding_beam_lanes.hpp"
 #include "elements/sliding_structure.hpp"
 
 namespace arcwall {
@@ -86,6 +87,17 @@ class SlidingStructureMesh final : public SlidingMesh {
   };
   Response respond(Index run, Index position, const Vector& x, const Vector& s, double lambda, bool with_rates) const;
 
+  // Up to four elements of a segment that are evaluated side by side.
+  struct Four {
+    Index run, position;  // of the first
+    int count;
+    std::array<Index, 2> breakpoint;                  // between which they lie; −1: an end of the run
+    std::array<double, Lanes::count + 1> from_first;  // of their nodes: fraction of the way to the second
+    bool held;                                        // any of their unknowns
+  };
+  void number_fours();
+  void add(const Four& four, const Vector& x, const Vector& s, Eigen::Ref<Vector> F, Linearization* out) const;
+
   // visit(beam) with the beam of a stretch, by value.
   template <typename Visit>
   void with_beam(Index run, const StretchReference& stretch, const Visit& visit) const;
@@ -99,6 +111,8 @@ class SlidingStructureMesh final : public SlidingMesh {
   std::vector<Index> unknown_of_freedom_;  // of the anchors
   std::vector<Index> freedom_of_unknown_;  // −1 for inner nodes
   BlockAssembly assembly_{0, {}};
+  std::vector<Four> fours_;
+  std::vector<std::pair<Index, Index>> others_;  // run and position of the elements that are evaluated one by one
   Vector weights_;
 };
 

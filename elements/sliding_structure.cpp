@@ -184,6 +184,9 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
     }
   }
   structure->join_straight_runs(loaded, alike);
+  for (SlidingStructure::Run& run : structure->runs_)
+    if (run.theory == Theory::classic && run.shape->is_straight() && !run.carries_load())
+      run.beams.emplace(*run.shape, run.section.EA(), run.section.EI());
   return structure;
 }
 

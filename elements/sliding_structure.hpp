@@ -8,6 +8,7 @@
 #include "core/observable.hpp"
 #include "core/sliding_body.hpp"
 #include "elements/member_point.hpp"
+#include "elements/sliding_beam_lanes.hpp"
 
 namespace arcwall {
 
@@ -100,6 +101,9 @@ class SlidingStructure final : public SlidingBody {
     std::vector<Part> parts{};
     std::array<End, 2> ends{};
     Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the run [force/length]
+    std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
+
+    bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
   };
 
   SlidingStructure() = default;

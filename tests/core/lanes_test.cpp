@@ -57,4 +57,35 @@ TEST(Lanes, ArcTangentsOfFourAreThoseOfEach) {
   }
 }
 
+// Against the C library's functions of long double.
+TEST(Lanes, CosineAndSineAreExactToTwoUnitsInTheLastPlace) {
+  for (int i = -20000; i <= 20000; ++i) {
+    const double angle = 0.25 * pi * i / 20000.0;
+    const auto turn = cosine_and_sine(angle);
+    ASSERT_LE(units(turn.cosine, std::cos(static_cast<long double>(angle))), 2.0) << angle;
+    ASSERT_LE(units(turn.sine, std::sin(static_cast<long double>(angle))), 2.0) << angle;
+  }
+  for (int i = -300000; i <= 300000; ++i) {
+    const double angle = 3.3 * i;
+    const auto turn = cosine_and_sine(angle);
+    ASSERT_NEAR(turn.cosine, static_cast<double>(std::cos(static_cast<long double>(angle))), 0x1p-52) << angle;
+    ASSERT_NEAR(turn.sine, static_cast<double>(std::sin(static_cast<long double>(angle))), 0x1p-52) << angle;
+  }
+  EXPECT_EQ(cosine_and_sine(0.0).sine, 0.0);
+  EXPECT_EQ(cosine_and_sine(0.0).cosine, 1.0);
+  EXPECT_TRUE(std::isnan(cosine_and_sine(nan).sine));
+  EXPECT_TRUE(std::isnan(cosine_and_sine(nan).cosine));
+}
+
+TEST(Lanes, CosinesAndSinesOfFourAreThoseOfEach) {
+  for (int i = 0; i < 4000; ++i) {
+    const double angle[4]{0.01 * i, -0.37 * i, 13.1 * i, 1e-9 * i};
+    const auto four = cosine_and_sine(Lanes::load(angle));
+    for (int lane = 0; lane < 4; ++lane) {
+      ASSERT_EQ(four.cosine[lane], cosine_and_sine(angle[lane]).cosine);
+      ASSERT_EQ(four.sine[lane], cosine_and_sine(angle[lane]).sine);
+    }
+  }
+}
+
 }  // namespace arcwall::lanes_test
