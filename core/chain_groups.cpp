@@ -66,27 +66,18 @@ class Levels {
   int visit_ = 1;
 };
 
-// Whether all entries are in groups or between groups beside each other.
+// Whether all entries of unknowns that have a group are in groups or between groups beside each other.
 bool is_tridiagonal(const SparseMatrix& A, const ChainGroups& groups) {
-  std::vector<Index> group(static_cast<std::size_t>(A.cols()));
+  constexpr Index none = -1;
+  std::vector<Index> group(static_cast<std::size_t>(A.cols()), none);
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Index unknown : groups[g]) group[static_cast<std::size_t>(unknown)] = static_cast<Index>(g);
   for (Index column = 0; column < A.cols(); ++column)
     for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry)
-      if (std::abs(group[static_cast<std::size_t>(entry.row())] - group[static_cast<std::size_t>(column)]) > 1)
+      if (const Index other = group[static_cast<std::size_t>(entry.row())];
+          other != none && std::abs(other - group[static_cast<std::size_t>(column)]) > 1)
         return false;
   return true;
-}
-
-// Each multiplier goes to the last group that it touches.
-void insert_multipliers(const SparseMatrix& A, Index multipliers, ChainGroups& groups) {
-  const Index n = A.cols() - multipliers;
-  std::vector<std::size_t> last(static_cast<std::size_t>(multipliers), 0);
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const Index unknown : groups[g])
-      for (SparseMatrix::InnerIterator entry(A, unknown); entry; ++entry)
-        if (entry.row() >= n) last[static_cast<std::size_t>(entry.row() - n)] = g;
-  for (Index m = 0; m < multipliers; ++m) groups[last[static_cast<std::size_t>(m)]].push_back(n + m);
 }
 
 }  // namespace
@@ -106,11 +97,20 @@ std::optional<ChainGroups> chain_groups(const SparseMatrix& A, Index multipliers
     std::vector<Index> start = alike(near, found.back().front());
     if (!levels.from(std::move(start), widest, groups)) return std::nullopt;
   }
-  insert_multipliers(A, multipliers, groups);
-  for (const auto& group : groups)
-    if (static_cast<Index>(group.size()) > widest) return std::nullopt;
   if (!is_tridiagonal(A, groups)) return std::nullopt;
   return groups;
+}
+
+bool insert_multipliers(const SparseMatrix& A, Index multipliers, Index widest, ChainGroups& groups) {
+  const Index n = A.cols() - multipliers;
+  std::vector<std::size_t> last(static_cast<std::size_t>(multipliers), 0);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Index unknown : groups[g])
+      for (SparseMatrix::InnerIterator entry(A, unknown); entry; ++entry)
+        if (entry.row() >= n) last[static_cast<std::size_t>(entry.row() - n)] = g;
+  for (Index m = 0; m < multipliers; ++m) groups[last[static_cast<std::size_t>(m)]].push_back(n + m);
+  const auto fits = [&](const std::vector<Index>& group) { return static_cast<Index>(group.size()) <= widest; };
+  return std::all_of(groups.begin(), groups.end(), fits) && is_tridiagonal(A, groups);
 }
 
 }  // namespace arcwall

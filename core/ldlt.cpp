@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/chain_ldlt.hpp"
+#include "core/held_chain.hpp"
 #include "core/simplicial_ldlt.hpp"
 #include "core/sprung_cholesky.hpp"
 
@@ -29,12 +30,20 @@ struct Ldlt::Implementation {
                         std::memcmp(rows.data(), A.innerIndexPtr(), nonzeros * sizeof(Index)) == 0));
   }
 
+  std::unique_ptr<SymmetricFactors> fresh(const SparseMatrix& A) const {
+    if (auto groups = chain_groups(A, multipliers, ChainLdlt::widest)) {
+      if (multipliers == 0) return std::make_unique<ChainLdlt>(A, *groups);
+      if (auto held = HeldChain::of(A, multipliers, *groups)) return held;
+      if (insert_multipliers(A, multipliers, ChainLdlt::widest, *groups))
+        return std::make_unique<ChainLdlt>(A, *groups);
+    }
+    std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : sprung_cholesky(A);
+    return large ? std::move(large) : simplicial_ldlt(A, multipliers);
+  }
+
   void analyse(const SparseMatrix& A) {
     others.reset();
-    if (const auto groups = chain_groups(A, multipliers, ChainLdlt::widest))
-      factors = std::make_unique<ChainLdlt>(A, *groups);
-    else if (multipliers > 0 || !(factors = sprung_cholesky(A)))
-      factors = simplicial_ldlt(A, multipliers);
+    if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
     factors->expect_soft(soft);
     columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
     rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());

@@ -25,6 +25,10 @@ class SymmetricFactors {
   /// finite, or the matrix is none that this way serves.
   virtual bool factorize(const SparseMatrix& lower_triangle) = 0;
 
+  /// Takes over a pattern that differs from the last one in its multipliers alone, its last unknowns; false where that
+  /// needs another analysis.
+  virtual bool adopts(const SparseMatrix&, Index) { return false; }
+
   /// Whether entries may be other than finite: then no pivot is spared from them, and factorize() is false.
   virtual bool sees_what_is_not_finite() const { return false; }
 

@@ -1,0 +1,291 @@
+#include "core/held_chain.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace arcwall {
+
+namespace {
+
+constexpr Index no_entry = -1;
+
+// Of an entry of a lower triangle in its values.
+Index place_of(const SparseMatrix& A, Index one, Index other) {
+  const Index column = std::min(one, other), row = std::max(one, other);
+  const Index* first = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const Index* last = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  const Index* at = std::lower_bound(first, last, row);
+  return at != last && *at == row ? at - A.innerIndexPtr() : no_entry;
+}
+
+}  // namespace
+
+std::unique_ptr<HeldChain> HeldChain::of(const SparseMatrix& matrix, Index multipliers, const ChainGroups& groups) {
+  const Index n = matrix.cols() - multipliers;
+  SparseMatrix A = matrix.topLeftCorner(n, n);
+  A.makeCompressed();
+  std::unique_ptr<HeldChain> chain(new HeldChain(A, groups));
+  return chain->adopts(matrix, multipliers) ? std::move(chain) : nullptr;
+}
+
+bool HeldChain::adopts(const SparseMatrix& matrix, Index multipliers) {
+  return matrix.cols() - multipliers == A_.cols() && find_chunks(matrix, multipliers) &&
+         find_holds(matrix, multipliers);
+}
+
+// In each column A's entries come first; only multipliers may follow.
+bool HeldChain::find_chunks(const SparseMatrix& matrix, Index multipliers) {
+  const Index n = matrix.cols() - multipliers;
+  const Index *start = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
+  const Index *start_of_A = A_.outerIndexPtr(), *row_of_A = A_.innerIndexPtr();
+  chunks_.clear();
+  for (Index column = 0; column < n; ++column) {
+    const Index from = start[column], to = start_of_A[column], count = start_of_A[column + 1] - to;
+    const Index all = start[column + 1] - from;
+    if (all < count || !std::equal(row_of_A + to, row_of_A + to + count, row + from)) return false;
+    if (all > count && row[from + count] < n) return false;
+    if (!chunks_.empty() && chunks_.back().from + chunks_.back().count == from)
+      chunks_.back().count += count;
+    else
+      chunks_.push_back({.from = from, .to = to, .count = count});
+  }
+  return true;
+}
+
+bool HeldChain::find_holds(const SparseMatrix& matrix, Index multipliers) {
+  holds_.clear();
+  if (multipliers == 0) return true;
+  const Index n = matrix.cols() - multipliers;
+  const Index *start = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
+  struct Entry {
+    std::size_t group, position;
+    Index place;
+  };
+  std::vector<std::vector<Entry>> rows(static_cast<std::size_t>(multipliers));
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::size_t k = 0; k < groups_[g].size(); ++k) {
+      const Index column = groups_[g][k];
+      for (Index at = start[column + 1]; at-- > start[column] && row[at] >= n;)
+        rows[static_cast<std::size_t>(row[at] - n)].push_back({.group = g, .position = k, .place = at});
+    }
+  std::map<std::size_t, Hold> by_group;
+  for (std::size_t m = 0; m < rows.size(); ++m) {
+    const Index multiplier = n + static_cast<Index>(m), diagonal = start[multiplier];
+    const bool has_diagonal_alone = start[multiplier + 1] == diagonal + 1 && row[diagonal] == multiplier;
+    if (rows[m].empty() || rows[m].front().group != rows[m].back().group || !has_diagonal_alone) return false;
+    const std::size_t group = rows[m].front().group;
+    Hold& hold = by_group.try_emplace(group, Hold{.unknowns = &groups_[group]}).first->second;
+    hold.multipliers.push_back(multiplier);
+    hold.compliance.push_back(diagonal);
+    hold.row.emplace_back(groups_[group].size(), no_entry);
+    for (const Entry& entry : rows[m]) hold.row.back()[entry.position] = entry.place;
+  }
+  for (auto& [group, hold] : by_group) {
+    if (hold.multipliers.size() > hold.unknowns->size() || !find_blocks(hold, group)) return false;
+    holds_.push_back(std::move(hold));
+  }
+  return true;
+}
+
+// Turned coordinates couple with all that any of the group's unknowns couples with. Groups of separate parts of a chain
+// do not couple.
+bool HeldChain::find_blocks(Hold& hold, std::size_t group) const {
+  const auto add = [&](const Unknowns& columns) {
+    Block block{.columns = &columns, .places = {}};
+    for (const Index column : columns)
+      for (const Index row : *hold.unknowns) block.places.push_back(place_of(A_, row, column));
+    const auto missing = std::count(block.places.begin(), block.places.end(), no_entry);
+    if (missing == 0) hold.blocks.push_back(std::move(block));
+    return missing == 0 || missing == static_cast<std::ptrdiff_t>(columns.size() * hold.unknowns->size());
+  };
+  return add(groups_[group]) && !hold.blocks.empty() && (group == 0 || add(groups_[group - 1])) &&
+         (group + 1 == groups_.size() || add(groups_[group + 1]));
+}
+
+HeldChain::Small HeldChain::values(const Hold& hold, const Block& block) const {
+  Small values(hold.unknowns->size(), block.columns->size());
+  for (std::size_t i = 0; i < block.places.size(); ++i) values.data()[i] = A_.valuePtr()[block.places[i]];
+  return values;
+}
+
+void HeldChain::set_values(const Hold&, const Block& block, const Small& values) {
+  for (std::size_t i = 0; i < block.places.size(); ++i) A_.valuePtr()[block.places[i]] = values.data()[i];
+}
+
+// Rows are taken out of the chain only once all groups have been turned and all rows have been kept.
+bool HeldChain::factorize(const SparseMatrix& matrix) {
+  for (const Chunk& chunk : chunks_) std::copy_n(matrix.valuePtr() + chunk.from, chunk.count, A_.valuePtr() + chunk.to);
+  pivots_ = {};
+  for (Hold& hold : holds_)
+    if (!turn(matrix, hold)) return false;
+  for (Hold& hold : holds_) {
+    hold.rows.clear();
+    for (const Block& block : hold.blocks) {
+      hold.rows.push_back(values(hold, block).topRows(hold.c.size()));
+      if (!hold.rows.back().allFinite()) return false;
+    }
+  }
+  for (Hold& hold : holds_) take_out(hold);
+  const bool regular = chain_.factorize(A_);
+  pivots_.add(chain_.pivots());
+  return regular;
+}
+
+// Cᵀ = Q R, A := QᵀAQ. False where two multipliers hold the same, or entries are not finite.
+bool HeldChain::turn(const SparseMatrix& matrix, Hold& hold) {
+  const auto count = static_cast<Index>(hold.multipliers.size());
+  const auto c_of = [&](Index j) { return -matrix.valuePtr()[hold.compliance[static_cast<std::size_t>(j)]]; };
+  hold.order.clear();
+  for (const bool rigid : {true, false}) {
+    for (Index j = 0; j < count; ++j)
+      if ((c_of(j) == 0.0) == rigid) hold.order.push_back(j);
+    if (rigid) hold.rigid = static_cast<Index>(hold.order.size());
+  }
+  hold.c.resize(count);
+  Small Ct = Small::Zero(static_cast<Index>(hold.unknowns->size()), count);
+  for (Index j = 0; j < count; ++j) {
+    const Index which = hold.order[static_cast<std::size_t>(j)];
+    hold.c[j] = c_of(which);
+    const std::vector<Index>& row = hold.row[static_cast<std::size_t>(which)];
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (row[i] != no_entry) Ct(static_cast<Index>(i), j) = matrix.valuePtr()[row[i]];
+  }
+  if (!Ct.allFinite() || !hold.c.allFinite()) return false;
+  const Eigen::HouseholderQR<Small> qr(Ct);
+  hold.Q = qr.householderQ() * Small::Identity(Ct.rows(), Ct.rows());
+  hold.R = qr.matrixQR().topRows(count).triangularView<Eigen::Upper>();
+  for (Index j = 0; j < hold.rigid; ++j)
+    if (hold.R(j, j) == 0.0) return false;
+  for (const Block& block : hold.blocks) {
+    Small turned = hold.Q.transpose() * values(hold, block);
+    if (block.columns == hold.unknowns) turned *= hold.Q;
+    set_values(hold, block, turned);
+  }
+  return true;
+}
+
+// In place of the rows stand pivots as large as what else is there. Those of the multipliers are as large, and less
+// where one holds almost what others hold.
+void HeldChain::take_out(Hold& hold) {
+  const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
+  for (const Block& block : hold.blocks) {
+    Small left = values(hold, block);
+    const double scale = left.cwiseAbs().maxCoeff();  // of the group's own block
+    left.topRows(rigid).setZero();
+    if (block.columns == hold.unknowns) {
+      left.leftCols(rigid).setZero();
+      left.diagonal().head(rigid).setConstant(scale);
+      const auto R = hold.R.bottomRightCorner(soft, soft);
+      left.block(rigid, rigid, soft, soft) += R * hold.c.tail(soft).cwiseInverse().asDiagonal() * R.transpose();
+      hold.is_stiff.clear();
+      for (Index j = 0; j < hold.c.size(); ++j) {
+        const double share = hold.R(j, j) / hold.R.col(j).norm();
+        hold.is_stiff.push_back(hold.R(j, j) * hold.R(j, j) >= std::abs(hold.c[j]) * scale);
+        pivots_.add(j < rigid ? -scale * share * share : -std::copysign(scale, hold.c[j]));
+      }
+    }
+    set_values(hold, block, left);
+  }
+}
+
+HeldChain::SmallVector HeldChain::turned(const Hold& hold, const Eigen::Ref<const Vector>& x) {
+  return hold.Q.transpose() * x(*hold.unknowns);
+}
+
+// With r the rigid and s the soft multipliers of a group, K the rows of QᵀAQ that they hold and f in turned
+// coordinates:
+//
+//   R_rrᵀ w_r = g_r,   A w = f − K_rᵀ w_r − R_ss c⁻¹ (R_rsᵀ w_r − g_s)
+//
+// Then R p = f − K w and c p = Rᵀ w − g: each multiplier from that of the two where fewer digits cancel.
+void HeldChain::solve(Eigen::Ref<Matrix> X) const {
+  struct Known {
+    SmallVector w, f, g;
+  };
+  std::vector<Known> all_known(holds_.size() * static_cast<std::size_t>(X.cols()));
+  const auto for_each = [&](Index column, const auto& visit) {
+    Known* known = all_known.data() + static_cast<std::size_t>(column) * holds_.size();
+    for (const Hold& hold : holds_) visit(hold, *known++);
+  };
+  const auto unknown = [](const Hold& hold, Index i) { return (*hold.unknowns)[static_cast<std::size_t>(i)]; };
+  for (Index column = 0; column < X.cols(); ++column) {
+    auto x = X.col(column);
+    for_each(column, [&](const Hold& hold, Known& known) {
+      const SmallVector f = turned(hold, x);
+      x(*hold.unknowns) = f;
+      known.f = f.head(hold.c.size());
+      known.g.resize(hold.c.size());
+      for (Index j = 0; j < hold.c.size(); ++j) known.g[j] = x[hold.multiplier(j)];
+      known.w = hold.R.topLeftCorner(hold.rigid, hold.rigid)
+                    .template triangularView<Eigen::Upper>()
+                    .transpose()
+                    .solve(known.g.head(hold.rigid));
+    });
+    for_each(column, [&](const Hold& hold, const Known& known) {
+      const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
+      for (std::size_t b = 0; b < hold.blocks.size(); ++b)
+        x(*hold.blocks[b].columns) -= hold.rows[b].topRows(rigid).transpose() * known.w;
+      const auto R = hold.R.rightCols(soft);
+      const SmallVector pull =
+          (R.topRows(rigid).transpose() * known.w - known.g.tail(soft)).cwiseQuotient(hold.c.tail(soft));
+      const SmallVector force = R.bottomRows(soft) * pull;
+      for (Index j = 0; j < soft; ++j) x[unknown(hold, rigid + j)] -= force[j];
+    });
+    for (const Hold& hold : holds_)
+      for (Index j = 0; j < hold.rigid; ++j) x[unknown(hold, j)] = 0.0;
+  }
+  chain_.solve(X.topRows(A_.cols()));
+  for (Index column = 0; column < X.cols(); ++column) {
+    auto x = X.col(column);
+    for_each(column, [&](const Hold& hold, const Known& known) {
+      for (Index j = 0; j < hold.rigid; ++j) x[unknown(hold, j)] = known.w[j];
+    });
+    for_each(column, [&](const Hold& hold, const Known& known) {
+      SmallVector left = known.f;
+      for (std::size_t b = 0; b < hold.blocks.size(); ++b) left -= hold.rows[b] * x(*hold.blocks[b].columns);
+      for (Index j = hold.c.size(); j-- > 0;) {
+        double p = left[j] / hold.R(j, j);
+        if (!hold.is_stiff[static_cast<std::size_t>(j)]) {
+          p = -known.g[j];
+          for (Index i = 0; i <= j; ++i) p += hold.R(i, j) * x[unknown(hold, i)];
+          p /= hold.c[j];
+        }
+        x[hold.multiplier(j)] = p;
+        for (Index i = 0; i < j; ++i) left[i] -= hold.R(i, j) * p;
+      }
+    });
+    for (const Hold& hold : holds_) {
+      const SmallVector u = hold.Q * x(*hold.unknowns);
+      x(*hold.unknowns) = u;
+    }
+  }
+}
+
+// Multipliers and what they hold add 2 |p|ᵀ |R|ᵀ |w| + |p|ᵀ |c| |p|.
+double HeldChain::weighted(const Vector& v) const {
+  Vector w = v.head(A_.cols());
+  double sum = 0.0;
+  for (const Hold& hold : holds_) {
+    const SmallVector here = turned(hold, w);
+    w(*hold.unknowns) = here;
+    for (Index j = 0; j < hold.c.size(); ++j) {
+      const double p = std::abs(v[hold.multiplier(j)]);
+      for (Index i = 0; i <= j; ++i) sum += 2.0 * p * std::abs(hold.R(i, j) * here[i]);
+      sum += p * std::abs(hold.c[j]) * p;
+    }
+  }
+  for (const Hold& hold : holds_)
+    for (std::size_t b = 0; b < hold.blocks.size(); ++b) {
+      const SmallVector there = w(*hold.blocks[b].columns);
+      for (Index i = 0; i < hold.rigid; ++i)
+        for (Index j = 0; j < there.size(); ++j)
+          sum += 2.0 * std::abs(w[(*hold.unknowns)[static_cast<std::size_t>(i)]] * hold.rows[b](i, j) * there[j]);
+    }
+  return sum + chain_.weighted(w);
+}
+
+}  // namespace arcwall
