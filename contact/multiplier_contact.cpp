@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/assembly.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -100,23 +102,11 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
 }
 
 void MultiplierContact::lay_out(const State& state, Linearization& out) const {
-  const SparseMatrix& inner = out.inner->K;
-  const Index n = inner.cols(), m = multiplier_count(state.piece);
-  std::vector<std::vector<Index>> behind(static_cast<std::size_t>(n));  // multipliers that touch each unknown
+  std::vector<RowEntry> entries;
   for_each_closed(state.piece, [&](std::size_t j, Index k) {
-    for (const Index unknown : candidates_[j].point().unknowns())
-      behind[static_cast<std::size_t>(unknown)].push_back(n + k);
+    for (const Index unknown : candidates_[j].point().unknowns()) entries.push_back({.row = k, .column = unknown});
   });
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(static_cast<std::size_t>(inner.nonZeros() + 4 * m));
-  for (Index column = 0; column < n; ++column) {
-    for (SparseMatrix::InnerIterator it(inner, column); it; ++it) entries.emplace_back(it.row(), column, 0.0);
-    for (const Index row : behind[static_cast<std::size_t>(column)]) entries.emplace_back(row, column, 0.0);
-  }
-  for (Index k = 0; k < m; ++k) entries.emplace_back(n + k, n + k, 0.0);
-  out.K.resize(n + m, n + m);
-  out.K.setFromTriplets(entries.begin(), entries.end());
-  out.K.makeCompressed();
+  out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.piece));
   out.pattern_of = state.piece;
 }
 

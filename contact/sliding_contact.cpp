@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "contact/sliding_layout.hpp"
+#include "core/assembly.hpp"
 
 namespace arcwall {
 
@@ -352,25 +353,15 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
 
 void SlidingContact::lay_out(const State& state, Linearization& out) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const SparseMatrix& inner = out.inner->K;
-  const Index n = inner.cols(), m = border_width(state.piece), core = state.x.size() - m;
-  std::vector<std::vector<Index>> behind(static_cast<std::size_t>(n));  // multipliers that touch each unknown
+  const Index n = out.inner->K.cols(), m = border_width(state.piece), core = state.x.size() - m;
+  std::vector<RowEntry> entries;
   const auto touches = [&](const Touch& at, Index row) {
     for (const Index unknown : on.mesh().node_unknowns(at.run, at.position))
-      if (unknown >= 0) behind[static_cast<std::size_t>(unknown)].push_back(row);
+      if (unknown >= 0) entries.push_back({.row = row - n, .column = unknown});
   };
   for_each_force(state, touches);
   for (Index k = 0; k < m; ++k) touches(touch(on, static_cast<std::size_t>(k)), core - m + k);
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(static_cast<std::size_t>(inner.nonZeros() + 4 * core));
-  for (Index column = 0; column < n; ++column) {
-    for (SparseMatrix::InnerIterator it(inner, column); it; ++it) entries.emplace_back(it.row(), column, 0.0);
-    for (const Index row : behind[static_cast<std::size_t>(column)]) entries.emplace_back(row, column, 0.0);
-  }
-  for (Index i = n; i < core; ++i) entries.emplace_back(i, i, 0.0);
-  out.K.resize(core, core);
-  out.K.setFromTriplets(entries.begin(), entries.end());
-  out.K.makeCompressed();
+  out.K = with_rows_behind(out.inner->K, entries, core - n);
   out.holding.clear();
   for (Index k = 0; k < m; ++k) out.holding.push_back(core - m + k);
   out.pattern_of = state.piece;

@@ -5,6 +5,31 @@
 
 namespace arcwall {
 
+SparseMatrix with_rows_behind(const SparseMatrix& A, const std::vector<RowEntry>& entries, Index count) {
+  const Index n = A.cols();
+  std::vector<RowEntry> sorted = entries;
+  std::sort(sorted.begin(), sorted.end(), [](const RowEntry& a, const RowEntry& b) {
+    return a.column != b.column ? a.column < b.column : a.row < b.row;
+  });
+  SparseMatrix out(n + count, n + count);
+  out.resizeNonZeros(A.nonZeros() + static_cast<Index>(entries.size()) + count);
+  Index *start = out.outerIndexPtr(), *row = out.innerIndexPtr();
+  auto behind = sorted.begin();
+  for (Index column = 0; column < n; ++column) {
+    start[column] = row - out.innerIndexPtr();
+    row = std::copy(A.innerIndexPtr() + A.outerIndexPtr()[column], A.innerIndexPtr() + A.outerIndexPtr()[column + 1],
+                    row);
+    for (; behind != sorted.end() && behind->column == column; ++behind) *row++ = n + behind->row;
+  }
+  for (Index i = n; i < n + count; ++i) {
+    start[i] = row - out.innerIndexPtr();
+    *row++ = i;
+  }
+  start[n + count] = row - out.innerIndexPtr();
+  std::fill_n(out.valuePtr(), out.nonZeros(), 0.0);
+  return out;
+}
+
 BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks)
     : pattern_(unknowns, unknowns) {
   std::vector<Eigen::Triplet<double, Index>> entries;

@@ -9,6 +9,14 @@
 
 namespace arcwall {
 
+/// An entry of a row behind a matrix: of row `row` of those and a column of the matrix.
+struct RowEntry {
+  Index row, column;
+};
+
+/// The lower triangle of a matrix with `count` rows and their diagonal behind it; values are zero.
+SparseMatrix with_rows_behind(const SparseMatrix& lower_triangle, const std::vector<RowEntry>& entries, Index count);
+
 /// Sums small symmetric blocks into a sparse matrix whose pattern is laid out once: where every entry of every block
 /// goes is looked up here, never in a step.
 class BlockAssembly {
