@@ -4,7 +4,7 @@ namespace arcwall {
 
 double Candidate::gap(const Vector& x) const {
   const Vec2 at = point_->position(x);
-  return wall_->covers(at.x()) ? surface_gap(*wall_, side_, at).value : infinity;
+  return wall_->covers(at.x()) ? surface_slope(*wall_, side_, at).value : infinity;
 }
 
 void Candidate::gap(const Vector& x, Gap& out) const {
@@ -20,13 +20,10 @@ void Candidate::gap(const Vector& x, Gap& out) const {
 }
 
 double Candidate::gap_rate(const Vector& x, const Vector& dx) const {
-  if (!faces_wall(x)) return 0.0;
-  Gap gap_here;
-  gap(x, gap_here);
-  double rate = 0.0;
-  for (std::size_t i = 0; i < point_->unknowns().size(); ++i)
-    rate += gap_here.gradient[static_cast<Index>(i)] * dx[point_->unknowns()[i]];
-  return rate;
+  const PointMotion at = point_->motion(x, dx);
+  if (!wall_->covers(at.position.x())) return 0.0;
+  const SurfaceSlope g = surface_slope(*wall_, side_, at.position);
+  return g.x * at.velocity.x() + g.z * at.velocity.y();
 }
 
 }  // namespace arcwall

@@ -81,6 +81,13 @@ SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point) {
           .xz = sign * c1};
 }
 
+SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point) {
+  const Height psi = profile.at(point.x());
+  const double sign = side == Side::below ? 1.0 : -1.0;
+  const double c = 1.0 / std::sqrt(1.0 + psi.first * psi.first), d = point.y() - psi.value;
+  return {.value = sign * d * c, .x = -sign * psi.first * c * (1.0 + d * psi.second * c * c), .z = sign * c};
+}
+
 std::unique_ptr<Profile> flat_profile(double z) { return std::make_unique<LineProfile>(z, 0.0); }
 std::unique_ptr<Profile> line_profile(double z, double slope) { return std::make_unique<LineProfile>(z, slope); }
 std::unique_ptr<Profile> parabola_profile(const Vec2& apex, double curvature) {

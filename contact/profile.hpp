@@ -37,7 +37,11 @@ struct SurfaceGap {
   double value, x, z, xx, xz;
 };
 
-/// Only where the profile covers the point.
+/// Only where the profile covers the point; second derivatives are left out or not.
+struct SurfaceSlope {
+  double value, x, z;
+};
+SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point);
 SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point);
 
 std::unique_ptr<Profile> flat_profile(double z);

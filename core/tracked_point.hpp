@@ -20,6 +20,11 @@ struct PointKinematics {
   std::array<LocalSquare, 2> curvature{};  ///< second derivatives of x and of z
 };
 
+/// Where a body point is and how it moves.
+struct PointMotion {
+  Vec2 position{}, velocity{};
+};
+
 /// A point of the body that may touch an obstacle: where it is and how it moves with the unknowns.
 class TrackedPoint {
  public:
@@ -29,6 +34,9 @@ class TrackedPoint {
   virtual const std::vector<Index>& unknowns() const = 0;
 
   virtual Vec2 position(const Vector& x) const = 0;
+
+  /// The velocity is that along dx.
+  virtual PointMotion motion(const Vector& x, const Vector& dx) const = 0;
 
   /// Sizes follow unknowns().
   virtual void kinematics(const Vector& x, PointKinematics& out) const = 0;

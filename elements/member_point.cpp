@@ -58,6 +58,19 @@ Vec2 MemberPoint::position(const Vector& x) const {
   return rotation_ ? Vec2(axis + arm(vectors(x))) : axis;
 }
 
+PointMotion MemberPoint::motion(const Vector& x, const Vector& dx) const {
+  const auto rate = [&](std::optional<Index> column) {
+    return column ? dx[unknowns_[static_cast<std::size_t>(*column)]] : 0.0;
+  };
+  PointMotion at{.position = structure_.current(x, node_), .velocity = Vec2(rate(x_), rate(z_))};
+  if (!rotation_) return at;
+  const EssenburgNode::Vectors v = vectors(x);
+  const double o = offset_, o2 = offset_ * offset_;
+  at.position += arm(v);
+  at.velocity += rate(turn_) * (o * v.d_phi + o2 * v.q_phi) + rate(e_) * o * v.d_e + rate(xi_) * o2 * v.q_xi;
+  return at;
+}
+
 void MemberPoint::kinematics(const Vector& x, PointKinematics& out) const {
   const auto n = static_cast<Index>(unknowns_.size());
   out.jacobian.setZero(2, n);

@@ -17,6 +17,7 @@ class MemberPoint final : public TrackedPoint {
 
   const std::vector<Index>& unknowns() const override { return unknowns_; }
   Vec2 position(const Vector& x) const override;
+  PointMotion motion(const Vector& x, const Vector& dx) const override;
   void kinematics(const Vector& x, PointKinematics& out) const override;
 
  private:

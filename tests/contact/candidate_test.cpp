@@ -16,6 +16,9 @@ class FreePoint final : public TrackedPoint {
  public:
   const std::vector<Index>& unknowns() const override { return unknowns_; }
   Vec2 position(const Vector& x) const override { return x.head<2>(); }
+  PointMotion motion(const Vector& x, const Vector& dx) const override {
+    return {.position = position(x), .velocity = dx.head<2>()};
+  }
   void kinematics(const Vector& x, PointKinematics& out) const override {
     out.position = position(x);
     out.jacobian.setIdentity(2, 2);
