@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/bordered_solver.hpp"
-
 namespace arcwall {
 
 namespace {
@@ -26,14 +24,14 @@ struct Solution {
   Vector p;
 };
 
-std::optional<RateProblem> reduce(const System& system, const State& corner, const std::vector<Index>& weak) {
+std::optional<RateProblem> reduce(const System& system, const State& corner, const std::vector<Index>& weak,
+                                  CornerWorkspace& workspace) {
   RateProblem problem;
   Piece piece = corner.piece;
   for (const Index j : weak) piece[static_cast<std::size_t>(j)] = 0;
   problem.open = system.with_piece(corner, piece);
-  Linearization now;
+  auto& [now, solver] = workspace;
   system.linearize(problem.open, now);
-  BorderedSolver solver;
   if (solver.factorize(now, system.multiplier_count(piece)) != FactorStatus::ok) return std::nullopt;
   const auto w = static_cast<Index>(weak.size());
   Matrix X(now.F.size(), 1 + w);
@@ -193,8 +191,8 @@ bool same(const System& system, const Ray& a, const Ray& b, double tolerance) {
 }  // namespace
 
 std::vector<Ray> rays_of(const System& system, const State& corner, const std::vector<Index>& weak,
-                         const CornerOptions& options) {
-  const auto problem = reduce(system, corner, weak);
+                         const CornerOptions& options, CornerWorkspace& workspace) {
+  const auto problem = reduce(system, corner, weak, workspace);
   if (!problem) return {};
   const bool small = static_cast<int>(weak.size()) <= options.max_enumerated;
   std::vector<Ray> rays;

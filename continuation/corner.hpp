@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/system.hpp"
+#include "core/bordered_solver.hpp"
 
 namespace arcwall {
 
@@ -20,6 +20,12 @@ struct CornerOptions {
   int max_enumerated = 12;       ///< weak contacts up to which all subsets are tried
 };
 
+/// The matrix of a corner and its factorization, kept from corner to corner.
+struct CornerWorkspace {
+  Linearization equations{};
+  BorderedSolver solver{};
+};
+
 /// All directions that leave a corner, by the rate complementarity problem of docs/theory.md, section 4:
 ///
 ///     0 ≤ ṗ  ⊥  λ̇ a + M ṗ ≥ 0
@@ -27,6 +33,6 @@ struct CornerOptions {
 /// `weak` are the contacts whose gap and force are both zero there. The ray along which the corner was reached
 /// (backwards) is among them. Empty where K with all weak contacts open is singular.
 std::vector<Ray> rays_of(const System& system, const State& corner, const std::vector<Index>& weak,
-                         const CornerOptions& options);
+                         const CornerOptions& options, CornerWorkspace& workspace);
 
 }  // namespace arcwall

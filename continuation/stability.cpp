@@ -36,10 +36,10 @@ std::optional<Index> negative_eigenvalues(const System& system, const State& sta
 
 Piece strongly_closed(const System& system, const State& state, double force_tolerance) {
   Piece piece = state.piece;
-  if (piece.empty()) return piece;
-  const Vector guards = system.guards(state);
-  for (std::size_t j = 0; j < piece.size(); ++j)
-    if (piece[j] && guards[static_cast<Index>(j)] <= force_tolerance) piece[j] = 0;
+  for (std::size_t j = 0; j < piece.size(); ++j) {
+    const auto force = system.multiplier_index(state.piece, static_cast<Index>(j));
+    if (force && state.x[*force] <= force_tolerance * system.multiplier_scale()) piece[j] = 0;
+  }
   return piece;
 }
 

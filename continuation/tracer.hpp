@@ -197,8 +197,9 @@ class Tracer {
   PathPoint point_at(const SingularPlace& place);
   Singular singular_at(const SingularPlace& place, double chord_dlambda);
   bool dips(const Segment& segment);
-  bool dips(const Segment& segment, Index here, Index there);
-  bool rises_from_zero(const Segment& segment, Index there);
+  struct FollowedRates;
+  bool dips(const Segment& segment, Index here, FollowedRates& rates_here, Index there, FollowedRates& rates_there);
+  bool rises_from_zero(const Segment& segment, Index there, FollowedRates& rates_there) const;
   StabilityCount count_behind(const PathPoint& beyond, Index change);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
@@ -250,6 +251,7 @@ class Tracer {
   Index vanishing_ = 0;              // eigenvalues that are zero at here_
   NearNull nearest_;                 // the pairs nearest zero that were known last
   Linearization beside_;             // workspace
+  CornerWorkspace corner_;           // likewise
   BranchStart start_;
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
   struct Visited {

@@ -65,7 +65,7 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
   std::vector<Index> weak = system_.weak_guards(at.state, std::max(options_.guard_tolerance, 2.0 * slack));
   if (landed >= 0 && std::find(weak.begin(), weak.end(), landed) == weak.end()) weak.push_back(landed);
   std::optional<Index> unstable;
-  const auto ray = choose(rays_of(system_, at.state, weak, options_.corner), at, unstable);
+  const auto ray = choose(rays_of(system_, at.state, weak, options_.corner, corner_), at, unstable);
   if (!ray) return false;
   const State state = system_.with_piece(at.state, ray->piece);
   const Metric metric(system_.weights(ray->piece), metric_.lambda_scale());
@@ -239,7 +239,8 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
   const auto way = [&](const Ray& ray) { return open_direction(ray.direction, ray.piece); };
 
   const auto known = [&](const Visited& v) {
-    return v.corner.piece == here.piece && metric.norm(difference(v.corner, here)) <= same_place;
+    return std::abs(v.corner.lambda - here.lambda) <= same_place * metric.lambda_scale() &&
+           v.corner.piece == here.piece && metric.norm(difference(v.corner, here)) <= same_place;
   };
   auto visited = std::find_if(visited_.begin(), visited_.end(), known);
   if (visited == visited_.end()) visited = visited_.insert(visited_.end(), {.corner = here, .ways = {}});

@@ -201,22 +201,39 @@ Tracer::Singular Tracer::singular_at(const SingularPlace& place, double chord_dl
           .suspected = place.touches};
 }
 
+// How fast the eigenvalues that are followed change at a point: they cost two matrices, and are found when first asked
+// for.
+struct Tracer::FollowedRates {
+  const System& system;
+  const PathPoint& point;
+  Linearization& workspace;
+  std::optional<Vector> found{};
+
+  double of(Index mode) {
+    if (!found) found = eigenvalue_rates(system, point.state, point.tangent, point.nearest.vectors, workspace);
+    return (*found)[mode];
+  }
+};
+
 // Whether an eigenvalue may have come to zero inside the segment and gone back, or two have passed zero in opposite
 // senses.
 bool Tracer::dips(const Segment& segment) {
   const NearNull &here = segment.from().nearest, &there = segment.to().nearest;
   if (segment.from().state.piece != segment.to().state.piece || here.values.size() == 0) return false;
+  FollowedRates rates_here{.system = system_, .point = segment.from(), .workspace = beside_};
+  FollowedRates rates_there{.system = system_, .point = segment.to(), .workspace = beside_};
   for (Index j = 0; j < there.values.size(); ++j) {
     const auto i = same_as(there.vectors.col(j), here.vectors, metric_.weights());
-    if (i && *i >= vanishing_ && dips(segment, *i, j)) return true;
-    if (!i && j == 0 && rises_from_zero(segment, j)) return true;
+    if (i && *i >= vanishing_ && dips(segment, *i, rates_here, j, rates_there)) return true;
+    if (!i && j == 0 && rises_from_zero(segment, j, rates_there)) return true;
   }
   return false;
 }
 
 // The cubic through the values of a mode's eigenvalue at the ends, with its rates there; before these cost something,
 // the parabola through the values at the last three points.
-bool Tracer::dips(const Segment& segment, Index here, Index there) {
+bool Tracer::dips(const Segment& segment, Index here, FollowedRates& rates_here, Index there,
+                  FollowedRates& rates_there) {
   const PathPoint &from = segment.from(), &to = segment.to();
   const double v0 = from.nearest.values[here], v1 = to.nearest.values[there], L = segment.length();
   if ((v0 > 0.0) != (v1 > 0.0)) return true;
@@ -228,20 +245,13 @@ bool Tracer::dips(const Segment& segment, Index here, Index there) {
     const double length = Segment(metric_, *before_, from).length();
     if (before > 0.0 && least_of_parabola(length, before, sign * v0, L, sign * v1) > shallow * least) return false;
   }
-  const auto rate = [&](const PathPoint& point, Index mode) {
-    const Vector vector = point.nearest.vectors.col(mode);
-    return sign * eigenvalue_rate(system_, point.state, point.tangent, vector, vector, beside_);
-  };
-  const double r0 = rate(from, here), r1 = rate(to, there);
+  const double r0 = sign * rates_here.of(here), r1 = sign * rates_there.of(there);
   return least_cubic_value(sign * v0, r0 * L, sign * v1, r1 * L) <= deep * least;
 }
 
 // A mode that was not among the nearest at the start of the segment: the straight line back from its end.
-bool Tracer::rises_from_zero(const Segment& segment, Index there) {
-  const PathPoint& to = segment.to();
-  const double v1 = to.nearest.values[there];
-  const Vector vector = to.nearest.vectors.col(there);
-  const double rate = eigenvalue_rate(system_, to.state, to.tangent, vector, vector, beside_);
+bool Tracer::rises_from_zero(const Segment& segment, Index there, FollowedRates& rates_there) const {
+  const double v1 = segment.to().nearest.values[there], rate = rates_there.of(there);
   return (v1 > 0.0) == (rate > 0.0) && std::abs(v1) <= segment.length() * std::abs(rate);
 }
 

@@ -57,7 +57,8 @@ void expect_ray(const LinearContactToy& toy, const State& corner, const std::vec
 
 std::vector<Ray> rays(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak,
                       const CornerOptions& options = {}) {
-  std::vector<Ray> found = rays_of(toy, corner, weak, options);
+  CornerWorkspace workspace;
+  std::vector<Ray> found = rays_of(toy, corner, weak, options, workspace);
   for (const Ray& ray : found) expect_ray(toy, corner, weak, ray);
   return found;
 }
@@ -200,7 +201,8 @@ TEST(Corner, ASingularStiffnessGivesNoRays) {
   toy.f = Vector::Ones(1);
   toy.G = Matrix::Ones(1, 1);
   toy.gap0 = Vector::Zero(1);
-  EXPECT_TRUE(rays_of(toy, origin(toy), {0}, {}).empty());
+  CornerWorkspace workspace;
+  EXPECT_TRUE(rays_of(toy, origin(toy), {0}, {}, workspace).empty());
 }
 
 }  // namespace arcwall::corner_test
