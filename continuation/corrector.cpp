@@ -73,11 +73,11 @@ void Corrector::track_from(const NearNull& nearest) {
   solver_.expect_soft(nearest.soft());
 }
 
-std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count) const {
+std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count, Settled settled) const {
   if (!solver_.inner_is_regular()) return std::nullopt;
   const bool followed =
       now_.B.cols() == 0 && tracker_.vectors().rows() == now_.K.cols() && all_finite(tracker_.vectors());
-  return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count, Settled::fully,
+  return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count, settled,
                             followed ? tracker_.vectors() : Matrix());
 }
 

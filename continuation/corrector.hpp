@@ -53,7 +53,7 @@ class Corrector {
                                     const Direction& along, double length);
 
   /// Eigenpairs nearest zero of K at the state reached last; empty where K is singular to working precision.
-  std::optional<NearNull> near_null(const Vector& weights, Index count) const;
+  std::optional<NearNull> near_null(const Vector& weights, Index count, Settled settled = Settled::fully) const;
 
   /// K⁻¹ times the columns, K at the state reached last; empty where it is singular to working precision.
   std::optional<Matrix> responses(Matrix columns) const;

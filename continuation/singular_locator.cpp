@@ -355,7 +355,7 @@ Matrix SingularLocator::critical_modes(const Metric& metric, const Direction& ta
   constexpr Index nearest = 4;
   constexpr double near = 50.0;  // times the least eigenvalue
   const Vector& W = metric.weights();
-  const auto pairs = corrector_.near_null(W, nearest);
+  const auto pairs = corrector_.near_null(W, nearest, Settled::roughly);  // (1) holds for any modes near these
   if (!pairs || pairs->vectors.cols() == 0 || !pairs->vectors.allFinite()) return {};
   const Matrix C = W.asDiagonal() * without_fold(pairs->vectors, metric, tangent);
   const auto moved = corrector_.responses(C);
