@@ -220,6 +220,8 @@ class Tracer {
   std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from, Effort effort = Effort::usual);
   void refine(const State& violated, double margin);
   void add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const;
+  Piece held_by(const Ray& ray, const State& corner) const;
+  std::optional<Index> count_along(const Ray& ray, const State& corner);
   std::optional<Ray> choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable);
   Event one_sided_branch_point(const PathPoint& before, const PathPoint& after) const;
   Direction open_direction(const Direction& direction, const Piece& piece) const;

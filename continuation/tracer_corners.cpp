@@ -81,6 +81,8 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
   decide_count(at);
   at.arc = arc;
   at.iterations = iterations;
+  if (!unstable) unstable = held_by(*ray, before.state) == ray->piece ? at.held : count_along(*ray, before.state);
+  if (before.held) counter_.remember(before.state, before.held);  // often the strongly closed ones are those of before
   at.count = counter_.count(at.state, at.held);
   if (unstable) at.count.unstable = unstable;
   add_corner_events(before, at, events);
@@ -229,8 +231,21 @@ Direction Tracer::open_direction(const Direction& direction, const Piece& piece)
   return unit(metric, {.dx = system_.transfer(direction.dx, piece, open), .dlambda = direction.dlambda});
 }
 
+// The contacts that hold along a ray: those with a force, and those that get one.
+Piece Tracer::held_by(const Ray& ray, const State& corner) const {
+  Piece piece = strongly_closed(system_, corner, options_.guard_tolerance);
+  for (std::size_t j = 0; j < piece.size(); ++j)
+    if (ray.loading[j]) piece[j] = 1;
+  return piece;
+}
+
+std::optional<Index> Tracer::count_along(const Ray& ray, const State& corner) {
+  return counter_.negative_on(system_.with_piece(corner, held_by(ray, corner)));
+}
+
 // Of the rays that were not taken before: the stable one; of several the one nearest the incoming direction; if none is
-// stable, the one with fewest unstable directions that leaves the old piece (docs/theory.md, section 4).
+// stable, the one with fewest unstable directions that leaves the old piece (docs/theory.md, section 4). `unstable`:
+// its count, if there was a choice.
 std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, std::optional<Index>& unstable) {
   const Piece open = at.state.piece.all_open();
   const Metric metric(system_.weights(open), metric_.lambda_scale());
@@ -262,18 +277,17 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
     double backward;
     auto operator<=>(const Rank&) const = default;
   };
-  const auto count_of = [&](const Ray& ray) {
-    Piece strong = strongly_closed(system_, at.state, options_.guard_tolerance);
-    for (std::size_t j = 0; j < strong.size(); ++j)
-      if (ray.loading[j]) strong[j] = 1;
-    return counter_.negative_on(system_.with_piece(at.state, strong));
-  };
+  if (rays.size() == 1) {
+    visited->ways.push_back(way(rays.front()));
+    others_.clear();
+    return std::move(rays.front());
+  }
   std::optional<Ray> best;
   Rank best_rank{};
   int stable = 0;
   std::size_t chosen = 0;
   for (Ray& ray : rays) {
-    const std::optional<Index> count = count_of(ray);
+    const std::optional<Index> count = count_along(ray, at.state);
     const Index negative = count.value_or(std::numeric_limits<Index>::max());
     const bool continues = ray.piece == at.state.piece;
     stable += negative == 0;

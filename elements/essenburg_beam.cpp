@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/lanes.hpp"
 #include "elements/essenburg_assembly.hpp"
 #include "elements/shape_functions.hpp"
 #include "elements/updated_essenburg_beam.hpp"
@@ -13,8 +14,9 @@ namespace arcwall {
 // With p = t turned by +90°: ∂t/∂φ = p, ∂p/∂φ = −t. d − D = (cos φ − 1) D + sin φ D⊥ + e t, with cos φ − 1 =
 // −2 sin²(φ/2) for the digits of small rotations.
 EssenburgNode::Vectors EssenburgNode::vectors(double phi, double e, double xi) const {
-  const double half = std::sin(0.5 * phi), less = 2.0 * half * half, sine = std::sin(phi);
-  const Vec2 turned = sine * perp(D) - less * D;  // t − D
+  const auto half = cosine_and_sine(0.5 * phi);
+  const double less = 2.0 * half.sine * half.sine, sine = 2.0 * half.sine * half.cosine;  // 1 − cos φ and sin φ
+  const Vec2 turned = sine * perp(D) - less * D;                                          // t − D
   const Vec2 t = D + turned, p = perp(t);
   Vectors v{.d_change = turned + e * t,
             .d_phi = (1.0 + e) * p,
