@@ -1,5 +1,6 @@
 #include "core/bordered_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +12,8 @@ namespace {
 
 // Relative size of the pivots below which a solution is not trusted unseen.
 constexpr double suspicious_pivot = 1e-13;
+// How much greater than the solution what cancels in it may be.
+constexpr double suspicious_cancellation = 1e3;
 constexpr int max_refinements = 3;
 
 }  // namespace
@@ -50,10 +53,17 @@ bool BorderedSolver::eliminate_border() {
   return border_.allFinite() && slides_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
 }
 
-// With C = [C_x  C_s]:  y = K⁻¹ f,  (C_x K⁻¹ B − C_s) δs = C_x y − g,  δx = y − K⁻¹ B δs
 bool BorderedSolver::solve_inner(Matrix& X) const {
+  double cancelled = 0.0;
+  return solve_inner(X, cancelled);
+}
+
+// With C = [C_x  C_s]:  y = K⁻¹ f,  (C_x K⁻¹ B − C_s) δs = C_x y − g,  δx = y − K⁻¹ B δs. `cancelled`: by what y is
+// greater than δx, multipliers aside.
+bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
   const Linearization& now = *equations_;
   const Index n = now.K.cols(), m = now.B.cols();
+  cancelled = 1.0;
   if (m == 0) {
     ldlt_.solve(X);
     return all_finite(X);
@@ -61,9 +71,13 @@ bool BorderedSolver::solve_inner(Matrix& X) const {
   Matrix Y = X.topRows(n);
   ldlt_.solve(Y);
   const Matrix s = slides_.solve(now.C.leftCols(n) * Y - X.bottomRows(m));
-  Y.noalias() -= border_ * s;
-  X.topRows(n) = Y;
   X.bottomRows(m) = s;
+  for (Index column = 0; column < X.cols(); ++column) {
+    X.col(column).head(n) = Y.col(column);
+    X.col(column).head(n).noalias() -= border_.lazyProduct(s.col(column));
+    const auto size = [&](const auto& x) { return x.head(n - multipliers_).cwiseAbs().maxCoeff(); };
+    cancelled = std::max(cancelled, size(Y.col(column)) / size(X.col(column)));
+  }
   return all_finite(X);
 }
 
@@ -76,8 +90,10 @@ Matrix BorderedSolver::inverse_at_border() const {
   return inverse;
 }
 
-bool BorderedSolver::is_suspicious() const {
-  return equations_->B.cols() > 0 || ldlt_.pivot_ratio() < suspicious_pivot;
+// Where K is nearly singular but J is not, y and K⁻¹ B are large multiples of one vector, and what they differ in is
+// small beside them.
+bool BorderedSolver::is_suspicious(double cancelled) const {
+  return !(cancelled < suspicious_cancellation) || ldlt_.pivot_ratio() < suspicious_pivot;
 }
 
 // X = J⁻¹ [−F, −F_λ] taken together. Where J is nearly singular both columns are large multiples of one vector, and the
@@ -87,7 +103,8 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   columns_.resize(now.F.size(), 2);
   columns_.col(0) = -now.F;
   columns_.col(1) = -now.F_lambda;
-  if (regular_ && solve_inner(columns_) && (!is_suspicious() || make_line_good(border))) {
+  double cancelled = 0.0;
+  if (regular_ && solve_inner(columns_, cancelled) && (!is_suspicious(cancelled) || make_line_good(border))) {
     out.particular.dx = columns_.col(0);
     out.particular.dlambda = 0.0;
     out.tangent.dx = columns_.col(1);
@@ -124,7 +141,8 @@ bool BorderedSolver::make_line_good(const Row& border) {
 bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns) {
   const Linearization& now = *equations_;
   columns.col(0) = -now.F_lambda;
-  if (regular_ && solve_inner(columns) && (!is_suspicious() || make_tangent_good(columns))) {
+  double cancelled = 0.0;
+  if (regular_ && solve_inner(columns, cancelled) && (!is_suspicious(cancelled) || make_tangent_good(columns))) {
     out.dx = columns.col(0);
     out.dlambda = 1.0;
     return true;

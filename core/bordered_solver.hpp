@@ -67,7 +67,8 @@ class BorderedSolver {
   };
 
   bool eliminate_border();
-  bool is_suspicious() const;
+  bool solve_inner(Matrix& X, double& cancelled) const;
+  bool is_suspicious(double cancelled) const;
   bool make_line_good(const Row& border);
   bool make_tangent_good(Matrix& columns);
   bool factorize_whole(const Row& border, const Matrix& columns);
