@@ -112,7 +112,7 @@ HeldChain::Small HeldChain::values(const Hold& hold, const Block& block) const {
   return values;
 }
 
-void HeldChain::set_values(const Hold&, const Block& block, const Small& values) {
+void HeldChain::set_values(const Block& block, const Small& values) {
   for (std::size_t i = 0; i < block.places.size(); ++i) A_.valuePtr()[block.places[i]] = values.data()[i];
 }
 
@@ -163,7 +163,7 @@ bool HeldChain::turn(const SparseMatrix& matrix, Hold& hold) {
   for (const Block& block : hold.blocks) {
     Small turned = hold.Q.transpose() * values(hold, block);
     if (block.columns == hold.unknowns) turned *= hold.Q;
-    set_values(hold, block, turned);
+    set_values(block, turned);
   }
   return true;
 }
@@ -174,7 +174,7 @@ void HeldChain::take_out(Hold& hold) {
   const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
   for (const Block& block : hold.blocks) {
     Small left = values(hold, block);
-    const double scale = left.cwiseAbs().maxCoeff();  // of the group's own block
+    const double greatest = left.cwiseAbs().maxCoeff(), scale = greatest > 0.0 ? greatest : 1.0;
     left.topRows(rigid).setZero();
     if (block.columns == hold.unknowns) {
       left.leftCols(rigid).setZero();
@@ -188,7 +188,7 @@ void HeldChain::take_out(Hold& hold) {
         pivots_.add(j < rigid ? -scale * share * share : -std::copysign(scale, hold.c[j]));
       }
     }
-    set_values(hold, block, left);
+    set_values(block, left);
   }
 }
 

@@ -64,7 +64,7 @@ class HeldChain final : public SymmetricFactors {
   bool find_holds(const SparseMatrix& matrix, Index multipliers);
   bool find_blocks(Hold& hold, std::size_t group) const;
   Small values(const Hold& hold, const Block& block) const;
-  void set_values(const Hold& hold, const Block& block, const Small& values);
+  void set_values(const Block& block, const Small& values);
   bool turn(const SparseMatrix& matrix, Hold& hold);
   void take_out(Hold& hold);
   static SmallVector turned(const Hold& hold, const Eigen::Ref<const Vector>& x);

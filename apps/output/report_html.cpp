@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <vector>
 
 #include "apps/deck/writer.hpp"
 #include "apps/output/event_marks.hpp"
@@ -26,19 +27,27 @@ namespace arcwall {
 namespace {
 
 using Fields = std::map<std::string, std::string, std::less<>>;
+using Constants = std::map<std::string_view, std::string_view>;  // what every page has: a megabyte
 
 // The page with `{{name}}` replaced. What is filled in is not looked at again.
-std::string filled(std::string_view page, const Fields& fields) {
-  std::string result;
+std::string filled(std::string_view page, const Constants& constants, const Fields& fields) {
+  std::vector<std::string_view> pieces;
   for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
     const std::size_t close = page.find("}}", open);
-    const auto field = fields.find(page.substr(open + 2, close - open - 2));
-    assert(close != std::string_view::npos && field != fields.end());
-    result += page.substr(0, open);
-    result += field->second;
+    assert(close != std::string_view::npos);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    pieces.push_back(page.substr(0, open));
+    const auto constant = constants.find(name);
+    pieces.push_back(constant != constants.end() ? constant->second : fields.find(name)->second);
     page.remove_prefix(close + 2);
   }
-  return result += page;
+  pieces.push_back(page);
+  std::size_t size = 0;
+  for (const std::string_view piece : pieces) size += piece.size();
+  std::string result;
+  result.reserve(size);
+  for (const std::string_view piece : pieces) result += piece;
+  return result;
 }
 
 std::string words(EventKind kind) {
@@ -352,11 +361,8 @@ nlohmann::ordered_json data_of(const Record& record, const ReportContent& conten
 
 std::string report_html(const Record& record, const ReportContent& content) {
   const ReportParts& parts = report_parts();
-  return filled(parts.page,
-                {{"style", std::string(parts.style)},
-                 {"script", std::string(parts.script)},
-                 {"library", std::string(parts.library)},
-                 {"library_note",
+  return filled(parts.page, {{"style", parts.style}, {"script", parts.script}, {"library", parts.library}},
+                {{"library_note",
                   parts.library.empty()
                       ? "This trace-path was built without plotly: the curves are still pictures without zoom."
                       : "Curves are drawn with plotly.js, whose licence (MIT) stands in the source of this page."},
