@@ -385,8 +385,8 @@ Direction Tracer::tangent_from(const PathPoint& from, const PathPoint& to) const
 
 // A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.
 bool Tracer::lands_where_it_began(const PathPoint& at, Index guard) const {
-  return guard >= static_cast<Index>(at.state.piece.size()) && here_.guards[guard] <= options_.guard_tolerance &&
-         here_.guard_rates[guard] > 0.0 && metric_.norm(difference(at.state, here_.state)) <= same_place;
+  return here_.guards[guard] <= options_.guard_tolerance && here_.guard_rates[guard] > 0.0 &&
+         metric_.norm(difference(at.state, here_.state)) <= same_place;
 }
 
 // Where a continuum of equilibria lies ahead, the equations are singular at the corner: guards that should vanish

@@ -190,6 +190,18 @@ TEST(SlidingContactPath, EndsInThatFamilyByAnyMeshAndStep) {
     }
 }
 
+// A contact that has just closed: its force grows along the path, and by a cubic over a long step seems to come back to
+// zero.
+TEST(SlidingContactPath, DoesNotTakeAContactThatClosedForOneThatOpens) {
+  for (const int elements : {16, 18, 32})
+    for (const double scale : {1.0, 1.1, 1.4}) {
+      SCOPED_TRACE(std::to_string(elements) + " elements, steps by " + std::to_string(scale));
+      const Path path = path_of(SlidingChannel{.members = one(elements), .upper = 0.05, .lower = 0.2}, 10.0, scale);
+      EXPECT_EQ(path.end(), EndReason::stop);
+      EXPECT_EQ(path.events().back().kind, EventKind::contact_spreads);
+    }
+}
+
 // The line branch between walls 0.6 apart from the axis ends in a load maximum, where each outer arc alone loses its
 // stability: two modes at one place, a fold and a branch point that meet. P a²/EI = 2.7532 for inextensible
 // arcs, 1.3383; extension takes a hundredth off.
