@@ -37,10 +37,12 @@ struct SurfaceGap {
   double value, x, z, xx, xz;
 };
 
-/// Only where the profile covers the point; second derivatives are left out or not.
+/// The same without second derivatives.
 struct SurfaceSlope {
   double value, x, z;
 };
+
+/// Only where the profile covers the point.
 SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point);
 SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point);
 

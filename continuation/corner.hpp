@@ -31,7 +31,8 @@ struct CornerWorkspace {
 ///     0 ≤ ṗ  ⊥  λ̇ a + M ṗ ≥ 0
 ///
 /// `weak` are the contacts whose gap and force are both zero there. The ray along which the corner was reached
-/// (backwards) is among them. Empty where K with all weak contacts open is singular.
+/// (backwards) is among them. Empty where K with all weak contacts open is singular. `workspace` leaves no trace in the
+/// result.
 std::vector<Ray> rays_of(const System& system, const State& corner, const std::vector<Index>& weak,
                          const CornerOptions& options, CornerWorkspace& workspace);
 

@@ -38,7 +38,9 @@ std::string filled(std::string_view page, const Constants& constants, const Fiel
     const std::string_view name = page.substr(open + 2, close - open - 2);
     pieces.push_back(page.substr(0, open));
     const auto constant = constants.find(name);
-    pieces.push_back(constant != constants.end() ? constant->second : fields.find(name)->second);
+    const auto field = fields.find(name);
+    assert(constant != constants.end() || field != fields.end());
+    pieces.push_back(constant != constants.end() ? constant->second : std::string_view(field->second));
     page.remove_prefix(close + 2);
   }
   pieces.push_back(page);
