@@ -185,7 +185,8 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, s
   const double shrink = 1.0 / (1.0 + at.offset * wall.curvature);
   const double parallel = wall.curvature * shrink, parallel_x = wall.curvature_x * shrink * shrink;
 
-  CurvatureGap out{.value = side * (travel * strain.curvature - strain.stretch * parallel), .stretch = strain.stretch};
+  CurvatureGap out{.value = side * (travel * strain.curvature - strain.stretch * parallel),
+                   .face = shrink * (strain.stretch - offset * strain.curvature)};
   out.dx = side * (travel * strain.curvature_dx - parallel * strain.stretch_dx);
   out.ds = side * (travel * strain.curvature_ds - parallel * strain.stretch_ds);
   out.dlambda = side * (travel * strain.curvature_dlambda - parallel * strain.stretch_dlambda);
@@ -372,8 +373,9 @@ double SlidingContact::energy(const State& state) const {
   return on.mesh().energy(on.x_of(state), on.s_of(state), state.lambda);
 }
 
-// The second variation of contact at a point that slides: p v vᵀ / g″, v the derivative of g′. With v = λ ∂tilt and
-// g″ = λ (κ − λ κ̂) the spring on the tilt is p λ / (κ − λ κ̂). Where the body lies on the wall, the tilt is held.
+// The second variation of contact at a point that slides: p v vᵀ / g″, v the derivative of g′ along the face. Where the
+// face is stretched by Λ, v = Λ ∂tilt and g″ = Λ (κ − Λ κ_w) with the wall's own curvature: the spring on the tilt is
+// p Λ / (κ − Λ κ_w) = p face / value. Where the body lies on the wall, the tilt is held.
 Vector SlidingContact::border_springs(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
   Vector springs = Vector::Zero(border_width(state.piece));
@@ -384,7 +386,7 @@ Vector SlidingContact::border_springs(const State& state) const {
     const CurvatureGap gap = curvature_gap(state, point);
     constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
     const double p = std::max(0.0, state.x[*multiplier_index(state.piece, k)]);
-    springs[k] = gap.value * scales_.length > touching ? p * gap.stretch / gap.value : infinity;
+    springs[k] = gap.value * scales_.length > touching ? p * gap.face / gap.value : infinity;
   }
   return springs;
 }

@@ -112,9 +112,10 @@ class SlidingContact final : public System {
   };
   // How much more the wall bends towards the body than the body does: > 0 where contact is at a point [1/length].
   struct CurvatureGap {
-    double value = 0.0, stretch = 1.0;
+    double value = 0.0;
     Vector dx{}, ds{};
     double dlambda = 0.0;
+    double face = 1.0;  // stretch of the face, by what the curve on which the axis would lie is longer than the wall
   };
   // A place where the gap is least.
   struct Minimum {

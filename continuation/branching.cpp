@@ -84,8 +84,7 @@ BranchPoint branch_point_at(const System& system, Corrector& corrector, const Me
   if (pairs && place.at_limit && pairs->vectors.cols() == 2)
     pairs->vectors = across(pairs->vectors, metric, point.along);
   if (!pairs || pairs->vectors.cols() < place.multiplicity) return point;
-  Vector left = Vector::Zero(weights.size());
-  left.head(pairs->vectors.rows()) = pairs->vectors.col(0);
+  const Vector left = corrector.left_null(pairs->vectors.col(0));
   const auto right = corrector.right_null(left);
   if (!right) return point;
   for (Index j = 0; j < place.multiplicity; ++j) {

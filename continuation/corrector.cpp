@@ -75,9 +75,13 @@ void Corrector::track_from(const NearNull& nearest) {
 
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count, Settled settled) const {
   if (!solver_.inner_is_regular()) return std::nullopt;
-  const bool followed =
-      now_.B.cols() == 0 && tracker_.vectors().rows() == now_.K.cols() && all_finite(tracker_.vectors());
-  return arcwall::near_null(solver_.inner(), now_.K, weights.head(now_.K.cols()), count, settled,
+  const Vector weighted = weights.head(now_.K.cols());
+  if (now_.B.cols() > 0) {
+    const SprungBorder border = sprung_border(system_, at_, solver_, now_);
+    return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, settled)) : std::nullopt;
+  }
+  const bool followed = tracker_.vectors().rows() == now_.K.cols() && all_finite(tracker_.vectors());
+  return arcwall::near_null(solver_.inner(), now_.K, weighted, count, settled,
                             followed ? tracker_.vectors() : Matrix());
 }
 
@@ -89,6 +93,14 @@ std::optional<Matrix> Corrector::responses(Matrix columns) const {
   if (!solver_.inner_is_regular()) return std::nullopt;
   solver_.inner().solve(columns);
   return columns.allFinite() ? std::optional(std::move(columns)) : std::nullopt;
+}
+
+// With Cᵀ the unit columns of the y let go: K φ = −Cᵀ η.
+Vector Corrector::left_null(const Vector& vector) const {
+  Vector left(now_.F.size());
+  left.head(now_.K.cols()) = vector;
+  left.tail(now_.B.cols()) = -(now_.K.selfadjointView<Eigen::Lower>() * vector)(now_.holding);
+  return left;
 }
 
 //   [ J   ψ ] [φ]   [0]
@@ -136,7 +148,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   }
   result.tangent = unit(metric, std::move(tangent));
   if (now_.B.cols() > 0) {
-    result.negative = negative_eigenvalues(system_, result.state, solver_);
+    result.negative = negative_eigenvalues(system_, result.state, solver_, now_, {});
   } else {
     if (const Index others = columns.cols() - 1; others > 0)
       result.nearest = tracker_.advance(metric.weights(), columns.rightCols(others));

@@ -52,11 +52,15 @@ class Corrector {
   CorrectorResult correct_patiently(State guess, const PathConstraint& constraint, const Metric& metric,
                                     const Direction& along, double length);
 
-  /// Eigenpairs nearest zero of K at the state reached last; empty where K is singular to working precision.
+  /// Eigenpairs nearest zero of K at the state reached last, with what a border holds let go; empty where K is singular
+  /// to working precision.
   std::optional<NearNull> near_null(const Vector& weights, Index count, Settled settled = Settled::fully) const;
 
   /// K⁻¹ times the columns, K at the state reached last; empty where it is singular to working precision.
   std::optional<Matrix> responses(Matrix columns) const;
+
+  /// The left null vector of ∂F/∂x that goes with a null vector that near_null() gave. At the state reached last.
+  Vector left_null(const Vector& vector) const;
 
   /// The right null vector of ∂F/∂x that goes with a left one, where both exist nearly: the same unless there is a
   /// border. At the state reached last.

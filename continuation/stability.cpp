@@ -1,37 +1,28 @@
 #include "continuation/stability.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
-
 #include "core/test_function.hpp"
 
 namespace arcwall {
 
-// With the border's unknowns y held, n₋ is that of K. Let go against springs c their own stiffness, the inverse of the
-// sub-matrix of −K⁻¹, decides: n₋ = n₋(K held) + n₋(S + diag c), S = −(K⁻¹)_yy (Haynsworth 1968).
-std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver) {
-  const auto inertia = solver.inner().inertia();
-  if (!inertia) return std::nullopt;
-  const Index held = inertia->negative - system.multiplier_count(state.piece);
-  if (system.border_width(state.piece) == 0) return held;
-  const Vector springs = system.border_springs(state);
-  std::vector<Index> free;
-  for (Index k = 0; k < springs.size(); ++k)
-    if (std::isfinite(springs[k])) free.push_back(k);
-  if (free.empty()) return held;
-  Matrix S = -solver.inverse_at_border()(free, free);
-  S.diagonal() += springs(free);
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(S, Eigen::EigenvaluesOnly);
-  if (eigen.info() != Eigen::Success) return std::nullopt;
-  return held + (eigen.eigenvalues().array() < 0.0).count();
+SprungBorder sprung_border(const System& system, const State& state, const BorderedSolver& solver,
+                           const Linearization& equations) {
+  return {solver.inner(), equations.K, equations.holding, system.border_springs(state)};
 }
 
+// With what a border holds the count is that of K and of what is let go against springs.
 std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& equations, const NearNull& nearest) {
-  if (equations.B.cols() > 0) return negative_eigenvalues(system, state, solver);
   const Index multipliers = system.multiplier_count(state.piece);
-  const auto negative = negative_count(solver.inner(), equations.K, system.weights(state.piece), multipliers, nearest);
-  return negative ? std::optional(*negative - multipliers) : std::nullopt;
+  if (equations.B.cols() == 0) {
+    const Vector weights = system.weights(state.piece);
+    const auto negative = negative_count(solver.inner(), equations.K, weights, multipliers, nearest);
+    return negative ? std::optional(*negative - multipliers) : std::nullopt;
+  }
+  const auto inertia = solver.inner().inertia();
+  if (!inertia) return std::nullopt;
+  const SprungBorder border = sprung_border(system, state, solver, equations);
+  if (!border.is_finite()) return std::nullopt;
+  return inertia->negative - multipliers + border.negative();
 }
 
 Piece strongly_closed(const System& system, const State& state, double force_tolerance) {

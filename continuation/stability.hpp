@@ -4,6 +4,7 @@
 
 #include "core/bordered_solver.hpp"
 #include "core/near_null.hpp"
+#include "core/sprung_border.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {
@@ -18,12 +19,14 @@ struct StabilityCount {
   Stability stability = Stability::undecided;
 };
 
-/// Negative eigenvalues of K with all contacts of the state's piece held, `solver` holding the factorization at the
-/// state; what a border holds gives way by System::border_springs. Empty where K is singular.
-std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver);
+/// K at a state with what its border holds let go against System::border_springs; `solver` holds the factorization of
+/// `equations`.
+SprungBorder sprung_border(const System& system, const State& state, const BorderedSolver& solver,
+                           const Linearization& equations);
 
-/// The same, where there is no border also where the pivots do not tell; `equations`: those factorized, `nearest`: the
-/// eigenpairs nearest zero that were found there.
+/// Negative eigenvalues of K with all contacts of the state's piece held; what a border holds gives way. Empty where K
+/// is singular. Without a border also where the pivots do not tell: `nearest` are the eigenpairs nearest zero that were
+/// found there.
 std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& equations, const NearNull& nearest);
 

@@ -81,15 +81,6 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
   return all_finite(X);
 }
 
-Matrix BorderedSolver::inverse_at_border() const {
-  const auto m = static_cast<Index>(equations_->holding.size());
-  Matrix units = Matrix::Zero(equations_->K.cols(), m), inverse(m, m);
-  for (Index k = 0; k < m; ++k) units(equations_->holding[static_cast<std::size_t>(k)], k) = 1.0;
-  ldlt_.solve(units);
-  for (Index k = 0; k < m; ++k) inverse.row(k) = units.row(equations_->holding[static_cast<std::size_t>(k)]);
-  return inverse;
-}
-
 // Where K is nearly singular but J is not, y and K⁻¹ B are large multiples of one vector, and what they differ in is
 // small beside them.
 bool BorderedSolver::is_suspicious(double cancelled) const {

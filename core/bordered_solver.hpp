@@ -49,9 +49,6 @@ class BorderedSolver {
   /// J⁻¹ X in place; false where J is singular to working precision.
   bool solve_inner(Matrix& X) const;
 
-  /// Sub-matrix of K⁻¹ at the border's holding unknowns (Linearization::holding).
-  Matrix inverse_at_border() const;
-
   /// The factorization of K alone.
   const Ldlt& inner() const { return ldlt_; }
 

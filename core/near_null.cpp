@@ -52,23 +52,26 @@ Index pair_count(const Vector& weights) {
   return std::max<Index>(0, 2 * weighted - weights.size());
 }
 
-NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
-                   Settled settled, const Matrix& start) {
-  const Index n = K.rows(), pairs = pair_count(weights);
+namespace {
+
+// Inverse subspace iteration. `pairs`: how many there are.
+template <class Operator>
+NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Index count, Settled settled,
+                      const Matrix& start) {
   count = std::min(count, pairs);
   const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
   if (block == 0) return {};
-  Matrix X = start_block(n, block);
+  Matrix X = start_block(weights.size(), block);
   const Index known = std::min(start.cols(), block);
   if (known > 0) X.leftCols(known) = start.leftCols(known);
   Vector values = Vector::Constant(block, infinity);
   for (int round = 0; round < max_rounds; ++round) {
     X = weights.asDiagonal() * X;
-    factorization.solve(X);
+    K.solve(X);
     orthonormalise(X);
     // Rayleigh-Ritz: the best eigenpairs in the span of X, on which M is positive definite: K⁻¹ M leaves no column of
     // multipliers alone.
-    const Matrix KX = K.selfadjointView<Eigen::Lower>() * X;
+    const Matrix KX = K.product(X);
     const Matrix MX = weights.asDiagonal() * X;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX, X.transpose() * MX);
     if (ritz.info() != Eigen::Success || !ritz.eigenvalues().allFinite()) break;
@@ -83,10 +86,33 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
     const double scale = values.head(count).cwiseAbs().maxCoeff();
     const double change = (values - previous).head(count).cwiseAbs().maxCoeff();
     if (settled == Settled::fully && change <= 1e-10 * scale) break;
-    if (settled == Settled::roughly && change <= std::max(1e-6 * scale, roundoff_of_quotients(K, X.leftCols(count))))
+    if (settled == Settled::roughly &&
+        change <= std::max(1e-6 * scale, roundoff_of_quotients(K.matrix(), X.leftCols(count))))
       break;
   }
   return {.values = values.head(count), .vectors = X.leftCols(count)};
+}
+
+// The matrix itself; a tiny shift of its factorization does not spoil the product.
+struct Factorized {
+  const Factorization& factorization;
+  const SparseMatrix& K;
+
+  void solve(Matrix& X) const { factorization.solve(X); }
+  Matrix product(const Matrix& X) const { return K.selfadjointView<Eigen::Lower>() * X; }
+  const SparseMatrix& matrix() const { return K; }
+};
+
+}  // namespace
+
+NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
+                   Settled settled, const Matrix& start) {
+  return nearest_zero(Factorized{factorization, K}, weights, pair_count(weights), count, settled, start);
+}
+
+NearNull near_null(const SprungBorder& border, const Vector& weights, Index count, Settled settled) {
+  const Index pairs = pair_count(weights) + static_cast<Index>(border.released().size());
+  return nearest_zero(border, weights, pairs, count, settled, {});
 }
 
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
