@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "continuation/stability.hpp"
+#include "core/sums.hpp"
 #include "core/test_function.hpp"
 
 namespace arcwall {
@@ -28,17 +29,10 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
   while (result.iterations < options.max_iterations) {
     if (const auto status = look(result.state); status != CorrectorStatus::converged) return ended(status);
     if (!find_line(metric, border)) return ended(CorrectorStatus::singular);
-    result.roots = constraint.advance(result.state, line_.particular, line_.tangent);
+    result.roots = constraint.advance(result.state, particular_, tangent_);
     if (!result.roots) return ended(CorrectorStatus::complex_roots);
-    const double tau = result.roots->taken;
-    Direction& step = line_.particular;
-    step.dx += tau * line_.tangent.dx;
-    step.dlambda += tau * line_.tangent.dlambda;
-    result.state.x += step.dx;
-    result.state.lambda += step.dlambda;
+    const double size = take_step(metric, result.roots->taken, result.state);
     ++result.iterations;
-
-    const double size = metric.norm(step);
     if (!std::isfinite(size)) return ended(CorrectorStatus::not_finite);
     const double ratio = size / std::max(previous, 1e-300);
     // Newton's next correction, from the last two; from one alone only if the path is nearly straight.
@@ -70,7 +64,7 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
 
 void Corrector::track_from(const NearNull& nearest) {
   tracker_.start_from(nearest.vectors);
-  solver_.expect_soft(nearest.soft());
+  if (solver_.may_use_soft()) solver_.expect_soft(nearest.soft());
 }
 
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count, Settled settled) const {
@@ -82,7 +76,7 @@ std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count,
   }
   const bool followed = tracker_.vectors().rows() == now_.K.cols() && all_finite(tracker_.vectors());
   return arcwall::near_null(solver_.inner(), now_.K, weighted, count, settled,
-                            followed ? tracker_.vectors() : Matrix());
+                            followed ? Matrix(tracker_.vectors()) : Matrix());
 }
 
 std::optional<Index> Corrector::count_here(const NearNull& nearest) const {
@@ -125,13 +119,41 @@ CorrectorStatus Corrector::look(const State& state) {
 // The line (1), its tangent of unit length and its particular solution normal to it.
 bool Corrector::find_line(const Metric& metric, const Row& border) {
   if (!solver_.line(border, line_)) return false;
-  auto& [particular, tangent] = line_;
-  const double scale = 1.0 / metric.norm(tangent), component = metric.inner(particular, tangent) * scale * scale;
-  particular.dx -= component * tangent.dx;
-  particular.dlambda -= component * tangent.dlambda;
-  tangent.dx *= scale;
-  tangent.dlambda *= scale;
+  const Index n = line_.dx.rows();
+  const double *p = line_.dx.col(0).data(), *t = line_.dx.col(1).data(), *w = metric.weights().data();
+  auto [tt, pt] = sums_over<2>(n, [&](const auto& at, auto& sums) {
+    const auto weighted = at(w) * at(t);
+    sums[0] += weighted * at(t);
+    sums[1] += weighted * at(p);
+  });
+  const double lambda = metric.lambda_scale();
+  tt += line_.tangent_dlambda / lambda * (line_.tangent_dlambda / lambda);
+  pt += line_.tangent_dlambda / lambda * (line_.particular_dlambda / lambda);
+  const double scale = 1.0 / std::sqrt(tt), component = pt / tt;
+  particular_.dx.resize(n);
+  tangent_.dx.resize(n);
+  for_entries(n, [&](const auto& at) {
+    at.set(particular_.dx.data(), at(p) - component * at(t));
+    at.set(tangent_.dx.data(), scale * at(t));
+  });
+  particular_.dlambda = line_.particular_dlambda - component * line_.tangent_dlambda;
+  tangent_.dlambda = scale * line_.tangent_dlambda;
   return scale > 0.0 && std::isfinite(component);
+}
+
+// Along the line, from its point nearest the state. The length of the step.
+double Corrector::take_step(const Metric& metric, double tau, State& state) const {
+  double* const x = state.x.data();
+  const double *p = particular_.dx.data(), *t = tangent_.dx.data(), *w = metric.weights().data();
+  const auto [squared] = sums_over<1>(state.x.size(), [&](const auto& at, auto& sums) {
+    const auto dx = at(p) + tau * at(t);
+    at.set(x, at(x) + dx);
+    sums[0] += at(w) * dx * dx;
+  });
+  const double dlambda = particular_.dlambda + tau * tangent_.dlambda;
+  state.lambda += dlambda;
+  const double scaled = dlambda / metric.lambda_scale();
+  return std::sqrt(squared + scaled * scaled);
 }
 
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {

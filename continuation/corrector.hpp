@@ -84,6 +84,7 @@ class Corrector {
                           double length, const CorrectorOptions& options);
   CorrectorStatus look(const State& state);
   bool find_line(const Metric& metric, const Row& border);
+  double take_step(const Metric& metric, double tau, State& state) const;
   CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Direction& along);
 
   const System& system_;
@@ -94,6 +95,7 @@ class Corrector {
   Linearization now_;
   BorderedSolver solver_;
   EquilibriumLine line_;
+  Direction particular_, tangent_;  // of the line: normal to each other, the second of unit length
   NearNullTracker tracker_;
 };
 

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/sums.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -40,16 +42,28 @@ Row SphereConstraint::gradient(const State& state) const {
 // With D = X − origin + particular:  |D + τ t|² = radius²,  a τ² + 2 b τ + c = 0
 std::optional<ConstraintRoots> SphereConstraint::advance(const State& at, const Direction& particular,
                                                          const Direction& t) const {
-  Direction D = difference(at, origin_);
-  D.dx += particular.dx;
-  D.dlambda += particular.dlambda;
-  const double a = inner(t, t), b = inner(D, t), c = inner(D, D) - radius_ * radius_;
+  const double *x = at.x.data(), *x0 = origin_.x.data(), *p = particular.dx.data(), *line = t.dx.data(),
+               *previous = tangent_.dx.data(), *w = metric_.weights().data();
+  auto [a, b, c, along] = sums_over<4>(at.x.size(), [&](const auto& entry, auto& sums) {
+    const auto D = entry(x) - entry(x0) + entry(p), weighted = entry(w) * entry(line);
+    sums[0] += weighted * entry(line);
+    sums[1] += weighted * D;
+    sums[2] += entry(w) * D * D;
+    sums[3] += weighted * entry(previous);
+  });
+  if (form_ == Form::spherical) {
+    const Direction D{.dx = {}, .dlambda = at.lambda - origin_.lambda + particular.dlambda};
+    a += metric_.inner_lambda(t, t);
+    b += metric_.inner_lambda(D, t);
+    c += metric_.inner_lambda(D, D);
+    along += metric_.inner_lambda(tangent_, t);
+  }
+  c -= radius_ * radius_;
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0.0) || a == 0.0) return std::nullopt;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   const double roots[2] = {q / a, q != 0.0 ? c / q : 0.0};
   // Nearer the previous tangent: the greater component of D + τ t along it.
-  const double along = inner(tangent_, t);
   const bool first = roots[0] * along >= roots[1] * along;
   return ConstraintRoots{.taken = roots[first ? 0 : 1], .other = roots[first ? 1 : 0]};
 }

@@ -36,7 +36,7 @@ Piece strongly_closed(const System& system, const State& state, double force_tol
 
 void StabilityCounter::track_from(const NearNull& nearest) {
   tracker_.start_from(nearest.vectors);
-  solver_.expect_soft(nearest.soft());
+  if (solver_.may_use_soft()) solver_.expect_soft(nearest.soft());
   last_.reset();
 }
 

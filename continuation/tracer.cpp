@@ -170,17 +170,19 @@ std::optional<Arc> Tracer::advance(double s) {
     step->corner = false;
   };
   if (!singular.empty()) end_at(singular.front().found, singular.front().at);
-  if (options_.events != EventSearch::none || !options_.landmarks.empty()) {
-    while (auto next = earliest(Segment(metric_, here_, step->to), found)) {
-      constexpr double same = 1e-9;  // what was located lies at the end itself
-      if (found && next->t >= 1.0 - same) break;
-      auto at = locate(*next, step->to);
-      if (!at) return rejected(StepOutcome::events_unclear);
-      singular.clear();
-      end_at(*next, std::move(*at));
-    }
+  const bool looks = options_.events != EventSearch::none || !options_.landmarks.empty();
+  double length = 0.0;
+  for (;;) {
+    constexpr double same = 1e-9;  // what was located lies at the end itself
+    const Segment segment(metric_, here_, step->to);
+    length = segment.length();
+    auto next = looks ? earliest(segment, found) : std::nullopt;
+    if (!next || (found && next->t >= 1.0 - same)) break;
+    auto at = locate(*next, step->to);
+    if (!at) return rejected(StepOutcome::events_unclear);
+    singular.clear();
+    end_at(*next, std::move(*at));
   }
-  const double length = Segment(metric_, here_, step->to).length();
   PathPoint to = std::move(step->to);
   to.arc = here_.arc + length;
   if (!singular.empty())
@@ -294,8 +296,9 @@ std::optional<Tracer::Step> Tracer::take(double s) {
   const bool trusted = trustworthy(step.to, s, step.turn);
   attempt_.turn = step.turn;
   if (!trusted) return rejected(step.turn > options_.step.max_turn ? StepOutcome::turned : StepOutcome::strayed);
-  if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)))
-    if (!land(step, *crossing)) return rejected(StepOutcome::not_landed);
+  if (step.to.guards.size() > 0)
+    if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)); crossing && !land(step, *crossing))
+      return rejected(StepOutcome::not_landed);
   // What vanishes with the guard that was landed on belongs to the corner.
   const double margin = step.corner ? near_corner : -let_pass;
   if (!system_.admissible(step.to.state, margin)) {
@@ -443,6 +446,9 @@ void Tracer::decide_count(PathPoint& point) {
 // Whether the step passes a point: it lies beside the chord, and on the path as exactly as such points are located.
 bool Tracer::passes(const PathPoint& to, const State& place) {
   if (place.piece != to.state.piece) return false;
+  // What lies beside the chord has its λ there, too.
+  const double lambda_off = std::abs(place.lambda - to.state.lambda) / metric_.lambda_scale();
+  if (lambda_off > 1.1 * (to.arc - here_.arc) + passing) return false;
   const Segment segment(metric_, here_, to);
   const double L = segment.length();
   // A turning point at a pitchfork is located there, a little before or behind it.
@@ -458,7 +464,7 @@ bool Tracer::passes(const PathPoint& to, const State& place) {
 
 // The end of a branch at a place that was passed before; `place`, if given, becomes that place.
 std::optional<BranchEnd> Tracer::end_where_known(const PathPoint& to, State* place) {
-  const bool far = to.arc > 3.0 * Segment(metric_, here_, to).length() + same_place;
+  const bool far = to.arc > 3.0 * (to.arc - here_.arc) + same_place;
   if (!far) return std::nullopt;
   if (passes(to, start_.state)) {
     if (place) *place = start_.state;

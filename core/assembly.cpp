@@ -2,8 +2,27 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
+#include <map>
 
 namespace arcwall {
+
+namespace {
+
+// From the least number, which is returned, on; negative ones stay. 0 if there are no others.
+template <class Iterator>
+std::int32_t made_offsets(Iterator begin, Iterator end) {
+  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+  std::int32_t least = none;
+  for (auto i = begin; i != end; ++i)
+    if (*i >= 0) least = std::min(least, *i);
+  if (least == none) return 0;
+  for (auto i = begin; i != end; ++i)
+    if (*i >= 0) *i -= least;
+  return least;
+}
+
+}  // namespace
 
 SparseMatrix with_rows_behind(const SparseMatrix& A, const std::vector<RowEntry>& entries, Index count) {
   const Index n = A.cols();
@@ -49,14 +68,23 @@ BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index
     const Index* last = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
     return static_cast<std::int32_t>(std::lower_bound(first, last, row) - pattern_.innerIndexPtr());
   };
+  std::map<std::vector<std::int32_t>, std::int32_t> known;  // shapes
+  std::vector<std::int32_t> shape;
   for (const std::vector<Index>& block : blocks) {
-    first_unknown_.push_back(static_cast<Index>(unknowns_.size()));
-    first_slot_.push_back(static_cast<Index>(slots_.size()));
-    unknowns_.insert(unknowns_.end(), block.begin(), block.end());
+    shape.clear();
+    for (const Index unknown : block) shape.push_back(static_cast<std::int32_t>(unknown));
+    const std::int32_t first_unknown = made_offsets(shape.begin(), shape.end());
+    const auto rows = static_cast<std::ptrdiff_t>(block.size());
     for (std::size_t j = 0; j < block.size(); ++j)
-      for (std::size_t i = j; i < block.size(); ++i) slots_.push_back(slot(block[i], block[j]));
+      for (std::size_t i = j; i < block.size(); ++i) shape.push_back(slot(block[i], block[j]));
+    const std::int32_t first_slot = made_offsets(shape.begin() + rows, shape.end());
+    const auto [at, is_new] = known.try_emplace(shape, static_cast<std::int32_t>(shapes_.size()));
+    if (is_new) shapes_.insert(shapes_.end(), shape.begin(), shape.end());
+    blocks_.push_back({.first_unknown = first_unknown,
+                       .first_slot = first_slot,
+                       .shape = at->second,
+                       .rows = static_cast<std::int32_t>(rows)});
   }
-  first_unknown_.push_back(static_cast<Index>(unknowns_.size()));
 }
 
 }  // namespace arcwall

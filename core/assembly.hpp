@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -17,8 +18,36 @@ struct RowEntry {
 /// The lower triangle of a matrix with `count` rows and their diagonal behind it; values are zero.
 SparseMatrix with_rows_behind(const SparseMatrix& lower_triangle, const std::vector<RowEntry>& entries, Index count);
 
+/// The unknowns of a block in the order of its rows; −1 stands for one that is held.
+class BlockUnknowns {
+ public:
+  BlockUnknowns(Index first, std::span<const std::int32_t> offsets) : first_(first), offsets_(offsets) {}
+
+  std::size_t size() const { return offsets_.size(); }
+  Index operator[](std::size_t i) const { return offsets_[i] < 0 ? -1 : first_ + offsets_[i]; }
+
+  /// Unknown i is first() + offsets()[i] where none is held.
+  Index first() const { return first_; }
+  const std::int32_t* offsets() const { return offsets_.data(); }
+
+  template <class Test>
+  bool any(const Test& test) const {
+    for (std::size_t i = 0; i < size(); ++i)
+      if (test((*this)[i])) return true;
+    return false;
+  }
+  bool any_held() const {
+    return any([](Index unknown) { return unknown < 0; });
+  }
+
+ private:
+  Index first_;
+  std::span<const std::int32_t> offsets_;
+};
+
 /// Sums small symmetric blocks into a sparse matrix whose pattern is laid out once: where every entry of every block
-/// goes is looked up here, never in a step.
+/// goes is looked up here, never in a step. Blocks that differ by a shift of their unknowns and of their places alone,
+/// as those of a member do, share what is looked up.
 class BlockAssembly {
  public:
   /// `blocks[b]` lists the unknowns of block b in the order of its rows; −1 stands for an unknown that is held.
@@ -27,55 +56,71 @@ class BlockAssembly {
   /// Lower triangle with the pattern of all blocks and the whole diagonal; values are zero.
   const SparseMatrix& pattern() const { return pattern_; }
 
-  std::span<const Index> unknowns(Index block) const {
-    const auto from = static_cast<std::size_t>(first_unknown_[static_cast<std::size_t>(block)]);
-    const auto to = static_cast<std::size_t>(first_unknown_[static_cast<std::size_t>(block) + 1]);
-    return std::span(unknowns_).subspan(from, to - from);
+  BlockUnknowns unknowns(Index block) const {
+    const Block& at = blocks_[static_cast<std::size_t>(block)];
+    return {at.first_unknown, std::span(shapes_).subspan(static_cast<std::size_t>(at.shape), at.size())};
   }
 
   /// Adds factor · lower triangle of the n × n block, whose entries K(i + n·j) are (column-major), into the values of
   /// a matrix that has pattern().
   template <class Entries>
   void add_entries(Index block, double factor, double* values, const Entries& K) const {
-    const std::int32_t* slot = slots(block);
-    const Index n =
-        first_unknown_[static_cast<std::size_t>(block) + 1] - first_unknown_[static_cast<std::size_t>(block)];
-    for (Index j = 0; j < n; ++j)
-      for (Index i = j; i < n; ++i, ++slot)
-        if (*slot >= 0) values[*slot] += factor * K(i + j * n);
+    const Block& at = blocks_[static_cast<std::size_t>(block)];
+    const std::int32_t* slot = slots(at);
+    values += at.first_slot;
+    for (Index j = 0; j < at.rows; ++j)
+      for (Index i = j; i < at.rows; ++i, ++slot)
+        if (*slot >= 0) values[*slot] += factor * K(i + j * at.rows);
   }
 
   void add(Index block, const double* K, double factor, double* values) const {
     add_entries(block, factor, values, [K](Index entry) { return K[entry]; });
   }
 
-  /// The lower triangles of several n × n blocks, `K(entry, which)`, with factor 1: where no unknown is `held`,
-  /// without a question.
+  /// The lower triangles of several n × n blocks, `K(entry, which)`, with factor 1: without a question where they are
+  /// `shifted`, see are_shifted().
   template <int n, std::size_t count, class Entries>
-  void add_entries(const std::array<Index, count>& blocks, bool held, double* values, const Entries& K) const {
-    if (held) {
+  void add_entries(const std::array<Index, count>& blocks, bool shifted, double* values, const Entries& K) const {
+    if (!shifted) {
       for (std::size_t which = 0; which < count; ++which)
         add_entries(blocks[which], 1.0, values, [&](Index entry) { return K(entry, which); });
       return;
     }
-    std::array<const std::int32_t*, count> slot;
-    for (std::size_t which = 0; which < count; ++which) slot[which] = slots(blocks[which]);
-    int next = 0;
+    const std::int32_t* slot = slots(blocks_[static_cast<std::size_t>(blocks[0])]);
+    std::array<double*, count> first;
+    for (std::size_t which = 0; which < count; ++which)
+      first[which] = values + blocks_[static_cast<std::size_t>(blocks[which])].first_slot;
 #pragma GCC unroll 8
     for (int j = 0; j < n; ++j)
 #pragma GCC unroll 8
-      for (int i = j; i < n; ++i, ++next)
-        for (std::size_t which = 0; which < count; ++which) values[slot[which][next]] += K(i + j * n, which);
+      for (int i = j; i < n; ++i, ++slot)
+        for (std::size_t which = 0; which < count; ++which) first[which][*slot] += K(i + j * n, which);
+  }
+
+  /// Whether no unknown of these is held, and they differ by a shift alone.
+  template <std::size_t count>
+  bool are_shifted(const std::array<Index, count>& blocks) const {
+    const std::int32_t shape = blocks_[static_cast<std::size_t>(blocks[0])].shape;
+    const auto alike = [&](Index block) { return blocks_[static_cast<std::size_t>(block)].shape == shape; };
+    return std::all_of(blocks.begin(), blocks.end(), alike) && !unknowns(blocks[0]).any_held();
   }
 
  private:
-  const std::int32_t* slots(Index block) const {
-    return &slots_[static_cast<std::size_t>(first_slot_[static_cast<std::size_t>(block)])];
+  // Its offsets from the first unknown begin at `shape`, behind them stand those of its entries' positions in the
+  // values from the first one; −1 where a row or column is held.
+  struct Block {
+    std::int32_t first_unknown, first_slot, shape, rows;
+
+    std::size_t size() const { return static_cast<std::size_t>(rows); }
+  };
+
+  const std::int32_t* slots(const Block& block) const {
+    return &shapes_[static_cast<std::size_t>(block.shape + block.rows)];
   }
 
   SparseMatrix pattern_;
-  std::vector<Index> unknowns_, first_unknown_, first_slot_;
-  std::vector<std::int32_t> slots_;  // position in the values, −1 where a row or column is held
+  std::vector<Block> blocks_;
+  std::vector<std::int32_t> shapes_;
 };
 
 }  // namespace arcwall

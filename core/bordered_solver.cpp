@@ -96,16 +96,18 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   columns_.col(1) = -now.F_lambda;
   double cancelled = 0.0;
   if (regular_ && solve_inner(columns_, cancelled) && (!is_suspicious(cancelled) || make_line_good(border))) {
-    out.particular.dx = columns_.col(0);
-    out.particular.dlambda = 0.0;
-    out.tangent.dx = columns_.col(1);
-    out.tangent.dlambda = 1.0;
+    std::swap(out.dx, columns_);
+    out.particular_dlambda = 0.0;
+    out.tangent_dlambda = 1.0;
     return true;
   }
   if (!factorize_whole(border, columns_)) return false;
-  auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
+  const auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (!particular || !tangent) return false;
-  out = {.particular = std::move(*particular), .tangent = std::move(*tangent)};
+  out.dx.resize(now.F.size(), 2);
+  out.dx << particular->dx, tangent->dx;
+  out.particular_dlambda = particular->dlambda;
+  out.tangent_dlambda = tangent->dlambda;
   return true;
 }
 

@@ -12,8 +12,11 @@ namespace arcwall {
 
 /// The states that satisfy the linearised equilibrium K δx + F_λ δλ = −F: a line, particular + τ · tangent.
 struct EquilibriumLine {
-  Direction particular{};
-  Direction tangent{};  ///< not normalised
+  Matrix dx{};  ///< columns: of the particular solution and of the tangent, which is not normalised
+  double particular_dlambda = 0.0, tangent_dlambda = 1.0;
+
+  Direction particular() const { return {.dx = dx.col(0), .dlambda = particular_dlambda}; }
+  Direction tangent() const { return {.dx = dx.col(1), .dlambda = tangent_dlambda}; }
 };
 
 /// ∂F/∂x times the columns of X.
@@ -33,6 +36,7 @@ class BorderedSolver {
 
   /// See Ldlt.
   void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
+  bool may_use_soft() const { return ldlt_.may_use_soft(); }
 
   /// `border` closes the system where K alone is singular; the line itself does not depend on it.
   /// False if the bordered matrix is singular too.

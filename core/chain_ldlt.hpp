@@ -25,6 +25,7 @@ class ChainLdlt final : public SymmetricFactors {
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
   double weighted(const Vector& v) const override;
+  bool may_use_soft() const override { return false; }
 
  private:
   // Indices at a constant distance from each other.

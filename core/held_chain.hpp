@@ -23,6 +23,7 @@ class HeldChain final : public SymmetricFactors {
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
   double weighted(const Vector& v) const override;
+  bool may_use_soft() const override { return false; }
 
  private:
   static constexpr int widest = static_cast<int>(ChainLdlt::widest);

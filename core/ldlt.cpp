@@ -81,6 +81,8 @@ void Ldlt::expect_soft(Matrix vectors) {
   if (self.factors) self.factors->expect_soft(self.soft);
 }
 
+bool Ldlt::may_use_soft() const { return !implementation_->factors || implementation_->factors->may_use_soft(); }
+
 void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
 
 FactorStatus Ldlt::factorize(const SparseMatrix& A) {

@@ -27,6 +27,9 @@ class Ldlt final : public Factorization {
   /// large indefinite matrices quicker; results depend on them within round-off.
   void expect_soft(Matrix vectors);
 
+  /// Whether these may be of use for the pattern at hand.
+  bool may_use_soft() const;
+
   /// Whether the matrices to come are known to have the pattern of the last one, so that it is not compared; false by
   /// default.
   void trust_pattern(bool same);

@@ -3,11 +3,15 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <vector>
+
+#include "core/sums.hpp"
 
 namespace arcwall {
 
@@ -115,54 +119,145 @@ NearNull near_null(const SprungBorder& border, const Vector& weights, Index coun
   return nearest_zero(border, weights, pairs, count, settled, {});
 }
 
+namespace {
+
+// The columns of a matrix, at the entries of `at`.
+template <class Pointer, std::size_t B, class At>
+ARCWALL_IN_PLACE auto entries_of(const std::array<Pointer, B>& columns, const At& at) {
+  std::array<decltype(at(columns[0])), B> entries;
+  for (std::size_t j = 0; j < B; ++j) entries[j] = at(columns[j]);
+  return entries;
+}
+
+template <std::size_t B, class Pointer>
+std::array<Pointer, B> columns_from(Pointer first, Index stride) {
+  std::array<Pointer, B> columns;
+  for (std::size_t j = 0; j < B; ++j) columns[j] = first + static_cast<Index>(j) * stride;
+  return columns;
+}
+
+template <std::size_t B>
+using Small = Eigen::Matrix<double, static_cast<int>(B), static_cast<int>(B)>;
+
+// Xᵀ W Y, symmetric, in one pass.
+template <std::size_t B, class Pointer>
+Small<B> projection(const double* w, const std::array<double*, B>& X, const std::array<Pointer, B>& Y, Index n) {
+  const auto products = sums_over<B*(B + 1) / 2>(n, [&](const auto& at, auto& sums) {
+    const auto x = entries_of(X, at), y = entries_of(Y, at);
+    std::size_t k = 0;
+    for (std::size_t j = 0; j < B; ++j) {
+      const auto weighted = at(w) * y[j];
+      for (std::size_t i = 0; i <= j; ++i) sums[k++] += x[i] * weighted;
+    }
+  });
+  Small<B> A;
+  for (Index j = 0, k = 0; j < A.cols(); ++j)
+    for (Index i = 0; i <= j; ++i) A(i, j) = A(j, i) = products[static_cast<std::size_t>(k++)];
+  return A;
+}
+
+// T with (X T)ᵀ W X T = 1 for G = Xᵀ W X, by Gram and Schmidt. Columns that depend on those before them become zero.
+template <std::size_t B>
+Small<B> orthonormalising(const Small<B>& G) {
+  constexpr double dependent = 1e-14;
+  Small<B> T = Small<B>::Identity();
+  for (Index j = 0; j < T.cols(); ++j) {
+    for (Index i = 0; i < j; ++i) T.col(j) -= T.col(i).dot(G * T.col(j)) * T.col(i);
+    const double squared = T.col(j).dot(G * T.col(j));
+    T.col(j) *= squared > dependent * G(j, j) ? 1.0 / std::sqrt(squared) : 0.0;
+  }
+  return T;
+}
+
+// X := X T with T upper triangular, and W X to `WX`.
+template <std::size_t B>
+void transform(const double* w, const std::array<double*, B>& X, const Small<B>& T, const std::array<double*, B>& WX,
+               Index n) {
+  for_entries(n, [&](const auto& at) {
+    const auto x = entries_of(X, at);
+    for (std::size_t j = 0; j < B; ++j) {
+      auto sum = T(0, static_cast<Index>(j)) * x[0];
+      for (std::size_t i = 1; i <= j; ++i) sum += T(static_cast<Index>(i), static_cast<Index>(j)) * x[i];
+      at.set(X[j], sum);
+      at.set(WX[j], at(w) * sum);
+    }
+  });
+}
+
+// Calls `code` with the number of columns as a constant.
+template <class Code>
+void with_columns(Index count, const Code& code) {
+  if (count == 1) code(std::integral_constant<std::size_t, 1>{});
+  if (count == 2) code(std::integral_constant<std::size_t, 2>{});
+  if (count == 3) code(std::integral_constant<std::size_t, 3>{});
+}
+
+}  // namespace
+
+void NearNullTracker::start_from(const Matrix& vectors) {
+  pairs_ = vectors.cols();
+  if (X_.rows() == vectors.rows() && X_.cols() >= pairs_)
+    X_.leftCols(pairs_) = vectors;
+  else
+    X_ = vectors;
+}
+
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   const Index n = weights.size(), block = std::min<Index>(3, pair_count(weights));
-  const Index kept = std::max<Index>(0, std::min(X_.cols(), block - 1));
-  if (start_.rows() != n || start_.cols() != block) start_ = start_block(n, block);
-  // Contact forces, which come and go at the end, have no weight and need no start.
-  const Index common = std::min(X_.rows(), n);
-  Matrix X(n, block);
-  if (kept > 0) {
-    X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
-    X.bottomLeftCorner(n - common, kept).setZero();
+  const Index kept = std::max<Index>(0, std::min(pairs_, block - 1));
+  if (start_.rows() != n || start_.cols() != block - kept) start_ = start_block(n, block - kept);
+  if (X_.rows() != n || X_.cols() != block) {
+    // Contact forces, which come and go at the end, have no weight and need no start.
+    const Index common = std::min(X_.rows(), n);
+    Matrix X = Matrix::Zero(n, block);
+    if (kept > 0) X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
+    X_ = std::move(X);
   }
-  X.rightCols(block - kept) = start_.rightCols(block - kept);
+  X_.rightCols(block - kept) = start_;
   Matrix columns(n, front + block);
-  auto WX = columns.rightCols(block);
-  for (Index j = 0; j < block; ++j) {
-    for (Index i = 0; i < j; ++i) X.col(j) -= WX.col(i).dot(X.col(j)) * X.col(i);
-    WX.col(j) = weights.cwiseProduct(X.col(j));
-    const double norm = std::sqrt(WX.col(j).dot(X.col(j)));
-    const double scale = norm > 0.0 ? 1.0 / norm : 0.0;
-    X.col(j) *= scale;
-    WX.col(j) *= scale;
-  }
-  X_ = std::move(X);
+  with_columns(block, [&](auto constant) {
+    constexpr std::size_t B = constant.value;
+    const auto X = columns_from<B>(X_.data(), n), WX = columns_from<B>(columns.col(front).data(), n);
+    const Small<B> T = orthonormalising<B>(projection(weights.data(), X, X, n));
+    transform(weights.data(), X, T, WX, n);
+  });
   return columns;
 }
 
 // On the span of X, W-orthonormal, K⁻¹ is A = Xᵀ W K⁻¹ W X. Its greatest eigenvalues θ in magnitude belong to pairs
 // near zero, and never to a mixture of far ones, as the least of Xᵀ K X may. y = K⁻¹ W X c has the Rayleigh quotient
 // θ/(yᵀ W y).
-NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& Y) {
-  const Index block = X_.cols();
-  if (block == 0 || !all_finite(Y)) return {};
-  // A few columns: products of large blocks would only be prepared longer than they take.
-  const Matrix A = X_.transpose().lazyProduct(weights.asDiagonal() * Y);
-  const Eigen::SelfAdjointEigenSolver<Matrix> ritz(0.5 * (A + A.transpose()));
-  std::vector<Index> order(static_cast<std::size_t>(block));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]); });
-  order.resize(static_cast<std::size_t>(std::min<Index>(2, block)));
-  X_ = Y.lazyProduct(Matrix(ritz.eigenvectors()(Eigen::all, order)));
-  NearNull pairs{.values = Vector(X_.cols()), .vectors = {}};
-  for (Index j = 0; j < X_.cols(); ++j) {
-    const double squared = (weights.array() * X_.col(j).array().square()).sum();
-    pairs.values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
-    X_.col(j) /= std::sqrt(squared);
-  }
-  pairs.vectors = X_;
+NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions) {
+  const Index n = weights.size(), block = X_.cols();
+  pairs_ = 0;
+  if (block == 0 || !all_finite(solutions)) return {};
+  pairs_ = std::min<Index>(2, block);
+  NearNull pairs{.values = Vector(pairs_), .vectors = Matrix(n, pairs_)};
+  with_columns(block, [&](auto constant) {
+    constexpr std::size_t B = constant.value;
+    const double* w = weights.data();
+    const auto X = columns_from<B>(X_.data(), n);
+    const auto Y = columns_from<B>(solutions.data(), solutions.outerStride());
+    const Eigen::SelfAdjointEigenSolver<Small<B>> ritz(projection(w, X, Y, n));
+    std::array<Index, B> order;
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]);
+    });
+    for (Index j = 0; j < pairs_; ++j) {
+      const auto c = ritz.eigenvectors().col(order[static_cast<std::size_t>(j)]);
+      double* const x = X[static_cast<std::size_t>(j)];
+      const auto [squared] = sums_over<1>(n, [&](const auto& at, auto& sums) {
+        const auto y = entries_of(Y, at);
+        auto sum = c[0] * y[0];
+        for (std::size_t i = 1; i < B; ++i) sum += c[static_cast<Index>(i)] * y[i];
+        at.set(x, sum);
+        sums[0] += at(w) * sum * sum;
+      });
+      pairs.values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
+      pairs.vectors.col(j) = X_.col(j) / std::sqrt(squared);
+    }
+  });
   return pairs;
 }
 

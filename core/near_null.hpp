@@ -37,10 +37,10 @@ NearNull near_null(const SprungBorder& border, const Vector& weights, Index coun
 class NearNullTracker {
  public:
   /// Goes on from these vectors; their number of rows may be that of another piece.
-  void start_from(const Matrix& vectors) { X_ = vectors; }
+  void start_from(const Matrix& vectors);
 
-  /// Those at hand: the pairs' after advance().
-  const Matrix& vectors() const { return X_; }
+  /// Those at hand, of any length: the pairs' after advance().
+  auto vectors() const { return X_.leftCols(pairs_); }
 
   /// Right-hand sides W X, whose solutions with K `advance` wants; few columns, none if W has no entry above zero.
   /// Before them `front` columns are left for others.
@@ -50,8 +50,9 @@ class NearNullTracker {
   NearNull advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions);
 
  private:
-  Matrix X_;  // W-orthonormal between right_hand_sides and advance
-  Matrix start_;
+  Matrix X_;         // the pairs' vectors, then others; W-orthonormal between right_hand_sides and advance
+  Index pairs_ = 0;  // columns that belong to pairs
+  Matrix start_;     // of those others
 };
 
 }  // namespace arcwall

@@ -45,6 +45,9 @@ class SymmetricFactors {
 
   /// Columns that the matrices to come hardly resist, as far as one knows.
   virtual void expect_soft(const Matrix&) {}
+
+  /// Whether these may be of use, now or with other multipliers.
+  virtual bool may_use_soft() const { return true; }
 };
 
 }  // namespace arcwall

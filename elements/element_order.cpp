@@ -12,10 +12,6 @@ using Elements = std::vector<std::shared_ptr<const Element>>;
 constexpr std::size_t large = 2000;  // elements whose evaluation takes many times as long as to wake a thread
 
 ElementOrder::Part part_of(const Elements& elements, const BlockAssembly& assembly, const std::vector<Index>& which) {
-  const auto is_held = [&](Index e) {
-    const auto unknowns = assembly.unknowns(e);
-    return std::any_of(unknowns.begin(), unknowns.end(), [](Index i) { return i < 0; });
-  };
   ElementOrder::Part part;
   std::array<Index, Lanes::count> waiting{};
   std::array<const ClassicBeam*, Lanes::count> beams{};
@@ -29,8 +25,8 @@ ElementOrder::Part part_of(const Elements& elements, const BlockAssembly& assemb
     waiting[count] = e;
     beams[count++] = beam;
     if (count < waiting.size()) continue;
-    const bool held = std::any_of(waiting.begin(), waiting.end(), is_held);
-    part.fours.push_back({.elements = waiting, .beams = ClassicBeamLanes(beams), .held = held});
+    part.fours.push_back(
+        {.elements = waiting, .beams = ClassicBeamLanes(beams), .shifted = assembly.are_shifted(waiting)});
     count = 0;
   }
   part.others.insert(part.others.end(), waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
@@ -66,13 +62,14 @@ ElementOrder element_order(const Elements& elements, const BlockAssembly& assemb
     const auto middle = std::stable_partition(first.begin(), first.end(),
                                               [&](Index e) { return in_first[static_cast<std::size_t>(e)]; });
     std::vector<bool> touched(static_cast<std::size_t>(assembly.pattern().cols()), false);
-    for (auto e = first.begin(); e != middle; ++e)
-      for (const Index i : assembly.unknowns(*e))
-        if (i >= 0) touched[static_cast<std::size_t>(i)] = true;
+    for (auto e = first.begin(); e != middle; ++e) {
+      const BlockUnknowns unknowns = assembly.unknowns(*e);
+      for (std::size_t i = 0; i < unknowns.size(); ++i)
+        if (unknowns[i] >= 0) touched[static_cast<std::size_t>(unknowns[i])] = true;
+    }
     for (auto e = middle; e != first.end(); ++e) {
-      const auto unknowns = assembly.unknowns(*e);
-      const bool shares = std::any_of(unknowns.begin(), unknowns.end(),
-                                      [&](Index i) { return i >= 0 && touched[static_cast<std::size_t>(i)]; });
+      const bool shares =
+          assembly.unknowns(*e).any([&](Index i) { return i >= 0 && touched[static_cast<std::size_t>(i)]; });
       (shares ? last : second).push_back(*e);
     }
     first.erase(middle, first.end());

@@ -16,7 +16,7 @@ struct ElementOrder {
   struct Four {
     std::array<Index, Lanes::count> elements;
     ClassicBeamLanes beams;
-    bool held;  ///< any of their unknowns
+    bool shifted;  ///< BlockAssembly::are_shifted()
   };
   struct Part {
     std::vector<Four> fours;    ///< classic beams side by side

@@ -102,15 +102,15 @@ void SlidingStructureMesh::number_fours() {
                   .breakpoint = {segment == 0 ? held : first_breakpoint + segment - 1,
                                  segment == last_segment ? held : first_breakpoint + segment},
                   .from_first = {},
-                  .held = false};
+                  .shifted = false};
         for (int k = 0; k <= Lanes::count; ++k) four.from_first[static_cast<std::size_t>(k)] = double(i + k) / n;
         if (!structure_.at(r).beams) {
           for (int k = 0; k < four.count; ++k) others_.emplace_back(r, four.position + k);
           continue;
         }
-        for (int k = 0; k < four.count; ++k)
-          for (const Index unknown : assembly_.unknowns(mesh_of(r).first_element + four.position + k))
-            four.held = four.held || unknown == held;
+        const Index block = mesh_of(r).first_element + four.position;
+        if (four.count == Lanes::count)
+          four.shifted = assembly_.are_shifted(std::array{block, block + 1, block + 2, block + 3});
         fours_.push_back(four);
       }
       first += n;
@@ -293,7 +293,7 @@ void SlidingStructureMesh::add(const Four& four, const Vector& x, const Vector& 
     return response.stiffness[entry][static_cast<int>(lane)];
   };
   if (four.count == Lanes::count) {
-    assembly_.add_entries<6>(blocks, four.held, out->K.valuePtr(), entry_of);
+    assembly_.add_entries<6>(blocks, four.shifted, out->K.valuePtr(), entry_of);
   } else {
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(four.count); ++lane)
       assembly_.add_entries(blocks[lane], 1.0, out->K.valuePtr(), [&](Index entry) { return entry_of(entry, lane); });

@@ -93,7 +93,7 @@ class SlidingStructureMesh final : public SlidingMesh {
     int count;
     std::array<Index, 2> breakpoint;                  // between which they lie; −1: an end of the run
     std::array<double, Lanes::count + 1> from_first;  // of their nodes: fraction of the way to the second
-    bool held;                                        // any of their unknowns
+    bool shifted;                                     // BlockAssembly::are_shifted()
   };
   void number_fours();
   void add(const Four& four, const Vector& x, const Vector& s, Eigen::Ref<Vector> F, Linearization* out) const;

@@ -20,12 +20,12 @@ struct Local {
 };
 
 template <class Entries>
-void scatter_entries(std::span<const Index> unknowns, double factor, double* F, const Entries& f) {
+void scatter_entries(const BlockUnknowns& unknowns, double factor, double* F, const Entries& f) {
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     if (unknowns[i] >= 0) F[unknowns[i]] += factor * f(i);
 }
 
-void scatter(std::span<const Index> unknowns, const double* f, double factor, double* F) {
+void scatter(const BlockUnknowns& unknowns, const double* f, double factor, double* F) {
   scatter_entries(unknowns, factor, F, [f](std::size_t i) { return f[i]; });
 }
 
@@ -71,7 +71,7 @@ std::vector<MemberSection> MemberMesh::contact_sections() const {
 }
 
 void Structure::gather(Index block, const Vector& x, double* u) const {
-  const auto unknowns = assembly_.unknowns(block);
+  const BlockUnknowns unknowns = assembly_.unknowns(block);
   for (std::size_t i = 0; i < unknowns.size(); ++i) u[i] = unknowns[i] >= 0 ? x[unknowns[i]] : 0.0;
 }
 
@@ -88,21 +88,33 @@ void Structure::arrange() {
 void Structure::add(const ElementOrder::Four& four, const Vector& x, double* F, double* K) const {
   constexpr int n = 6;
   Lanes u[n], f[n], k[n * n];
-  std::array<const Index*, Lanes::count> unknowns;
-  for (std::size_t lane = 0; lane < unknowns.size(); ++lane)
-    unknowns[lane] = assembly_.unknowns(four.elements[lane]).data();
-  const auto value = [&](std::size_t lane, int i) {
-    const Index unknown = unknowns[lane][i];
-    return unknown >= 0 ? x[unknown] : 0.0;
-  };
-  for (int i = 0; i < n; ++i) u[i] = Lanes(value(0, i), value(1, i), value(2, i), value(3, i));
+  const std::array unknowns{assembly_.unknowns(four.elements[0]), assembly_.unknowns(four.elements[1]),
+                            assembly_.unknowns(four.elements[2]), assembly_.unknowns(four.elements[3])};
+  if (four.shifted) {
+    const std::int32_t* offset = unknowns[0].offsets();
+    const auto from = [&](std::size_t lane) { return x.data() + unknowns[lane].first(); };
+    const std::array at{from(0), from(1), from(2), from(3)};
+    for (int i = 0; i < n; ++i) u[i] = Lanes(at[0][offset[i]], at[1][offset[i]], at[2][offset[i]], at[3][offset[i]]);
+  } else {
+    const auto value = [&](std::size_t lane, std::size_t i) {
+      const Index unknown = unknowns[lane][i];
+      return unknown >= 0 ? x[unknown] : 0.0;
+    };
+    for (std::size_t i = 0; i < n; ++i) u[i] = Lanes(value(0, i), value(1, i), value(2, i), value(3, i));
+  }
   four.beams.evaluate(u, f, K != nullptr ? k : nullptr);
-  for (int i = 0; i < n; ++i)
+  if (four.shifted) {
+    const std::int32_t* offset = unknowns[0].offsets();
+    const auto to = [&](std::size_t lane) { return F + unknowns[lane].first(); };
+    const std::array at{to(0), to(1), to(2), to(3)};
+    for (int i = 0; i < n; ++i)
+      for (std::size_t lane = 0; lane < at.size(); ++lane) at[lane][offset[i]] += f[i][static_cast<int>(lane)];
+  } else {
     for (std::size_t lane = 0; lane < unknowns.size(); ++lane)
-      if (const Index unknown = unknowns[lane][i]; !four.held || unknown >= 0)
-        F[unknown] += f[i][static_cast<int>(lane)];
+      scatter_entries(unknowns[lane], 1.0, F, [&](std::size_t i) { return f[i][static_cast<int>(lane)]; });
+  }
   if (K == nullptr) return;
-  assembly_.add_entries<n>(four.elements, four.held, K,
+  assembly_.add_entries<n>(four.elements, four.shifted, K,
                            [&](Index entry, std::size_t lane) { return k[entry][static_cast<int>(lane)]; });
 }
 

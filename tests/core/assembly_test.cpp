@@ -51,7 +51,8 @@ TEST(BlockAssembly, GivesBackTheUnknownsOfEachBlock) {
   const BlockAssembly assembly(6, some_blocks);
   for (std::size_t b = 0; b < some_blocks.size(); ++b) {
     const auto unknowns = assembly.unknowns(static_cast<Index>(b));
-    EXPECT_EQ(std::vector<Index>(unknowns.begin(), unknowns.end()), some_blocks[b]);
+    ASSERT_EQ(unknowns.size(), some_blocks[b].size());
+    for (std::size_t i = 0; i < unknowns.size(); ++i) EXPECT_EQ(unknowns[i], some_blocks[b][i]);
   }
 }
 
