@@ -378,12 +378,8 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
 Direction Tracer::tangent_from(const PathPoint& from, const PathPoint& to) const {
   const Direction chord = difference(to.state, from.state);
   const double L = metric_.norm(chord);
-  Direction tangent{.dx = 2.0 / L * chord.dx - from.tangent.dx,
-                    .dlambda = 2.0 / L * chord.dlambda - from.tangent.dlambda};
-  const double length = metric_.norm(tangent);
-  tangent.dx /= length;
-  tangent.dlambda /= length;
-  return tangent;
+  return unit(metric_,
+              {.dx = 2.0 / L * chord.dx - from.tangent.dx, .dlambda = 2.0 / L * chord.dlambda - from.tangent.dlambda});
 }
 
 // A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.

@@ -202,6 +202,7 @@ class Tracer {
   bool rises_from_zero(const Segment& segment, Index there, FollowedRates& rates_there) const;
   StabilityCount count_behind(const PathPoint& beyond, Index change);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
+  class ZeroSearch;
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, State guess,

@@ -95,86 +95,131 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
   return first;
 }
 
-// Lands on a landmark with its value as the constraint; brackets a detector's zero in planes across the chord.
+// The zero of a detector inside a step, in planes across the chord. Points that were looked at are ends to interpolate
+// between for the next: soon one iteration is enough.
+class Tracer::ZeroSearch {
+ public:
+  ZeroSearch(Tracer& tracer, std::size_t which, const PathPoint& to)
+      : tracer_(tracer),
+        detector_(tracer.detectors_[which]),
+        segment_(tracer.metric_, tracer.here_, to),
+        at_start_(start_value(tracer, which)),
+        at_end_(detector_.value(to)),
+        range_(std::abs(at_end_ - at_start_)) {
+    seen_.emplace(0.0, Seen{.point = tracer.here_, .v = at_start_});
+    seen_.emplace(1.0, Seen{.point = to, .v = at_end_});
+  }
+
+  /// The point, and where it lies; empty if the search fails.
+  std::optional<PathPoint> point(Found& found) {
+    const auto root = bracketed();
+    if (!root) return std::nullopt;
+    const auto best = sharpened(seen_.find(*root), found.half_width);
+    found.t = best->first;
+    return std::move(best->second.point);
+  }
+
+ private:
+  struct Seen {
+    PathPoint point;
+    double v;
+  };
+  using Place = std::map<double, Seen>::iterator;
+
+  // Just behind the start, where the detector may still be zero.
+  static double start_value(const Tracer& tracer, std::size_t which) {
+    const double sign = tracer.signs_[which], v = tracer.detectors_[which].value(tracer.here_);
+    return sign * v > 0.0 ? v : sign * detector_noise;
+  }
+
+  double tolerance() const { return std::max(tracer_.options_.localisation, 1e-10); }
+
+  std::optional<Place> look(double t) {
+    const auto behind = seen_.lower_bound(t), before = std::prev(behind);
+    const Segment near(tracer_.metric_, before->second.point, behind->second.point);
+    const double L = segment_.length(), part = (t - before->first) / (behind->first - before->first);
+    const PlaneConstraint plane(tracer_.metric_, tracer_.here_.state, segment_.chord(), t * L * L);
+    auto point = tracer_.correct_onto(plane, segment_, near.at(part), near.length() * std::min(part, 1.0 - part));
+    if (!point) return std::nullopt;
+    const double v = detector_.value(*point);
+    return seen_.insert_or_assign(t, Seen{.point = std::move(*point), .v = v}).first;
+  }
+
+  // Zero where the bracket need be no narrower.
+  std::optional<double> value(double t) {
+    // Near the zero it need not be closed from both sides, unless another lies at the start.
+    const double near_zero = std::abs(at_start_) > 1e-2 * range_ ? 1e-4 : 0.0;
+    // Between near points a value that is off their straight line by more than they differ is round-off.
+    constexpr double straight = 1e-3;
+    const auto behind = seen_.lower_bound(t), before = std::prev(behind);
+    const double width = behind->first - before->first, change = behind->second.v - before->second.v;
+    const double expected = before->second.v + (t - before->first) / width * change;
+    const auto at = look(t);
+    if (!at) return std::nullopt;
+    const double v = (*at)->second.v;
+    if (width <= straight && std::abs(v - expected) > std::abs(change)) blurred_ = width;
+    return blurred_ > 0.0 || std::abs(v) <= near_zero * range_ ? 0.0 : v;
+  }
+
+  // By bracketing, first where the cubic turns.
+  std::optional<double> bracketed() {
+    double from = 0.0, at_from = at_start_, until = 1.0, at_until = at_end_;
+    const double v0 = detector_.value(segment_.from());
+    if (const auto turn = detector_.integral ? turn_of(detector_.integral, segment_, v0, at_end_) : std::nullopt) {
+      const auto at = look(*turn);
+      if (!at) return std::nullopt;
+      const double v = (*at)->second.v;
+      const bool before = v * at_start_ > 0.0;
+      (before ? from : until) = *turn;
+      (before ? at_from : at_until) = v;
+    }
+    const auto root = bracketed_root([this](double t) { return value(t); }, from, at_from, until, at_until,
+                                     tracer_.options_.localisation);
+    return root && (seen_.contains(root->at) || look(root->at)) ? std::optional(root->at) : std::nullopt;
+  }
+
+  // By secants, as long as they make the value much less: then it is round-off.
+  Place sharpened(Place best, double& half_width) {
+    constexpr double much_less = 0.1;
+    half_width = std::max(tolerance(), blurred_);
+    for (int secant = 0; secant < 4 && blurred_ == 0.0 && std::abs(best->second.v) > tolerance() * range_; ++secant) {
+      const auto behind = std::next(best), before = best == seen_.begin() ? behind : std::prev(best);
+      const bool ahead = behind != seen_.end() && behind->first - best->first < best->first - before->first;
+      const auto& other = ahead ? behind : before;
+      const double slope = (other->second.v - best->second.v) / (other->first - best->first);
+      const double t = best->first - best->second.v / slope;
+      half_width = std::max(tolerance(), std::abs(best->second.v / slope));
+      if (!(t > 0.0 && t < 1.0)) break;
+      const auto next = look(t);
+      if (!next) break;
+      const bool noisy = std::abs((*next)->second.v) >= much_less * std::abs(best->second.v);
+      if (std::abs((*next)->second.v) < std::abs(best->second.v)) best = *next;
+      half_width = std::max(tolerance(), std::abs(best->second.v / slope));
+      if (noisy) break;
+    }
+    return best;
+  }
+
+  Tracer& tracer_;
+  const EventDetector& detector_;
+  Segment segment_;
+  double at_start_, at_end_, range_;
+  std::map<double, Seen> seen_;  // by the fraction of the chord
+  double blurred_ = 0.0;         // width within which values are round-off
+};
+
+// Lands on a landmark with its value as the constraint; a detector's zero is searched for.
 std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
-  const Segment segment(metric_, here_, to);
   if (found.what == Found::What::landmark) {
     const Landmark& mark = options_.landmarks[found.which];
-    return correct_onto(ValueConstraint(*mark.quantity, mark.value), segment, found.t);
+    return correct_onto(ValueConstraint(*mark.quantity, mark.value), Segment(metric_, here_, to), found.t);
   }
   if (options_.events == EventSearch::detect) {
     found.half_width = 0.5;
     found.t = 1.0;
     return to;
   }
-  const EventDetector& detector = detectors_[found.which];
-  const double sign = signs_[found.which], L = segment.length();
-  const double v0 = detector.value(here_), v1 = detector.value(to);
-  const double start = sign * v0 > 0.0 ? v0 : sign * detector_noise;
-  const double range = std::abs(v1 - start);
-  // Points that were looked at are ends to interpolate between for the next: soon one iteration is enough.
-  struct Seen {
-    PathPoint point;
-    double v;
-  };
-  std::map<double, Seen> seen{{0.0, {here_, start}}, {1.0, {to, v1}}};
-  const auto look = [&](double t) {
-    const auto behind = seen.lower_bound(t), before = std::prev(behind);
-    const Segment near(metric_, before->second.point, behind->second.point);
-    const double part = (t - before->first) / (behind->first - before->first);
-    const PlaneConstraint plane(metric_, here_.state, segment.chord(), t * L * L);
-    auto point = correct_onto(plane, segment, near.at(part), near.length() * std::min(part, 1.0 - part));
-    if (!point) return false;
-    const double v = detector.value(*point);
-    seen.insert_or_assign(t, Seen{.point = std::move(*point), .v = v});
-    return true;
-  };
-  // Near the zero the bracket need not be closed from both sides, unless another lies at the start.
-  const double near_zero = std::abs(start) > 1e-2 * range ? 1e-4 : 0.0;
-  // Between near points a value that is off their straight line by more than they differ is round-off.
-  constexpr double straight = 1e-3;
-  double blurred = 0.0;
-  const auto value = [&](double t) -> std::optional<double> {
-    const auto behind = seen.lower_bound(t), before = std::prev(behind);
-    const double width = behind->first - before->first, change = behind->second.v - before->second.v;
-    if (!look(t)) return std::nullopt;
-    const double v = seen.at(t).v, off = v - before->second.v - (t - before->first) / width * change;
-    if (width <= straight && std::abs(off) > std::abs(change)) blurred = width;
-    return blurred > 0.0 || std::abs(v) <= near_zero * range ? 0.0 : v;
-  };
-  double from = 0.0, at_from = start, until = 1.0, at_until = v1;
-  if (const auto turn = detector.integral ? turn_of(detector.integral, segment, v0, v1) : std::nullopt) {
-    if (!look(*turn)) return std::nullopt;
-    const double v = seen.at(*turn).v;
-    const bool before = v * start > 0.0;
-    (before ? from : until) = *turn;
-    (before ? at_from : at_until) = v;
-  }
-  const auto root = bracketed_root(value, from, at_from, until, at_until, options_.localisation);
-  if (!root || (!seen.contains(root->at) && !look(root->at))) return std::nullopt;
-
-  // Secants, as long as they make the value much less: then it is round-off.
-  constexpr double much_less = 0.1;
-  const double tolerance = std::max(options_.localisation, 1e-10);
-  auto best = seen.find(root->at);
-  double width = std::max(tolerance, blurred);
-  for (int secant = 0; secant < 4 && blurred == 0.0 && std::abs(best->second.v) > tolerance * range; ++secant) {
-    const auto behind = std::next(best), before = best == seen.begin() ? behind : std::prev(best);
-    const bool ahead = behind != seen.end() && behind->first - best->first < best->first - before->first;
-    const auto& other = ahead ? behind : before;
-    const double slope = (other->second.v - best->second.v) / (other->first - best->first);
-    const double t = best->first - best->second.v / slope;
-    width = std::max(tolerance, std::abs(best->second.v / slope));
-    if (!(t > 0.0 && t < 1.0) || !look(t)) break;
-    const auto next = seen.find(t);
-    const bool noisy = std::abs(next->second.v) >= much_less * std::abs(best->second.v);
-    if (std::abs(next->second.v) < std::abs(best->second.v)) best = next;
-    width = std::max(tolerance, std::abs(best->second.v / slope));
-    if (noisy) break;
-  }
-  found.t = best->first;
-  found.half_width = width;
-  return best->second.point;
+  return ZeroSearch(*this, found.which, to).point(found);
 }
 
 Event Tracer::event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, const StabilityCount& behind,

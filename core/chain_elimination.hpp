@@ -7,6 +7,9 @@
 
 namespace arcwall {
 
+/// Place of entry (row, column) in a packed lower triangle.
+constexpr Index packed(Index row, Index column) { return row * (row + 1) / 2 + column; }
+
 /// A round of cyclic reduction on a chain of groups, all of one width B: groups 1, 3, 5 … of those that are left are
 /// eliminated, each from its two neighbours; the last one by itself. Entry k of all groups stands together: that of
 /// group i of the eliminated ones at k · stride + i. Strides are multiples of the lanes; blocks are packed lower
@@ -23,14 +26,11 @@ struct ChainRound {
 
   bool eliminates(Index group) const { return left == 0 || group % 2 == 1; }
   /// Where 1/d of row k of those eliminated begin.
-  Index diagonal_row(Index row) const { return diagonal + (row * (row + 1) / 2 + row) * stride; }
+  Index diagonal_row(Index row) const { return diagonal + packed(row, row) * stride; }
   Index diagonal_at(Index group, Index entry) const {
     return eliminates(group) ? diagonal + entry * stride + group / 2 : kept + entry * left_stride + group / 2;
   }
 };
-
-/// Place of entry (row, column) in a packed lower triangle.
-constexpr Index packed(Index row, Index column) { return row * (row + 1) / 2 + column; }
 
 /// The least width with code of its own that groups of `greatest` unknowns fit in; 0 if there is none.
 Index elimination_width(Index greatest);

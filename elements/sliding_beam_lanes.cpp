@@ -125,13 +125,10 @@ ARCWALL_IN_PLACE void respond_in_lanes(const Properties& of, const End& first, c
   if (wanted == Wanted::stiffness) return;
 
   const Lanes turn1 = (across - along * y1.slope) / square, turn2 = (along * y2.slope - across) / square;
-  const Lanes zero = 0.0;
-  const ClassicBeamRate<Lanes> rate1 =
-      classic_beam_rate(material, zero - speed1.value, (zero - along - across * y1.slope) / chord,
-                        y1.second / (speed1.value * speed1.value) - turn1, zero - turn1);
-  const ClassicBeamRate<Lanes> rate2 =
-      classic_beam_rate(material, speed2.value, (along + across * y2.slope) / chord, zero - turn2,
-                        y2.second / (speed2.value * speed2.value) - turn2);
+  const ClassicBeamRate<Lanes> rate1 = classic_beam_rate(material, -speed1.value, (-along - across * y1.slope) / chord,
+                                                         y1.second / (speed1.value * speed1.value) - turn1, -turn1);
+  const ClassicBeamRate<Lanes> rate2 = classic_beam_rate(material, speed2.value, (along + across * y2.slope) / chord,
+                                                         -turn2, y2.second / (speed2.value * speed2.value) - turn2);
   nodal_forces(at, U.slope_rates(rate1), out.force_rate[0]);
   nodal_forces(at, U.slope_rates(rate2), out.force_rate[1]);
 }
