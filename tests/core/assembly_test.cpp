@@ -47,6 +47,31 @@ TEST(BlockAssembly, PatternIsTheLowerTriangleOfAllBlocksWithTheWholeDiagonal) {
     }
 }
 
+// A row of blocks whose places differ by a shift, but for the first, which is held in part, and the last, numbered in
+// another order.
+TEST(BlockAssembly, KnowsBlocksThatDifferByAShift) {
+  std::vector<std::vector<Index>> blocks;
+  for (Index i = 0; i < 6; ++i) blocks.push_back({2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3});
+  blocks.front()[0] = -1;
+  std::swap(blocks.back()[0], blocks.back()[1]);
+  const BlockAssembly assembly(14, blocks);
+  EXPECT_TRUE(assembly.are_shifted(std::array<Index, 4>{1, 2, 3, 4}));
+  EXPECT_FALSE(assembly.are_shifted(std::array<Index, 4>{0, 1, 2, 3}));
+  EXPECT_FALSE(assembly.are_shifted(std::array<Index, 4>{0, 0, 0, 0}));
+  EXPECT_FALSE(assembly.are_shifted(std::array<Index, 4>{2, 3, 4, 5}));
+  test::Numbers numbers(14);
+  const Matrix entries = numbers.matrix(16, 4);
+  const std::array<Index, 4> four{1, 2, 3, 4};
+  Matrix together[2];
+  for (const bool shifted : {true, false}) {
+    SparseMatrix K = assembly.pattern();
+    assembly.add_entries<4>(four, shifted, K.valuePtr(),
+                            [&](Index entry, std::size_t which) { return entries(entry, static_cast<Index>(which)); });
+    together[shifted ? 0 : 1] = test::full(K);
+  }
+  EXPECT_EQ(together[0], together[1]);
+}
+
 TEST(BlockAssembly, GivesBackTheUnknownsOfEachBlock) {
   const BlockAssembly assembly(6, some_blocks);
   for (std::size_t b = 0; b < some_blocks.size(); ++b) {
