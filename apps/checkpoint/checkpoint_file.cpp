@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr std::string_view first_line = "arcwall checkpoint 1\n";
-constexpr std::size_t length_bytes = 8, crc_bytes = 4;
+constexpr std::size_t length_bytes = 8, crc_bytes = 4, head_bytes = first_line.size() + length_bytes + crc_bytes;
 
 // Little-endian whatever the machine.
 std::string to_bytes(std::uint64_t number, std::size_t count) {
@@ -30,6 +30,17 @@ std::uint32_t crc32_of(std::string_view a, std::string_view b) {
     return ::crc32_z(crc, reinterpret_cast<const Bytef*>(text.data()), text.size());
   };
   return static_cast<std::uint32_t>(next(next(0, a), b));
+}
+
+// That content takes as CBOR, which begins each value with nine bytes at most.
+std::size_t most_bytes(const Json& content) {
+  constexpr std::size_t begin = 9;
+  std::size_t bytes = begin;
+  if (content.is_binary()) bytes += content.get_binary().size();
+  if (content.is_string()) bytes += content.get_ref<const std::string&>().size();
+  if (content.is_structured())
+    for (const Json& part : content) bytes += most_bytes(part);
+  return bytes;
 }
 
 // Whether CBOR nests no deeper than `most`, and no list claims more items than there are bytes, as far as it can be
@@ -68,21 +79,26 @@ bool is_moderate(std::string_view bytes, std::size_t most) {
 
 }  // namespace
 
+// In one string that does not have to grow: a long run of a fine mesh has as many bytes as all of its states.
 std::string to_checkpoint(const Json& content) {
-  std::string payload;
-  Json::to_cbor(content, payload);
+  std::string bytes(first_line);
+  bytes.reserve(head_bytes + most_bytes(content));
+  bytes.resize(head_bytes);
+  Json::to_cbor(content, bytes);
+  const std::string_view payload = std::string_view(bytes).substr(head_bytes);
   const std::string length = to_bytes(payload.size(), length_bytes);
-  return std::string(first_line) + length + to_bytes(crc32_of(length, payload), crc_bytes) + payload;
+  const std::string crc = to_bytes(crc32_of(length, payload), crc_bytes);
+  bytes.replace(first_line.size(), length_bytes + crc_bytes, length + crc);
+  return bytes;
 }
 
 Json from_checkpoint(std::string_view bytes, const std::string& file) {
   const auto refuse = [&](const std::string& what) -> Json {
     throw OutputError(file + ": " + what + "; run the deck again");
   };
-  constexpr std::size_t head = first_line.size() + length_bytes + crc_bytes;
   if (!bytes.starts_with(first_line)) return refuse("is no checkpoint of this program's format");
-  if (bytes.size() < head) return refuse("is damaged: it is not whole");
-  const std::string_view length = bytes.substr(first_line.size(), length_bytes), payload = bytes.substr(head);
+  if (bytes.size() < head_bytes) return refuse("is damaged: it is not whole");
+  const std::string_view length = bytes.substr(first_line.size(), length_bytes), payload = bytes.substr(head_bytes);
   const std::string_view crc = bytes.substr(first_line.size() + length_bytes, crc_bytes);
   if (length != to_bytes(payload.size(), length_bytes)) return refuse("is damaged: it is not whole");
   if (crc != to_bytes(crc32_of(length, payload), crc_bytes)) return refuse("is damaged: its bytes have changed");
