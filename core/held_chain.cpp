@@ -172,23 +172,25 @@ bool HeldChain::turn(const SparseMatrix& matrix, Hold& hold) {
 // where one holds almost what others hold.
 void HeldChain::take_out(Hold& hold) {
   const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
-  for (const Block& block : hold.blocks) {
-    Small left = values(hold, block);
-    const double greatest = left.cwiseAbs().maxCoeff(), scale = greatest > 0.0 ? greatest : 1.0;
-    left.topRows(rigid).setZero();
-    if (block.columns == hold.unknowns) {
-      left.leftCols(rigid).setZero();
-      left.diagonal().head(rigid).setConstant(scale);
-      const auto R = hold.R.bottomRightCorner(soft, soft);
-      left.block(rigid, rigid, soft, soft) += R * hold.c.tail(soft).cwiseInverse().asDiagonal() * R.transpose();
-      hold.is_stiff.clear();
-      for (Index j = 0; j < hold.c.size(); ++j) {
-        const double share = hold.R(j, j) / hold.R.col(j).norm();
-        hold.is_stiff.push_back(hold.R(j, j) * hold.R(j, j) >= std::abs(hold.c[j]) * scale);
-        pivots_.add(j < rigid ? -scale * share * share : -std::copysign(scale, hold.c[j]));
-      }
-    }
-    set_values(block, left);
+  const Block& own_block = hold.blocks.front();
+  Small own = values(hold, own_block);
+  const double greatest = own.cwiseAbs().maxCoeff(), scale = greatest > 0.0 ? greatest : 1.0;
+  own.topRows(rigid).setZero();
+  own.leftCols(rigid).setZero();
+  own.diagonal().head(rigid).setConstant(scale);
+  const auto R = hold.R.bottomRightCorner(soft, soft);
+  own.block(rigid, rigid, soft, soft) += R * hold.c.tail(soft).cwiseInverse().asDiagonal() * R.transpose();
+  set_values(own_block, own);
+  for (std::size_t b = 1; b < hold.blocks.size(); ++b) {
+    Small beside = values(hold, hold.blocks[b]);
+    beside.topRows(rigid).setZero();
+    set_values(hold.blocks[b], beside);
+  }
+  hold.is_stiff.clear();
+  for (Index j = 0; j < hold.c.size(); ++j) {
+    const double share = hold.R(j, j) / hold.R.col(j).norm();
+    hold.is_stiff.push_back(hold.R(j, j) * hold.R(j, j) >= std::abs(hold.c[j]) * scale);
+    pivots_.add(j < rigid ? -scale * share * share : -std::copysign(scale, hold.c[j]));
   }
 }
 
@@ -199,69 +201,75 @@ HeldChain::SmallVector HeldChain::turned(const Hold& hold, const Eigen::Ref<cons
 // With r the rigid and s the soft multipliers of a group, K the rows of QᵀAQ that they hold and f in turned
 // coordinates:
 //
-//   R_rrᵀ w_r = g_r,   A w = f − K_rᵀ w_r − R_ss c⁻¹ (R_rsᵀ w_r − g_s)
+//   R_rrᵀ w_r = g_r,   A w = f − K_rᵀ w_r − R_ss c⁻¹ (R_rsᵀ w_r − g_s)                                    (1)
 //
-// Then R p = f − K w and c p = Rᵀ w − g: each multiplier from that of the two where fewer digits cancel.
+// Then R p = f − K w and c p = Rᵀ w − g: each multiplier from that of the two where fewer digits cancel.   (2)
+struct HeldChain::Known {
+  SmallVector w, f, g;  // w of the rigid ones
+};
+
 void HeldChain::solve(Eigen::Ref<Matrix> X) const {
-  struct Known {
-    SmallVector w, f, g;
-  };
   std::vector<Known> all_known(holds_.size() * static_cast<std::size_t>(X.cols()));
-  const auto for_each = [&](Index column, const auto& visit) {
-    Known* known = all_known.data() + static_cast<std::size_t>(column) * holds_.size();
-    for (const Hold& hold : holds_) visit(hold, *known++);
+  const auto known = [&](Index column, std::size_t h) -> Known& {
+    return all_known[static_cast<std::size_t>(column) * holds_.size() + h];
   };
-  const auto unknown = [](const Hold& hold, Index i) { return (*hold.unknowns)[static_cast<std::size_t>(i)]; };
   for (Index column = 0; column < X.cols(); ++column) {
     auto x = X.col(column);
-    for_each(column, [&](const Hold& hold, Known& known) {
-      const SmallVector f = turned(hold, x);
-      x(*hold.unknowns) = f;
-      known.f = f.head(hold.c.size());
-      known.g.resize(hold.c.size());
-      for (Index j = 0; j < hold.c.size(); ++j) known.g[j] = x[hold.multiplier(j)];
-      known.w = hold.R.topLeftCorner(hold.rigid, hold.rigid)
-                    .template triangularView<Eigen::Upper>()
-                    .transpose()
-                    .solve(known.g.head(hold.rigid));
-    });
-    for_each(column, [&](const Hold& hold, const Known& known) {
-      const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
-      for (std::size_t b = 0; b < hold.blocks.size(); ++b)
-        x(*hold.blocks[b].columns) -= hold.rows[b].topRows(rigid).transpose() * known.w;
-      const auto R = hold.R.rightCols(soft);
-      const SmallVector pull =
-          (R.topRows(rigid).transpose() * known.w - known.g.tail(soft)).cwiseQuotient(hold.c.tail(soft));
-      const SmallVector force = R.bottomRows(soft) * pull;
-      for (Index j = 0; j < soft; ++j) x[unknown(hold, rigid + j)] -= force[j];
-    });
+    for (std::size_t h = 0; h < holds_.size(); ++h) known(column, h) = turn_right_hand_side(holds_[h], x);
+    for (std::size_t h = 0; h < holds_.size(); ++h) move_known(holds_[h], known(column, h), x);
     for (const Hold& hold : holds_)
-      for (Index j = 0; j < hold.rigid; ++j) x[unknown(hold, j)] = 0.0;
+      for (Index j = 0; j < hold.rigid; ++j) x[hold.unknown(j)] = 0.0;
   }
   chain_.solve(X.topRows(A_.cols()));
   for (Index column = 0; column < X.cols(); ++column) {
     auto x = X.col(column);
-    for_each(column, [&](const Hold& hold, const Known& known) {
-      for (Index j = 0; j < hold.rigid; ++j) x[unknown(hold, j)] = known.w[j];
-    });
-    for_each(column, [&](const Hold& hold, const Known& known) {
-      SmallVector left = known.f;
-      for (std::size_t b = 0; b < hold.blocks.size(); ++b) left -= hold.rows[b] * x(*hold.blocks[b].columns);
-      for (Index j = hold.c.size(); j-- > 0;) {
-        double p = left[j] / hold.R(j, j);
-        if (!hold.is_stiff[static_cast<std::size_t>(j)]) {
-          p = -known.g[j];
-          for (Index i = 0; i <= j; ++i) p += hold.R(i, j) * x[unknown(hold, i)];
-          p /= hold.c[j];
-        }
-        x[hold.multiplier(j)] = p;
-        for (Index i = 0; i < j; ++i) left[i] -= hold.R(i, j) * p;
-      }
-    });
+    for (std::size_t h = 0; h < holds_.size(); ++h)
+      for (Index j = 0; j < holds_[h].rigid; ++j) x[holds_[h].unknown(j)] = known(column, h).w[j];
+    for (std::size_t h = 0; h < holds_.size(); ++h) find_multipliers(holds_[h], known(column, h), x);
     for (const Hold& hold : holds_) {
       const SmallVector u = hold.Q * x(*hold.unknowns);
       x(*hold.unknowns) = u;
     }
+  }
+}
+
+HeldChain::Known HeldChain::turn_right_hand_side(const Hold& hold, Eigen::Ref<Vector> x) {
+  const SmallVector f = turned(hold, x);
+  x(*hold.unknowns) = f;
+  Known known{.w = {}, .f = f.head(hold.c.size()), .g = SmallVector(hold.c.size())};
+  for (Index j = 0; j < hold.c.size(); ++j) known.g[j] = x[hold.multiplier(j)];
+  known.w = hold.R.topLeftCorner(hold.rigid, hold.rigid)
+                .triangularView<Eigen::Upper>()
+                .transpose()
+                .solve(known.g.head(hold.rigid));
+  return known;
+}
+
+// To the right-hand side of (1).
+void HeldChain::move_known(const Hold& hold, const Known& known, Eigen::Ref<Vector> x) {
+  const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
+  for (std::size_t b = 0; b < hold.blocks.size(); ++b)
+    x(*hold.blocks[b].columns) -= hold.rows[b].topRows(rigid).transpose() * known.w;
+  const auto R = hold.R.rightCols(soft);
+  const SmallVector pull =
+      (R.topRows(rigid).transpose() * known.w - known.g.tail(soft)).cwiseQuotient(hold.c.tail(soft));
+  const SmallVector force = R.bottomRows(soft) * pull;
+  for (Index j = 0; j < soft; ++j) x[hold.unknown(rigid + j)] -= force[j];
+}
+
+// By (2).
+void HeldChain::find_multipliers(const Hold& hold, const Known& known, Eigen::Ref<Vector> x) {
+  SmallVector left = known.f;
+  for (std::size_t b = 0; b < hold.blocks.size(); ++b) left -= hold.rows[b] * x(*hold.blocks[b].columns);
+  for (Index j = hold.c.size(); j-- > 0;) {
+    double p = left[j] / hold.R(j, j);
+    if (!hold.is_stiff[static_cast<std::size_t>(j)]) {
+      p = -known.g[j];
+      for (Index i = 0; i <= j; ++i) p += hold.R(i, j) * x[hold.unknown(i)];
+      p /= hold.c[j];
+    }
+    x[hold.multiplier(j)] = p;
+    for (Index i = 0; i < j; ++i) left[i] -= hold.R(i, j) * p;
   }
 }
 
@@ -283,7 +291,7 @@ double HeldChain::weighted(const Vector& v) const {
       const SmallVector there = w(*hold.blocks[b].columns);
       for (Index i = 0; i < hold.rigid; ++i)
         for (Index j = 0; j < there.size(); ++j)
-          sum += 2.0 * std::abs(w[(*hold.unknowns)[static_cast<std::size_t>(i)]] * hold.rows[b](i, j) * there[j]);
+          sum += 2.0 * std::abs(w[hold.unknown(i)] * hold.rows[b](i, j) * there[j]);
     }
   return sum + chain_.weighted(w);
 }

@@ -55,6 +55,7 @@ class HeldChain final : public SymmetricFactors {
     std::vector<Small> rows{};     // of QᵀAQ that are held, by blocks; the rigid ones are taken out
     std::vector<bool> is_stiff{};  // beside the group's own block
 
+    Index unknown(Index i) const { return (*unknowns)[static_cast<std::size_t>(i)]; }
     Index multiplier(Index j) const {
       return multipliers[static_cast<std::size_t>(order[static_cast<std::size_t>(j)])];
     }
@@ -69,6 +70,10 @@ class HeldChain final : public SymmetricFactors {
   bool turn(const SparseMatrix& matrix, Hold& hold);
   void take_out(Hold& hold);
   static SmallVector turned(const Hold& hold, const Eigen::Ref<const Vector>& x);
+  struct Known;
+  static Known turn_right_hand_side(const Hold& hold, Eigen::Ref<Vector> x);
+  static void move_known(const Hold& hold, const Known& known, Eigen::Ref<Vector> x);
+  static void find_multipliers(const Hold& hold, const Known& known, Eigen::Ref<Vector> x);
 
   ChainGroups groups_;
   SparseMatrix A_;  // then QᵀAQ, without what is taken out
