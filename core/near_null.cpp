@@ -204,16 +204,16 @@ void NearNullTracker::start_from(const Matrix& vectors) {
 
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   const Index n = weights.size(), block = std::min<Index>(3, pair_count(weights));
-  const Index kept = std::max<Index>(0, std::min(pairs_, block - 1));
-  if (start_.rows() != n || start_.cols() != block - kept) start_ = start_block(n, block - kept);
+  pairs_ = std::max<Index>(0, std::min(pairs_, block - 1));
+  if (start_.rows() != n || start_.cols() != block - pairs_) start_ = start_block(n, block - pairs_);
   if (X_.rows() != n || X_.cols() != block) {
     // Contact forces, which come and go at the end, have no weight and need no start.
     const Index common = std::min(X_.rows(), n);
     Matrix X = Matrix::Zero(n, block);
-    if (kept > 0) X.topLeftCorner(common, kept) = X_.topLeftCorner(common, kept);
+    if (pairs_ > 0) X.topLeftCorner(common, pairs_) = X_.topLeftCorner(common, pairs_);
     X_ = std::move(X);
   }
-  X_.rightCols(block - kept) = start_;
+  X_.rightCols(block - pairs_) = start_;
   Matrix columns(n, front + block);
   with_columns(block, [&](auto constant) {
     constexpr std::size_t B = constant.value;
@@ -229,7 +229,6 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
 // θ/(yᵀ W y).
 NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions) {
   const Index n = weights.size(), block = X_.cols();
-  pairs_ = 0;
   if (block == 0 || !all_finite(solutions)) return {};
   pairs_ = std::min<Index>(2, block);
   NearNull pairs{.values = Vector(pairs_), .vectors = Matrix(n, pairs_)};
