@@ -55,7 +55,7 @@ class TimedSystem final : public System {
   Piece open_piece() const override { return inner_.open_piece(); }
   Index multiplier_count(const Piece& piece) const override { return inner_.multiplier_count(piece); }
   Index border_width(const Piece& piece) const override { return inner_.border_width(piece); }
-  Vector border_springs(const State& state) const override { return inner_.border_springs(state); }
+  Vector border_rates(const State& state) const override { return inner_.border_rates(state); }
 
   Index guard_count(const Piece& piece) const override { return inner_.guard_count(piece); }
   Vector guards(const State& state) const override {

@@ -185,8 +185,7 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, s
   const double shrink = 1.0 / (1.0 + at.offset * wall.curvature);
   const double parallel = wall.curvature * shrink, parallel_x = wall.curvature_x * shrink * shrink;
 
-  CurvatureGap out{.value = side * (travel * strain.curvature - strain.stretch * parallel),
-                   .face = shrink * (strain.stretch - offset * strain.curvature)};
+  CurvatureGap out{.value = side * (travel * strain.curvature - strain.stretch * parallel)};
   out.dx = side * (travel * strain.curvature_dx - parallel * strain.stretch_dx);
   out.ds = side * (travel * strain.curvature_ds - parallel * strain.stretch_ds);
   out.dlambda = side * (travel * strain.curvature_dlambda - parallel * strain.stretch_dlambda);
@@ -373,22 +372,24 @@ double SlidingContact::energy(const State& state) const {
   return on.mesh().energy(on.x_of(state), on.s_of(state), state.lambda);
 }
 
-// The second variation of contact at a point that slides: p v vᵀ / g″, v the derivative of g′ along the face. Where the
-// face is stretched by Λ, v = Λ ∂tilt and g″ = Λ (κ − Λ κ_w) with the wall's own curvature: the spring on the tilt is
-// p Λ / (κ − Λ κ_w) = p face / value. Where the body lies on the wall, the tilt is held.
-Vector SlidingContact::border_springs(const State& state) const {
+// Of −tilt: the axis goes on by the stretch along its tangent and turns by its curvature. Where the body lies on the
+// wall, and where it is about to, the tilt is held.
+Vector SlidingContact::border_rates(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
-  Vector springs = Vector::Zero(border_width(state.piece));
-  for (Index k = 0; k < springs.size(); ++k) {
+  const Vector x = on.x_of(state), s = on.s_of(state);
+  Vector rates = Vector::Zero(border_width(state.piece));
+  for (Index k = 0; k < rates.size(); ++k) {
     const auto point = static_cast<std::size_t>(k);
-    if (on.lies_beside(point)) springs[k] = infinity;
-    if (on.lies_beside(point) || !state.piece[point]) continue;
-    const CurvatureGap gap = curvature_gap(state, point);
+    if (on.lies_beside(point)) continue;
+    const Touch at = touch(on, point);
+    const AxisStrain strain = on.mesh().strain(k, free_side(on, point), x, s, state.lambda);
+    const double angle = on.mesh().node(at.run, at.position, x).angle, travel = std::cos(angle) >= 0.0 ? 1.0 : -1.0;
+    const Vec2 along = strain.stretch * tangent(angle);
+    const double rate = node_gap(at, x, on).tilt_gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
     constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
-    const double p = std::max(0.0, state.x[*multiplier_index(state.piece, k)]);
-    springs[k] = gap.value * scales_.length > touching ? p * gap.face / gap.value : infinity;
+    if (sign_of(obstacles_[at.obstacle].side) * travel * rate * scales_.length > touching) rates[k] = -rate;
   }
-  return springs;
+  return rates;
 }
 
 // --- guards ---------------------------------------------------------------------------------------------------------

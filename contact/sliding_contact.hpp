@@ -48,7 +48,7 @@ class SlidingContact final : public System {
   Piece open_piece() const override { return open_; }
   Index multiplier_count(const Piece& piece) const override;
   Index border_width(const Piece& piece) const override;
-  Vector border_springs(const State& state) const override;
+  Vector border_rates(const State& state) const override;
 
   Index guard_count(const Piece& piece) const override;
   Vector guards(const State& state) const override;
@@ -115,7 +115,6 @@ class SlidingContact final : public System {
     double value = 0.0;
     Vector dx{}, ds{};
     double dlambda = 0.0;
-    double face = 1.0;  // stretch of the face, by what the curve on which the axis would lie is longer than the wall
   };
   // A place where the gap is least.
   struct Minimum {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "continuation/stability.hpp"
+#include "core/released_border.hpp"
 #include "core/sums.hpp"
 #include "core/test_function.hpp"
 
@@ -71,7 +72,7 @@ std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count,
   if (!solver_.inner_is_regular()) return std::nullopt;
   const Vector weighted = weights.head(now_.K.cols());
   if (now_.B.cols() > 0) {
-    const SprungBorder border = sprung_border(system_, at_, solver_, now_);
+    const ReleasedBorder border(solver_, now_, sliding_resistance(solver_, now_, system_.border_rates(at_)));
     return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, settled)) : std::nullopt;
   }
   const bool followed = tracker_.vectors().rows() == now_.K.cols() && all_finite(tracker_.vectors());

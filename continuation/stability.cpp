@@ -1,15 +1,11 @@
 #include "continuation/stability.hpp"
 
+#include "core/released_border.hpp"
 #include "core/test_function.hpp"
 
 namespace arcwall {
 
-SprungBorder sprung_border(const System& system, const State& state, const BorderedSolver& solver,
-                           const Linearization& equations) {
-  return {solver.inner(), equations.K, equations.holding, system.border_springs(state)};
-}
-
-// With what a border holds the count is that of K and of what is let go against springs.
+// n₋ = n₋(K) + n₋(T) with what a border holds (Haynsworth 1968).
 std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& equations, const NearNull& nearest) {
   const Index multipliers = system.multiplier_count(state.piece);
@@ -19,10 +15,9 @@ std::optional<Index> negative_eigenvalues(const System& system, const State& sta
     return negative ? std::optional(*negative - multipliers) : std::nullopt;
   }
   const auto inertia = solver.inner().inertia();
-  if (!inertia) return std::nullopt;
-  const SprungBorder border = sprung_border(system, state, solver, equations);
-  if (!border.is_finite()) return std::nullopt;
-  return inertia->negative - multipliers + border.negative();
+  if (!inertia || !solver.inner_is_regular()) return std::nullopt;
+  const auto let_go = sliding_resistance(solver, equations, system.border_rates(state)).negative();
+  return let_go ? std::optional(inertia->negative - multipliers + *let_go) : std::nullopt;
 }
 
 Piece strongly_closed(const System& system, const State& state, double force_tolerance) {

@@ -4,7 +4,6 @@
 
 #include "core/bordered_solver.hpp"
 #include "core/near_null.hpp"
-#include "core/sprung_border.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {
@@ -18,11 +17,6 @@ struct StabilityCount {
   std::optional<Index> unstable{};  ///< empty: K is singular within round-off
   Stability stability = Stability::undecided;
 };
-
-/// K at a state with what its border holds let go against System::border_springs; `solver` holds the factorization of
-/// `equations`.
-SprungBorder sprung_border(const System& system, const State& state, const BorderedSolver& solver,
-                           const Linearization& equations);
 
 /// Negative eigenvalues of K with all contacts of the state's piece held; what a border holds gives way. Empty where K
 /// is singular. Without a border also where the pivots do not tell: `nearest` are the eigenpairs nearest zero that were

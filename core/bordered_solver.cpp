@@ -49,7 +49,8 @@ bool BorderedSolver::eliminate_border() {
   if (m == 0) return true;
   border_ = now.B;
   ldlt_.solve(border_);
-  slides_.compute(now.C.leftCols(now.K.cols()) * border_ - now.C.rightCols(m));
+  reduced_ = now.C.leftCols(now.K.cols()) * border_ - now.C.rightCols(m);
+  slides_.compute(reduced_);
   return border_.allFinite() && slides_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
 }
 

@@ -58,6 +58,9 @@ class BorderedSolver {
 
   bool inner_is_regular() const { return regular_; }
 
+  /// C_x K⁻¹ B − C_s, what is left for the border's unknowns where K is regular.
+  const Matrix& reduced() const { return reduced_; }
+
  private:
   // As long as a linearization stays where it is and on one piece, so does the pattern of its K.
   struct Pattern {
@@ -82,7 +85,8 @@ class BorderedSolver {
   bool regular_ = false;
   Matrix columns_;                      // workspace: J⁻¹ [−F, −F_λ]
   Matrix border_;                       // K⁻¹ B
-  Eigen::PartialPivLU<Matrix> slides_;  // of C_x K⁻¹ B − C_s
+  Matrix reduced_;
+  Eigen::PartialPivLU<Matrix> slides_;  // of reduced_
 };
 
 }  // namespace arcwall

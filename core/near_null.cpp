@@ -114,7 +114,7 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
   return nearest_zero(Factorized{factorization, K}, weights, pair_count(weights), count, settled, start);
 }
 
-NearNull near_null(const SprungBorder& border, const Vector& weights, Index count, Settled settled) {
+NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count, Settled settled) {
   const Index pairs = pair_count(weights) + static_cast<Index>(border.released().size());
   return nearest_zero(border, weights, pairs, count, settled, {});
 }

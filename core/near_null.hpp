@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/factorization.hpp"
-#include "core/sprung_border.hpp"
+#include "core/released_border.hpp"
 
 namespace arcwall {
 
@@ -29,7 +29,7 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& lower
                    Index count, Settled settled = Settled::fully, const Matrix& start = {});
 
 /// The same of K with what a border holds let go.
-NearNull near_null(const SprungBorder& border, const Vector& weights, Index count, Settled settled = Settled::fully);
+NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count, Settled settled = Settled::fully);
 
 /// The pairs nearest zero, followed from matrix to matrix by one step of inverse iteration each. Near singularity one
 /// step is enough; elsewhere the values are upper bounds in magnitude that get better on the way. A vector without

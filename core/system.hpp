@@ -90,9 +90,9 @@ class System {
   /// How many unknowns stand behind those of K: columns of Linearization::B.
   virtual Index border_width(const Piece&) const { return 0; }
 
-  /// Where a border holds what in truth gives way: the springs on the y_k with which K has the eigenvalues that
-  /// stability is counted by; infinite where it is truly held. Linearization::holding says which.
-  virtual Vector border_springs(const State& state) const { return Vector::Zero(border_width(state.piece)); }
+  /// The rates by s_k at which what y_k holds would change if the body slid there and y_k did not hold it; 0 where it is
+  /// truly held. Stability is counted with the others let go (ReleasedBorder).
+  virtual Vector border_rates(const State& state) const { return Vector::Zero(border_width(state.piece)); }
 
   // --- guards: side conditions that say how far a piece reaches -------------------------------------------------
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "contact/sliding_layout.hpp"
+
 namespace arcwall::test {
 
 Matrix full(const SparseMatrix& lower) {
@@ -58,21 +60,46 @@ std::optional<Index> dense_unstable_count(const System& system, const State& sta
   return negative_on_null_space(whole.topLeftCorner(n, n), whole.bottomLeftCorner(m, n));
 }
 
+namespace {
+
+// By which a point contact that slides resists a tilt, (8.8): c = p Λ_f/|κ − Λ_f κ_w|, with the curvatures along the
+// body's travel and Λ_f = Λ − o κ the stretch of the face; infinite where the body lies on the wall.
+double tilt_spring(const SlidingContact& system, const State& state, Index k) {
+  const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
+  const auto point = static_cast<std::size_t>(k);
+  if (on.lies_beside(point)) return infinity;
+  if (!state.piece[point]) return 0.0;
+  const auto [run, position] = on.mesh().breakpoint(k);
+  const Vector x = on.x_of(state);
+  const AxisPlace axis = on.mesh().node(run, position, x);
+  const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, x, on.s_of(state), state.lambda);
+  const Vec2 face = system.place(state, k);
+  const Height wall = system.obstacles()[on.points()[point].obstacle].profile->at(face.x());
+  const double travel = std::cos(axis.angle) >= 0.0 ? 1.0 : -1.0;
+  const double wall_curvature = travel * wall.second / std::pow(1.0 + wall.first * wall.first, 1.5);
+  const double offset = (face - axis.position).dot(Vec2(-std::sin(axis.angle), std::cos(axis.angle)));
+  const double stretch = strain.stretch - offset * strain.curvature;
+  const double bends = std::abs(strain.curvature - stretch * wall_curvature);
+  return bends * system.scales().length > 1e-9 ? system.force(state, k) * stretch / bends : infinity;
+}
+
+}  // namespace
+
 std::optional<Index> dense_unstable_count(const SlidingContact& system, const State& state, double tolerance) {
   Linearization now;
   system.linearize(state, now);
   const Matrix whole = full(now.K);
   const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
-  const Vector springs = system.border_springs(state);
+  const Index points = system.border_width(state.piece);
   Matrix K = whole.topLeftCorner(n, n);
   std::vector<Index> held;
   for (Index row = n; row < n + state.piece.closed_count(); ++row)
     if (state.x[row] > tolerance * system.scales().force) held.push_back(row);
-  for (Index row = n + state.piece.closed_count(); row < whole.rows() - springs.size(); ++row) held.push_back(row);
-  for (Index k = 0; k < springs.size(); ++k) {
-    const Index row = whole.rows() - springs.size() + k;
-    if (std::isfinite(springs[k])) {
-      K += springs[k] * whole.row(row).head(n).transpose() * whole.row(row).head(n);
+  for (Index row = n + state.piece.closed_count(); row < whole.rows() - points; ++row) held.push_back(row);
+  for (Index k = 0; k < points; ++k) {
+    const Index row = whole.rows() - points + k;
+    if (const double spring = tilt_spring(system, state, k); std::isfinite(spring)) {
+      K += spring * whole.row(row).head(n).transpose() * whole.row(row).head(n);
     } else {
       held.push_back(row);
     }
