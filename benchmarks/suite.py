@@ -94,14 +94,17 @@ class Process:
 class TracePath(Process):
     """A run of trace-path, whose result.json says what it did."""
 
-    out: Path = Path()
+    out: Path = Path()  # a folder for the folders of all rounds
+    number: int = 0
 
     def run(self, launcher: str, sheet: Sheet) -> None:
-        shutil.rmtree(self.out, ignore_errors=True)  # what replaces another run would also remove its files
+        # Nothing is removed meanwhile: ext4 looks longer for room where files were removed a moment ago.
+        self.number += 1
+        self.command = [*self.command[:-1], str(self.out / str(self.number))]
         super().run(launcher, sheet)
 
     def read(self, printed: str, sheet: Sheet) -> None:
-        result = json.loads((self.out / "result.json").read_text())
+        result = json.loads((self.out / str(self.number) / "result.json").read_text())
         for name, value in result["counts"].items():
             self.add(sheet, name, "", value)
         part = result["seconds"]["tracing"] / max(result["seconds"]["total"], 1e-9)
@@ -141,12 +144,12 @@ class Suite:
     def traced(self, case: str, size: int, deck: str, values: list, threads: int | None = None,
                options: tuple = (), **more) -> TracePath:
         out = self.scratch / f"{case}-{size}-{threads or 1}"
-        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--out", str(out), "--force", "--quiet",
-                   *options]
+        command = [self.program("trace-path"), "run", str(SOURCE / deck), "--quiet", *options]
         for value in values:
             command += ["--set", value]
         if threads:
             command += ["--threads", str(threads)]
+        command += ["--out", str(out)]  # last: see TracePath
         return TracePath("trace-path", case, size, command, out=out, **more)
 
     def split(self, case: str, size: int, **more) -> Process:
