@@ -25,11 +25,14 @@ namespace {
 
 using Report = SessionOptions::Report;
 
-// Writes checkpoints now and then, so seldom that they take a small part of the time.
+// Writes checkpoints now and then, so seldom that they take a small part of the time. A run of a moment needs none on
+// its way.
 class CheckpointKeeper {
  public:
   CheckpointKeeper(RunUnderWay& run, const OutputFolder& folder, std::chrono::duration<double> pause)
-      : run_(run), folder_(folder), pause_(pause) {}
+      : run_(run), folder_(folder), pause_(pause), next_(Clock::now() + std::chrono::milliseconds(100)) {
+    if (pause_.count() == 0.0) next_ = Clock::now();
+  }
 
   void keep_now_and_then() {
     if (Clock::now() < next_) return;
@@ -55,7 +58,7 @@ class CheckpointKeeper {
   RunUnderWay& run_;
   const OutputFolder& folder_;
   std::chrono::duration<double> pause_;
-  Clock::time_point next_ = Clock::now();
+  Clock::time_point next_;
   bool warned_ = false;
 };
 
