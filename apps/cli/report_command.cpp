@@ -13,7 +13,8 @@ ExitStatus write_report(const Options& options) {
   const std::filesystem::path folder = options.words().front();
   const RunUnderWay run = stored_run(folder, RunUnderWay::Resume::as_ended);
   const std::filesystem::path file = folder / "report.html";
-  write_whole(file, report_html(run.record(), report_content(run.study(), run.record())));
+  const DrawnScenes drawn = scenes_to_draw(run.study(), run.record());
+  write_whole(file, ReportPage(run.record(), report_content(run.study(), run.record(), drawn)).pieces());
   std::cerr << "wrote " << file.string() << "\n";
   return ExitStatus::success;
 }

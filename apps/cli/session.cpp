@@ -138,18 +138,19 @@ void write_files(const OutputFolder& folder, const RunUnderWay& run, const Sessi
   if (!pictures) remove_pictures(folder);
   const Record& record = run.record();
   const RunDescription& description = run.description();
+  const DrawnScenes drawn = pictures ? scenes_to_draw(run.study(), record) : DrawnScenes();
   FileSet files(folder);
   files.write("path.csv", path_csv(record, description.units));
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
   files.write("events.txt", events_text(record));
-  if (pictures) files.write("report.html", report_html(record, report_content(run.study(), record)));
+  if (pictures) files.write("report.html", ReportPage(record, report_content(run.study(), record, drawn)).pieces());
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
   files.write("deck.toml", deck::to_toml(run.study().deck()));
   const auto result = result_json(run.study(), description.deck_text, record, seconds, static_cast<int>(status));
   files.write("result.json", to_text(result, JsonLayout::lines));
   files.put_in_place();
-  if (pictures) write_shapes(folder, run.study(), record);
+  if (pictures) write_shapes(folder, run.study(), record, drawn);
 }
 
 // An early end in full: the reason, the last good point, and what to try.

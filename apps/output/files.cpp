@@ -1,10 +1,12 @@
 #include "apps/output/files.hpp"
 
 #include <fcntl.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -77,12 +79,20 @@ StagedFile::~StagedFile() {
   if (!path_.empty()) ::unlink(path_.c_str());
 }
 
-void StagedFile::write(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor_, text.data(), text.size());
+void StagedFile::write(const Pieces& text) {
+  std::vector<iovec> left;
+  for (const std::string_view piece : text)
+    if (!piece.empty()) left.push_back({.iov_base = const_cast<char*>(piece.data()), .iov_len = piece.size()});
+  for (auto at = left.begin(); at != left.end();) {
+    const auto count = static_cast<int>(std::min<std::ptrdiff_t>(left.end() - at, IOV_MAX));
+    const ssize_t written = ::writev(descriptor_, &*at, count);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) give_up(errno);
-    text.remove_prefix(static_cast<std::size_t>(written));
+    auto rest = static_cast<std::size_t>(written);
+    for (; at != left.end() && rest >= at->iov_len; ++at) rest -= at->iov_len;
+    if (at == left.end()) break;
+    at->iov_base = static_cast<char*>(at->iov_base) + rest;
+    at->iov_len -= rest;
   }
 }
 
@@ -106,7 +116,7 @@ void StagedFile::give_up(int error) const {
   fail(target_, "cannot be written", std::generic_category().message(error));
 }
 
-void write_whole(const fs::path& file, std::string_view text) {
+void write_whole(const fs::path& file, const Pieces& text) {
   StagedFile staged(file);
   staged.write(text);
   staged.close();
@@ -163,7 +173,7 @@ void OutputFolder::write_durably(const std::string& name, std::string_view text)
 }
 
 // After a crash of the machine the new names must not stand for data that never went out.
-void FileSet::write(const std::string& name, std::string_view text) {
+void FileSet::write(const std::string& name, const Pieces& text) {
   StagedFile& file = files_.emplace_back(folder_ / name);
   file.write(text);
   file.flush_to_disk();

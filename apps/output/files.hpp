@@ -4,8 +4,12 @@
 #include <list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace arcwall {
+
+/// A text in parts that follow each other.
+using Pieces = std::vector<std::string_view>;
 
 /// A file under a hidden name beside its place, which goes away unless it is put there. Throws OutputError.
 class StagedFile {
@@ -16,7 +20,8 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
   ~StagedFile();
 
-  void write(std::string_view text);
+  void write(const Pieces& text);
+  void write(std::string_view text) { write(Pieces{text}); }
 
   /// What was written is on the disk when this returns.
   void flush_to_disk() const;
@@ -36,7 +41,8 @@ class StagedFile {
 };
 
 /// Writes beside `file` under a hidden name and renames: `file` is whole, or what it was before. Throws OutputError.
-void write_whole(const std::filesystem::path& file, std::string_view text);
+void write_whole(const std::filesystem::path& file, const Pieces& text);
+inline void write_whole(const std::filesystem::path& file, std::string_view text) { write_whole(file, Pieces{text}); }
 
 /// What is done with a folder that something other than the same deck filled.
 enum class Foreign { refuse, overwrite };
@@ -78,7 +84,8 @@ class FileSet {
   explicit FileSet(const OutputFolder& folder) : folder_(folder.path()) {}
 
   /// Throws OutputError.
-  void write(const std::string& name, std::string_view text);
+  void write(const std::string& name, std::string_view text) { write(name, Pieces{text}); }
+  void write(const std::string& name, const Pieces& text);
 
   /// In the order in which they were written. Throws OutputError.
   void put_in_place();

@@ -1,5 +1,6 @@
 #include "apps/output/markup.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -83,21 +84,14 @@ std::string escaped(std::string_view text) {
 
 std::string script_json(const nlohmann::ordered_json& json) {
   constexpr bool ascii = true;
+  const std::string text = json.dump(-1, ' ', ascii, nlohmann::ordered_json::error_handler_t::replace);
   std::string result;
-  for (const char c : json.dump(-1, ' ', ascii, nlohmann::ordered_json::error_handler_t::replace)) {
-    switch (c) {
-      case '<':
-        result += "\\u003c";
-        break;
-      case '>':
-        result += "\\u003e";
-        break;
-      case '&':
-        result += "\\u0026";
-        break;
-      default:
-        result += c;
-    }
+  result.reserve(text.size());
+  for (std::size_t at = 0, special; at < text.size(); at = special + 1) {
+    special = std::min(text.find_first_of("<>&", at), text.size());
+    result.append(text, at, special - at);
+    if (special < text.size())
+      result += text[special] == '<' ? "\\u003c" : text[special] == '>' ? "\\u003e" : "\\u0026";
   }
   return result;
 }

@@ -22,13 +22,14 @@ namespace {
 // Three bytes are four characters of six bits each.
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+  const std::size_t groups = (bytes.size() + 2) / 3;
+  std::string text(4 * groups, '=');
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - 3 * g);
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < here ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= here ? digits[group >> (18 - 6 * k) & 63u] : '=';
+    for (std::size_t k = 0; k < here; ++k)
+      group |= std::uint32_t{static_cast<std::uint8_t>(bytes[3 * g + k])} << (16 - 8 * k);
+    for (std::size_t k = 0; k <= here; ++k) text[4 * g + k] = digits[group >> (18 - 6 * k) & 63u];
   }
   return text;
 }
@@ -174,8 +175,7 @@ struct ContactArrays {
 
 }  // namespace
 
-std::string shape_vtu(const Study& study, const RecordPoint& point) {
-  const Shape shape = shape_of(study, point.state);
+std::string shape_vtu(const Study& study, const RecordPoint& point, const Shape& shape) {
   const std::vector<Surface> walls = surfaces(study.deck());
   PolyLines lines;
   std::vector<double> displacement, rotation, axial_force, moment;
@@ -263,7 +263,7 @@ void remove_others(const fs::path& folder, const std::set<std::string>& written)
 
 }  // namespace
 
-void write_shapes(const OutputFolder& folder, const Study& study, const Record& record) {
+void write_shapes(const OutputFolder& folder, const Study& study, const Record& record, const DrawnScenes& drawn) {
   const fs::path shapes = folder.path() / "shapes";
   std::error_code error;
   fs::create_directories(shapes, error);
@@ -274,8 +274,11 @@ void write_shapes(const OutputFolder& folder, const Study& study, const Record& 
     written.insert(name);
   };
   if (record.has_walls) write(walls_name, walls_vtu(wall_shapes(study)));
-  for (std::size_t point = 0; point < record.points.size(); ++point)
-    write(name_of_point(point), shape_vtu(study, record.points[point]));
+  for (std::size_t i = 0; i < record.points.size(); ++i) {
+    const RecordPoint& point = record.points[i];
+    const Shape* known = drawn.shape_at(i);
+    write(name_of_point(i), shape_vtu(study, point, known != nullptr ? *known : shape_of(study, point.state)));
+  }
   folder.write_whole("shapes.pvd", collection(record.points.size(), record.has_walls));
   remove_others(shapes, written);
 }

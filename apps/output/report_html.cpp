@@ -29,9 +29,9 @@ namespace {
 using Fields = std::map<std::string, std::string, std::less<>>;
 using Constants = std::map<std::string_view, std::string_view>;  // what every page has: a megabyte
 
-// The page with `{{name}}` replaced. What is filled in is not looked at again.
-std::string filled(std::string_view page, const Constants& constants, const Fields& fields) {
-  std::vector<std::string_view> pieces;
+// The page with `{{name}}` replaced, as views of the arguments. What is filled in is not looked at again.
+Pieces filled(std::string_view page, const Constants& constants, const Fields& fields) {
+  Pieces pieces;
   for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
     const std::size_t close = page.find("}}", open);
     assert(close != std::string_view::npos);
@@ -44,12 +44,7 @@ std::string filled(std::string_view page, const Constants& constants, const Fiel
     page.remove_prefix(close + 2);
   }
   pieces.push_back(page);
-  std::size_t size = 0;
-  for (const std::string_view piece : pieces) size += piece.size();
-  std::string result;
-  result.reserve(size);
-  for (const std::string_view piece : pieces) result += piece;
-  return result;
+  return pieces;
 }
 
 std::string words(EventKind kind) {
@@ -317,11 +312,11 @@ std::string facts(const ReportContent& content) {
 
 }  // namespace
 
-ReportContent report_content(const Study& study, const Record& record) {
+ReportContent report_content(const Study& study, const Record& record, const DrawnScenes& drawn) {
   ReportContent content{.description = study.deck().description,
                         .loads = varying_loads(study.deck()),
                         .deck_text = deck::to_toml(study.deck()),
-                        .shapes = draw_run(study, record)};
+                        .shapes = draw(drawn, setting_of(study))};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);
   for (const std::string& assignment : study.deck().source.assignments) add("--set", assignment);
@@ -361,33 +356,39 @@ nlohmann::ordered_json data_of(const Record& record, const ReportContent& conten
 
 }  // namespace
 
-std::string report_html(const Record& record, const ReportContent& content) {
+ReportPage::ReportPage(const Record& record, const ReportContent& content)
+    : fields_{{"library_note",
+               report_parts().library.empty()
+                   ? "This trace-path was built without plotly: the curves are still pictures without zoom."
+                   : "Curves are drawn with plotly.js, whose licence (MIT) stands in the source of this page."},
+              {"title", escaped(title(record))},
+              {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
+              {"description", description(content)},
+              {"outcome", escaped(outcome(record))},
+              {"monitors", monitor_choices(record)},
+              {"charts", charts(record, load_title(content))},
+              {"load_note", load_note(content)},
+              {"legend", legend(record)},
+              {"stage", stage(content.shapes)},
+              {"stretch_note", stretch_note(content.shapes)},
+              {"shape_notes", shape_notes(record, content.shapes)},
+              {"touching", record.has_walls ? "touching" : "without-walls"},
+              {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
+              {"strip", strip(record, content.shapes)},
+              {"event_titles", event_titles(record)},
+              {"event_rows", event_rows(record)},
+              {"branches", branch_tree(record, std::nullopt)},
+              {"deck", escaped(plain(content.deck_text))},
+              {"facts", facts(content)},
+              {"data", script_json(data_of(record, content))}} {
   const ReportParts& parts = report_parts();
-  return filled(parts.page, {{"style", parts.style}, {"script", parts.script}, {"library", parts.library}},
-                {{"library_note",
-                  parts.library.empty()
-                      ? "This trace-path was built without plotly: the curves are still pictures without zoom."
-                      : "Curves are drawn with plotly.js, whose licence (MIT) stands in the source of this page."},
-                 {"title", escaped(title(record))},
-                 {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
-                 {"description", description(content)},
-                 {"outcome", escaped(outcome(record))},
-                 {"monitors", monitor_choices(record)},
-                 {"charts", charts(record, load_title(content))},
-                 {"load_note", load_note(content)},
-                 {"legend", legend(record)},
-                 {"stage", stage(content.shapes)},
-                 {"stretch_note", stretch_note(content.shapes)},
-                 {"shape_notes", shape_notes(record, content.shapes)},
-                 {"touching", record.has_walls ? "touching" : "without-walls"},
-                 {"last_shape", std::to_string(std::max<std::size_t>(content.shapes.pictures.size(), 1) - 1)},
-                 {"strip", strip(record, content.shapes)},
-                 {"event_titles", event_titles(record)},
-                 {"event_rows", event_rows(record)},
-                 {"branches", branch_tree(record, std::nullopt)},
-                 {"deck", escaped(plain(content.deck_text))},
-                 {"facts", facts(content)},
-                 {"data", script_json(data_of(record, content))}});
+  pieces_ = filled(parts.page, {{"style", parts.style}, {"script", parts.script}, {"library", parts.library}}, fields_);
+}
+
+std::string ReportPage::text() const {
+  std::string text;
+  for (const std::string_view piece : pieces_) text += piece;
+  return text;
 }
 
 }  // namespace arcwall

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/output/files.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/record.hpp"
 #include "apps/output/shape_pictures.hpp"
@@ -20,9 +23,23 @@ struct ReportContent {
   ShapePictures shapes{};
 };
 
-ReportContent report_content(const Study& study, const Record& record);
+ReportContent report_content(const Study& study, const Record& record, const DrawnScenes& drawn);
 
 /// report.html: one page that needs no other file and no network.
-std::string report_html(const Record& record, const ReportContent& content);
+class ReportPage {
+ public:
+  ReportPage(const Record& record, const ReportContent& content);
+  ReportPage(const ReportPage&) = delete;
+  ReportPage& operator=(const ReportPage&) = delete;
+
+  /// A megabyte of it is what every page has. They live as long as this.
+  const Pieces& pieces() const { return pieces_; }
+
+  std::string text() const;
+
+ private:
+  std::map<std::string, std::string, std::less<>> fields_;
+  Pieces pieces_;
+};
 
 }  // namespace arcwall

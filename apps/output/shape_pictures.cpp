@@ -1,9 +1,11 @@
 #include "apps/output/shape_pictures.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "apps/output/path_lines.hpp"
@@ -146,12 +148,9 @@ std::string path_data(const std::vector<Vec2>& places) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec2 way = i == 0 ? places[0] : Vec2(places[i] - places[i - 1]);
     const bool apart = i > 1 && way.x() >= 0.0;
-    data += fmt::format("{}{:.0f}{}{:.0f}",
-                        i == 0   ? "M"
-                        : i == 1 ? "l"
-                        : apart  ? " "
-                                 : "",
-                        way.x() + 0.0, way.y() < 0.0 ? "" : " ", way.y() + 0.0);
+    data += i == 0 ? "M" : i == 1 ? "l" : apart ? " " : "";
+    fmt::format_to(std::back_inserter(data), FMT_COMPILE("{}{}{}"), std::lround(way.x()), way.y() < 0.0 ? "" : " ",
+                   std::lround(way.y()));
   }
   return data;
 }
@@ -335,7 +334,30 @@ Scene scene_of(const Study& study, const State& state) {
   return scene;
 }
 
-ShapePictures draw(const std::vector<std::size_t>& points, const std::vector<Scene>& scenes, const Setting& setting) {
+const Shape* DrawnScenes::shape_at(std::size_t point) const {
+  const auto found = std::lower_bound(points.begin(), points.end(), point);
+  return found != points.end() && *found == point ? &scenes[static_cast<std::size_t>(found - points.begin())].shape
+                                                  : nullptr;
+}
+
+DrawnScenes scenes_to_draw(const Study& study, const Record& record) {
+  constexpr std::size_t most_coordinates = 400'000;  // about 4 MB
+  if (record.points.empty()) return {};
+  Scene first = scene_of(study, record.points.front().state);
+  std::size_t per_shape = 1;
+  for (const MemberShape& member : first.shape.members) per_shape += member.points.size();
+  DrawnScenes drawn{.points = points_to_draw(record, std::max<std::size_t>(most_coordinates / per_shape, 2))};
+  for (const std::size_t point : drawn.points)
+    drawn.scenes.push_back(point == 0 ? std::move(first) : scene_of(study, record.points[point].state));
+  return drawn;
+}
+
+Setting setting_of(const Study& study) {
+  return {.walls = wall_shapes(study), .heights = section_heights(study.deck())};
+}
+
+ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
+  const auto& [points, scenes] = drawn;
   if (scenes.empty()) return {};
   const Box box = box_of(scenes, setting);
   const Greatest greatest = greatest_forces(scenes);
@@ -351,19 +373,6 @@ ShapePictures draw(const std::vector<std::size_t>& points, const std::vector<Sce
   for (std::size_t i = 0; i < points.size(); ++i)
     result.pictures.push_back(picture_of(frame, greatest, points[i], scenes[i]));
   return result;
-}
-
-ShapePictures draw_run(const Study& study, const Record& record) {
-  constexpr std::size_t most_coordinates = 400'000;  // about 4 MB
-  if (record.points.empty()) return {};
-  std::size_t per_shape = 1;
-  for (const MemberShape& member : shape_of(study, record.points.front().state).members)
-    per_shape += member.points.size();
-  const std::vector<std::size_t> points =
-      points_to_draw(record, std::max<std::size_t>(most_coordinates / per_shape, 2));
-  std::vector<Scene> scenes;
-  for (const std::size_t point : points) scenes.push_back(scene_of(study, record.points[point].state));
-  return draw(points, scenes, {.walls = wall_shapes(study), .heights = section_heights(study.deck())});
 }
 
 }  // namespace arcwall

@@ -31,11 +31,25 @@ struct Scene {
 
 Scene scene_of(const Study& study, const State& state);
 
+/// What is drawn of a run.
+struct DrawnScenes {
+  std::vector<std::size_t> points{};  ///< of the record, ascending
+  std::vector<Scene> scenes{};        ///< at them
+
+  /// The shape at a point; null if it is not drawn.
+  const Shape* shape_at(std::size_t point) const;
+};
+
+/// All points of a run, or fewer where all would need more than some megabytes.
+DrawnScenes scenes_to_draw(const Study& study, const Record& record);
+
 /// What is the same in all scenes.
 struct Setting {
   std::vector<WallShape> walls{};
   std::vector<double> heights{};  ///< of the members' sections; 0 if unknown [length]
 };
+
+Setting setting_of(const Study& study);
 
 /// A scene as the data of SVG paths.
 struct ShapePicture {
@@ -61,10 +75,6 @@ struct ShapePictures {
 /// and those with events where these are not the most themselves. Ascending.
 std::vector<std::size_t> points_to_draw(const Record& record, std::size_t most);
 
-/// Pictures of these scenes; `points` are those of the record they belong to.
-ShapePictures draw(const std::vector<std::size_t>& points, const std::vector<Scene>& scenes, const Setting& setting);
-
-/// Pictures of a run: of all points, or of fewer where all would need more than some megabytes.
-ShapePictures draw_run(const Study& study, const Record& record);
+ShapePictures draw(const DrawnScenes& drawn, const Setting& setting);
 
 }  // namespace arcwall

@@ -20,6 +20,8 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
+std::string page_of(const Record& record, const ReportContent& content) { return ReportPage(record, content).text(); }
+
 // The page without what the program brings along.
 std::string own_part(std::string page) {
   for (const std::string_view part : {report_parts().library, report_parts().style, report_parts().script}) {
@@ -59,7 +61,7 @@ TEST(ReportData, ManyBranchesHaveColours) {
 }
 
 TEST(ReportHtml, IsOnePageWithAllThatItNeeds) {
-  const std::string page = report_html(sample_record(), {.deck_text = "title = \"A sample\"\n"});
+  const std::string page = page_of(sample_record(), {.deck_text = "title = \"A sample\"\n"});
 
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_TRUE(page.ends_with("</html>\n"));
@@ -74,8 +76,8 @@ TEST(ReportHtml, IsOnePageWithAllThatItNeeds) {
 // Without scripts there is a chart for each monitor, and every table.
 TEST(ReportHtml, CanBeReadWithoutScripts) {
   const std::string page = own_part(
-      report_html(sample_record(),
-                  {.description = "How & why", .deck_text = "title = \"A sample\"\n", .facts = {{"nodes", "41"}}}));
+      page_of(sample_record(),
+              {.description = "How & why", .deck_text = "title = \"A sample\"\n", .facts = {{"nodes", "41"}}}));
 
   EXPECT_EQ(count(page, "<svg class=\"chart\""), 2u);
   EXPECT_EQ(count(page, "<tr data-point="), 4u);
@@ -95,7 +97,7 @@ TEST(ReportHtml, TextsOfTheDeckAreNoMarkup) {
   record.events[3].branch_end->detail = hostile;
 
   const std::string page =
-      own_part(report_html(record, {.description = hostile, .deck_text = hostile, .facts = {{hostile, hostile}}}));
+      own_part(page_of(record, {.description = hostile, .deck_text = hostile, .facts = {{hostile, hostile}}}));
 
   EXPECT_EQ(count(page, "alert(1)"), count(page, "&lt;script&gt;alert(1)&lt;/script&gt;") +
                                          count(page, "\\u003cscript\\u003ealert(1)\\u003c/script\\u003e"));
@@ -108,7 +110,7 @@ TEST(ReportHtml, TextsOfTheDeckAreNoMarkup) {
 TEST(ReportHtml, NothingButAnEndIsAPageToo) {
   Record record{.deck = "deck.toml"};
   record.branches.push_back({.end = BranchEnd{EndReason::singular, ""}});
-  const std::string page = own_part(report_html(record, {}));
+  const std::string page = own_part(page_of(record, {}));
   EXPECT_NE(page.find("<h1>deck.toml</h1>"), std::string::npos);
   EXPECT_NE(page.find("the equations are singular (singular)"), std::string::npos);
 }
@@ -143,7 +145,7 @@ stop = { lambda = [-1.0, 0.6] }
 )");
   const Record& record = run.record();
 
-  const std::string page = report_html(record, report_content(run.study(), record));
+  const std::string page = page_of(record, report_content(run.study(), record, scenes_to_draw(run.study(), record)));
 
   ASSERT_GT(record.branches.size(), 1u);
   const Json data = data_of(own_part(page));
@@ -165,9 +167,9 @@ TEST(ReportData, RoundoffIsShownAsZero) {
 
 TEST(ReportHtml, SaysWhatLambdaMultipliesAndHowHeightsAreDrawn) {
   const test::TracedDeck run(test::example("channel"), {"path.stop.lambda=[-1.0, 0.5]", "load.0.force=[-2.0, 0.0]"});
-  ReportContent content = report_content(run.study(), run.record());
+  ReportContent content = report_content(run.study(), run.record(), scenes_to_draw(run.study(), run.record()));
   content.shapes.stretch = 10.0;
-  const std::string page = own_part(report_html(run.record(), content));
+  const std::string page = own_part(page_of(run.record(), content));
   EXPECT_EQ(data_of(page)["load_title"], "load factor λ, times 2 kN");
   EXPECT_EQ(count(page, "λ multiplies the load at right force (-2, 0) kN."), 1u);
   EXPECT_NE(page.find("load factor λ, times 2 kN</text>"), std::string::npos);

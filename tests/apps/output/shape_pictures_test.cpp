@@ -24,7 +24,7 @@ std::string path(const ShapePictures& pictures, std::size_t picture, const std::
 
 // Two units by one: the longer side has 84 % of 10⁵ units between margins of 8 %, and z points up.
 TEST(ShapePictures, CoordinatesAreWholePartsOfTheLongerSide) {
-  const auto pictures = draw({7}, {scene_of_line({{1.0, 1.0}, {2.0, 2.0}, {3.0, 1.0}})}, {});
+  const auto pictures = draw({{7}, {scene_of_line({{1.0, 1.0}, {2.0, 2.0}, {3.0, 1.0}})}}, {});
 
   EXPECT_EQ(pictures.width, 100'000.0);
   EXPECT_EQ(pictures.height, 58'000.0);
@@ -35,13 +35,13 @@ TEST(ShapePictures, CoordinatesAreWholePartsOfTheLongerSide) {
 
 TEST(ShapePictures, AllPicturesHaveOneScale) {
   const auto pictures =
-      draw({0, 1}, {scene_of_line({{0.0, 0.0}, {1.0, 0.0}}), scene_of_line({{0.0, 0.0}, {0.0, 1.0}})}, {});
+      draw({{0, 1}, {scene_of_line({{0.0, 0.0}, {1.0, 0.0}}), scene_of_line({{0.0, 0.0}, {0.0, 1.0}})}}, {});
   EXPECT_EQ(path(pictures, 0, "member"), "M8000 92000l84000 0");
   EXPECT_EQ(path(pictures, 1, "member"), "M8000 92000l0-84000");
 }
 
 TEST(ShapePictures, FlatOnesAreStretchedAndSaySo) {
-  const auto pictures = draw({0}, {scene_of_line({{0.0, 0.0}, {10.0, 0.2}})}, {});
+  const auto pictures = draw({{0}, {scene_of_line({{0.0, 0.0}, {10.0, 0.2}})}}, {});
   EXPECT_EQ(pictures.stretch, 10.0);
   EXPECT_EQ(path(pictures, 0, "member"), "M8000 24800l84000-16800");
 }
@@ -52,7 +52,7 @@ TEST(ShapePictures, ArrowsOfWallsAreToOneScale) {
   weak.shape.contacts = {{.position = {0.0, 0.0}, .force = {0.0, 1.0}}};
   strong.shape.contacts = {{.position = {0.0, 0.0}, .force = {0.0, 4.0}}};
 
-  const auto pictures = draw({0, 1}, {weak, strong}, {});
+  const auto pictures = draw({{0, 1}, {weak, strong}}, {});
 
   EXPECT_EQ(pictures.greatest_force, 4.0);
   EXPECT_EQ(path(pictures, 0, "touches"), "M8000 92000h0");
@@ -63,23 +63,23 @@ TEST(ShapePictures, ArrowsOfWallsAreToOneScale) {
 TEST(ShapePictures, WallsFarAwayDoNotShrinkThePicture) {
   const auto wall = [](double z) { return WallShape{.side = Side::below, .line = {{-9.0, z}, {9.0, z}}}; };
   const std::vector<Scene> scenes{scene_of_line({{0.0, 0.0}, {1.0, 1.0}})};
-  EXPECT_EQ(draw({0}, scenes, {.walls = {wall(-0.2)}}).height, 100'000.0);
-  EXPECT_LT(draw({0}, scenes, {.walls = {wall(-0.2)}}).width, 90'000.0);
-  EXPECT_EQ(draw({0}, scenes, {.walls = {wall(-100.0)}}).width, 100'000.0);
-  EXPECT_EQ(draw({0}, scenes, {.walls = {wall(-100.0)}}).surfaces.size(), 1u);
+  EXPECT_EQ(draw({{0}, scenes}, {.walls = {wall(-0.2)}}).height, 100'000.0);
+  EXPECT_LT(draw({{0}, scenes}, {.walls = {wall(-0.2)}}).width, 90'000.0);
+  EXPECT_EQ(draw({{0}, scenes}, {.walls = {wall(-100.0)}}).width, 100'000.0);
+  EXPECT_EQ(draw({{0}, scenes}, {.walls = {wall(-100.0)}}).surfaces.size(), 1u);
 }
 
 TEST(ShapePictures, ThickMembersHaveTheirHeight) {
   const std::vector<Scene> scenes{scene_of_line({{0.0, 0.0}, {1.0, 1.0}})};
   // 1 + 0.25 by as much on 84 000 units
-  EXPECT_EQ(draw({0}, scenes, {.heights = {0.25}}).thickness.front(), 16'800.0);
-  EXPECT_EQ(draw({0}, scenes, {.heights = {0.001}}).thickness.front(), 0.0);
+  EXPECT_EQ(draw({{0}, scenes}, {.heights = {0.25}}).thickness.front(), 16'800.0);
+  EXPECT_EQ(draw({{0}, scenes}, {.heights = {0.001}}).thickness.front(), 0.0);
 }
 
 TEST(ShapePictures, WhatIsNotFiniteOrEmptyIsNotDrawn) {
-  EXPECT_TRUE(draw({}, {}, {}).pictures.empty());
-  EXPECT_EQ(path(draw({0}, {scene_of_line({{infinity, 0.0}, {0.0, std::nan("")}})}, {}), 0, "member"), "");
-  EXPECT_EQ(path(draw({0}, {scene_of_line({{1.0, 1.0}, {1.0, 1.0}})}, {}), 0, "member"), "M8000 8000l0 0");
+  EXPECT_TRUE(draw({}, {}).pictures.empty());
+  EXPECT_EQ(path(draw({{0}, {scene_of_line({{infinity, 0.0}, {0.0, std::nan("")}})}}, {}), 0, "member"), "");
+  EXPECT_EQ(path(draw({{0}, {scene_of_line({{1.0, 1.0}, {1.0, 1.0}})}}, {}), 0, "member"), "M8000 8000l0 0");
 }
 
 Record long_record(Index points) {
