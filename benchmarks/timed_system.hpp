@@ -70,9 +70,9 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.guard_rates(state, direction);
   }
-  std::vector<Index> weak_guards(const State& state, double tolerance) const override {
+  double guard(const State& state, Index j) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.weak_guards(state, tolerance);
+    return inner_.guard(state, j);
   }
   Vector unit_force(const State& state, Index j) const override { return inner_.unit_force(state, j); }
   double compliance(Index j) const override { return inner_.compliance(j); }

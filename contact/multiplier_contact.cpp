@@ -134,6 +134,11 @@ Vector MultiplierContact::guards(const State& state) const {
   return guards;
 }
 
+double MultiplierContact::guard(const State& state, Index j) const {
+  const auto k = multiplier_index(state.piece, j);
+  return k ? state.x[*k] / scales_.force : open_guard(j, state.x);
+}
+
 double MultiplierContact::open_guard(Index j, const Vector& x) const {
   const double gap = candidate(j).gap(x);
   return std::isfinite(gap) ? gap / scales_.length : out_of_reach;
@@ -160,14 +165,6 @@ Vector MultiplierContact::guard_rates(const State& state, const Direction& direc
     rates[j] = state.piece[static_cast<std::size_t>(j)] ? direction.dx[k++] / scales_.force
                                                         : candidate(j).gap_rate(state.x, direction.dx) / scales_.length;
   return rates;
-}
-
-std::vector<Index> MultiplierContact::weak_guards(const State& state, double tolerance) const {
-  const Vector now = guards(state);
-  std::vector<Index> weak;
-  for (Index j = 0; j < now.size(); ++j)
-    if (std::abs(now[j]) <= tolerance) weak.push_back(j);
-  return weak;
 }
 
 Vector MultiplierContact::unit_force(const State& state, Index j) const {

@@ -51,7 +51,7 @@ class MultiplierContact final : public System {
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   Vector guard_rates(const State& state, const Direction& direction) const override;
-  std::vector<Index> weak_guards(const State& state, double tolerance) const override;
+  double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   double compliance(Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;

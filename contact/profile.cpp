@@ -62,6 +62,9 @@ class SplineProfile final : public Profile {
   CubicSpline spline_;
 };
 
+// Of a slope; most walls are level.
+double cosine(double slope) { return slope == 0.0 ? 1.0 : 1.0 / std::sqrt(1.0 + slope * slope); }
+
 }  // namespace
 
 // g = ± d c with d = z − ψ, c = (1 + ψ′²)^(−½):  c′ = −ψ′ψ″ c³,  c″ = −(ψ″² + ψ′ψ‴) c³ + 3 (ψ′ψ″)² c⁵
@@ -70,7 +73,7 @@ class SplineProfile final : public Profile {
 SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point) {
   const Height psi = profile.at(point.x());
   const double sign = side == Side::below ? 1.0 : -1.0;
-  const double c = 1.0 / std::sqrt(1.0 + psi.first * psi.first), c3 = c * c * c, bend = psi.first * psi.second;
+  const double c = cosine(psi.first), c3 = c * c * c, bend = psi.first * psi.second;
   const double c1 = -bend * c3;
   const double c2 = -(psi.second * psi.second + psi.first * psi.third) * c3 + 3.0 * bend * bend * c3 * c * c;
   const double d = point.y() - psi.value;
@@ -84,7 +87,7 @@ SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point) {
 SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point) {
   const Height psi = profile.at(point.x());
   const double sign = side == Side::below ? 1.0 : -1.0;
-  const double c = 1.0 / std::sqrt(1.0 + psi.first * psi.first), d = point.y() - psi.value;
+  const double c = cosine(psi.first), d = point.y() - psi.value;
   return {.value = sign * d * c, .x = -sign * psi.first * c * (1.0 + d * psi.second * c * c), .z = sign * c};
 }
 

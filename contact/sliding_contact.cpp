@@ -399,20 +399,19 @@ Index SlidingContact::guard_count(const Piece& piece) const {
 }
 
 Vector SlidingContact::guards(const State& state) const {
-  const SlidingContactLayout& on = layout(state.piece);
   Vector guards(guard_count(state.piece));
-  for (std::size_t j = 0; j < state.piece.size(); ++j) {
-    const Touch at = touch(on, j);
-    if (state.piece[j]) {
-      guards[static_cast<Index>(j)] = state.x[*multiplier_index(state.piece, static_cast<Index>(j))] / scales_.force;
-    } else {
-      const double gap = face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state)));
-      guards[static_cast<Index>(j)] = std::isfinite(gap) ? gap / scales_.length : 1.0;
-    }
-  }
-  for (std::size_t l = 0; l < on.limits().size(); ++l)
-    guards[static_cast<Index>(state.piece.size() + l)] = limit_value(state, l);
+  for (Index j = 0; j < guards.size(); ++j) guards[j] = guard(state, j);
   return guards;
+}
+
+double SlidingContact::guard(const State& state, Index j) const {
+  const auto contacts = static_cast<Index>(state.piece.size());
+  if (j >= contacts) return limit_value(state, static_cast<std::size_t>(j - contacts));
+  if (const auto p = multiplier_index(state.piece, j)) return state.x[*p] / scales_.force;
+  const SlidingContactLayout& on = layout(state.piece);
+  const Touch at = touch(on, static_cast<std::size_t>(j));
+  const double gap = face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state)));
+  return std::isfinite(gap) ? gap / scales_.length : 1.0;
 }
 
 Row SlidingContact::guard_gradient(const State& state, Index j) const {
@@ -432,14 +431,6 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
   for (std::size_t i = 0; i < 3; ++i)
     if (unknowns[i] >= 0) row.dx[unknowns[i]] = gap.gap_gradient[static_cast<Index>(i)] / scales_.length;
   return row;
-}
-
-std::vector<Index> SlidingContact::weak_guards(const State& state, double tolerance) const {
-  const Vector now = guards(state);
-  std::vector<Index> weak;
-  for (Index j = 0; j < static_cast<Index>(state.piece.size()); ++j)
-    if (std::abs(now[j]) <= tolerance) weak.push_back(j);
-  return weak;
 }
 
 Vector SlidingContact::unit_force(const State& state, Index j) const {

@@ -53,7 +53,7 @@ class SlidingContact final : public System {
   Index guard_count(const Piece& piece) const override;
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
-  std::vector<Index> weak_guards(const State& state, double tolerance) const override;
+  double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }

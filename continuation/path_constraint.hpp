@@ -45,7 +45,7 @@ class GuardConstraint final : public PathConstraint {
  public:
   /// `system` must outlive this.
   GuardConstraint(const System& system, Index j) : system_(system), j_(j) {}
-  double value(const State& state) const override { return system_.guards(state)[j_]; }
+  double value(const State& state) const override { return system_.guard(state, j_); }
   Row gradient(const State& state) const override { return system_.guard_gradient(state, j_); }
 
  private:

@@ -112,7 +112,7 @@ std::optional<Arc> Tracer::begin() {
   decide_count(here_);
   Arc arc;
   if (system_.guard_count(here_.state.piece) > 0 &&
-      !system_.weak_guards(here_.state, options_.guard_tolerance).empty()) {
+      !weak_contacts(here_.guards, here_.state.piece, options_.guard_tolerance).empty()) {
     if (!turn_corner(here_, -1, 0.0, arc.events)) return std::nullopt;
   }
   here_.count = counter_.count(here_.state, here_.held);

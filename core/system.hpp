@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -104,6 +105,9 @@ class System {
   /// cannot be reached is large.
   virtual Vector guards(const State&) const { return {}; }
 
+  /// Guard j alone.
+  virtual double guard(const State& state, Index j) const { return guards(state)[j]; }
+
   /// Derivative of guard j, scaled likewise.
   virtual Row guard_gradient(const State& state, Index) const {
     return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
@@ -115,9 +119,6 @@ class System {
     for (Index j = 0; j < rates.size(); ++j) rates[j] = apply(guard_gradient(state, j), direction);
     return rates;
   }
-
-  /// Contacts whose gap and force both vanish within `tolerance` (in the scale of guards()).
-  virtual std::vector<Index> weak_guards(const State&, double /*tolerance*/) const { return {}; }
 
   /// −∂F/∂p_j, the unit response of contact j, for a state on a piece where j is open; scaled so that it belongs to a
   /// change of 1 of the guard `force of j`.
@@ -165,5 +166,13 @@ class System {
     return {.x = transfer(state.x, state.piece, piece), .lambda = state.lambda, .piece = piece};
   }
 };
+
+/// Contacts among the guards of a piece whose gap and force both vanish within `tolerance`.
+inline std::vector<Index> weak_contacts(const Vector& guards, const Piece& piece, double tolerance) {
+  std::vector<Index> weak;
+  for (Index j = 0; j < static_cast<Index>(piece.size()); ++j)
+    if (std::abs(guards[j]) <= tolerance) weak.push_back(j);
+  return weak;
+}
 
 }  // namespace arcwall

@@ -236,13 +236,6 @@ struct LinearContactToy : System {
       row.dx.head(A.rows()) = G.row(j).transpose();
     return row;
   }
-  std::vector<Index> weak_guards(const State& s, double tolerance) const override {
-    const Vector now = guards(s);
-    std::vector<Index> weak;
-    for (Index j = 0; j < now.size(); ++j)
-      if (std::abs(now[j]) <= tolerance) weak.push_back(j);
-    return weak;
-  }
   Vector unit_force(const State& s, Index j) const override {
     Vector force = Vector::Zero(s.x.size());
     force.head(A.rows()) = G.row(j).transpose();
