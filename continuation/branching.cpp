@@ -50,16 +50,6 @@ double eigenvalue_rate(const System& system, const State& state, const Direction
   return rate;
 }
 
-Vector eigenvalue_rates(const System& system, const State& state, const Direction& d, const Matrix& modes,
-                        Linearization& workspace) {
-  Vector rates = Vector::Zero(modes.cols());
-  for (const double sign : {1.0, -1.0}) {
-    system.linearize(moved(state, d, sign * rate_step), workspace);
-    rates += sign / (2.0 * rate_step) * modes.cwiseProduct(product(workspace, modes)).colwise().sum().transpose();
-  }
-  return rates;
-}
-
 double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspace) {
   const Vector size = left.head(workspace.K.cols()).cwiseAbs();
   return 10.0 * std::numeric_limits<double>::epsilon() *

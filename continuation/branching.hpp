@@ -13,10 +13,6 @@ namespace arcwall {
 double eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
                        const Vector& mode, Linearization& workspace);
 
-/// The same of several eigenvalues, the columns being left and right null vectors at once.
-Vector eigenvalue_rates(const System& system, const State& state, const Direction& d, const Matrix& modes,
-                        Linearization& workspace);
-
 /// What round-off may make of that; `workspace` as the rate left it.
 double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspace);
 

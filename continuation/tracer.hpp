@@ -197,9 +197,9 @@ class Tracer {
   PathPoint point_at(const SingularPlace& place);
   Singular singular_at(const SingularPlace& place, double chord_dlambda);
   bool dips(const Segment& segment);
-  struct FollowedRates;
-  bool dips(const Segment& segment, Index here, FollowedRates& rates_here, Index there, FollowedRates& rates_there);
-  bool rises_from_zero(const Segment& segment, Index there, FollowedRates& rates_there) const;
+  class Middle;
+  bool dips(const Segment& segment, Index here, Index there, Middle& middle);
+  bool rises_from_zero(const Segment& segment, Index there);
   StabilityCount count_behind(const PathPoint& beyond, Index change);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
   class ZeroSearch;

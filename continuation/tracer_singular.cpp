@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "continuation/tracer.hpp"
 #include "core/root_find.hpp"
@@ -201,18 +202,27 @@ Tracer::Singular Tracer::singular_at(const SingularPlace& place, double chord_dl
           .suspected = place.touches};
 }
 
-// How fast the eigenvalues that are followed change at a point: they cost two matrices, and are found when first asked
-// for.
-struct Tracer::FollowedRates {
-  const System& system;
-  const PathPoint& point;
-  Linearization& workspace;
-  std::optional<Vector> found{};
+// K in the middle of a segment, which is found when first asked for.
+class Tracer::Middle {
+ public:
+  Middle(const System& system, const Segment& segment, const Metric& metric, Linearization& workspace)
+      : system_(system), segment_(segment), metric_(metric), now_(workspace) {}
 
-  double of(Index mode) {
-    if (!found) found = eigenvalue_rates(system, point.state, point.tangent, point.nearest.vectors, workspace);
-    return (*found)[mode];
+  /// The eigenvalue of a mode between those at the ends: Rayleigh's quotient of their mean, whose error is of the
+  /// second order.
+  double eigenvalue(const Vector& from, const Vector& to) {
+    if (!std::exchange(known_, true)) system_.linearize(segment_.at(0.5), now_);
+    const Vector weighted = metric_.weights().cwiseProduct(to);
+    const Vector mean = weighted.dot(from) < 0.0 ? Vector(to - from) : Vector(to + from);
+    return mean.dot(product(now_, mean).col(0)) / metric_.weights().dot(mean.cwiseAbs2());
   }
+
+ private:
+  const System& system_;
+  const Segment& segment_;
+  const Metric& metric_;
+  Linearization& now_;
+  bool known_ = false;
 };
 
 // Whether an eigenvalue may have come to zero inside the segment and gone back, or two have passed zero in opposite
@@ -220,20 +230,18 @@ struct Tracer::FollowedRates {
 bool Tracer::dips(const Segment& segment) {
   const NearNull &here = segment.from().nearest, &there = segment.to().nearest;
   if (segment.from().state.piece != segment.to().state.piece || here.values.size() == 0) return false;
-  FollowedRates rates_here{.system = system_, .point = segment.from(), .workspace = beside_};
-  FollowedRates rates_there{.system = system_, .point = segment.to(), .workspace = beside_};
+  Middle middle(system_, segment, metric_, beside_);
   for (Index j = 0; j < there.values.size(); ++j) {
     const auto i = same_as(there.vectors.col(j), here.vectors, metric_.weights());
-    if (i && *i >= vanishing_ && dips(segment, *i, rates_here, j, rates_there)) return true;
-    if (!i && j == 0 && rises_from_zero(segment, j, rates_there)) return true;
+    if (i && *i >= vanishing_ && dips(segment, *i, j, middle)) return true;
+    if (!i && j == 0 && rises_from_zero(segment, j)) return true;
   }
   return false;
 }
 
-// The cubic through the values of a mode's eigenvalue at the ends, with its rates there; before these cost something,
-// the parabola through the values at the last three points.
-bool Tracer::dips(const Segment& segment, Index here, FollowedRates& rates_here, Index there,
-                  FollowedRates& rates_there) {
+// The parabola through a mode's eigenvalue at the ends and in the middle; before that costs a matrix, the one through
+// those at the last three points.
+bool Tracer::dips(const Segment& segment, Index here, Index there, Middle& middle) {
   const PathPoint &from = segment.from(), &to = segment.to();
   const double v0 = from.nearest.values[here], v1 = to.nearest.values[there], L = segment.length();
   if ((v0 > 0.0) != (v1 > 0.0)) return true;
@@ -245,13 +253,18 @@ bool Tracer::dips(const Segment& segment, Index here, FollowedRates& rates_here,
     const double length = Segment(metric_, *before_, from).length();
     if (before > 0.0 && least_of_parabola(length, before, sign * v0, L, sign * v1) > shallow * least) return false;
   }
-  const double r0 = sign * rates_here.of(here), r1 = sign * rates_there.of(there);
-  return least_cubic_value(sign * v0, r0 * L, sign * v1, r1 * L) <= deep * least;
+  const double v = sign * middle.eigenvalue(from.nearest.vectors.col(here), to.nearest.vectors.col(there));
+  const double first = least_of_parabola(0.5, sign * v1, v, 0.5, sign * v0),
+               second = least_of_parabola(0.5, sign * v0, v, 0.5, sign * v1);
+  return std::min(first, second) <= deep * least;
 }
 
 // A mode that was not among the nearest at the start of the segment: the straight line back from its end.
-bool Tracer::rises_from_zero(const Segment& segment, Index there, FollowedRates& rates_there) const {
-  const double v1 = segment.to().nearest.values[there], rate = rates_there.of(there);
+bool Tracer::rises_from_zero(const Segment& segment, Index there) {
+  const PathPoint& to = segment.to();
+  const double v1 = to.nearest.values[there];
+  const Vector mode = to.nearest.vectors.col(there);
+  const double rate = eigenvalue_rate(system_, to.state, to.tangent, mode, mode, beside_);
   return (v1 > 0.0) == (rate > 0.0) && std::abs(v1) <= segment.length() * std::abs(rate);
 }
 
