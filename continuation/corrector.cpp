@@ -127,9 +127,8 @@ bool Corrector::find_line(const Metric& metric, const Row& border) {
     sums[0] += weighted * at(t);
     sums[1] += weighted * at(p);
   });
-  const double lambda = metric.lambda_scale();
-  tt += line_.tangent_dlambda / lambda * (line_.tangent_dlambda / lambda);
-  pt += line_.tangent_dlambda / lambda * (line_.particular_dlambda / lambda);
+  tt += metric.inner_lambda(line_.tangent_dlambda, line_.tangent_dlambda);
+  pt += metric.inner_lambda(line_.tangent_dlambda, line_.particular_dlambda);
   const double scale = 1.0 / std::sqrt(tt), component = pt / tt;
   particular_.dx.resize(n);
   tangent_.dx.resize(n);
@@ -153,8 +152,7 @@ double Corrector::take_step(const Metric& metric, double tau, State& state) cons
   });
   const double dlambda = particular_.dlambda + tau * tangent_.dlambda;
   state.lambda += dlambda;
-  const double scaled = dlambda / metric.lambda_scale();
-  return std::sqrt(squared + scaled * scaled);
+  return std::sqrt(squared + metric.inner_lambda(dlambda, dlambda));
 }
 
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {

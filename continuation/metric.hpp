@@ -9,10 +9,9 @@ namespace arcwall {
 
 /// Lengths in (x, λ), without units and independent of the number of elements:
 ///
-///     ⟨a, b⟩ = Σ w_i a_i b_i + a_λ b_λ / λ₀²                                                        (docs/theory.md,
-///     3)
+///     ⟨a, b⟩ = Σ w_i a_i b_i + a_λ b_λ / λ₀²
 ///
-/// Multipliers have no weight. λ₀ is set once for a run.
+/// (docs/theory.md, section 3). Multipliers have no weight. λ₀ is set once for a run.
 class Metric {
  public:
   Metric(Vector weights, double lambda_scale) : weights_(std::move(weights)), lambda_scale_(lambda_scale) {}
@@ -20,10 +19,10 @@ class Metric {
   double inner_x(const Direction& a, const Direction& b) const {
     return (weights_.array() * a.dx.array() * b.dx.array()).sum();
   }
-  double inner_lambda(const Direction& a, const Direction& b) const {
-    return a.dlambda * b.dlambda / (lambda_scale_ * lambda_scale_);
+  double inner_lambda(double a, double b) const { return a * b / (lambda_scale_ * lambda_scale_); }
+  double inner(const Direction& a, const Direction& b) const {
+    return inner_x(a, b) + inner_lambda(a.dlambda, b.dlambda);
   }
-  double inner(const Direction& a, const Direction& b) const { return inner_x(a, b) + inner_lambda(a, b); }
   double norm(const Direction& a) const { return std::sqrt(inner(a, a)); }
 
   /// The covector ⟨a, ·⟩.

@@ -52,11 +52,11 @@ std::optional<ConstraintRoots> SphereConstraint::advance(const State& at, const 
     sums[3] += weighted * entry(previous);
   });
   if (form_ == Form::spherical) {
-    const Direction D{.dx = {}, .dlambda = at.lambda - origin_.lambda + particular.dlambda};
-    a += metric_.inner_lambda(t, t);
-    b += metric_.inner_lambda(D, t);
+    const double D = at.lambda - origin_.lambda + particular.dlambda;
+    a += metric_.inner_lambda(t.dlambda, t.dlambda);
+    b += metric_.inner_lambda(D, t.dlambda);
     c += metric_.inner_lambda(D, D);
-    along += metric_.inner_lambda(tangent_, t);
+    along += metric_.inner_lambda(tangent_.dlambda, t.dlambda);
   }
   c -= radius_ * radius_;
   const double discriminant = b * b - a * c;

@@ -17,7 +17,7 @@ TEST(Metric, IsTheWeightedSumWithoutMultipliers) {
   const Metric metric = some_metric();
   const Direction a{.dx = Vector{{1.0, 2.0, 100.0}}, .dlambda = 8.0}, b{.dx = Vector{{3.0, -1.0, 7.0}}, .dlambda = 2.0};
   EXPECT_DOUBLE_EQ(metric.inner_x(a, b), 0.5 * 3.0 - 2.0 * 2.0);
-  EXPECT_DOUBLE_EQ(metric.inner_lambda(a, b), 1.0);
+  EXPECT_DOUBLE_EQ(metric.inner_lambda(a.dlambda, b.dlambda), 1.0);
   EXPECT_DOUBLE_EQ(metric.inner(a, b), -1.5);
   EXPECT_DOUBLE_EQ(metric.norm(a), std::sqrt(0.5 + 8.0 + 4.0));
   EXPECT_DOUBLE_EQ(apply(metric.row(a), b), metric.inner(a, b));
