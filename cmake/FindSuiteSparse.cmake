@@ -1,7 +1,7 @@
 # SuiteSparse's CHOLMOD and UMFPACK, which come without a CMake configuration on Debian 12, and the LAPACK they need.
 # Defines SuiteSparse::cholmod and SuiteSparse::umfpack.
 #
-# With SuiteSparse_LATE_BLAS, the name of a target that has what they call of BLAS, LAPACK and METIS, they are the
+# With SuiteSparse_LATE_BLAS, the name of a target that has what they call of BLAS, LAPACK, METIS and OpenMP, they are the
 # archives, and no library is loaded before it is needed.
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 set(SuiteSparse_LIBRARIES UMFPACK CHOLMOD AMD COLAMD CCOLAMD CAMD SUITESPARSECONFIG)
@@ -18,7 +18,7 @@ foreach(library IN LISTS SuiteSparse_LIBRARIES)
   list(APPEND SuiteSparse_REQUIRED SuiteSparse_${library})
 endforeach()
 if(SuiteSparse_LATE_BLAS)
-  set(SuiteSparse_LAPACK ${SuiteSparse_LATE_BLAS} -l:libgomp.a ${CMAKE_DL_LIBS})
+  set(SuiteSparse_LAPACK ${SuiteSparse_LATE_BLAS} ${CMAKE_DL_LIBS})
 else()
   find_library(SuiteSparse_LAPACK_LIBRARY lapack)
   set(SuiteSparse_LAPACK ${SuiteSparse_LAPACK_LIBRARY})

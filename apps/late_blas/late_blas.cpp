@@ -55,3 +55,15 @@ ARCWALL_LAPACK(dsytrs_, 9)
 ARCWALL_LAPACK(zpotrf_, 5)
 ARCWALL_METIS(METIS_ComputeVertexSeparator, 7)
 ARCWALL_METIS(METIS_NodeND, 7)
+
+// What they call of GCC's OpenMP: the loops of CHOLMOD's supernodal factorization over single blocks, which take four
+// threads longer than one (sprung_cholesky.cpp).
+extern "C" {
+void GOMP_parallel(void (*loop)(void*), void* data, unsigned threads, unsigned flags);
+int omp_get_num_threads();
+int omp_get_thread_num();
+
+void GOMP_parallel(void (*loop)(void*), void* data, unsigned /*threads*/, unsigned /*flags*/) { loop(data); }
+int omp_get_num_threads() { return 1; }
+int omp_get_thread_num() { return 0; }
+}
