@@ -62,8 +62,7 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
     return false;
   }
   const PathPoint before = at;
-  std::vector<Index> weak =
-      weak_contacts(at.guards, at.state.piece, std::max(options_.guard_tolerance, 2.0 * slack));
+  std::vector<Index> weak = weak_contacts(at.guards, at.state.piece, std::max(options_.guard_tolerance, 2.0 * slack));
   if (landed >= 0 && std::find(weak.begin(), weak.end(), landed) == weak.end()) weak.push_back(landed);
   std::optional<Index> unstable;
   const auto ray = choose(rays_of(system_, at.state, weak, options_.corner, corner_), at, unstable);

@@ -83,8 +83,8 @@ class BorderedSolver {
   WholeSolver whole_;
   Index multipliers_ = 0;
   bool regular_ = false;
-  Matrix columns_;                      // workspace: J⁻¹ [−F, −F_λ]
-  Matrix border_;                       // K⁻¹ B
+  Matrix columns_;  // workspace: J⁻¹ [−F, −F_λ]
+  Matrix border_;   // K⁻¹ B
   Matrix reduced_;
   Eigen::PartialPivLU<Matrix> slides_;  // of reduced_
 };

@@ -16,9 +16,9 @@ namespace {
 
 constexpr Index n = 14, m = 3;
 
-// A body of n unknowns u and three motions h_kᵀ u of it that multipliers y_k hold: K = [A H; Hᵀ 0]. Where it slides by s_k
-// the motion changes by w_k s_k and a force −c_k w_k s_k h_k is left: with y_k = 0, a spring c_k on h_k. A motion whose
-// c_k is infinite is truly held, and its s_k says something of the body that has no effect.
+// A body of n unknowns u and three motions h_kᵀ u of it that multipliers y_k hold: K = [A H; Hᵀ 0]. Where it slides by
+// s_k the motion changes by w_k s_k and a force −c_k w_k s_k h_k is left: with y_k = 0, a spring c_k on h_k. A motion
+// whose c_k is infinite is truly held, and its s_k says something of the body that has no effect.
 struct Held {
   Matrix A, H;
   Vector springs, rates;

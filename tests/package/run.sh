@@ -57,7 +57,9 @@ look_at_packages() {
       $6 !~ "^./usr/" || $6 ~ "^./usr/local" { print; wrong = 1 } END { exit wrong }' || fail "wrong owner, mode or place"
   done
   depends arcwall libc6
-  depends arcwall libumfpack
+  for library in libblas.so.3 liblapack.so.3 libmetis5; do  # loaded when first called: nothing else would tell
+    depends arcwall "$library"
+  done
   depends libarcwall-dev libsuitesparse-dev
   depends libarcwall-dev libeigen3-dev
   "$scratch/root/usr/bin/trace-path" --version
