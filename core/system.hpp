@@ -91,8 +91,8 @@ class System {
   /// How many unknowns stand behind those of K: columns of Linearization::B.
   virtual Index border_width(const Piece&) const { return 0; }
 
-  /// The rates by s_k at which what y_k holds would change if the body slid there and y_k did not hold it; 0 where it
-  /// is truly held. Stability is counted with the others let go (ReleasedBorder).
+  /// The rates by s_k of the equations that the y_k enforce, if the body slid there and the y_k did not hold it; 0
+  /// where it is truly held. Stability is counted with the others let go (ReleasedBorder).
   virtual Vector border_rates(const State& state) const { return Vector::Zero(border_width(state.piece)); }
 
   // --- guards: side conditions that say how far a piece reaches -------------------------------------------------
