@@ -28,7 +28,7 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
   const Row border = metric.row(along);
   double previous = length;
   while (result.iterations < options.max_iterations) {
-    if (const auto status = look(result.state); status != CorrectorStatus::converged) return ended(status);
+    if (here_.look(result.state) == FactorStatus::not_finite) return ended(CorrectorStatus::not_finite);
     if (!find_line(metric, border)) return ended(CorrectorStatus::singular);
     result.roots = constraint.advance(result.state, particular_, tangent_);
     if (!result.roots) return ended(CorrectorStatus::complex_roots);
@@ -63,63 +63,53 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
   return arrived({.state = state}, metric, along);
 }
 
-void Corrector::track_from(const NearNull& nearest) {
-  tracker_.start_from(nearest.vectors);
-  if (solver_.may_use_soft()) solver_.expect_soft(nearest.soft());
-}
-
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count, Settled settled) const {
-  if (!solver_.inner_is_regular()) return std::nullopt;
-  const Vector weighted = weights.head(now_.K.cols());
-  if (now_.B.cols() > 0) {
-    const ReleasedBorder border(solver_, now_, sliding_resistance(solver_, now_, system_.border_rates(at_)));
+  const Linearization& now = here_.equations();
+  const BorderedSolver& solver = here_.solver();
+  if (!here_.has_arrived() || !solver.inner_is_regular()) return std::nullopt;
+  const Vector weighted = weights.head(now.K.cols());
+  if (now.B.cols() > 0) {
+    const ReleasedBorder border(solver, now, sliding_resistance(solver, now, system_.border_rates(here_.here())));
     return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, settled)) : std::nullopt;
   }
-  const bool followed = tracker_.vectors().rows() == now_.K.cols() && all_finite(tracker_.vectors());
-  return arcwall::near_null(solver_.inner(), now_.K, weighted, count, settled,
-                            followed ? Matrix(tracker_.vectors()) : Matrix());
+  const auto known = here_.tracker().vectors();
+  const bool followed = known.rows() == now.K.cols() && all_finite(known);
+  return arcwall::near_null(solver.inner(), now.K, weighted, count, settled, followed ? Matrix(known) : Matrix());
 }
 
 std::optional<Index> Corrector::count_here(const NearNull& nearest) const {
-  return negative_eigenvalues(system_, at_, solver_, now_, nearest);
+  return negative_eigenvalues(system_, here_.here(), here_.solver(), here_.equations(), nearest);
 }
 
 std::optional<Matrix> Corrector::responses(Matrix columns) const {
-  if (!solver_.inner_is_regular()) return std::nullopt;
-  solver_.inner().solve(columns);
+  if (!here_.has_arrived() || !here_.solver().inner_is_regular()) return std::nullopt;
+  here_.solver().inner().solve(columns);
   return columns.allFinite() ? std::optional(std::move(columns)) : std::nullopt;
 }
 
 // With Cᵀ the unit columns of the y let go: K φ = −Cᵀ η.
 Vector Corrector::left_null(const Vector& vector) const {
-  Vector left(now_.F.size());
-  left.head(now_.K.cols()) = vector;
-  left.tail(now_.B.cols()) = -(now_.K.selfadjointView<Eigen::Lower>() * vector)(now_.holding);
+  const Linearization& now = here_.equations();
+  Vector left(now.F.size());
+  left.head(now.K.cols()) = vector;
+  left.tail(now.B.cols()) = -(now.K.selfadjointView<Eigen::Lower>() * vector)(now.holding);
   return left;
 }
 
 //   [ J   ψ ] [φ]   [0]
 //   [ ψᵀ  0 ] [0] = [1]
 std::optional<Vector> Corrector::right_null(const Vector& left) {
-  if (now_.B.cols() == 0) return left;
-  const Vector F_lambda = std::exchange(now_.F_lambda, left);
-  const auto null = solver_.solve({.dx = left, .dlambda = 0.0}, Vector::Zero(left.size()), 1.0);
-  now_.F_lambda = F_lambda;
+  Linearization& now = here_.equations();
+  if (now.B.cols() == 0) return left;
+  const Vector F_lambda = std::exchange(now.F_lambda, left);
+  const auto null = here_.solver().solve({.dx = left, .dlambda = 0.0}, Vector::Zero(left.size()), 1.0);
+  now.F_lambda = F_lambda;
   return null ? std::optional(null->dx) : std::nullopt;
-}
-
-// Evaluates and factorizes at a state; `converged` means that both could be done.
-CorrectorStatus Corrector::look(const State& state) {
-  arrived_ = false;
-  system_.linearize(state, now_);
-  if (!all_finite(now_.F)) return CorrectorStatus::not_finite;
-  const FactorStatus status = solver_.factorize(now_, system_.multiplier_count(state.piece));
-  return status == FactorStatus::not_finite ? CorrectorStatus::not_finite : CorrectorStatus::converged;
 }
 
 // The line (1), its tangent of unit length and its particular solution normal to it.
 bool Corrector::find_line(const Metric& metric, const Row& border) {
-  if (!solver_.line(border, line_)) return false;
+  if (!here_.solver().line(border, line_)) return false;
   const Index n = line_.dx.rows();
   const double *p = line_.dx.col(0).data(), *t = line_.dx.col(1).data(), *w = metric.weights().data();
   auto [tt, pt] = sums_over<2>(n, [&](const auto& at, auto& sums) {
@@ -156,27 +146,31 @@ double Corrector::take_step(const Metric& metric, double tau, State& state) cons
 }
 
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {
-  result.status = look(result.state);
-  if (result.status != CorrectorStatus::converged) return result;
-  at_ = result.state;
-  arrived_ = true;
+  if (here_.arrive(result.state) == FactorStatus::not_finite) {
+    result.status = CorrectorStatus::not_finite;
+    return result;
+  }
+  result.status = CorrectorStatus::converged;
+  const Linearization& now = here_.equations();
+  BorderedSolver& solver = here_.solver();
   // Pairs near zero are followed where there is no border.
-  Matrix columns = now_.B.cols() == 0 ? tracker_.right_hand_sides(metric.weights(), 1) : Matrix(now_.F.size(), 1);
+  const bool bordered = now.B.cols() > 0;
+  Matrix columns = bordered ? Matrix(now.F.size(), 1) : here_.tracker().right_hand_sides(metric.weights(), 1);
   Direction tangent;
-  if (!solver_.tangent(metric.row(along), tangent, columns)) {
+  if (!solver.tangent(metric.row(along), tangent, columns)) {
     result.status = CorrectorStatus::singular;
     return result;
   }
   result.tangent = unit(metric, std::move(tangent));
-  if (now_.B.cols() > 0) {
-    result.negative = negative_eigenvalues(system_, result.state, solver_, now_, {});
+  if (bordered) {
+    result.negative = negative_eigenvalues(system_, result.state, solver, now, {});
   } else {
     if (const Index others = columns.cols() - 1; others > 0)
-      result.nearest = tracker_.advance(metric.weights(), columns.rightCols(others));
-    if (const auto negative = negative_by_pivots(solver_.inner(), metric.weights(), result.nearest))
+      result.nearest = here_.tracker().advance(metric.weights(), columns.rightCols(others));
+    if (const auto negative = negative_by_pivots(solver.inner(), metric.weights(), result.nearest))
       result.negative = *negative - system_.multiplier_count(result.state.piece);
   }
-  result.residual = relative_residual(metric, now_, result.state.lambda, load_floor_);
+  result.residual = relative_residual(metric, now, result.state.lambda, load_floor_);
   return result;
 }
 

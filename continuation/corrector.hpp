@@ -2,10 +2,9 @@
 
 #include <optional>
 
+#include "continuation/factorized_equations.hpp"
 #include "continuation/metric.hpp"
 #include "continuation/path_constraint.hpp"
-#include "core/bordered_solver.hpp"
-#include "core/near_null.hpp"
 
 namespace arcwall {
 
@@ -40,7 +39,7 @@ class Corrector {
  public:
   /// `system` must outlive this. `load_floor`: |λ| below which loads count as this large in the relative residual.
   Corrector(const System& system, const CorrectorOptions& options, double load_floor)
-      : system_(system), options_(options), load_floor_(load_floor) {}
+      : system_(system), options_(options), load_floor_(load_floor), here_(system) {}
 
   /// From `guess` to F = 0, c = 0. `length` is the distance from the guess to the last point known, `along` the tangent
   /// there, which closes the system where K is singular.
@@ -74,15 +73,17 @@ class Corrector {
   std::optional<Index> count_here(const NearNull& nearest) const;
 
   /// Whether this is the state reached last.
-  bool is_at(const State& state) const { return arrived_ && at_ == state; }
+  bool is_at(const State& state) const { return here_.is_at(state); }
 
   /// From where the eigenpairs nearest zero are followed, instead of the point reached last.
-  void track_from(const NearNull& nearest);
+  void track_from(const NearNull& nearest) { here_.track_from(nearest); }
+
+  /// The equations at the state reached last, for others to use; what is asked of that state is asked before.
+  FactorizedEquations& equations() { return here_; }
 
  private:
   CorrectorResult iterate(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
                           double length, const CorrectorOptions& options);
-  CorrectorStatus look(const State& state);
   bool find_line(const Metric& metric, const Row& border);
   double take_step(const Metric& metric, double tau, State& state) const;
   CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Direction& along);
@@ -90,13 +91,9 @@ class Corrector {
   const System& system_;
   CorrectorOptions options_;
   double load_floor_;
-  State at_;              // reached last
-  bool arrived_ = false;  // the matrix at hand is that of this state
-  Linearization now_;
-  BorderedSolver solver_;
+  FactorizedEquations here_;
   EquilibriumLine line_;
   Direction particular_, tangent_;  // of the line: normal to each other, the second of unit length
-  NearNullTracker tracker_;
 };
 
 }  // namespace arcwall

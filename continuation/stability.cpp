@@ -30,8 +30,7 @@ Piece strongly_closed(const System& system, const State& state, double force_tol
 }
 
 void StabilityCounter::track_from(const NearNull& nearest) {
-  tracker_.start_from(nearest.vectors);
-  if (solver_.may_use_soft()) solver_.expect_soft(nearest.soft());
+  own_.track_from(nearest);
   last_.reset();
 }
 
@@ -59,18 +58,18 @@ void StabilityCounter::remember(const State& state, std::optional<Index> negativ
 }
 
 std::optional<Index> StabilityCounter::counted_on(const State& state) {
-  system_.linearize(state, now_);
-  const FactorStatus status = solver_.factorize(now_, system_.multiplier_count(state.piece));
-  const bool regular = status == FactorStatus::ok, bordered = now_.B.cols() > 0;
+  FactorizedEquations& at = shared_.is_on(state.piece) ? shared_ : own_;
+  const FactorStatus status = at.look(state);
+  const bool regular = status == FactorStatus::ok, bordered = at.equations().B.cols() > 0;
   if (status == FactorStatus::not_finite || (bordered && !regular)) return std::nullopt;
   NearNull nearest;
   if (regular && !bordered) {
     const Vector weights = system_.weights(state.piece);
-    Matrix columns = tracker_.right_hand_sides(weights);
-    solver_.inner().solve(columns);
-    nearest = tracker_.advance(weights, columns);
+    Matrix columns = at.tracker().right_hand_sides(weights);
+    at.solver().inner().solve(columns);
+    nearest = at.tracker().advance(weights, columns);
   }
-  return negative_eigenvalues(system_, state, solver_, now_, nearest);
+  return negative_eigenvalues(system_, state, at.solver(), at.equations(), nearest);
 }
 
 }  // namespace arcwall

@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "core/bordered_solver.hpp"
-#include "core/near_null.hpp"
+#include "continuation/factorized_equations.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {
@@ -24,11 +23,13 @@ struct StabilityCount {
 std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& equations, const NearNull& nearest);
 
-/// Counts, with its own factorization; keeps workspaces from call to call.
+/// Counts. With the equations that it shares where they are on the same piece, with its own elsewhere; keeps
+/// workspaces from call to call.
 class StabilityCounter {
  public:
-  /// `system` must outlive this. `force_tolerance` in the scale of the guards.
-  StabilityCounter(const System& system, double force_tolerance) : system_(system), force_tolerance_(force_tolerance) {}
+  /// `system` and `shared` must outlive this. `force_tolerance` in the scale of the guards.
+  StabilityCounter(const System& system, FactorizedEquations& shared, double force_tolerance)
+      : system_(system), force_tolerance_(force_tolerance), shared_(shared), own_(system) {}
 
   /// `negative_held`: the count with all closed contacts held, if it is known already.
   StabilityCount count(const State& state, std::optional<Index> negative_held);
@@ -43,13 +44,12 @@ class StabilityCounter {
   void track_from(const NearNull& nearest);
 
  private:
-  const System& system_;
-  double force_tolerance_;
   std::optional<Index> counted_on(const State& state);
 
-  Linearization now_;
-  BorderedSolver solver_;
-  NearNullTracker tracker_;
+  const System& system_;
+  double force_tolerance_;
+  FactorizedEquations& shared_;
+  FactorizedEquations own_;
   std::optional<State> last_;           // the state counted last: what pivots leave undecided takes long
   std::optional<Index> last_negative_;  // on it
 };

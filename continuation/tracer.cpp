@@ -60,7 +60,7 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
       metric_(system.weights(start.state.piece),
               start.lambda_scale ? *start.lambda_scale
                                  : natural_lambda_scale(system, corrector_, start.state, options_.step.first)),
-      counter_(system, options_.guard_tolerance),
+      counter_(system, corrector_.equations(), options_.guard_tolerance),
       step_(options_.step, options_.step.max),
       start_(std::move(start)) {
   here_.state = start_.state;

@@ -228,6 +228,7 @@ class Tracer {
   Direction open_direction(const Direction& direction, const Piece& piece) const;
   void add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const;
 
+  Linearization& workspace(const Piece& piece) { return corrector_.equations().workspace(piece); }
   PathPoint point_of(CorrectorResult result, const Direction& forward) const;
   void decide_count(PathPoint& point);
   std::vector<int> signs_at(const PathPoint& point) const;
@@ -253,8 +254,7 @@ class Tracer {
   std::vector<Singular> near_;       // located with the singular point here_ and just behind it
   Index vanishing_ = 0;              // eigenvalues that are zero at here_
   NearNull nearest_;                 // the pairs nearest zero that were known last
-  Linearization beside_;             // workspace
-  CornerWorkspace corner_;           // likewise
+  CornerWorkspace corner_;
   BranchStart start_;
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.
   struct Visited {

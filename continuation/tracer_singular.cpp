@@ -100,9 +100,10 @@ bool Tracer::find_limit_point(const PathPoint& to, std::vector<Singular>& found)
 // which passes zero with t_λ. Zero where F_λᵀ t_x vanishes nearly, as at a branch point.
 int Tracer::change_at_limit(const PathPoint& at) {
   constexpr double nearly = 1e-6;
-  system_.linearize(at.state, beside_);
-  const double work = beside_.F_lambda.dot(at.tangent.dx);
-  if (std::abs(work) <= nearly * metric_.dual_norm(beside_.F_lambda)) return 0;
+  if (!corrector_.is_at(at.state)) system_.linearize(at.state, workspace(at.state.piece));
+  const Vector& F_lambda = corrector_.equations().equations().F_lambda;
+  const double work = F_lambda.dot(at.tangent.dx);
+  if (std::abs(work) <= nearly * metric_.dual_norm(F_lambda)) return 0;
   return signs_.front() * work > 0.0 ? -1 : 1;
 }
 
@@ -230,7 +231,7 @@ class Tracer::Middle {
 bool Tracer::dips(const Segment& segment) {
   const NearNull &here = segment.from().nearest, &there = segment.to().nearest;
   if (segment.from().state.piece != segment.to().state.piece || here.values.size() == 0) return false;
-  Middle middle(system_, segment, metric_, beside_);
+  Middle middle(system_, segment, metric_, workspace(segment.from().state.piece));
   for (Index j = 0; j < there.values.size(); ++j) {
     const auto i = same_as(there.vectors.col(j), here.vectors, metric_.weights());
     if (i && *i >= vanishing_ && dips(segment, *i, j, middle)) return true;
@@ -264,7 +265,7 @@ bool Tracer::rises_from_zero(const Segment& segment, Index there) {
   const PathPoint& to = segment.to();
   const double v1 = to.nearest.values[there];
   const Vector mode = to.nearest.vectors.col(there);
-  const double rate = eigenvalue_rate(system_, to.state, to.tangent, mode, mode, beside_);
+  const double rate = eigenvalue_rate(system_, to.state, to.tangent, mode, mode, workspace(to.state.piece));
   return (v1 > 0.0) == (rate > 0.0) && std::abs(v1) <= segment.length() * std::abs(rate);
 }
 

@@ -24,7 +24,8 @@ State with_force(double p) { return {.x = Vector{{0.0, 0.5, p}}, .lambda = 1.0, 
 
 TEST(Stability, AContactThatCarriesForceHolds) {
   const auto toy = held_unstable();
-  StabilityCounter counter(toy, 1e-12);
+  FactorizedEquations shared(toy);
+  StabilityCounter counter(toy, shared, 1e-12);
   const StabilityCount count = counter.count(with_force(0.3), std::nullopt);
   EXPECT_EQ(count.unstable, 0);
   EXPECT_EQ(count.stability, Stability::stable);
@@ -32,7 +33,8 @@ TEST(Stability, AContactThatCarriesForceHolds) {
 
 TEST(Stability, AContactWithoutForceHoldsNothingAndLeavesTheMatterOpen) {
   const auto toy = held_unstable();
-  StabilityCounter counter(toy, 1e-12);
+  FactorizedEquations shared(toy);
+  StabilityCounter counter(toy, shared, 1e-12);
   const StabilityCount count = counter.count(with_force(1e-13), std::nullopt);
   EXPECT_EQ(count.unstable, 1);
   EXPECT_EQ(count.stability, Stability::undecided);  // only motions off the wall are allowed
@@ -43,7 +45,8 @@ TEST(Stability, AContactWithoutForceHoldsNothingAndLeavesTheMatterOpen) {
 TEST(Stability, WhatIsUnstableWithAllContactsHeldIsUnstable) {
   auto toy = held_unstable();
   toy.A(1, 1) = -2.0;
-  StabilityCounter counter(toy, 1e-12);
+  FactorizedEquations shared(toy);
+  StabilityCounter counter(toy, shared, 1e-12);
   const StabilityCount count = counter.count(with_force(0.0), std::nullopt);
   EXPECT_EQ(count.unstable, 2);
   EXPECT_EQ(count.stability, Stability::unstable);
@@ -59,16 +62,32 @@ TEST(Stability, CountsAreRightNextToSingularity) {
       toy.f = Vector::Ones(3);
       toy.G = Matrix{{0.0, 0.0, 1.0}};
       toy.gap0 = Vector::Zero(1);
-      StabilityCounter counter(toy, 1e-12);
+      FactorizedEquations shared(toy);
+      StabilityCounter counter(toy, shared, 1e-12);
       const Index unstable = sign < 0.0 ? 1 : 0;
       EXPECT_EQ(counter.negative_on({.x = Vector::Zero(4), .lambda = 0.0, .piece = {1}}), unstable) << sign * k;
       EXPECT_EQ(counter.negative_on({.x = Vector::Zero(3), .lambda = 0.0, .piece = {0}}), unstable + 1) << sign * k;
     }
 }
 
+TEST(Stability, CountsBySharedEquationsOnTheirPieceAndByItsOwnElsewhere) {
+  const auto toy = held_unstable();
+  FactorizedEquations shared(toy);
+  StabilityCounter counter(toy, shared, 1e-12);
+  const State held = with_force(0.3), open = toy.with_piece(held, {0});
+  ASSERT_EQ(shared.arrive(held), FactorStatus::ok);
+  EXPECT_EQ(counter.negative_on(open), 1);
+  EXPECT_TRUE(shared.is_at(held));  // undisturbed
+  const State other{.x = 2.0 * held.x, .lambda = 1.0, .piece = {1}};
+  EXPECT_EQ(counter.negative_on(other), 0);
+  EXPECT_TRUE(shared.is_on(other.piece));
+  EXPECT_FALSE(shared.has_arrived());
+}
+
 TEST(Stability, ASingularStiffnessHasNoCount) {
   const test::SmoothToy toy = test::fold();
-  StabilityCounter counter(toy, 1e-12);
+  FactorizedEquations shared(toy);
+  StabilityCounter counter(toy, shared, 1e-12);
   EXPECT_FALSE(counter.count({.x = test::scalar(0.0)}, std::nullopt).unstable.has_value());
   EXPECT_EQ(counter.count({.x = test::scalar(-1.0), .lambda = -1.0}, std::nullopt).unstable, 1);
   EXPECT_EQ(counter.count({.x = test::scalar(1.0), .lambda = -1.0}, std::nullopt).unstable, 0);

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cassert>
+#include <optional>
+
+#include "core/bordered_solver.hpp"
+#include "core/near_null.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// The equations at one state after another, with the factorization of K and the eigenpairs nearest zero, which are
+/// followed along. Of large structures this is most of the memory: who looks at states of one piece shares it.
+class FactorizedEquations {
+ public:
+  /// `system` must outlive this.
+  explicit FactorizedEquations(const System& system) : system_(system) {}
+
+  /// Evaluates and factorizes; `not_finite` also where F is not.
+  FactorStatus look(const State& state);
+
+  /// The same, and keeps the state: what is asked from here on is of this one.
+  FactorStatus arrive(const State& state);
+
+  /// Whether nothing was looked at or evaluated since a state was arrived at: here().
+  bool has_arrived() const { return arrived_; }
+  const State& here() const {
+    assert(arrived_);
+    return here_;
+  }
+  bool is_at(const State& state) const { return arrived_ && here_ == state; }
+
+  /// Whether the matrix at hand has the pattern of this piece, so that its analysis serves again.
+  bool is_on(const Piece& piece) const { return piece_ == piece; }
+
+  Linearization& equations() { return now_; }
+  const Linearization& equations() const { return now_; }
+  BorderedSolver& solver() { return solver_; }
+  const BorderedSolver& solver() const { return solver_; }
+  NearNullTracker& tracker() { return tracker_; }
+  const NearNullTracker& tracker() const { return tracker_; }
+
+  /// The equations alone, to be evaluated at other states of a piece: nothing is factorized or arrived at then.
+  Linearization& workspace(const Piece& piece);
+
+  /// From where the eigenpairs nearest zero are followed.
+  void track_from(const NearNull& nearest);
+
+ private:
+  const System& system_;
+  Linearization now_;
+  BorderedSolver solver_;
+  NearNullTracker tracker_;
+  std::optional<Piece> piece_;  // of the matrix
+  State here_;
+  bool arrived_ = false;
+};
+
+}  // namespace arcwall
