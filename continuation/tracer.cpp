@@ -79,12 +79,11 @@ std::optional<Arc> Tracer::next() {
     end_ = {.reason = EndReason::max_points, .detail = std::to_string(points_) + " points"};
     return std::nullopt;
   }
-  if (here_.nearest.values.size() > 0) nearest_ = here_.nearest;
   while (!step_.too_short()) {
     const double s = step_.length();
     // What is followed begins where the point says, so that the path does not depend on what was tried before.
-    corrector_.track_from(nearest_);
-    counter_.track_from(nearest_);
+    corrector_.track_from(nearest());
+    counter_.track_from(nearest());
     attempt_ = {.arc = here_.arc, .radius = s};
     auto arc = advance(s);
     tell_ledger(arc);
@@ -244,8 +243,9 @@ std::optional<Arc> Tracer::advance(double s) {
   }
   if (!end_) stop_at(arc.events);
   before_.reset();
-  if (!step->corner && !ahead_ && length > 0.0) before_ = std::move(here_);
-  here_ = ahead_ ? ahead_->to : to;
+  const bool smooth = !step->corner && !ahead_ && length > 0.0;
+  PathPoint from = go_to(ahead_ ? ahead_->to : to);
+  if (smooth) before_ = std::move(from);
   points_ += ahead_ ? 2 : 1;
   arc.to = std::move(to);
   return arc;
@@ -269,7 +269,7 @@ std::optional<Tracer::Step> Tracer::take_clear_of_singular(double s) {
   constexpr double beside_singular = 0.93;
   auto step = take(s);
   if (!step || step->corner || step->to.held || !held_ || options_.events != EventSearch::locate) return step;
-  corrector_.track_from(nearest_);
+  corrector_.track_from(nearest());
   auto shorter = take(beside_singular * s);
   return shorter && shorter->to.held ? shorter : step;
 }
@@ -430,6 +430,13 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
   point.guards = system_.guards(point.state);
   point.guard_rates = system_.guard_rates(point.state, point.tangent);
   return point;
+}
+
+// The point left, which the eigenpairs stay known of where the new one shows none.
+PathPoint Tracer::go_to(PathPoint point) {
+  PathPoint left = std::exchange(here_, std::move(point));
+  if (here_.nearest.values.size() == 0 && left.nearest.values.size() > 0) nearest_ = left.nearest;
+  return left;
 }
 
 // The count of negative eigenvalues where the pivots do not tell it.

@@ -229,7 +229,10 @@ class Tracer {
   void add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const;
 
   Linearization& workspace(const Piece& piece) { return corrector_.equations().workspace(piece); }
+  // The pairs nearest zero that were known last.
+  const NearNull& nearest() const { return here_.nearest.values.size() > 0 ? here_.nearest : nearest_; }
   PathPoint point_of(CorrectorResult result, const Direction& forward) const;
+  PathPoint go_to(PathPoint point);
   void decide_count(PathPoint& point);
   std::vector<int> signs_at(const PathPoint& point) const;
   bool passes(const PathPoint& to, const State& place);
@@ -253,7 +256,7 @@ class Tracer {
   StabilityCount after_;             // the count just after here_
   std::vector<Singular> near_;       // located with the singular point here_ and just behind it
   Index vanishing_ = 0;              // eigenvalues that are zero at here_
-  NearNull nearest_;                 // the pairs nearest zero that were known last
+  NearNull nearest_;                 // the pairs nearest zero that were known before here_
   CornerWorkspace corner_;
   BranchStart start_;
   // A corner and the ways, outward, that were taken from it or led to it, with all contacts open.

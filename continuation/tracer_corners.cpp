@@ -197,7 +197,7 @@ void Tracer::refine(const State& violated, double margin) {
   auto here = enter(*passage, here_);
   if (!here) return;
   here->arc = here_.arc;
-  here_ = std::move(*here);
+  go_to(std::move(*here));
   before_.reset();
   held_ = here_.held;
   after_ = here_.count;

@@ -96,7 +96,7 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
 }
 
 // The zero of a detector inside a step, in planes across the chord. Points that were looked at are ends to interpolate
-// between for the next: soon one iteration is enough.
+// between for the next, as long as they are neighbours of the last: soon one iteration is enough.
 class Tracer::ZeroSearch {
  public:
   ZeroSearch(Tracer& tracer, std::size_t which, const PathPoint& to)
@@ -106,8 +106,8 @@ class Tracer::ZeroSearch {
         at_start_(start_value(tracer, which)),
         at_end_(detector_.value(to)),
         range_(std::abs(at_end_ - at_start_)) {
-    seen_.emplace(0.0, Seen{.point = tracer.here_, .v = at_start_});
-    seen_.emplace(1.0, Seen{.point = to, .v = at_end_});
+    seen_.emplace(0.0, Seen{.v = at_start_});
+    seen_.emplace(1.0, Seen{.v = at_end_});
   }
 
   /// The point, and where it lies; empty if the search fails.
@@ -116,12 +116,12 @@ class Tracer::ZeroSearch {
     if (!root) return std::nullopt;
     const auto best = sharpened(seen_.find(*root), found.half_width);
     found.t = best->first;
-    return std::move(best->second.point);
+    return best->second.between ? std::move(best->second.between) : point_at(best);
   }
 
  private:
   struct Seen {
-    PathPoint point;
+    std::optional<PathPoint> between{};  // the ends of the step; else they are the segment's
     double v;
   };
   using Place = std::map<double, Seen>::iterator;
@@ -134,15 +134,31 @@ class Tracer::ZeroSearch {
 
   double tolerance() const { return std::max(tracer_.options_.localisation, 1e-10); }
 
+  const PathPoint& point_at(std::map<double, Seen>::const_iterator place) const {
+    if (place->second.between) return *place->second.between;
+    return place->first == 0.0 ? segment_.from() : segment_.to();
+  }
+
   std::optional<Place> look(double t) {
     const auto behind = seen_.lower_bound(t), before = std::prev(behind);
-    const Segment near(tracer_.metric_, before->second.point, behind->second.point);
+    const Segment near(tracer_.metric_, point_at(before), point_at(behind));
     const double L = segment_.length(), part = (t - before->first) / (behind->first - before->first);
     const PlaneConstraint plane(tracer_.metric_, tracer_.here_.state, segment_.chord(), t * L * L);
     auto point = tracer_.correct_onto(plane, segment_, near.at(part), near.length() * std::min(part, 1.0 - part));
     if (!point) return std::nullopt;
     const double v = detector_.value(*point);
-    return seen_.insert_or_assign(t, Seen{.point = std::move(*point), .v = v}).first;
+    const Place at = seen_.insert_or_assign(t, Seen{.between = std::move(point), .v = v}).first;
+    forget_beyond_neighbours(at);
+    return at;
+  }
+
+  // What is looked at next lies between this place and one of its neighbours.
+  void forget_beyond_neighbours(Place at) {
+    const auto is_near = [&](Place place) {
+      return place == at || place == std::prev(at) || place == std::next(at) || place == best_;
+    };
+    for (Place place = std::next(seen_.begin()); place->first < 1.0;)
+      place = is_near(place) ? std::next(place) : seen_.erase(place);
   }
 
   // Zero where the bracket need be no narrower.
@@ -181,6 +197,7 @@ class Tracer::ZeroSearch {
   // By secants, as long as they make the value much less: then it is round-off.
   Place sharpened(Place best, double& half_width) {
     constexpr double much_less = 0.1;
+    best_ = best;
     half_width = std::max(tolerance(), blurred_);
     for (int secant = 0; secant < 4 && blurred_ == 0.0 && std::abs(best->second.v) > tolerance() * range_; ++secant) {
       const auto behind = std::next(best), before = best == seen_.begin() ? behind : std::prev(best);
@@ -193,7 +210,7 @@ class Tracer::ZeroSearch {
       const auto next = look(t);
       if (!next) break;
       const bool noisy = std::abs((*next)->second.v) >= much_less * std::abs(best->second.v);
-      if (std::abs((*next)->second.v) < std::abs(best->second.v)) best = *next;
+      if (std::abs((*next)->second.v) < std::abs(best->second.v)) best = best_ = *next;
       half_width = std::max(tolerance(), std::abs(best->second.v / slope));
       if (noisy) break;
     }
@@ -205,6 +222,7 @@ class Tracer::ZeroSearch {
   Segment segment_;
   double at_start_, at_end_, range_;
   std::map<double, Seen> seen_;  // by the fraction of the chord
+  Place best_ = seen_.end();     // so far
   double blurred_ = 0.0;         // width within which values are round-off
 };
 

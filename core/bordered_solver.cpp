@@ -92,35 +92,32 @@ bool BorderedSolver::is_suspicious(double cancelled) const {
 // digits that they differ in are lost: seen from their combination, the solution that the border asks for.
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const Linearization& now = *equations_;
-  columns_.resize(now.F.size(), 2);
-  columns_.col(0) = -now.F;
-  columns_.col(1) = -now.F_lambda;
+  Matrix& X = out.dx;
+  X.resize(now.F.size(), 2);
+  X.col(0) = -now.F;
+  X.col(1) = -now.F_lambda;
+  out.particular_dlambda = 0.0;
+  out.tangent_dlambda = 1.0;
   double cancelled = 0.0;
-  if (regular_ && solve_inner(columns_, cancelled) && (!is_suspicious(cancelled) || make_line_good(border))) {
-    std::swap(out.dx, columns_);
-    out.particular_dlambda = 0.0;
-    out.tangent_dlambda = 1.0;
-    return true;
-  }
-  if (!factorize_whole(border, columns_)) return false;
+  if (regular_ && solve_inner(X, cancelled) && (!is_suspicious(cancelled) || make_line_good(border, X))) return true;
+  if (!factorize_whole(border, X)) return false;
   const auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (!particular || !tangent) return false;
-  out.dx.resize(now.F.size(), 2);
-  out.dx << particular->dx, tangent->dx;
+  X << particular->dx, tangent->dx;
   out.particular_dlambda = particular->dlambda;
   out.tangent_dlambda = tangent->dlambda;
   return true;
 }
 
 // False where refinement does not help.
-bool BorderedSolver::make_line_good(const Row& border) {
+bool BorderedSolver::make_line_good(const Row& border, Matrix& X) {
   const Linearization& now = *equations_;
   for (int round = 0;; ++round) {
-    const double along = border.dx.dot(columns_.col(1)) + border.dlambda;
-    const double dlambda = -border.dx.dot(columns_.col(0)) / along;
-    const Vector closed = columns_.col(0) + dlambda * columns_.col(1);
+    const double along = border.dx.dot(X.col(1)) + border.dlambda;
+    const double dlambda = -border.dx.dot(X.col(0)) / along;
+    const Vector closed = X.col(0) + dlambda * X.col(1);
     const BorderedResidual particular(now, -now.F, closed, dlambda);
-    const BorderedResidual tangent(now, -now.F_lambda, columns_.col(1), 0.0);
+    const BorderedResidual tangent(now, -now.F_lambda, X.col(1), 0.0);
     if (!particular.r().allFinite() || !tangent.r().allFinite()) return false;
     if (particular.is_small() && tangent.is_small()) return true;
     if (round == max_refinements) return false;
@@ -128,7 +125,7 @@ bool BorderedSolver::make_line_good(const Row& border) {
     correction.col(0) = particular.r() - dlambda * tangent.r();  // of column 0 alone
     correction.col(1) = tangent.r();
     if (!solve_inner(correction)) return false;
-    columns_ += correction;
+    X += correction;
   }
 }
 
@@ -164,8 +161,8 @@ bool BorderedSolver::make_tangent_good(Matrix& columns) {
 
 std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& f, double g) {
   const Linearization& now = *equations_;
+  Matrix X;
   if (regular_) {
-    Matrix& X = columns_;
     X.resize(f.size(), 2);
     X << f, now.F_lambda;
     const bool solved = solve_inner(X);
@@ -174,7 +171,7 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
     Direction solution{.dx = X.col(0) - dlambda * X.col(1), .dlambda = dlambda};
     if (solved && solution.dx.allFinite() && BorderedResidual(now, f, solution.dx, dlambda).is_small()) return solution;
   }
-  if (!factorize_whole(border, columns_)) return std::nullopt;
+  if (!factorize_whole(border, X)) return std::nullopt;
   return whole_.solve(f, g);
 }
 

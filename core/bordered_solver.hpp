@@ -73,7 +73,7 @@ class BorderedSolver {
   bool eliminate_border();
   bool solve_inner(Matrix& X, double& cancelled) const;
   bool is_suspicious(double cancelled) const;
-  bool make_line_good(const Row& border);
+  bool make_line_good(const Row& border, Matrix& X);
   bool make_tangent_good(Matrix& columns);
   bool factorize_whole(const Row& border, const Matrix& columns);
 
@@ -83,8 +83,7 @@ class BorderedSolver {
   WholeSolver whole_;
   Index multipliers_ = 0;
   bool regular_ = false;
-  Matrix columns_;  // workspace: J⁻¹ [−F, −F_λ]
-  Matrix border_;   // K⁻¹ B
+  Matrix border_;  // K⁻¹ B
   Matrix reduced_;
   Eigen::PartialPivLU<Matrix> slides_;  // of reduced_
 };

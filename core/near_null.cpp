@@ -20,14 +20,12 @@ namespace {
 constexpr int max_rounds = 100;
 
 // The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants).
-Matrix start_block(Index rows, Index columns) {
-  Matrix X(rows, columns);
+void fill_with_start(Eigen::Ref<Matrix> X) {
   std::uint64_t seed = 1;
   for (double& entry : X.reshaped()) {
     seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
     entry = double(seed >> 11) / 9007199254740992.0 - 0.5;
   }
-  return X;
 }
 
 // Columns of unit length, without dependent ones growing: QR with respect to the ordinary product.
@@ -65,7 +63,8 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
   count = std::min(count, pairs);
   const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
   if (block == 0) return {};
-  Matrix X = start_block(weights.size(), block);
+  Matrix X(weights.size(), block);
+  fill_with_start(X);
   const Index known = std::min(start.cols(), block);
   if (known > 0) X.leftCols(known) = start.leftCols(known);
   Vector values = Vector::Constant(block, infinity);
@@ -205,7 +204,6 @@ void NearNullTracker::start_from(const Matrix& vectors) {
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   const Index n = weights.size(), block = std::min<Index>(3, pair_count(weights));
   pairs_ = std::max<Index>(0, std::min(pairs_, block - 1));
-  if (start_.rows() != n || start_.cols() != block - pairs_) start_ = start_block(n, block - pairs_);
   if (X_.rows() != n || X_.cols() != block) {
     // Contact forces, which come and go at the end, have no weight and need no start.
     const Index common = std::min(X_.rows(), n);
@@ -213,7 +211,7 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
     if (pairs_ > 0) X.topLeftCorner(common, pairs_) = X_.topLeftCorner(common, pairs_);
     X_ = std::move(X);
   }
-  X_.rightCols(block - pairs_) = start_;
+  fill_with_start(X_.rightCols(block - pairs_));
   Matrix columns(n, front + block);
   with_columns(block, [&](auto constant) {
     constexpr std::size_t B = constant.value;

@@ -52,7 +52,6 @@ class NearNullTracker {
  private:
   Matrix X_;         // the pairs' vectors, then others; W-orthonormal between right_hand_sides and advance
   Index pairs_ = 0;  // columns that belong to pairs
-  Matrix start_;     // of those others
 };
 
 }  // namespace arcwall
