@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace arcwall {
 
@@ -49,24 +50,46 @@ SparseMatrix with_rows_behind(const SparseMatrix& A, const std::vector<RowEntry>
   return out;
 }
 
-BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks)
-    : pattern_(unknowns, unknowns) {
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  for (Index i = 0; i < unknowns; ++i) entries.emplace_back(i, i, 0.0);
-  for (const std::vector<Index>& block : blocks)
-    for (const Index column : block)
-      for (const Index row : block)
-        if (column >= 0 && row > column) entries.emplace_back(row, column, 0.0);
-  pattern_.setFromTriplets(entries.begin(), entries.end());
-  pattern_.makeCompressed();
-  assert(pattern_.nonZeros() <= std::numeric_limits<std::int32_t>::max());
+SparseMatrix BlockAssembly::pattern() const {
+  SparseMatrix pattern(unknown_count(), unknown_count());
+  pattern.resizeNonZeros(static_cast<Index>(rows_.size()));
+  std::copy(columns_.begin(), columns_.end(), pattern.outerIndexPtr());
+  std::copy(rows_.begin(), rows_.end(), pattern.innerIndexPtr());
+  std::fill_n(pattern.valuePtr(), pattern.nonZeros(), 0.0);
+  return pattern;
+}
+
+BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks) {
+  assert(unknowns < std::numeric_limits<std::int32_t>::max());
+  const auto for_each_entry = [&](const auto& visit) {
+    for (Index i = 0; i < unknowns; ++i) visit(static_cast<std::size_t>(i), static_cast<std::int32_t>(i));
+    for (const std::vector<Index>& block : blocks)
+      for (const Index column : block)
+        for (const Index row : block)
+          if (column >= 0 && row > column) visit(static_cast<std::size_t>(column), static_cast<std::int32_t>(row));
+  };
+  std::vector<std::ptrdiff_t> ends(static_cast<std::size_t>(unknowns) + 1, 0);  // of each column's entries
+  for_each_entry([&](std::size_t column, std::int32_t) { ++ends[column + 1]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<std::int32_t> sorted(static_cast<std::size_t>(ends.back()));  // by columns
+  for_each_entry([&](std::size_t column, std::int32_t row) { sorted[static_cast<std::size_t>(ends[column]++)] = row; });
+  columns_.assign(1, 0);
+  auto begin = sorted.begin();
+  for (std::size_t column = 0; column + 1 < ends.size(); ++column) {
+    const auto end = sorted.begin() + ends[column];
+    std::sort(begin, end);
+    rows_.insert(rows_.end(), begin, std::unique(begin, end));
+    columns_.push_back(static_cast<std::int32_t>(rows_.size()));
+    begin = end;
+  }
+  rows_.shrink_to_fit();
+  assert(rows_.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()));
 
   const auto slot = [&](Index a, Index b) -> std::int32_t {
     if (a < 0 || b < 0) return -1;
-    const Index column = std::min(a, b), row = std::max(a, b);
-    const Index* first = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column];
-    const Index* last = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
-    return static_cast<std::int32_t>(std::lower_bound(first, last, row) - pattern_.innerIndexPtr());
+    const auto column = static_cast<std::size_t>(std::min(a, b));
+    const auto first = rows_.begin() + columns_[column], last = rows_.begin() + columns_[column + 1];
+    return static_cast<std::int32_t>(std::lower_bound(first, last, std::max(a, b)) - rows_.begin());
   };
   std::map<std::vector<std::int32_t>, std::int32_t> known;  // shapes
   std::vector<std::int32_t> shape;

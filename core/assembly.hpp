@@ -53,8 +53,10 @@ class BlockAssembly {
   /// `blocks[b]` lists the unknowns of block b in the order of its rows; −1 stands for an unknown that is held.
   BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks);
 
+  Index unknown_count() const { return static_cast<Index>(columns_.size()) - 1; }
+
   /// Lower triangle with the pattern of all blocks and the whole diagonal; values are zero.
-  const SparseMatrix& pattern() const { return pattern_; }
+  SparseMatrix pattern() const;
 
   BlockUnknowns unknowns(Index block) const {
     const Block& at = blocks_[static_cast<std::size_t>(block)];
@@ -118,7 +120,7 @@ class BlockAssembly {
     return &shapes_[static_cast<std::size_t>(block.shape + block.rows)];
   }
 
-  SparseMatrix pattern_;
+  std::vector<std::int32_t> columns_, rows_;  // of the pattern: where each column begins, and the rows of its entries
   std::vector<Block> blocks_;
   std::vector<std::int32_t> shapes_;
 };

@@ -61,7 +61,7 @@ ElementOrder element_order(const Elements& elements, const BlockAssembly& assemb
     const std::vector<bool> in_first = first_half(middles);
     const auto middle = std::stable_partition(first.begin(), first.end(),
                                               [&](Index e) { return in_first[static_cast<std::size_t>(e)]; });
-    std::vector<bool> touched(static_cast<std::size_t>(assembly.pattern().cols()), false);
+    std::vector<bool> touched(static_cast<std::size_t>(assembly.unknown_count()), false);
     for (auto e = first.begin(); e != middle; ++e) {
       const BlockUnknowns unknowns = assembly.unknowns(*e);
       for (std::size_t i = 0; i < unknowns.size(); ++i)

@@ -17,7 +17,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   SlidingStructureMesh(const SlidingStructure& structure, Cut cut);
 
   const Cut& cut() const override { return cut_; }
-  Index unknowns() const override { return assembly_.pattern().cols(); }
+  Index unknowns() const override { return assembly_.unknown_count(); }
   Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
   const Vector& weights() const override { return weights_; }
   void residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const override;

@@ -77,7 +77,8 @@ void Structure::gather(Index block, const Vector& x, double* u) const {
 
 void Structure::arrange() {
   std::vector<Vec2> middles;
-  for (const std::vector<Index>& freedoms : element_freedoms_) {
+  for (Index e = 0; e < element_count(); ++e) {
+    const auto freedoms = element_freedoms(e);
     const auto node = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)].node; };
     middles.push_back(0.5 * (position(node(freedoms.front())) + position(node(freedoms.back()))));
   }
@@ -158,7 +159,7 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
 }
 
 void Structure::linearize(const State& state, Linearization& out) const {
-  const Index n = assembly_.pattern().cols();
+  const Index n = assembly_.unknown_count();
   if (!out.pattern_of || out.K.cols() != n) {
     out.K = assembly_.pattern();
     out.pattern_of = state.piece;
@@ -197,7 +198,7 @@ double Structure::energy(const State& state) const {
     energy += (loaded.kind == LoadKind::proportional ? state.lambda : 1.0) *
               loaded.potential->evaluate(local.u, nullptr, nullptr);
   }
-  for (Index i = 0; i < assembly_.pattern().cols(); ++i) {
+  for (Index i = 0; i < assembly_.unknown_count(); ++i) {
     const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
     energy -= (state.lambda * load_[freedom] + constant_load_[freedom]) * state.x[i];
   }
@@ -253,7 +254,7 @@ double Structure::reaction(const State& state, Index freedom) const {
   if (unknown(freedom)) return 0.0;
   Local local;
   double force = -state.lambda * load_[freedom] - constant_load_[freedom];
-  const auto add = [&](const Element& element, Index block, const std::vector<Index>& freedoms, double factor) {
+  const auto add = [&](const Element& element, Index block, std::span<const std::int32_t> freedoms, double factor) {
     const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
     if (at == freedoms.end()) return;
     gather(block, state.x, local.u);
@@ -261,9 +262,9 @@ double Structure::reaction(const State& state, Index freedom) const {
     force += factor * local.f[at - freedoms.begin()];
   };
   for (std::size_t e = 0; e < elements_.size(); ++e)
-    add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
+    add(*elements_[e], static_cast<Index>(e), element_freedoms(static_cast<Index>(e)), 1.0);
   for (const ElementLoad& loaded : element_loads_)
-    add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],
+    add(*loaded.potential, loaded.element, element_freedoms(loaded.element),
         loaded.kind == LoadKind::proportional ? state.lambda : 1.0);
   return force;
 }
@@ -273,7 +274,7 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
   if (unknown(freedom)) return row;
   Local local;
   row.dlambda = -load_[freedom];
-  const auto add = [&](const Element& element, Index block, const std::vector<Index>& freedoms, double factor) {
+  const auto add = [&](const Element& element, Index block, std::span<const std::int32_t> freedoms, double factor) {
     const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
     if (at == freedoms.end()) return 0.0;
     gather(block, state.x, local.u);
@@ -286,11 +287,11 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
     return local.f[i];
   };
   for (std::size_t e = 0; e < elements_.size(); ++e)
-    add(*elements_[e], static_cast<Index>(e), element_freedoms_[e], 1.0);
+    add(*elements_[e], static_cast<Index>(e), element_freedoms(static_cast<Index>(e)), 1.0);
   for (const ElementLoad& loaded : element_loads_) {
     const bool proportional = loaded.kind == LoadKind::proportional;
-    const double f = add(*loaded.potential, loaded.element, element_freedoms_[static_cast<std::size_t>(loaded.element)],
-                         proportional ? state.lambda : 1.0);
+    const double f =
+        add(*loaded.potential, loaded.element, element_freedoms(loaded.element), proportional ? state.lambda : 1.0);
     if (proportional) row.dlambda += f;
   }
   return row;

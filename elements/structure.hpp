@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,7 @@ namespace arcwall {
 
 /// What a node can do. Every joint has x and z; rotations belong to the members that are rigidly joined there; e and ξ
 /// of the Essenburg theory (see EssenburgNode) to members that go on straight there.
-enum class Freedom { x, z, rotation, thickness, thickness2 };
+enum class Freedom : std::uint8_t { x, z, rotation, thickness, thickness2 };
 
 enum class Theory { classic, elastica, exact, essenburg, truss };
 
@@ -102,7 +104,7 @@ void set_evaluation_threads(int count);
 /// Of 2000 elements or more two halves may be evaluated side by side: see set_evaluation_threads().
 class Structure final : public System {
  public:
-  Index size(const Piece&) const override { return assembly_.pattern().cols(); }
+  Index size(const Piece&) const override { return assembly_.unknown_count(); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override;
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
@@ -138,7 +140,7 @@ class Structure final : public System {
 
   /// The node and freedom that an unknown stands for.
   struct Meaning {
-    Index node;
+    std::int32_t node;
     Freedom freedom;
   };
   Meaning meaning(Index unknown) const;
@@ -155,7 +157,11 @@ class Structure final : public System {
   const Element& element(Index e) const { return *elements_[static_cast<std::size_t>(e)]; }
 
   /// Of the local unknowns of an element.
-  const std::vector<Index>& element_freedoms(Index e) const { return element_freedoms_[static_cast<std::size_t>(e)]; }
+  std::span<const std::int32_t> element_freedoms(Index e) const {
+    const auto first = first_element_freedom_[static_cast<std::size_t>(e)];
+    const auto last = first_element_freedom_[static_cast<std::size_t>(e) + 1];
+    return std::span(element_freedoms_).subspan(first, last - first);
+  }
 
   /// A load along an element, whose unknowns its potential has.
   struct ElementLoad {
@@ -166,8 +172,10 @@ class Structure final : public System {
   const std::vector<ElementLoad>& element_loads() const { return element_loads_; }
 
   /// Which of them act on an element.
-  const std::vector<std::size_t>& loads_of_element(Index e) const {
-    return loads_of_element_[static_cast<std::size_t>(e)];
+  std::span<const std::uint32_t> loads_of_element(Index e) const {
+    const auto first = first_load_of_element_[static_cast<std::size_t>(e)];
+    const auto last = first_load_of_element_[static_cast<std::size_t>(e) + 1];
+    return std::span(loads_by_element_).subspan(first, last - first);
   }
 
   /// Force or moment on a freedom.
@@ -196,14 +204,15 @@ class Structure final : public System {
   std::vector<Vec2> positions_;
   std::vector<Index> first_freedom_;  // x of each node; z follows
   std::vector<MemberMesh> members_;
-  std::vector<Index> unknown_of_freedom_;  // −1: held
+  std::vector<std::int32_t> unknown_of_freedom_;  // −1: held
   std::vector<Meaning> meaning_of_freedom_;
-  std::vector<Index> freedom_of_unknown_;
+  std::vector<std::int32_t> freedom_of_unknown_;
   std::vector<std::shared_ptr<const Element>> elements_;  // element e is block e of the assembly
   ElementOrder order_;
-  std::vector<std::vector<Index>> element_freedoms_;
+  std::vector<std::int32_t> element_freedoms_;  // of all elements in turn
+  std::vector<std::uint32_t> first_element_freedom_{0};
   std::vector<ElementLoad> element_loads_;
-  std::vector<std::vector<std::size_t>> loads_of_element_;
+  std::vector<std::uint32_t> loads_by_element_, first_load_of_element_{0};
   Vector load_, constant_load_;  // point loads per freedom
   BlockAssembly assembly_;
   Vector weights_;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
 #include "core/ldlt.hpp"
 #include "core/near_null.hpp"
@@ -133,7 +135,7 @@ Index StructureBuilder::add_node(const Vec2& position) {
 }
 
 Index StructureBuilder::add_freedom(Index node, Freedom which) {
-  freedoms_.push_back({.node = node, .freedom = which});
+  freedoms_.push_back({.node = static_cast<std::int32_t>(node), .freedom = which});
   held_.push_back(false);
   return static_cast<Index>(freedoms_.size()) - 1;
 }
@@ -255,24 +257,26 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   };
 
   // Unknowns are numbered along the members, so that neighbours stay near.
-  std::vector<Index> unknown_of_freedom(freedoms_.size(), -1), freedom_of_unknown;
+  std::vector<std::int32_t> unknown_of_freedom(freedoms_.size(), -1), freedom_of_unknown;
   const auto number = [&](Index freedom) {
     auto& unknown = unknown_of_freedom[static_cast<std::size_t>(freedom)];
     if (held_[static_cast<std::size_t>(freedom)] || unknown >= 0) return;
-    unknown = static_cast<Index>(freedom_of_unknown.size());
-    freedom_of_unknown.push_back(freedom);
+    unknown = static_cast<std::int32_t>(freedom_of_unknown.size());
+    freedom_of_unknown.push_back(static_cast<std::int32_t>(freedom));
   };
-  std::vector<std::vector<Index>> element_freedoms_of;
+  std::vector<std::int32_t> freedoms_of_elements;
+  std::vector<std::uint32_t> first_freedom_of_element{0};
+  std::vector<std::vector<Index>> blocks;
   for (const MemberMesh& mesh : meshes_)
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
-      element_freedoms_of.push_back(element_freedoms(mesh, k));
-      for (const Index freedom : element_freedoms_of.back()) number(freedom);
+      blocks.push_back(element_freedoms(mesh, k));
+      freedoms_of_elements.insert(freedoms_of_elements.end(), blocks.back().begin(), blocks.back().end());
+      first_freedom_of_element.push_back(static_cast<std::uint32_t>(freedoms_of_elements.size()));
+      for (Index& freedom : blocks.back()) {
+        number(freedom);
+        freedom = unknown_of_freedom[static_cast<std::size_t>(freedom)];
+      }
     }
-  std::vector<std::vector<Index>> blocks;
-  for (const auto& freedoms : element_freedoms_of) {
-    blocks.emplace_back();
-    for (const Index freedom : freedoms) blocks.back().push_back(unknown_of_freedom[static_cast<std::size_t>(freedom)]);
-  }
 
   auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));
   structure->positions_ = positions_;
@@ -281,7 +285,8 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->unknown_of_freedom_ = std::move(unknown_of_freedom);
   structure->freedom_of_unknown_ = std::move(freedom_of_unknown);
   structure->meaning_of_freedom_ = freedoms_;
-  structure->element_freedoms_ = std::move(element_freedoms_of);
+  structure->element_freedoms_ = std::move(freedoms_of_elements);
+  structure->first_element_freedom_ = std::move(first_freedom_of_element);
   structure->length_scale_ = box_diagonal(positions_);
 
   std::vector<Index> first_element;
@@ -318,9 +323,17 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
       structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
   }
 
-  structure->loads_of_element_.resize(structure->elements_.size());
-  for (std::size_t i = 0; i < structure->element_loads_.size(); ++i)
-    structure->loads_of_element_[static_cast<std::size_t>(structure->element_loads_[i].element)].push_back(i);
+  std::vector<std::uint32_t>& loads = structure->loads_by_element_;
+  loads.resize(structure->element_loads_.size());
+  std::iota(loads.begin(), loads.end(), 0U);
+  const auto element_of = [&](std::uint32_t load) { return structure->element_loads_[load].element; };
+  std::stable_sort(loads.begin(), loads.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return element_of(a) < element_of(b); });
+  auto behind = loads.begin();
+  for (Index e = 0; e < structure->element_count(); ++e) {
+    behind = std::find_if(behind, loads.end(), [&](std::uint32_t load) { return element_of(load) > e; });
+    structure->first_load_of_element_.push_back(static_cast<std::uint32_t>(behind - loads.begin()));
+  }
 
   // Means over all nodes and all rotations, held ones included: they count as zeros.
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };

@@ -37,13 +37,13 @@ std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNod
 
 // What the nodes exert on an element, per local unknown. Loads along a bar act at its ends.
 Vector element_forces(const Structure& structure, Index e, const State& state, bool loads) {
-  const std::vector<Index>& freedoms = structure.element_freedoms(e);
+  const auto freedoms = structure.element_freedoms(e);
   Vector u(static_cast<Index>(freedoms.size())), f(u.size());
   for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state.x, freedoms[i]);
   structure.element(e).evaluate(u.data(), f.data(), nullptr);
   if (!loads) return f;
   Vector part(u.size());
-  for (const std::size_t i : structure.loads_of_element(e)) {
+  for (const std::uint32_t i : structure.loads_of_element(e)) {
     const Structure::ElementLoad& load = structure.element_loads()[i];
     load.potential->evaluate(u.data(), part.data(), nullptr);
     f += (load.kind == LoadKind::proportional ? state.lambda : 1.0) * part;

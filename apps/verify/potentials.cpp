@@ -75,10 +75,10 @@ struct LoadedElement {
 };
 
 Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride, double length) {
-  const std::vector<Index>& freedoms = structure.element_freedoms(e);
+  const auto freedoms = structure.element_freedoms(e);
   const auto n = static_cast<Index>(freedoms.size());
   LoadedElement loaded{.element = &structure.element(e), .loads = {}};
-  for (const std::size_t i : structure.loads_of_element(e)) {
+  for (const std::uint32_t i : structure.loads_of_element(e)) {
     const Structure::ElementLoad& load = structure.element_loads()[i];
     loaded.loads.emplace_back(load.potential.get(), load.kind == LoadKind::proportional ? state.lambda : 1.0);
   }
