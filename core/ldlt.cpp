@@ -1,7 +1,8 @@
 #include "core/ldlt.hpp"
 
+#include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@ struct Ldlt::Implementation {
   std::unique_ptr<SymmetricFactors> others;   // of the same, for what those refuse
   SymmetricFactors* usable = nullptr;         // which of them holds the last matrix
   Matrix soft;
-  std::vector<Index> columns, rows;  // the pattern that was analysed
+  std::vector<std::int32_t> columns, rows;  // the pattern that was analysed; an index beyond 32 bits never matches
   Index multipliers = 0, analysed_multipliers = 0;
   bool trusted = false;  // the pattern
 
@@ -26,8 +27,8 @@ struct Ldlt::Implementation {
     const auto n = static_cast<std::size_t>(A.cols()) + 1, nonzeros = static_cast<std::size_t>(A.nonZeros());
     return factors != nullptr && multipliers == analysed_multipliers && columns.size() == n &&
            rows.size() == nonzeros &&
-           (trusted || (std::memcmp(columns.data(), A.outerIndexPtr(), n * sizeof(Index)) == 0 &&
-                        std::memcmp(rows.data(), A.innerIndexPtr(), nonzeros * sizeof(Index)) == 0));
+           (trusted || (std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
+                        std::equal(rows.begin(), rows.end(), A.innerIndexPtr())));
   }
 
   std::unique_ptr<SymmetricFactors> fresh(const SparseMatrix& A) const {
@@ -45,9 +46,14 @@ struct Ldlt::Implementation {
     others.reset();
     if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
     factors->expect_soft(soft);
-    columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
-    rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    keep(columns, A.outerIndexPtr(), A.cols() + 1);
+    keep(rows, A.innerIndexPtr(), A.nonZeros());
     analysed_multipliers = multipliers;
+  }
+
+  static void keep(std::vector<std::int32_t>& copy, const Index* from, Index count) {
+    copy.resize(static_cast<std::size_t>(count));
+    std::transform(from, from + count, copy.begin(), [](Index i) { return static_cast<std::int32_t>(i); });
   }
 
   // Simplicial LDLᵀ serves all matrices.

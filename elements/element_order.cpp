@@ -30,6 +30,7 @@ ElementOrder::Part part_of(const Elements& elements, const BlockAssembly& assemb
     count = 0;
   }
   part.others.insert(part.others.end(), waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
+  part.fours.shrink_to_fit();
   return part;
 }
 
