@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/deck/reader.hpp"
+#include "apps/kept_memory.hpp"
 #include "apps/study.hpp"
 #include "benchmarks/figures.hpp"
 #include "benchmarks/models.hpp"
@@ -236,6 +237,7 @@ int run(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  arcwall::keep_freed_memory();  // as trace-path does
   try {
     return run({arguments + 1, arguments + count});
   } catch (const std::exception& problem) {

@@ -22,10 +22,11 @@ constexpr int max_rounds = 100;
 // The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants).
 void fill_with_start(Eigen::Ref<Matrix> X) {
   std::uint64_t seed = 1;
-  for (double& entry : X.reshaped()) {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    entry = double(seed >> 11) / 9007199254740992.0 - 0.5;
-  }
+  for (Index j = 0; j < X.cols(); ++j)
+    for (double *entry = &X(0, j), *end = entry + X.rows(); entry != end; ++entry) {
+      seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+      *entry = double(seed >> 11) * 0x1p-53 - 0.5;
+    }
 }
 
 // Columns of unit length, without dependent ones growing: QR with respect to the ordinary product.
