@@ -79,7 +79,7 @@ class Corrector {
   void track_from(const NearNull& nearest) { here_.track_from(nearest); }
 
   /// The equations at the state reached last, for others to use; what is asked of that state is asked before.
-  FactorizedEquations& equations() { return here_; }
+  FactorizedEquations& factorized() { return here_; }
 
  private:
   CorrectorResult iterate(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,

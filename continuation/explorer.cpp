@@ -98,7 +98,7 @@ void Explorer::look_at(const Event& event) {
 std::vector<Explorer::Way> Explorer::ways_off(const BranchPoint& point) {
   const Metric metric(system_.weights(point.state.piece), lambda_scale_);
   Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first));
-  StabilityCounter counter(system_, corrector.equations(), trace_.guard_tolerance);
+  StabilityCounter counter(system_, corrector.factorized(), trace_.guard_tolerance);
   std::vector<Way> ways;
   for (const int sign : {1, -1})
     if (auto step = step_off(system_, corrector, metric, point, sign, options_.distance, trace_.guard_tolerance)) {

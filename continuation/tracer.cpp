@@ -60,7 +60,7 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
       metric_(system.weights(start.state.piece),
               start.lambda_scale ? *start.lambda_scale
                                  : natural_lambda_scale(system, corrector_, start.state, options_.step.first)),
-      counter_(system, corrector_.equations(), options_.guard_tolerance),
+      counter_(system, corrector_.factorized(), options_.guard_tolerance),
       step_(options_.step, options_.step.max),
       start_(std::move(start)) {
   here_.state = start_.state;
@@ -432,7 +432,7 @@ PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) con
   return point;
 }
 
-// The point left, which the eigenpairs stay known of where the new one shows none.
+// Gives the point that is left; its eigenpairs stay known where the new one shows none.
 PathPoint Tracer::go_to(PathPoint point) {
   PathPoint left = std::exchange(here_, std::move(point));
   if (here_.nearest.values.size() == 0 && left.nearest.values.size() > 0) nearest_ = left.nearest;

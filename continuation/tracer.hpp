@@ -228,7 +228,7 @@ class Tracer {
   Direction open_direction(const Direction& direction, const Piece& piece) const;
   void add_corner_events(const PathPoint& before, const PathPoint& after, std::vector<Event>& events) const;
 
-  Linearization& workspace(const Piece& piece) { return corrector_.equations().workspace(piece); }
+  Linearization& workspace(const Piece& piece) { return corrector_.factorized().workspace(piece); }
   // The pairs nearest zero that were known last.
   const NearNull& nearest() const { return here_.nearest.values.size() > 0 ? here_.nearest : nearest_; }
   PathPoint point_of(CorrectorResult result, const Direction& forward) const;

@@ -186,6 +186,7 @@ std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& 
   to.arc = from.arc + (begins_with_length(passage.change)
                            ? std::abs(to.state.lambda - from.state.lambda) / metric_.lambda_scale()
                            : 0.0);
+  decide_count(to);
   to.count = counter_.count(to.state, to.held);
   return to;
 }

@@ -101,7 +101,7 @@ bool Tracer::find_limit_point(const PathPoint& to, std::vector<Singular>& found)
 int Tracer::change_at_limit(const PathPoint& at) {
   constexpr double nearly = 1e-6;
   if (!corrector_.is_at(at.state)) system_.linearize(at.state, workspace(at.state.piece));
-  const Vector& F_lambda = corrector_.equations().equations().F_lambda;
+  const Vector& F_lambda = corrector_.factorized().equations().F_lambda;
   const double work = F_lambda.dot(at.tangent.dx);
   if (std::abs(work) <= nearly * metric_.dual_norm(F_lambda)) return 0;
   return signs_.front() * work > 0.0 ? -1 : 1;

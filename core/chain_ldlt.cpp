@@ -178,7 +178,16 @@ bool ChainLdlt::factorize(const SparseMatrix& A) {
   for (const ValueRun& run : value_runs_)
     for (std::int32_t i = 0; i < run.values.count; ++i) numbers[run.place + i] = values[run.values.at(i)];
   eliminate_rounds(width_, rounds_, numbers, coupling_.data());
-  return read_pivots();
+  const bool regular = read_pivots();
+  refused_ = regular && grew(A);
+  return regular && !refused_;
+}
+
+// Whether a pivot is much greater than all entries: after one of δ stands one of c²/δ. Then these two are far apart.
+bool ChainLdlt::grew(const SparseMatrix& A) const {
+  constexpr double much = 1e5;
+  if (pivots_.least * much * much >= pivots_.greatest) return false;
+  return pivots_.greatest > much * Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff();
 }
 
 // Of four at a time, so that none waits for another. Places that no unknown has are given a pivot of their group: they

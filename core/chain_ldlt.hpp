@@ -22,6 +22,10 @@ class ChainLdlt final : public SymmetricFactors {
 
   bool factorize(const SparseMatrix& lower_triangle) override;
   bool sees_what_is_not_finite() const override { return true; }
+
+  /// Where a part of the chain that is eliminated before the rest is singular, and the whole is not: what is left grows
+  /// by the reciprocal, and digits are lost. Another order has other parts.
+  bool refused() const override { return refused_; }
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
   double weighted(const Vector& v) const override;
@@ -56,6 +60,7 @@ class ChainLdlt final : public SymmetricFactors {
   void lay_out_unknowns(const ChainGroups& groups);
   std::int32_t pivot_place(Index group, Index row) const;
   bool read_pivots();
+  bool grew(const SparseMatrix& A) const;
   UnknownRun side_of(Index group, Index row, Index unknown) const;
   void clear_unused(Index columns) const;
 
@@ -72,6 +77,7 @@ class ChainLdlt final : public SymmetricFactors {
   mutable std::vector<double> work_;  // right-hand sides
   Index first_size_ = 0;              // of the numbers of the first round
   Pivots pivots_;
+  bool refused_ = false;
 };
 
 }  // namespace arcwall

@@ -120,6 +120,7 @@ void HeldChain::set_values(const Block& block, const Small& values) {
 bool HeldChain::factorize(const SparseMatrix& matrix) {
   for (const Chunk& chunk : chunks_) std::copy_n(matrix.valuePtr() + chunk.from, chunk.count, A_.valuePtr() + chunk.to);
   pivots_ = {};
+  refused_ = false;
   for (Hold& hold : holds_)
     if (!turn(matrix, hold)) return false;
   for (Hold& hold : holds_) {
@@ -131,6 +132,7 @@ bool HeldChain::factorize(const SparseMatrix& matrix) {
   }
   for (Hold& hold : holds_) take_out(hold);
   const bool regular = chain_.factorize(A_);
+  refused_ = chain_.refused();
   pivots_.add(chain_.pivots());
   return regular;
 }

@@ -20,6 +20,7 @@ class HeldChain final : public SymmetricFactors {
   bool adopts(const SparseMatrix& lower_triangle, Index multipliers) override;
   bool factorize(const SparseMatrix& lower_triangle) override;
   bool sees_what_is_not_finite() const override { return true; }
+  bool refused() const override { return refused_; }
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
   double weighted(const Vector& v) const override;
@@ -81,6 +82,7 @@ class HeldChain final : public SymmetricFactors {
   std::vector<Chunk> chunks_;
   std::vector<Hold> holds_;
   Pivots pivots_;
+  bool refused_ = false;
 };
 
 }  // namespace arcwall

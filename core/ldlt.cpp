@@ -65,7 +65,7 @@ struct Ldlt::Implementation {
     if (asks && !is_finite()) return FactorStatus::not_finite;
     if (factors->factorize(A)) {
       usable = factors.get();
-    } else if (factors->refuses_some()) {
+    } else if (factors->refused()) {
       if (!others) others = simplicial_ldlt(A, multipliers);
       if (others->factorize(A)) usable = others.get();
     }

@@ -8,7 +8,7 @@ namespace arcwall {
 
 /// LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included: ChainLdlt where the pattern is
 /// that of a chain, CHOLMOD's supernodal LLᵀ with springs (sprung_cholesky.hpp) for large structures of many couplings,
-/// its simplicial LDLᵀ elsewhere.
+/// its simplicial LDLᵀ elsewhere and for what those refuse.
 ///
 /// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown
 /// it touches, where its pivot −g S⁻¹ gᵀ is not zero, so that no pivoting is needed and no fill arises beyond that of

@@ -84,7 +84,7 @@ class SprungCholesky final : public SymmetricFactors {
     return read_pivots() && release_root(A) && eliminate_springs();
   }
 
-  bool refuses_some() const override { return true; }
+  bool refused() const override { return true; }
 
   // (1)
   void solve(Eigen::Ref<Matrix> X) const override {

@@ -32,8 +32,8 @@ class SymmetricFactors {
   /// Whether entries may be other than finite: then no pivot is spared from them, and factorize() is false.
   virtual bool sees_what_is_not_finite() const { return false; }
 
-  /// Whether there are regular matrices that this way does not serve.
-  virtual bool refuses_some() const { return false; }
+  /// Where factorize() was false: whether another way may serve that matrix.
+  virtual bool refused() const { return false; }
 
   /// X := A⁻¹ X.
   virtual void solve(Eigen::Ref<Matrix> X) const = 0;

@@ -157,6 +157,28 @@ TEST(ChainLdlt, AZeroPivotIsSeen) {
   EXPECT_FALSE(ldlt.factorize(A));
 }
 
+// Every second node goes first: with δ on the diagonal of one of these, what is left of its neighbours is of the order
+// 1/δ, and nothing of their own is seen beside that. From the ends, as minimum degree goes, nothing grows.
+TEST(ChainLdlt, RefusesAMatrixOfWhichAPartIsSingularAndAnotherOrderServes) {
+  for (const Index nodes : {5, 9, 33})
+    for (const double delta : {1e-3, 1e-8, -1e-14}) {
+      Matrix A = 2.0 * Matrix::Identity(nodes, nodes);
+      A.diagonal(1).setConstant(-0.9);
+      A.diagonal(-1).setConstant(-0.9);
+      A(3, 3) = delta;
+      const SparseMatrix lower = lower_triangle(A);
+      ChainLdlt alone(lower, *chain_groups(lower, 0, ChainLdlt::widest));
+      EXPECT_EQ(alone.factorize(lower), delta == 1e-3);
+      EXPECT_EQ(alone.refused(), delta != 1e-3);
+      Ldlt ldlt;
+      ASSERT_EQ(ldlt.factorize(lower), FactorStatus::ok);
+      EXPECT_EQ(ldlt.inertia()->negative, negative(A));
+      Matrix x = A * Vector::LinSpaced(nodes, 1.0, 2.0);
+      ldlt.solve(x);
+      EXPECT_LE((x - Vector::LinSpaced(nodes, 1.0, 2.0)).cwiseAbs().maxCoeff(), 1e-12) << delta;
+    }
+}
+
 TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
   Numbers numbers(14);
   for (const Index nodes : {1, 4, 5, 6, 7, 8, 30}) {

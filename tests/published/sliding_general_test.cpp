@@ -171,6 +171,24 @@ TEST(SlidingContactPath, LeavesTheUpperWallWhereTheLowerOneIsTooFar) {
   EXPECT_NEAR(pitchfork.state.lambda, third, 1e-5);
 }
 
+// The same with a nearer upper wall, on meshes on which leading blocks of K are singular where the wall is left for
+// good: pivots do not tell the count there, and the branch point must not be missed for that. It comes with order four.
+TEST(SlidingContactPath, FindsThePitchforkBehindAPointWhosePivotsDoNotTellTheCount) {
+  const double third = 105.0 * (1.0 - std::sqrt(1.0 - 9.0 * pi * pi * 0.175 / 210.0));
+  for (const int elements : {12, 24, 48}) {
+    SCOPED_TRACE(elements);
+    const auto events = path_of(SlidingChannel{.members = one(elements), .upper = 0.05, .lower = 0.2}).events();
+    const double error = 1.4e-4 * std::pow(12.0 / elements, 4);
+    const auto pitchfork = std::find_if(events.begin(), events.end(), [&](const Event& event) {
+      return event.kind == branches && std::abs(event.state.lambda - third) <= error;
+    });
+    ASSERT_NE(pitchfork, events.end());
+    EXPECT_EQ(pitchfork->unstable_after, 2);
+    EXPECT_EQ(std::next(pitchfork)->kind, limit);
+    EXPECT_NEAR(std::next(pitchfork)->state.lambda, third, error);
+  }
+}
+
 // Clamped ends straighten with the contact (equal moments wherever the column is parallel to its axis): from there on
 // only the sum of the straight parts is determined.
 TEST(SlidingContactPath, EndsInAFamilyBetweenClampedEnds) {
