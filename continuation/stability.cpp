@@ -1,5 +1,7 @@
 #include "continuation/stability.hpp"
 
+#include <utility>
+
 #include "core/released_border.hpp"
 #include "core/test_function.hpp"
 
@@ -30,7 +32,7 @@ Piece strongly_closed(const System& system, const State& state, double force_tol
 }
 
 void StabilityCounter::track_from(const NearNull& nearest) {
-  own_.track_from(nearest);
+  start_ = &nearest;
   last_.reset();
 }
 
@@ -58,7 +60,9 @@ void StabilityCounter::remember(const State& state, std::optional<Index> negativ
 }
 
 std::optional<Index> StabilityCounter::counted_on(const State& state) {
-  FactorizedEquations& at = shared_.is_on(state.piece) ? shared_ : own_;
+  const bool shares = shared_.is_on(state.piece);
+  FactorizedEquations& at = shares ? shared_ : own_;
+  if (!shares && start_ != nullptr) own_.track_from(*std::exchange(start_, nullptr));
   const FactorStatus status = at.look(state);
   const bool regular = status == FactorStatus::ok, bordered = at.equations().B.cols() > 0;
   if (status == FactorStatus::not_finite || (bordered && !regular)) return std::nullopt;

@@ -40,7 +40,8 @@ class StabilityCounter {
   /// What was counted elsewhere: negative_on() need not count again there.
   void remember(const State& state, std::optional<Index> negative);
 
-  /// From where the eigenpairs nearest zero are followed, instead of the state counted last.
+  /// From where the eigenpairs nearest zero are followed, instead of the state counted last. Not copied before its
+  /// own equations need it: `nearest` must outlive the counts to come.
   void track_from(const NearNull& nearest);
 
  private:
@@ -50,6 +51,7 @@ class StabilityCounter {
   double force_tolerance_;
   FactorizedEquations& shared_;
   FactorizedEquations own_;
+  const NearNull* start_ = nullptr;     // of what its own equations follow, until they are used
   std::optional<State> last_;           // the state counted last: what pivots leave undecided takes long
   std::optional<Index> last_negative_;  // on it
 };

@@ -97,6 +97,7 @@ class Tracer {
   Tracer(const System& system, BranchStart start, TraceOptions options, std::vector<Watch> watched = {});
   Tracer(const System& system, State start, TraceOptions options, std::vector<Watch> watched = {})
       : Tracer(system, BranchStart{.state = std::move(start)}, std::move(options), std::move(watched)) {}
+  Tracer(const Tracer&) = delete;  // its parts share workspaces
 
   /// The next arc; the first has length zero and carries the `start` event. Empty when the branch has ended: see end().
   std::optional<Arc> next();
