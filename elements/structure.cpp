@@ -143,11 +143,16 @@ void Structure::add_elements(const Vector& x, double* F, double* K) const {
   add(order_.last, x, F, K);
 }
 
+// From the forces on the unknowns.
+void Structure::subtract(const PointLoads& loads, double factor, double* F) const {
+  for (PointLoads::InnerIterator load(loads); load; ++load)
+    if (const auto i = unknown(load.index())) F[*i] -= factor * load.value();
+}
+
 void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
-  for (Index i = 0; i < F.size(); ++i) {
-    const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
-    F[i] = -state.lambda * load_[freedom] - constant_load_[freedom];
-  }
+  F.setZero();
+  subtract(load_, state.lambda, F.data());
+  subtract(constant_load_, 1.0, F.data());
   add_elements(state.x, F.data(), nullptr);
   Local local;
   for (const ElementLoad& loaded : element_loads_) {
@@ -164,15 +169,13 @@ void Structure::linearize(const State& state, Linearization& out) const {
     out.K = assembly_.pattern();
     out.pattern_of = state.piece;
   }
-  out.F.resize(n);
-  out.F_lambda.resize(n);
+  out.F.setZero(n);
+  out.F_lambda.setZero(n);
+  subtract(load_, state.lambda, out.F.data());
+  subtract(constant_load_, 1.0, out.F.data());
+  subtract(load_, 1.0, out.F_lambda.data());
   double* values = out.K.valuePtr();
   std::fill(values, values + out.K.nonZeros(), 0.0);
-  for (Index i = 0; i < n; ++i) {
-    const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
-    out.F_lambda[i] = -load_[freedom];
-    out.F[i] = state.lambda * out.F_lambda[i] - constant_load_[freedom];
-  }
   add_elements(state.x, out.F.data(), values);
   Local local;
   for (const ElementLoad& loaded : element_loads_) {
@@ -198,10 +201,12 @@ double Structure::energy(const State& state) const {
     energy += (loaded.kind == LoadKind::proportional ? state.lambda : 1.0) *
               loaded.potential->evaluate(local.u, nullptr, nullptr);
   }
-  for (Index i = 0; i < assembly_.unknown_count(); ++i) {
-    const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)];
-    energy -= (state.lambda * load_[freedom] + constant_load_[freedom]) * state.x[i];
-  }
+  const auto subtract_work = [&](const PointLoads& loads, double factor) {
+    for (PointLoads::InnerIterator load(loads); load; ++load)
+      energy -= factor * load.value() * value(state.x, load.index());
+  };
+  subtract_work(load_, state.lambda);
+  subtract_work(constant_load_, 1.0);
   return energy;
 }
 
@@ -253,7 +258,7 @@ bool Structure::can_be_updated() const {
 double Structure::reaction(const State& state, Index freedom) const {
   if (unknown(freedom)) return 0.0;
   Local local;
-  double force = -state.lambda * load_[freedom] - constant_load_[freedom];
+  double force = -state.lambda * load_.coeff(freedom) - constant_load_.coeff(freedom);
   const auto add = [&](const Element& element, Index block, std::span<const std::int32_t> freedoms, double factor) {
     const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
     if (at == freedoms.end()) return;
@@ -273,7 +278,7 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (unknown(freedom)) return row;
   Local local;
-  row.dlambda = -load_[freedom];
+  row.dlambda = -load_.coeff(freedom);
   const auto add = [&](const Element& element, Index block, std::span<const std::int32_t> freedoms, double factor) {
     const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
     if (at == freedoms.end()) return 0.0;

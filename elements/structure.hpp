@@ -180,7 +180,7 @@ class Structure final : public System {
 
   /// Force or moment on a freedom.
   double point_load(Index freedom, LoadKind kind) const {
-    return kind == LoadKind::proportional ? load_[freedom] : constant_load_[freedom];
+    return (kind == LoadKind::proportional ? load_ : constant_load_).coeff(freedom);
   }
 
   /// The structure with the updated form of its elements after an increment that led to x: see IncrementalStructure.
@@ -200,6 +200,8 @@ class Structure final : public System {
   void add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const;
   void add(const ElementOrder::Four& four, const Vector& x, double* F, double* K) const;
   void add_elements(const Vector& x, double* F, double* K) const;
+  using PointLoads = Eigen::SparseVector<double, Eigen::ColMajor, Index>;  // per freedom
+  void subtract(const PointLoads& loads, double factor, double* F) const;
 
   std::vector<Vec2> positions_;
   std::vector<Index> first_freedom_;  // x of each node; z follows
@@ -213,7 +215,7 @@ class Structure final : public System {
   std::vector<std::uint32_t> first_element_freedom_{0};
   std::vector<ElementLoad> element_loads_;
   std::vector<std::uint32_t> loads_by_element_, first_load_of_element_{0};
-  Vector load_, constant_load_;  // point loads per freedom
+  PointLoads load_, constant_load_;
   BlockAssembly assembly_;
   Vector weights_;
   double length_scale_ = 1.0, force_scale_ = 0.0;

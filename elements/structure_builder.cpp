@@ -300,13 +300,14 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->arrange();
 
   const double L = structure->length_scale_;
-  structure->load_ = structure->constant_load_ = Vector::Zero(static_cast<Index>(freedoms_.size()));
+  structure->load_.resize(static_cast<Index>(freedoms_.size()));
+  structure->constant_load_.resize(static_cast<Index>(freedoms_.size()));
   for (const Load& load : loads_) {
     if (ramp && load.kind == LoadKind::proportional) continue;
     const bool moment = freedoms_[static_cast<std::size_t>(load.freedom)].freedom == Freedom::rotation;
-    if (!proportional(load.kind)) structure->constant_load_[load.freedom] += load.value;
+    if (!proportional(load.kind)) structure->constant_load_.coeffRef(load.freedom) += load.value;
     if (!proportional(load.kind)) continue;
-    structure->load_[load.freedom] += load.value;
+    structure->load_.coeffRef(load.freedom) += load.value;
     structure->force_scale_ = std::max(structure->force_scale_, std::abs(load.value) / (moment ? L : 1.0));
   }
   for (const DistributedLoad& load : distributed_loads_) {
