@@ -9,8 +9,8 @@
 namespace arcwall {
 
 /// Freed memory stays with the program. By default glibc gives vectors of a large structure back to the system and asks
-/// for them again a step later, at the price of a page fault for every 4 kB: a twelfth of the time of a path with 20000
-/// elements.
+/// for them again a step later, at the price of a page fault for every 4 kB: a twentieth or more of the time of a
+/// path with 20000 elements.
 inline void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int greatest_threshold = 32 << 20;  // that glibc accepts for blocks of their own [byte]
