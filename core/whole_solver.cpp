@@ -22,12 +22,21 @@ std::optional<Direction> WholeSolver::solve(const Vector& f, double g) {
     has_spring_ = false;
   }
   if (!has_lu_ && !factorize_lu()) return std::nullopt;
-  Matrix X(f.size() + 1, 1);
-  X.col(0).head(f.size()) = f;
-  X(f.size(), 0) = g;
+  return solve_with_lu(f, g);
+}
+
+// With the unknown of the last row held, and then along the line that is left where it is let go.
+std::optional<Direction> WholeSolver::solve_with_lu(const Vector& f, double g) const {
+  const Index last = f.size();
+  Matrix X = Matrix::Zero(last + 1, 2);
+  X.col(0).head(last) = f;
+  X(last, 1) = 1.0;
   lu_.solve(X);
-  if (!X.allFinite()) return std::nullopt;
-  return Direction{.dx = X.col(0).head(f.size()), .dlambda = X(f.size(), 0)};
+  const auto column = [&](Index c) { return Direction{.dx = X.col(c).head(last), .dlambda = X(last, c)}; };
+  const Direction held = column(0), line = column(1);
+  const double along = (g - apply(border_, held)) / apply(border_, line);
+  if (!X.allFinite() || !std::isfinite(along)) return std::nullopt;
+  return Direction{.dx = held.dx + along * line.dx, .dlambda = held.dlambda + along * line.dlambda};
 }
 
 // As stiff as what it is added to, in the unknown that takes most of the energy.
@@ -103,12 +112,13 @@ std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, doubl
   }
 }
 
+// The border is a full row, with which LU takes a time and a memory like the square of the number of unknowns: in its
+// place the unknown is held in which it is greatest.
 bool WholeSolver::factorize_lu() {
   const Linearization& now = *equations_;
-  const Row& border = border_;
   const Index n = now.K.cols(), m = now.B.cols(), last = n + m;
   std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(static_cast<std::size_t>(2 * now.K.nonZeros() + (2 + m) * n + 1));
+  entries.reserve(static_cast<std::size_t>(2 * now.K.nonZeros() + 2 * (1 + m) * n + 1));
   const auto add = [&](Index row, Index column, double value) {
     if (value != 0.0) entries.emplace_back(row, column, value);
   };
@@ -121,11 +131,10 @@ bool WholeSolver::factorize_lu() {
     for (Index i = 0; i < n; ++i) add(i, n + k, now.B(i, k));
     for (Index i = 0; i < last; ++i) add(n + k, i, now.C(k, i));
   }
-  for (Index i = 0; i < last; ++i) {
-    add(i, last, now.F_lambda[i]);
-    add(last, i, border.dx[i]);
-  }
-  add(last, last, border.dlambda);
+  for (Index i = 0; i < last; ++i) add(i, last, now.F_lambda[i]);
+  Index held = 0;
+  const double greatest = border_.dx.cwiseAbs().maxCoeff(&held);
+  add(last, greatest >= std::abs(border_.dlambda) ? held : last, 1.0);
   SparseMatrix whole(last + 1, last + 1);
   whole.setFromTriplets(entries.begin(), entries.end());
   whole.makeCompressed();

@@ -33,6 +33,7 @@ class WholeSolver {
   Direction solve_with_spring(const Vector& f, double g) const;
   std::optional<Direction> refined_with_spring(const Vector& f, double g) const;
   bool factorize_lu();
+  std::optional<Direction> solve_with_lu(const Vector& f, double g) const;
 
   const Linearization* equations_ = nullptr;
   Row border_;
