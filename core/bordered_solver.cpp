@@ -10,11 +10,13 @@ namespace arcwall {
 
 namespace {
 
-// Relative size of the pivots below which a solution is not trusted unseen.
+// Relative size of the pivots below which a solution may not be trusted unseen.
 constexpr double suspicious_pivot = 1e-13;
-// How much greater than the solution what cancels in it may be.
-constexpr double suspicious_cancellation = 1e3;
+// By what pivots may be greater than entries, and by what what cancels may be greater than the solution.
+constexpr double suspicious_growth = 1e3, suspicious_cancellation = 1e3;
 constexpr int max_refinements = 3;
+// Part of F that a Newton correction may leave where round-off leaves no better one: the next correction takes it.
+constexpr double left_to_newton = 1e-4;
 
 }  // namespace
 
@@ -35,7 +37,8 @@ FactorStatus BorderedSolver::factorize(const Linearization& equations, Index mul
   ldlt_.set_multiplier_count(multipliers);
   const SparseMatrix& K = equations.K;
   Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
-  ldlt_.trust_pattern(pattern.piece && pattern == pattern_);
+  const bool same = pattern.piece && pattern == pattern_;
+  ldlt_.trust_pattern(same);
   pattern_ = std::move(pattern);
   const FactorStatus status = ldlt_.factorize(equations.K);
   regular_ = status == FactorStatus::ok && eliminate_border();
@@ -83,13 +86,21 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
 }
 
 // Where K is nearly singular but J is not, y and K⁻¹ B are large multiples of one vector, and what they differ in is
-// small beside them.
+// small beside them. Pivots of a fine mesh are far apart anyway: the whole is soft beside an element.
 bool BorderedSolver::is_suspicious(double cancelled) const {
-  return !(cancelled < suspicious_cancellation) || ldlt_.pivot_ratio() < suspicious_pivot;
+  return !(cancelled < suspicious_cancellation) ||
+         (ldlt_.pivot_ratio() < suspicious_pivot && !(ldlt_.growth(equations_->K) < suspicious_growth));
 }
 
-// X = J⁻¹ [−F, −F_λ] taken together. Where J is nearly singular both columns are large multiples of one vector, and the
-// digits that they differ in are lost: seen from their combination, the solution that the border asks for.
+// Where J is nearly singular, J⁻¹ F and J⁻¹ F_λ are large multiples of one vector, and the digits that they differ in
+// are lost.
+bool BorderedSolver::loses_digits(const Row& border, const Matrix& X) const {
+  if (ldlt_.pivot_ratio() >= suspicious_pivot) return false;
+  const double along = border.dx.dot(X.col(1)) + border.dlambda;
+  const double off = border.dx.dot(X.col(0)) / along;
+  return !(X.col(0).norm() < suspicious_cancellation * (X.col(0) - off * X.col(1)).norm());
+}
+
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const Linearization& now = *equations_;
   Matrix& X = out.dx;
@@ -99,7 +110,10 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   out.particular_dlambda = 0.0;
   out.tangent_dlambda = 1.0;
   double cancelled = 0.0;
-  if (regular_ && solve_inner(X, cancelled) && (!is_suspicious(cancelled) || make_line_good(border, X))) return true;
+  if (regular_ && solve_inner(X, cancelled)) {
+    const bool good = !is_suspicious(cancelled) && !loses_digits(border, X);
+    if (good || make_line_good(border, out)) return true;
+  }
   if (!factorize_whole(border, X)) return false;
   const auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (!particular || !tangent) return false;
@@ -109,23 +123,32 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   return true;
 }
 
-// False where refinement does not help.
-bool BorderedSolver::make_line_good(const Row& border, Matrix& X) {
+// The particular solution becomes the one that the border asks for, which is no larger than need be. What either lacks
+// is added; of corrections of the first again what the border asks for, so that one which is good already stays. False
+// where that does not help.
+bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
   const Linearization& now = *equations_;
+  auto particular = line.dx.col(0), tangent = line.dx.col(1);
+  double before = infinity;
   for (int round = 0;; ++round) {
-    const double along = border.dx.dot(X.col(1)) + border.dlambda;
-    const double dlambda = -border.dx.dot(X.col(0)) / along;
-    const Vector closed = X.col(0) + dlambda * X.col(1);
-    const BorderedResidual particular(now, -now.F, closed, dlambda);
-    const BorderedResidual tangent(now, -now.F_lambda, X.col(1), 0.0);
-    if (!particular.r().allFinite() || !tangent.r().allFinite()) return false;
-    if (particular.is_small() && tangent.is_small()) return true;
+    const double along = border.dx.dot(tangent) + border.dlambda;
+    const double off = border.dx.dot(particular) + border.dlambda * line.particular_dlambda;
+    particular -= off / along * tangent;
+    line.particular_dlambda -= off / along;
+    const BorderedResidual of_particular(now, -now.F, particular, line.particular_dlambda);
+    const BorderedResidual of_tangent(now, -now.F_lambda, tangent, 0.0);
+    if (!of_particular.r().allFinite() || !of_tangent.r().allFinite()) return false;
+    const bool tangent_is_good = of_tangent.is_small();
+    if (tangent_is_good && of_particular.is_small()) return true;
+    const double left = of_particular.r().norm();
+    if (tangent_is_good && left > 0.1 * before && left <= left_to_newton * now.F.norm()) return true;
     if (round == max_refinements) return false;
-    Matrix correction(now.F.size(), 2);
-    correction.col(0) = particular.r() - dlambda * tangent.r();  // of column 0 alone
-    correction.col(1) = tangent.r();
+    before = left;
+    Matrix correction(now.F.size(), tangent_is_good ? 1 : 2);
+    correction.col(0) = of_particular.r();
+    if (!tangent_is_good) correction.col(1) = of_tangent.r();
     if (!solve_inner(correction)) return false;
-    X += correction;
+    line.dx.leftCols(correction.cols()) += correction;
   }
 }
 

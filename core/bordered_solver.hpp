@@ -73,7 +73,8 @@ class BorderedSolver {
   bool eliminate_border();
   bool solve_inner(Matrix& X, double& cancelled) const;
   bool is_suspicious(double cancelled) const;
-  bool make_line_good(const Row& border, Matrix& X);
+  bool loses_digits(const Row& border, const Matrix& X) const;
+  bool make_line_good(const Row& border, EquilibriumLine& line);
   bool make_tangent_good(Matrix& columns);
   bool factorize_whole(const Row& border, const Matrix& columns);
 

@@ -184,10 +184,17 @@ bool ChainLdlt::factorize(const SparseMatrix& A) {
 }
 
 // Whether a pivot is much greater than all entries: after one of δ stands one of c²/δ. Then these two are far apart.
-bool ChainLdlt::grew(const SparseMatrix& A) const {
+bool ChainLdlt::grew(const SparseMatrix& A) {
   constexpr double much = 1e5;
+  greatest_entry_.reset();
   if (pivots_.least * much * much >= pivots_.greatest) return false;
-  return pivots_.greatest > much * Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff();
+  // The first pivots are entries; it takes the others only where these are small.
+  const ChainRound& first = rounds_.front();
+  const Eigen::Map<const Vector> reciprocals(numbers_.data() + first.diagonal_row(0), first.eliminated);
+  greatest_entry_ = 1.0 / reciprocals.cwiseAbs().minCoeff();
+  if (pivots_.greatest > 100.0 * *greatest_entry_)
+    greatest_entry_ = Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff();
+  return pivots_.greatest > much * *greatest_entry_;
 }
 
 // Of four at a time, so that none waits for another. Places that no unknown has are given a pivot of their group: they

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/chain_elimination.hpp"
@@ -28,6 +29,9 @@ class ChainLdlt final : public SymmetricFactors {
   bool refused() const override { return refused_; }
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
+  double growth(const SparseMatrix& lower_triangle) const override {
+    return greatest_entry_ ? pivots_.greatest / *greatest_entry_ : SymmetricFactors::growth(lower_triangle);
+  }
   double weighted(const Vector& v) const override;
   bool may_use_soft() const override { return false; }
 
@@ -60,7 +64,7 @@ class ChainLdlt final : public SymmetricFactors {
   void lay_out_unknowns(const ChainGroups& groups);
   std::int32_t pivot_place(Index group, Index row) const;
   bool read_pivots();
-  bool grew(const SparseMatrix& A) const;
+  bool grew(const SparseMatrix& A);
   UnknownRun side_of(Index group, Index row, Index unknown) const;
   void clear_unused(Index columns) const;
 
@@ -77,6 +81,7 @@ class ChainLdlt final : public SymmetricFactors {
   mutable std::vector<double> work_;  // right-hand sides
   Index first_size_ = 0;              // of the numbers of the first round
   Pivots pivots_;
+  std::optional<double> greatest_entry_;  // of the last matrix or nearly, where its pivots are far apart
   bool refused_ = false;
 };
 

@@ -113,6 +113,11 @@ double Ldlt::pivot_ratio() const {
   return pivots.least / pivots.greatest;
 }
 
+double Ldlt::growth(const SparseMatrix& A) const {
+  assert(implementation_->usable);
+  return implementation_->usable->growth(A);
+}
+
 // Wilkinson: K + E = L D Lᵀ with |E| ≤ γ |L| |D| |L|ᵀ. Without pivoting L may grow; |K| alone would not show it.
 double Ldlt::roundoff(const Vector& v) const {
   assert(implementation_->usable);

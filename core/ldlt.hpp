@@ -41,6 +41,10 @@ class Ldlt final : public Factorization {
   /// Least |pivot| over greatest; small near singularity. 0 if not factorized.
   double pivot_ratio() const;
 
+  /// Greatest |pivot| over the greatest entry of the matrix that was factorized: much above 1 where a part that was
+  /// eliminated before the rest is nearly singular by itself, which costs as many digits.
+  double growth(const SparseMatrix& lower_triangle) const;
+
   /// vᵀ E v at most, up to a small factor, of the error E of this factorization: ε |v|ᵀ |L| |D| |L|ᵀ |v|. With v the
   /// eigenvector nearest zero: eigenvalues that are no greater may have either sign.
   double roundoff(const Vector& v) const;

@@ -40,6 +40,12 @@ class SymmetricFactors {
 
   virtual Pivots pivots() const = 0;
 
+  /// The greatest pivot over the greatest entry of the matrix that was factorized: digits are lost where it is large.
+  virtual double growth(const SparseMatrix& lower_triangle) const {
+    return pivots().greatest /
+           Eigen::Map<const Vector>(lower_triangle.valuePtr(), lower_triangle.nonZeros()).cwiseAbs().maxCoeff();
+  }
+
   /// |v|ᵀ |L| |D| |L|ᵀ |v|
   virtual double weighted(const Vector& v) const = 0;
 
