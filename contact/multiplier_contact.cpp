@@ -107,6 +107,7 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
     for (const Index unknown : candidates_[j].point().unknowns()) entries.push_back({.row = k, .column = unknown});
   });
   out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.piece));
+  out.afloat = entries.empty() ? out.inner->afloat : std::vector<bool>{};  // walls hold
   out.pattern_of = state.piece;
 }
 

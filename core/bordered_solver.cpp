@@ -39,6 +39,7 @@ FactorStatus BorderedSolver::factorize(const Linearization& equations, Index mul
   Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
   const bool same = pattern.piece && pattern == pattern_;
   ldlt_.trust_pattern(same);
+  if (!same) ldlt_.set_afloat(equations.afloat);
   pattern_ = std::move(pattern);
   const FactorStatus status = ldlt_.factorize(equations.K);
   regular_ = status == FactorStatus::ok && eliminate_border();

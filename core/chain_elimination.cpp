@@ -1,5 +1,6 @@
 #include "core/chain_elimination.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -55,6 +56,36 @@ struct Chain {
       couple(Y, before, stride, coupling + i);
       scale(D, Y, behind, stride);
       subtract_square(Y, behind, stride, left + 1, round.left_stride);
+      if (round.is_afloat(i))
+        balance<Rows::own, Rows::others>(coupling - 1 + i, coupling + i, stride, left, round.left_stride);
+    }
+  }
+
+  // Whose unknowns the rows of a coupling belong to, seen from one of its two groups.
+  enum class Rows { own, others };
+
+  // Equation (3) with a group's two couplings.
+  template <Rows one_rows, Rows other_rows>
+  ARCWALL_IN_PLACE static void balance(const double* one, const double* other, Index stride, double* D,
+                                       Index D_stride) {
+    constexpr Index displacements = std::min<Index>(B, 2);
+    const auto at = [](Rows rows, Index row, Index column) {
+      return rows == Rows::own ? row * B + column : column * B + row;
+    };
+    ARCWALL_EACH (column, 0, displacements)
+      ARCWALL_EACH (row, column, B)
+        store(-load(one + at(one_rows, row, column) * stride) - load(other + at(other_rows, row, column) * stride),
+              D + packed(row, column) * D_stride);
+  }
+
+  // The same before anything is eliminated, on both sides of those that will be and of those that will be left.
+  ARCWALL_IN_PLACE static void balance(const ChainRound& round, double* numbers) {
+    for (Index i = 0; i < round.stride; i += lanes) {
+      if (!round.is_afloat(i)) continue;
+      const double *before = numbers + round.before + i, *behind = numbers + round.behind + i;
+      balance<Rows::own, Rows::own>(before, behind, round.stride, numbers + round.diagonal + i, round.stride);
+      balance<Rows::others, Rows::others>(behind - 1, before, round.stride, numbers + round.kept + i,
+                                          round.left_stride);
     }
   }
 
@@ -228,20 +259,28 @@ struct Chain {
     }
   }
 
-  // uᵀ |d| u with u = |L|ᵀ v_j + |Z_a| v_a + |Z_b| v_b
+  // uᵀ |d| u with u = |L|ᵀ |v_j| + |Z_a| |v_a| + |Z_b| |v_b|, of groups afloat with v − T v_j for v
   ARCWALL_IN_PLACE static double weighted(const ChainRound& round, const double* numbers, const double* v,
                                           const double* left) {
     Lanes sum = 0.0;
     for (Index i = 0; i < round.stride; i += lanes) {
+      std::array<Lanes, B> common;
+      common.fill(0.0);
+      if (round.is_afloat(i) && i + lanes < round.stride && round.is_afloat(i + lanes))
+        for (Index c = 0; c < std::min<Index>(B, 2); ++c)
+          common[static_cast<std::size_t>(c)] = load(v + c * round.stride + i);
       const auto number = [&](Index place) { return magnitude(load(numbers + place + i)); };
+      const auto size = [&](const double* entry, Index c) {
+        return magnitude(load(entry) - common[static_cast<std::size_t>(c)]);
+      };
       ARCWALL_EACH (r, 0, B) {
-        Lanes u = load(v + r * round.stride + i);
+        Lanes u = size(v + r * round.stride + i, r);
         ARCWALL_EACH (k, r + 1, B)
-          u += number(round.diagonal + packed(k, r) * round.stride) * load(v + k * round.stride + i);
+          u += number(round.diagonal + packed(k, r) * round.stride) * size(v + k * round.stride + i, k);
         ARCWALL_EACH (c, 0, B) {
           const double* entry = left + c * round.left_stride + i;
-          u += number(round.before + (r * B + c) * round.stride) * load(entry);
-          u += number(round.behind + (r * B + c) * round.stride) * load(entry + 1);
+          u += number(round.before + (r * B + c) * round.stride) * size(entry, c);
+          u += number(round.behind + (r * B + c) * round.stride) * size(entry + 1, c);
         }
         sum += u * u / number(round.diagonal + packed(r, r) * round.stride);
       }
@@ -267,7 +306,10 @@ struct Chain {
   // All rounds.
   ARCWALL_IN_PLACE static void eliminate(const std::vector<ChainRound>& rounds, double* numbers, double* coupling) {
     for (std::size_t k = 0; k < rounds.size(); ++k) {
-      if (k > 0) pass_on(rounds[k - 1], rounds[k], coupling, numbers);
+      if (k > 0)
+        pass_on(rounds[k - 1], rounds[k], coupling, numbers);
+      else
+        balance(rounds[k], numbers);
       eliminate(rounds[k], numbers, coupling);
     }
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace arcwall {
@@ -26,12 +27,14 @@ bool extended(Steps& steps, Index index) {
 
 }  // namespace
 
-ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups) : unknowns_(A.cols()) {
+ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std::vector<bool>& afloat)
+    : unknowns_(A.cols()) {
   Index greatest = 1;
   for (const auto& group : groups) greatest = std::max(greatest, static_cast<Index>(group.size()));
   width_ = elimination_width(greatest);
   assert(width_ > 0);
   lay_out_rounds(static_cast<Index>(groups.size()));
+  find_afloat(groups, afloat);
 
   std::vector<Index> group_of(static_cast<std::size_t>(A.cols())), row_of(static_cast<std::size_t>(A.cols()));
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -163,6 +166,34 @@ void ChainLdlt::lay_out_rounds(Index groups) {
       }
 }
 
+// A group is afloat in a round if it was in the one before, and so was what went there on its two sides.
+void ChainLdlt::find_afloat(const ChainGroups& groups, const std::vector<bool>& unknowns) {
+  // The columns of a motion are the first two of the groups beside it, too.
+  const auto displacements_first = [&](const std::vector<Index>& group) {
+    const auto is_first = [&](Index unknown) { return unknowns[static_cast<std::size_t>(unknown)]; };
+    return group.size() >= 2 && is_first(group[0]) && group[1] == group[0] + 1 &&
+           std::none_of(group.begin() + 1, group.end(), is_first);
+  };
+  // Those whose neighbours on both sides are such, too.
+  const auto inside = [](const std::vector<bool>& such, std::size_t g) {
+    return g > 0 && g + 1 < such.size() && such[g - 1] && such[g] && such[g + 1];
+  };
+  std::vector<bool> proper(groups.size()), afloat(groups.size());
+  if (!unknowns.empty())
+    for (std::size_t g = 0; g < groups.size(); ++g) proper[g] = displacements_first(groups[g]);
+  for (std::size_t g = 0; g < groups.size(); ++g) afloat[g] = inside(proper, g);
+  for (ChainRound& round : rounds_) {
+    std::vector<bool> left(static_cast<std::size_t>(round.left));
+    for (std::size_t g = 0; g < left.size(); ++g) left[g] = inside(afloat, 2 * g);
+    round.afloat.assign(static_cast<std::size_t>(round.stride / Lanes::count), 0);
+    for (std::size_t i = 0; i < round.afloat.size(); ++i) {
+      const auto first = static_cast<std::ptrdiff_t>(i * Lanes::count), end = first + Lanes::count;
+      round.afloat[i] = end <= round.left && std::all_of(left.begin() + first, left.begin() + end, std::identity{});
+    }
+    afloat = std::move(left);
+  }
+}
+
 // In the round in which its group goes.
 std::int32_t ChainLdlt::pivot_place(Index group, Index row) const {
   auto round = rounds_.begin();
@@ -285,7 +316,7 @@ double ChainLdlt::weighted(const Vector& v) const {
   clear_unused(1);
   for (const UnknownRun& run : unknown_runs_)
     for (std::int32_t i = 0; i < run.unknowns.count; ++i)
-      work_[static_cast<std::size_t>(run.row + run.group + i)] = std::abs(v[run.unknowns.at(i)]);
+      work_[static_cast<std::size_t>(run.row + run.group + i)] = v[run.unknowns.at(i)];
   return weighted_rounds(width_, rounds_, numbers_.data(), work_.data());
 }
 }  // namespace arcwall

@@ -13,13 +13,15 @@ namespace arcwall {
 /// LDLᵀ of a block-tridiagonal matrix by cyclic reduction: every other group is eliminated, then every other one of
 /// those that are left. Groups of one round have nothing to do with each other, so that several are worked on at once,
 /// and short parts of a chain are eliminated first: those are stiff, while the leading parts of a long column may be
-/// critical by themselves. No pivoting; the unknowns of a group follow each other in their order.
+/// critical by themselves. No pivoting; the unknowns of a group follow each other in their order. Of nodes afloat,
+/// solutions keep the digits that the matrix has lost: see ChainRound.
 class ChainLdlt final : public SymmetricFactors {
  public:
   /// The greatest group for which this is meant.
   static constexpr Index widest = 8;
 
-  ChainLdlt(const SparseMatrix& lower_triangle, const ChainGroups& groups);
+  /// `afloat`: see Linearization; may be empty.
+  ChainLdlt(const SparseMatrix& lower_triangle, const ChainGroups& groups, const std::vector<bool>& afloat = {});
 
   bool factorize(const SparseMatrix& lower_triangle) override;
   bool sees_what_is_not_finite() const override { return true; }
@@ -62,6 +64,7 @@ class ChainLdlt final : public SymmetricFactors {
   void lay_out_rounds(Index groups);
   void lay_out_values(const SparseMatrix& A, const std::vector<Index>& group_of, const std::vector<Index>& row_of);
   void lay_out_unknowns(const ChainGroups& groups);
+  void find_afloat(const ChainGroups& groups, const std::vector<bool>& unknowns);
   std::int32_t pivot_place(Index group, Index row) const;
   bool read_pivots();
   bool grew(const SparseMatrix& A);

@@ -21,19 +21,20 @@ struct Ldlt::Implementation {
   Matrix soft;
   std::vector<std::int32_t> columns, rows;  // the pattern that was analysed; an index beyond 32 bits never matches
   Index multipliers = 0, analysed_multipliers = 0;
+  std::vector<bool> afloat, analysed_afloat;
   bool trusted = false;  // the pattern
 
   bool analysed(const SparseMatrix& A) const {
     const auto n = static_cast<std::size_t>(A.cols()) + 1, nonzeros = static_cast<std::size_t>(A.nonZeros());
     return factors != nullptr && multipliers == analysed_multipliers && columns.size() == n &&
            rows.size() == nonzeros &&
-           (trusted || (std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
+           (trusted || (afloat == analysed_afloat && std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
                         std::equal(rows.begin(), rows.end(), A.innerIndexPtr())));
   }
 
   std::unique_ptr<SymmetricFactors> fresh(const SparseMatrix& A) const {
     if (auto groups = chain_groups(A, multipliers, ChainLdlt::widest)) {
-      if (multipliers == 0) return std::make_unique<ChainLdlt>(A, *groups);
+      if (multipliers == 0) return std::make_unique<ChainLdlt>(A, *groups, afloat);
       if (auto held = HeldChain::of(A, multipliers, *groups)) return held;
       if (insert_multipliers(A, multipliers, ChainLdlt::widest, *groups))
         return std::make_unique<ChainLdlt>(A, *groups);
@@ -49,6 +50,7 @@ struct Ldlt::Implementation {
     keep(columns, A.outerIndexPtr(), A.cols() + 1);
     keep(rows, A.innerIndexPtr(), A.nonZeros());
     analysed_multipliers = multipliers;
+    analysed_afloat = afloat;
   }
 
   static void keep(std::vector<std::int32_t>& copy, const Index* from, Index count) {
@@ -80,6 +82,8 @@ Ldlt::Ldlt(Ldlt&&) noexcept = default;
 Ldlt& Ldlt::operator=(Ldlt&&) noexcept = default;
 
 void Ldlt::set_multiplier_count(Index count) { implementation_->multipliers = count; }
+
+void Ldlt::set_afloat(std::vector<bool> unknowns) { implementation_->afloat = std::move(unknowns); }
 
 void Ldlt::expect_soft(Matrix vectors) {
   Implementation& self = *implementation_;

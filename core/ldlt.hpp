@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/factorization.hpp"
 
@@ -22,6 +23,10 @@ class Ldlt final : public Factorization {
 
   /// The last `count` unknowns are multipliers; takes effect with the next new pattern.
   void set_multiplier_count(Index count);
+
+  /// Unknowns of nodes on which no force arises where everything moves parallel (see Linearization); none by default.
+  /// Takes effect with the next matrix whose pattern is not trusted.
+  void set_afloat(std::vector<bool> unknowns);
 
   /// Columns that the matrices to come hardly resist, as far as one knows; none by default. Where they are found makes
   /// large indefinite matrices quicker; results depend on them within round-off.

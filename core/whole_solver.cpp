@@ -51,6 +51,7 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   stiffened_ = K;
   stiffened_.coeffRef(at_, at_) += spring_;
   ldlt_.set_multiplier_count(multipliers);
+  ldlt_.set_afloat(afloat_beside_spring());
   if (ldlt_.factorize(stiffened_) != FactorStatus::ok) return false;
   const Index m = equations_->B.cols(), lambda = m, force = m + 1;
   responses_.setZero(n, m + 2);
@@ -69,6 +70,16 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   small(force, force) -= 1.0 / spring_;
   small_.compute(small);  // what is singular shows in the residuals
   return true;
+}
+
+// The spring holds its node, if it is not one of rotation.
+std::vector<bool> WholeSolver::afloat_beside_spring() const {
+  std::vector<bool> afloat = equations_->afloat;
+  if (afloat.empty()) return afloat;
+  const auto at = static_cast<std::size_t>(at_);
+  afloat[at] = false;
+  if (at > 0) afloat[at - 1] = false;
+  return afloat;
 }
 
 // What the rows of the small system are of x: C_x x, c_xᵀ x, eᵀ x.

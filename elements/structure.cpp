@@ -163,10 +163,35 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
   }
 }
 
+// Elements know differences of displacements alone, and loads are dead: nodes that share no element with a support that
+// holds a displacement are afloat.
+std::vector<bool> Structure::afloat() const {
+  std::vector<bool> held(positions_.size());
+  const auto meaning_of = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; };
+  const auto node_of = [&](Index freedom) { return static_cast<std::size_t>(meaning_of(freedom).node); };
+  for (Index e = 0; e < element_count(); ++e) {
+    const auto freedoms = element_freedoms(e);
+    const auto is_held = [&](Index freedom) {
+      const Freedom which = meaning_of(freedom).freedom;
+      return (which == Freedom::x || which == Freedom::z) && !unknown(freedom);
+    };
+    if (std::any_of(freedoms.begin(), freedoms.end(), is_held))
+      for (const Index freedom : freedoms) held[node_of(freedom)] = true;
+  }
+  std::vector<bool> result(static_cast<std::size_t>(assembly_.unknown_count()));
+  for (std::size_t node = 0; node < held.size(); ++node) {
+    const auto x = unknown(freedom(static_cast<Index>(node), Freedom::x));
+    const auto z = unknown(freedom(static_cast<Index>(node), Freedom::z));
+    if (!held[node] && x && z == *x + 1) result[static_cast<std::size_t>(*x)] = true;
+  }
+  return result;
+}
+
 void Structure::linearize(const State& state, Linearization& out) const {
   const Index n = assembly_.unknown_count();
   if (!out.pattern_of || out.K.cols() != n) {
     out.K = assembly_.pattern();
+    out.afloat = afloat();
     out.pattern_of = state.piece;
   }
   out.F.setZero(n);

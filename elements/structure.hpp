@@ -194,7 +194,8 @@ class Structure final : public System {
 
   Structure(const Structure&) = default;
   Structure(Index unknowns, const std::vector<std::vector<Index>>& blocks) : assembly_(unknowns, blocks) {}
-  void arrange();  // what follows from the elements
+  void arrange();                    // what follows from the elements
+  std::vector<bool> afloat() const;  // see Linearization
   void gather(Index block, const Vector& x, double* u) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
   void add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const;

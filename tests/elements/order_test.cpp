@@ -226,6 +226,12 @@ TEST(BeamOrder, LimitLoadOfLeesFrameConvergesWithOrderFour) {
   EXPECT_LE(std::abs(errors.back()), 2e-8);
 }
 
+// The same with 20000 elements, whose stiffness is 10¹⁷ times the frame's: what rounding leaves of the matrix alone
+// gives five digits.
+TEST(BeamOrder, LimitLoadOfLeesFrameKeepsItsDigitsOnAFineMeshSlow) {
+  EXPECT_NEAR(first_limit_load(test::lee_frame(20000), 0.1, 3.0), 1.855672753757, 5e-9);
+}
+
 // The 215° arch with EA = 1e8: 897.294947593916 by shooting with the extensible elastica. Initially curved elements.
 TEST(BeamOrder, LimitLoadOfTheDeepArchConvergesWithOrderFour) {
   std::vector<double> sizes, errors;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/derivative_check.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/models.hpp"
@@ -76,6 +78,32 @@ TEST(Structure, DerivativesAreConsistentWithEverythingInIt) {
     // Central differences: round-off 1e-12 times ratios of stiffnesses up to 100.
     EXPECT_LE(check_derivatives(*structure, state).worst(), 1e-9);
   }
+}
+
+// Two nodes of the column and two of the girder share no element with a support; the corner is one of them.
+TEST(Structure, ParallelMotionsExertNoForceOnWhatIsAfloat) {
+  Everything everything;
+  const auto structure = everything.builder.build();
+  test::Numbers numbers(31);
+  Linearization now;
+  structure->linearize({.x = 0.1 * numbers.vector(structure->size({})), .lambda = 0.7}, now);
+  const Matrix K = test::full(now.K);
+  Matrix motion = Matrix::Zero(K.rows(), 2);
+  for (Index i = 0; i < K.rows(); ++i) {
+    const Freedom which = structure->meaning(i).freedom;
+    if (which == Freedom::x) motion(i, 0) = 1.0;
+    if (which == Freedom::z) motion(i, 1) = 1.0;
+  }
+  std::vector<Index> nodes;
+  for (Index i = 0; i < K.rows(); ++i) {
+    if (!now.afloat[static_cast<std::size_t>(i)]) continue;
+    nodes.push_back(structure->meaning(i).node);
+    EXPECT_EQ(structure->unknown(structure->freedom(nodes.back(), Freedom::x)), i);
+    EXPECT_EQ(structure->unknown(structure->freedom(nodes.back(), Freedom::z)), i + 1);
+    EXPECT_LE((K.middleRows(i, 2) * motion).norm(), 1e-13 * K.middleRows(i, 2).norm());
+  }
+  EXPECT_EQ(nodes.size(), 4U);
+  EXPECT_EQ(std::count(nodes.begin(), nodes.end(), everything.corner), 1);
 }
 
 TEST(Structure, ReactionsHoldTheLoads) {
