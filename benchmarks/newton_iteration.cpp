@@ -117,7 +117,7 @@ void line_solve(benchmark::State& timing) {
 }
 
 void sizes(benchmark::internal::Benchmark* timing) {
-  for (const int elements : {20, 200, 2000, 20000}) timing->Arg(elements);
+  for (const int elements : {20, 200, 2000, 20000, 100000}) timing->Arg(elements);
 }
 
 BENCHMARK(path)->Apply(sizes)->Unit(benchmark::kMillisecond);

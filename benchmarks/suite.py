@@ -160,8 +160,11 @@ class Suite:
         return Process("time_split", case, size, command, **more)
 
     def lee(self) -> Iterator[Process]:
-        for n in self.wanted([20], [200, 2000], [20000]):
+        for n in self.wanted([20], [200, 2000], [20000, 100000]):
             few = 2 if n > 2000 else None
+            if n > 20000:  # where the yardstick's rounded matrix is no longer the frame's
+                yield self.split("lee", n, rounds=few)
+                continue
             values = [f"member.column.elements={n // 2}", f"member.short.elements={n // 10}",
                       f"member.long.elements={n - n // 2 - n // 10}"]
             yardstick = [self.program("chain_yardstick"), str(n)]
@@ -210,7 +213,7 @@ class Suite:
                 yield self.traced(f"lee by {threads} threads", n, "examples/lee.toml", values, threads, wall=True, rounds=2)
 
     def machine(self) -> Iterator[Process]:
-        elements = "|".join(map(str, self.wanted([20], [200, 2000], [20000])))
+        elements = "|".join(map(str, self.wanted([20], [200, 2000], [20000, 100000])))
         parts = rf"--benchmark_filter=(corrector|linearize|factorize|line_solve)/({elements})$"
         for name, options in self.wanted([], [("machine_limits", []), ("newton_iteration", [parts])], []):
             yield GoogleBenchmark(name, "all", 0, [self.program(name), "--benchmark_format=json", *options], rounds=1)

@@ -26,10 +26,10 @@ struct Linearization {
   Matrix C{};                              ///< rows of the border, by x and s
   std::vector<Index> holding{};            ///< y_k, one a column of B
   Vector F_lambda{};                       ///< ∂F/∂λ
-  std::vector<bool> afloat{};              ///< by unknowns of K; empty: none. Of those set, each is the displacement
-                                           ///< of a node in x, with that in z behind it, and no force arises on the
-                                           ///< node where everything moves parallel: solutions know that then to the
-                                           ///< last digit, which K's rounded entries do not
+  std::vector<bool> afloat{};              ///< nodes on which no force arises where everything moves parallel, by
+                                           ///< unknowns of K: true for the displacement in x of such a node, behind
+                                           ///< which stands that in z. Solutions then know this to the last digit,
+                                           ///< which K's rounded entries do not. May be empty
   std::optional<Piece> pattern_of{};       ///< the piece whose pattern K has; empty: not laid out yet
   std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
 };
