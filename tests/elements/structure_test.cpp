@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/derivative_check.hpp"
 #include "tests/support/dense.hpp"
+#include "tests/support/essenburg_models.hpp"
 #include "tests/support/models.hpp"
 
 namespace arcwall::structure_test {
@@ -68,6 +70,29 @@ Vec2 reaction_sum(const Structure& structure, const State& state) {
   return sum;
 }
 
+// Whose rows vanish on parallel motions, in a state that is none of equilibrium.
+std::vector<Index> nodes_afloat(const Structure& structure) {
+  test::Numbers numbers(31);
+  Linearization now;
+  structure.linearize({.x = 0.05 * numbers.vector(structure.size({})), .lambda = 0.7}, now);
+  const Matrix K = test::full(now.K);
+  Matrix motion = Matrix::Zero(K.rows(), 2);
+  for (Index i = 0; i < K.rows(); ++i) {
+    const Freedom which = structure.meaning(i).freedom;
+    if (which == Freedom::x) motion(i, 0) = 1.0;
+    if (which == Freedom::z) motion(i, 1) = 1.0;
+  }
+  std::vector<Index> nodes;
+  for (Index i = 0; i < K.rows(); ++i) {
+    if (!now.afloat[static_cast<std::size_t>(i)]) continue;
+    nodes.push_back(structure.meaning(i).node);
+    EXPECT_EQ(structure.unknown(structure.freedom(nodes.back(), Freedom::x)), i);
+    EXPECT_EQ(structure.unknown(structure.freedom(nodes.back(), Freedom::z)), i + 1);
+    EXPECT_LE((K.middleRows(i, 2) * motion).norm(), 1e-13 * K.middleRows(i, 2).norm());
+  }
+  return nodes;
+}
+
 }  // namespace
 
 TEST(Structure, DerivativesAreConsistentWithEverythingInIt) {
@@ -83,27 +108,33 @@ TEST(Structure, DerivativesAreConsistentWithEverythingInIt) {
 // Two nodes of the column and two of the girder share no element with a support; the corner is one of them.
 TEST(Structure, ParallelMotionsExertNoForceOnWhatIsAfloat) {
   Everything everything;
-  const auto structure = everything.builder.build();
-  test::Numbers numbers(31);
-  Linearization now;
-  structure->linearize({.x = 0.1 * numbers.vector(structure->size({})), .lambda = 0.7}, now);
-  const Matrix K = test::full(now.K);
-  Matrix motion = Matrix::Zero(K.rows(), 2);
-  for (Index i = 0; i < K.rows(); ++i) {
-    const Freedom which = structure->meaning(i).freedom;
-    if (which == Freedom::x) motion(i, 0) = 1.0;
-    if (which == Freedom::z) motion(i, 1) = 1.0;
-  }
-  std::vector<Index> nodes;
-  for (Index i = 0; i < K.rows(); ++i) {
-    if (!now.afloat[static_cast<std::size_t>(i)]) continue;
-    nodes.push_back(structure->meaning(i).node);
-    EXPECT_EQ(structure->unknown(structure->freedom(nodes.back(), Freedom::x)), i);
-    EXPECT_EQ(structure->unknown(structure->freedom(nodes.back(), Freedom::z)), i + 1);
-    EXPECT_LE((K.middleRows(i, 2) * motion).norm(), 1e-13 * K.middleRows(i, 2).norm());
-  }
+  const std::vector<Index> nodes = nodes_afloat(*everything.builder.build());
   EXPECT_EQ(nodes.size(), 4U);
   EXPECT_EQ(std::count(nodes.begin(), nodes.end(), everything.corner), 1);
+}
+
+// The first and the last of five elements are held; nodes inside an element are as free as those between two.
+TEST(Structure, ParallelMotionsExertNoForceWhateverTheTheory) {
+  const std::tuple<Theory, int, std::size_t> cases[] = {
+      {Theory::classic, 2, 2}, {Theory::elastica, 4, 2},  {Theory::elastica, 6, 2}, {Theory::exact, 1, 2},
+      {Theory::exact, 2, 5},   {Theory::essenburg, 1, 2}, {Theory::essenburg, 2, 5}};
+  for (const auto& [theory, order, expected] : cases) {
+    SCOPED_TRACE("theory " + std::to_string(static_cast<int>(theory)) + ", order " + std::to_string(order));
+    StructureBuilder builder;
+    const Vec2 from(0.0, 0.0), to(2.0, 0.5);
+    const Index first = builder.add_joint(from), last = builder.add_joint(to);
+    builder.add_member({.name = "beam",
+                        .from = first,
+                        .to = last,
+                        .axis = straight_axis(from, to),
+                        .theory = theory,
+                        .order = order,
+                        .section = test::essenburg_section(100.0, 0.3, 0.2, 0.2),
+                        .elements = 5});
+    for (const Index node : {first, last}) builder.fix(builder.freedom(node, Freedom::z));
+    builder.fix(builder.freedom(first, Freedom::x));
+    EXPECT_EQ(nodes_afloat(*builder.build()).size(), expected);
+  }
 }
 
 TEST(Structure, ReactionsHoldTheLoads) {
