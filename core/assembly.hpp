@@ -81,8 +81,8 @@ class BlockAssembly {
 
   /// The lower triangles of several n × n blocks, `K(entry, which)`, with factor 1: without a question where they are
   /// `shifted`, see are_shifted().
-  template <int n, std::size_t count, class Entries>
-  void add_entries(const std::array<Index, count>& blocks, bool shifted, double* values, const Entries& K) const {
+  template <int n, class Number, std::size_t count, class Entries>
+  void add_entries(const std::array<Number, count>& blocks, bool shifted, double* values, const Entries& K) const {
     if (!shifted) {
       for (std::size_t which = 0; which < count; ++which)
         add_entries(blocks[which], 1.0, values, [&](Index entry) { return K(entry, which); });
@@ -100,10 +100,10 @@ class BlockAssembly {
   }
 
   /// Whether no unknown of these is held, and they differ by a shift alone.
-  template <std::size_t count>
-  bool are_shifted(const std::array<Index, count>& blocks) const {
+  template <class Number, std::size_t count>
+  bool are_shifted(const std::array<Number, count>& blocks) const {
     const std::int32_t shape = blocks_[static_cast<std::size_t>(blocks[0])].shape;
-    const auto alike = [&](Index block) { return blocks_[static_cast<std::size_t>(block)].shape == shape; };
+    const auto alike = [&](Number block) { return blocks_[static_cast<std::size_t>(block)].shape == shape; };
     return std::all_of(blocks.begin(), blocks.end(), alike) && !unknowns(blocks[0]).any_held();
   }
 

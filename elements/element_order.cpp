@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace arcwall {
 
@@ -13,8 +14,8 @@ constexpr std::size_t large = 2000;  // elements whose evaluation takes many tim
 
 ElementOrder::Part part_of(const Elements& elements, const BlockAssembly& assembly, const std::vector<Index>& which) {
   ElementOrder::Part part;
-  std::array<Index, Lanes::count> waiting{};
-  std::array<const ClassicBeam*, Lanes::count> beams{};
+  std::array<std::int32_t, Lanes::count> waiting{};
+  std::array<const ClassicBeam*, Lanes::count> beams{}, last{};
   std::size_t count = 0;
   for (const Index e : which) {
     const auto* beam = dynamic_cast<const ClassicBeam*>(elements[static_cast<std::size_t>(e)].get());
@@ -22,15 +23,18 @@ ElementOrder::Part part_of(const Elements& elements, const BlockAssembly& assemb
       part.others.push_back(e);
       continue;
     }
-    waiting[count] = e;
+    waiting[count] = static_cast<std::int32_t>(e);
     beams[count++] = beam;
     if (count < waiting.size()) continue;
-    part.fours.push_back(
-        {.elements = waiting, .beams = ClassicBeamLanes(beams), .shifted = assembly.are_shifted(waiting)});
+    if (std::exchange(last, beams) != beams) part.beams.emplace_back(beams);
+    part.fours.push_back({.elements = waiting,
+                          .beams = static_cast<std::uint32_t>(part.beams.size() - 1),
+                          .shifted = assembly.are_shifted(waiting)});
     count = 0;
   }
   part.others.insert(part.others.end(), waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
   part.fours.shrink_to_fit();
+  part.beams.shrink_to_fit();
   return part;
 }
 

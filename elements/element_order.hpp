@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -14,13 +15,14 @@ namespace arcwall {
 /// there are.
 struct ElementOrder {
   struct Four {
-    std::array<Index, Lanes::count> elements;
-    ClassicBeamLanes beams;
-    bool shifted;  ///< BlockAssembly::are_shifted()
+    std::array<std::int32_t, Lanes::count> elements;
+    std::uint32_t beams;  ///< which of those of the part
+    bool shifted;         ///< BlockAssembly::are_shifted()
   };
   struct Part {
-    std::vector<Four> fours;    ///< classic beams side by side
-    std::vector<Index> others;  ///< elements one by one
+    std::vector<Four> fours;              ///< classic beams side by side
+    std::vector<ClassicBeamLanes> beams;  ///< what these are: fours that are alike share it
+    std::vector<Index> others;            ///< elements one by one
 
     bool empty() const { return fours.empty() && others.empty(); }
   };

@@ -86,7 +86,8 @@ void Structure::arrange() {
 }
 
 // Entry by entry: what goes to one place from one beam and from the next is far apart.
-void Structure::add(const ElementOrder::Four& four, const Vector& x, double* F, double* K) const {
+void Structure::add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F,
+                    double* K) const {
   constexpr int n = 6;
   Lanes u[n], f[n], k[n * n];
   const std::array unknowns{assembly_.unknowns(four.elements[0]), assembly_.unknowns(four.elements[1]),
@@ -103,7 +104,7 @@ void Structure::add(const ElementOrder::Four& four, const Vector& x, double* F, 
     };
     for (std::size_t i = 0; i < n; ++i) u[i] = Lanes(value(0, i), value(1, i), value(2, i), value(3, i));
   }
-  four.beams.evaluate(u, f, K != nullptr ? k : nullptr);
+  beams.evaluate(u, f, K != nullptr ? k : nullptr);
   if (four.shifted) {
     const std::int32_t* offset = unknowns[0].offsets();
     const auto to = [&](std::size_t lane) { return F + unknowns[lane].first(); };
@@ -120,7 +121,7 @@ void Structure::add(const ElementOrder::Four& four, const Vector& x, double* F, 
 }
 
 void Structure::add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const {
-  for (const ElementOrder::Four& four : part.fours) add(four, x, F, K);
+  for (const ElementOrder::Four& four : part.fours) add(four, part.beams[four.beams], x, F, K);
   Local local;
   for (const Index e : part.others) {
     gather(e, x, local.u);

@@ -199,7 +199,7 @@ class Structure final : public System {
   void gather(Index block, const Vector& x, double* u) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
   void add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const;
-  void add(const ElementOrder::Four& four, const Vector& x, double* F, double* K) const;
+  void add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F, double* K) const;
   void add_elements(const Vector& x, double* F, double* K) const;
   using PointLoads = Eigen::SparseVector<double, Eigen::ColMajor, Index>;  // per freedom
   void subtract(const PointLoads& loads, double factor, double* F) const;

@@ -25,14 +25,22 @@ struct Stretch {
   std::size_t k;
 
   // Arc length of the axis without imperfection at a fraction of the element.
-  double at(double fraction) const {
-    return (double(k) + fraction) / double(mesh.nodes.size() - 1) * member.axis->length();
+  double at(double fraction) const { return (double(k) + fraction) / count() * member.axis->length(); }
+  double count() const { return double(mesh.nodes.size() - 1); }
+
+  bool is_like_all_others() const { return shape.is_straight() && shape.deviations().empty(); }
+
+  // Between the nodes as they are: joints may differ from the axis' ends by its round-off. Elements that are alike are
+  // so to the last digit.
+  Vec2 chord() const {
+    if (is_like_all_others()) return (mesh.shape.back().position - mesh.shape.front().position) / count();
+    return mesh.shape[k + 1].position - mesh.shape[k].position;
   }
 };
 
 BeamReference beam_reference(const Stretch& stretch) {
   const AxisPoint &first = stretch.mesh.shape[stretch.k], &second = stretch.mesh.shape[stretch.k + 1];
-  const Vec2 chord = second.position - first.position;
+  const Vec2 chord = stretch.chord();
   const double direction = std::atan2(chord.y(), chord.x());
   const auto against_chord = [&](double angle) { return std::remainder(angle - direction, 2.0 * pi); };
   return {.chord = chord,
@@ -41,10 +49,9 @@ BeamReference beam_reference(const Stretch& stretch) {
           .slope2 = against_chord(second.angle)};
 }
 
-// Between the nodes as they are: joints may differ from the axis' ends by its round-off.
 StretchReference slender_reference(const Stretch& stretch) {
   StretchReference reference = stretch_reference(stretch.shape, stretch.at(0.0), stretch.at(1.0));
-  reference.chord = stretch.mesh.shape[stretch.k + 1].position - stretch.mesh.shape[stretch.k].position;
+  reference.chord = stretch.chord();
   return reference;
 }
 
@@ -104,6 +111,19 @@ std::unique_ptr<Element> make_element(const Stretch& stretch) {
       return std::make_unique<Truss>(beam_reference(stretch).chord, section.EA(), stretch.member.strain);
   }
   return nullptr;
+}
+
+// Of a member, in turn. Those that are alike are one object, where it knows no more of its place than the chord.
+void add_elements(const MemberDescription& member, const MemberMesh& mesh,
+                  std::vector<std::shared_ptr<const Element>>& elements) {
+  const ImperfectAxis shape(*member.axis, member.imperfection);
+  const auto element = [&](std::size_t k) { return Stretch{.member = member, .shape = shape, .mesh = mesh, .k = k}; };
+  const std::size_t count = mesh.nodes.size() - 1;
+  const bool knows_places = member.theory == Theory::exact || member.theory == Theory::essenburg;
+  if (!knows_places && element(0).is_like_all_others())
+    elements.insert(elements.end(), count, std::shared_ptr<const Element>(make_element(element(0))));
+  else
+    for (std::size_t k = 0; k < count; ++k) elements.push_back(make_element(element(k)));
 }
 
 std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
@@ -292,10 +312,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   std::vector<Index> first_element;
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     first_element.push_back(static_cast<Index>(structure->elements_.size()));
-    const MemberDescription& member = descriptions_[m];
-    const ImperfectAxis shape(*member.axis, member.imperfection);
-    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
-      structure->elements_.push_back(make_element({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}));
+    add_elements(descriptions_[m], meshes_[m], structure->elements_);
   }
   structure->arrange();
 
