@@ -5,11 +5,11 @@
 namespace arcwall::bench {
 
 /// What the factorizations of this process took, and Newton's iterations. Programs that link `timed_solvers` have the
-/// libraries' calls of Ldlt::factorize, Ldlt::solve and BorderedSolver::line go by here (GNU ld's --wrap), so that
-/// nothing is timed or counted in the libraries themselves.
+/// libraries' calls of Ldlt::factorize, factorize_and_solve and solve and of BorderedSolver::line go by here (GNU ld's
+/// --wrap), so that nothing is timed or counted in the libraries themselves.
 struct SolverTimes {
-  double factorization = 0.0;  ///< [s]
-  double solution = 0.0;       ///< [s]
+  double factorization = 0.0;  ///< with solutions that were found along [s]
+  double solution = 0.0;       ///< of others [s]
   Index factorizations = 0, solutions = 0;
   Index columns = 0;     ///< right-hand sides
   Index iterations = 0;  ///< of the corrector, wherever it was used

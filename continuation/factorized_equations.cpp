@@ -3,11 +3,21 @@
 namespace arcwall {
 
 FactorStatus FactorizedEquations::look(const State& state) {
+  if (!evaluate(state)) return FactorStatus::not_finite;
+  return solver_.factorize(now_, system_.multiplier_count(state.piece));
+}
+
+FactorStatus FactorizedEquations::look_for_line(const State& state) {
+  if (!evaluate(state)) return FactorStatus::not_finite;
+  return solver_.factorize_for_line(now_, system_.multiplier_count(state.piece));
+}
+
+// False where F is not finite.
+bool FactorizedEquations::evaluate(const State& state) {
   arrived_ = false;
   if (!is_on(state.piece)) piece_ = state.piece;
   system_.linearize(state, now_);
-  if (!all_finite(now_.F)) return FactorStatus::not_finite;
-  return solver_.factorize(now_, system_.multiplier_count(state.piece));
+  return all_finite(now_.F);
 }
 
 FactorStatus FactorizedEquations::arrive(const State& state) {

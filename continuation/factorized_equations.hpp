@@ -19,6 +19,9 @@ class FactorizedEquations {
   /// Evaluates and factorizes; `not_finite` also where F is not.
   FactorStatus look(const State& state);
 
+  /// The same where the solver's line() is asked for next.
+  FactorStatus look_for_line(const State& state);
+
   /// The same, and keeps the state: what is asked from here on is of this one.
   FactorStatus arrive(const State& state);
 
@@ -47,6 +50,8 @@ class FactorizedEquations {
   void track_from(const NearNull& nearest);
 
  private:
+  bool evaluate(const State& state);
+
   const System& system_;
   Linearization now_;
   BorderedSolver solver_;

@@ -1,10 +1,12 @@
 #include "core/bordered_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/bordered_residual.hpp"
+#include "core/sums.hpp"
 
 namespace arcwall {
 
@@ -32,8 +34,27 @@ Matrix product(const Linearization& equations, const Matrix& X) {
 }
 
 FactorStatus BorderedSolver::factorize(const Linearization& equations, Index multipliers) {
+  expect_pattern(equations, multipliers);
+  const FactorStatus status = ldlt_.factorize(equations.K);
+  regular_ = status == FactorStatus::ok && eliminate_border();
+  return status;
+}
+
+FactorStatus BorderedSolver::factorize_for_line(const Linearization& equations, Index multipliers) {
+  if (equations.B.cols() > 0) return factorize(equations, multipliers);
+  expect_pattern(equations, multipliers);
+  along_.resize(equations.F.size(), 2);
+  const std::array<ScaledColumn, 2> of{ScaledColumn{equations.F.data(), -1.0},
+                                       ScaledColumn{equations.F_lambda.data(), -1.0}};
+  const FactorStatus status = ldlt_.factorize_and_solve(equations.K, of, along_);
+  has_along_ = regular_ = status == FactorStatus::ok;
+  return status;
+}
+
+void BorderedSolver::expect_pattern(const Linearization& equations, Index multipliers) {
   equations_ = &equations;
   multipliers_ = multipliers;
+  has_along_ = false;
   ldlt_.set_multiplier_count(multipliers);
   const SparseMatrix& K = equations.K;
   Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
@@ -41,9 +62,6 @@ FactorStatus BorderedSolver::factorize(const Linearization& equations, Index mul
   ldlt_.trust_pattern(same);
   if (!same) ldlt_.set_afloat(equations.afloat);
   pattern_ = std::move(pattern);
-  const FactorStatus status = ldlt_.factorize(equations.K);
-  regular_ = status == FactorStatus::ok && eliminate_border();
-  return status;
 }
 
 // K⁻¹ B and the small matrix that is left for the border's unknowns.
@@ -94,25 +112,44 @@ bool BorderedSolver::is_suspicious(double cancelled) const {
 }
 
 // Where J is nearly singular, J⁻¹ F and J⁻¹ F_λ are large multiples of one vector, and the digits that they differ in
-// are lost.
-bool BorderedSolver::loses_digits(const Row& border, const Matrix& X) const {
-  if (ldlt_.pivot_ratio() >= suspicious_pivot) return false;
-  const double along = border.dx.dot(X.col(1)) + border.dlambda;
-  const double off = border.dx.dot(X.col(0)) / along;
-  return !(X.col(0).norm() < suspicious_cancellation * (X.col(0) - off * X.col(1)).norm());
+// are lost. What is not finite shows in the sums.
+bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X) const {
+  if (ldlt_.pivot_ratio() >= suspicious_pivot) return all_finite(X);
+  const double *b = border.dx.data(), *p = X.col(0).data(), *t = X.col(1).data();
+  const auto [bp, bt, pp, pt, tt] = sums_over<5>(X.rows(), [&](const auto& at, auto& sums) {
+    sums[0] += at(b) * at(p);
+    sums[1] += at(b) * at(t);
+    sums[2] += at(p) * at(p);
+    sums[3] += at(p) * at(t);
+    sums[4] += at(t) * at(t);
+  });
+  if (!std::isfinite(pp) || !std::isfinite(tt)) return false;
+  const double off = bp / (bt + border.dlambda), left = pp - off * (2.0 * pt - off * tt);
+  return pp < suspicious_cancellation * suspicious_cancellation * left;
+}
+
+// J⁻¹ [−F  −F_λ]; false where J is singular.
+bool BorderedSolver::solve_line(Matrix& X, double& cancelled) {
+  if (std::exchange(has_along_, false)) {
+    X.swap(along_);
+    cancelled = 1.0;
+    return true;
+  }
+  const Linearization& now = *equations_;
+  X.resize(now.F.size(), 2);
+  X.col(0) = -now.F;
+  X.col(1) = -now.F_lambda;
+  return regular_ && solve_inner(X, cancelled);
 }
 
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const Linearization& now = *equations_;
   Matrix& X = out.dx;
-  X.resize(now.F.size(), 2);
-  X.col(0) = -now.F;
-  X.col(1) = -now.F_lambda;
   out.particular_dlambda = 0.0;
   out.tangent_dlambda = 1.0;
   double cancelled = 0.0;
-  if (regular_ && solve_inner(X, cancelled)) {
-    const bool good = !is_suspicious(cancelled) && !loses_digits(border, X);
+  if (solve_line(X, cancelled)) {
+    const bool good = !is_suspicious(cancelled) && keeps_digits(border, X);
     if (good || make_line_good(border, out)) return true;
   }
   if (!factorize_whole(border, X)) return false;

@@ -34,6 +34,9 @@ class BorderedSolver {
   /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves.
   FactorStatus factorize(const Linearization& equations, Index multipliers);
 
+  /// The same where line() is asked for next: without a border its solutions are found along.
+  FactorStatus factorize_for_line(const Linearization& equations, Index multipliers);
+
   /// See Ldlt.
   void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
   bool may_use_soft() const { return ldlt_.may_use_soft(); }
@@ -70,10 +73,12 @@ class BorderedSolver {
     bool operator==(const Pattern&) const = default;
   };
 
+  void expect_pattern(const Linearization& equations, Index multipliers);
   bool eliminate_border();
   bool solve_inner(Matrix& X, double& cancelled) const;
+  bool solve_line(Matrix& X, double& cancelled);
   bool is_suspicious(double cancelled) const;
-  bool loses_digits(const Row& border, const Matrix& X) const;
+  bool keeps_digits(const Row& border, const Matrix& X) const;
   bool make_line_good(const Row& border, EquilibriumLine& line);
   bool make_tangent_good(Matrix& columns);
   bool factorize_whole(const Row& border, const Matrix& columns);
@@ -84,6 +89,8 @@ class BorderedSolver {
   WholeSolver whole_;
   Index multipliers_ = 0;
   bool regular_ = false;
+  Matrix along_;  // J⁻¹ [−F  −F_λ], found with the factorization
+  bool has_along_ = false;
   Matrix border_;  // K⁻¹ B
   Matrix reduced_;
   Eigen::PartialPivLU<Matrix> slides_;  // of reduced_

@@ -11,51 +11,80 @@ namespace arcwall {
 /// Place of entry (row, column) in a packed lower triangle.
 constexpr Index packed(Index row, Index column) { return row * (row + 1) / 2 + column; }
 
-/// A round of cyclic reduction on a chain of groups, all of one width B: groups 1, 3, 5 … of those that are left are
-/// eliminated, each from its two neighbours; the last one by itself. Entry k of all groups stands together: that of
-/// group i of the eliminated ones at k · stride + i. Strides are multiples of the lanes; blocks are packed lower
-/// triangles or B × B by rows.
+/// Of the pivots of a chain; what is there to fill groups and lanes counts.
+struct ChainPivots {
+  double least = infinity, greatest = 0.0;  ///< magnitudes of 1/d
+  double sum = 0.0;                         ///< likewise; not finite where one is not
+  double least_first = infinity;            ///< magnitude of 1/d, of those that are entries of the matrix
+  Index negative = 0;
+};
+
+/// LDLᵀ of a block-tridiagonal matrix by cyclic reduction, on a chain of groups of one width B that is cut into as many
+/// stretches as there are lanes. These are worked on side by side, each on a group between two others of its stretch:
 ///
-/// A group is afloat where its first two unknowns are the displacements of a node and no force arises from a parallel
-/// motion T of everything. Then its rows vanish on T, in all rounds, and those columns of D follow from the couplings:
+///     [D_a       Aᵀ_ja        ]            D_j = L d Lᵀ,  Y = L⁻¹ A_j,  Z = d⁻¹ Y (1) [A_ja  D_j        A_jb  ]     →
+///     [          Aᵀ_jb  D_b   ]            D_a −= Y_aᵀ Z_a,  D_b −= Y_bᵀ Z_b,  A_ba = −Y_bᵀ Z_a (2)
+///
+/// First go groups 1, 3, 5 …, then every other one of those that are left, but each as soon as its neighbours are the
+/// right ones: what is worked on stays near the processor. The first groups of the stretches are left, a chain like the
+/// first.
+///
+/// Elements, which join a group to the next one that is left, may be afloat: their part of the forces vanishes on a
+/// parallel motion T of everything, T being the first two unknowns of each group. Their parts of those columns of D
+/// follow from their couplings, when they are made longer, too:
 ///
 ///     D_a T = −Σ_b A_ab T                                                                                        (3)
 ///
 /// Taken so (Grassmann, Taksar and Heyman 1985) and not as a difference (2), they keep their digits however stiff short
 /// elements are beside the whole.
-struct ChainRound {
-  Index eliminated = 0, left = 0;
-  Index stride = 0;                                     // of what belongs to those eliminated
-  Index left_stride = 0;                                // of what belongs to those that are left
-  Index kept = 0;                                       // places in the numbers: D of those left,
-  Index diagonal = 0;                                   // D of those eliminated, then L and 1/d,
-  Index before = 0;                                     // A_ja, then Z_a,
-  Index behind = 0;                                     // A_jb, then Z_b
-  Index right_hand_side = 0, right_hand_side_left = 0;  // places in the work, in units of right-hand sides
+struct ChainNumbers {
+  ChainNumbers() = default;
+  ChainNumbers(Index width, Index groups);
 
-  std::vector<std::uint8_t> afloat{};  // whether all are, by lanes of those left, with what goes on both sides of each
+  /// Where entries stand in a group's numbers: D, then L and 1/d, a packed lower triangle; the coupling A_ja with the
+  /// group before, then Z_a; the coupling A_jb with the one behind, then Z_b; both B × B, by rows of the group. A
+  /// coupling belongs to the group that goes first: before any has gone, to those of odd number in their stretch, and
+  /// to the last.
+  Index before(Index row, Index column) const { return packed(width, 0) + row * width + column; }
+  Index behind(Index row, Index column) const { return before(width, 0) + row * width + column; }
+  Index per_group() const { return behind(width, 0); }
+  Lanes* group(Index i) { return &numbers[static_cast<std::size_t>(i * per_group())]; }
 
-  bool is_afloat(Index first_lane) const { return afloat[static_cast<std::size_t>(first_lane / Lanes::count)] != 0; }
-  bool eliminates(Index group) const { return left == 0 || group % 2 == 1; }
-  /// Where 1/d of row k of those eliminated begin.
-  Index diagonal_row(Index row) const { return diagonal + packed(row, row) * stride; }
-  Index diagonal_at(Index group, Index entry) const {
-    return eliminates(group) ? diagonal + entry * stride + group / 2 : kept + entry * left_stride + group / 2;
-  }
+  Index width = 0, length = 0;  ///< of groups in unknowns, of stretches in groups
+  std::vector<Lanes> numbers{};
+  std::vector<double> last{};  ///< numbers of the chain that is left
+  /// Bits of lanes in which the element behind a group is afloat, at first; none at all where no element is.
+  std::vector<std::uint8_t> afloat{};
+  /// Bits of lanes in which both elements at a group were so, the one behind the stretch included: each has its own
+  /// part of D T.
+  std::vector<std::uint8_t> parted{};
+  /// As `afloat`, while elements become longer; and of the two elements between which a group went.
+  std::vector<std::uint8_t> afloat_now{}, went_afloat{};
+};
+
+/// Right-hand sides, `columns` side by side: entry k of column r of group i of all stretches stands at
+/// (i B + k) · columns + r.
+struct ChainWork {
+  std::vector<Lanes> entries{};
+  std::vector<double> last{};
 };
 
 /// The least width with code of its own that groups of `greatest` unknowns fit in; 0 if there is none.
 Index elimination_width(Index greatest);
 
-/// The factors of all rounds, in place; `coupling` is a workspace of B × B times the first stride.
-void eliminate_rounds(Index width, const std::vector<ChainRound>& rounds, double* numbers, double* coupling);
+/// Groups in turn, in place; those up to `end` + 1 have their numbers by then. `begin` and `end` are even, or `end` is
+/// the length.
+void eliminate_groups(ChainNumbers& chain, Index begin, Index end, ChainPivots& seen);
 
-/// One or two columns, whose entries lie in turns, in place.
-void solve_rounds(Index width, Index columns, const std::vector<ChainRound>& rounds, const double* numbers,
-                  double* work);
+/// L y = f for one or two columns, in place, as far as the groups in turn have gone; their right-hand sides are there
+/// as their numbers were. With the last part what is left of the chain is solved.
+void forward_groups(const ChainNumbers& chain, Index columns, Index begin, Index end, ChainWork& work);
+
+/// Then the other way, the last part first: solutions of a part are there when it is done.
+void backward_groups(const ChainNumbers& chain, Index columns, Index begin, Index end, ChainWork& work);
 
 /// |v|ᵀ |L| |D| |L|ᵀ |v| of one column v, whose place in the work is that of a right-hand side. What is afloat sees v
 /// without the motion that it has in common with the group eliminated: only the rest of v meets round-off there.
-double weighted_rounds(Index width, const std::vector<ChainRound>& rounds, const double* numbers, double* work);
+double weighted_by_chain(const ChainNumbers& chain, ChainWork& work);
 
 }  // namespace arcwall

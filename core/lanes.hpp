@@ -19,6 +19,12 @@ struct alignas(32) Lanes {
   Four four;
 
   Lanes() = default;
+  // All four at once: compilers would copy one half after the other, and wait for both to be read again.
+  ARCWALL_IN_PLACE Lanes(const Lanes& other) : four(other.four) {}
+  ARCWALL_IN_PLACE Lanes& operator=(const Lanes& other) {
+    four = other.four;
+    return *this;
+  }
   ARCWALL_IN_PLACE Lanes(double all) : four{all, all, all, all} {}  // NOLINT: constants stand in formulas
   ARCWALL_IN_PLACE Lanes(double a, double b, double c, double d) : four{a, b, c, d} {}
   ARCWALL_IN_PLACE explicit Lanes(const Four& numbers) : four(numbers) {}

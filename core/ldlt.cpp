@@ -58,18 +58,19 @@ struct Ldlt::Implementation {
     std::transform(from, from + count, copy.begin(), [](Index i) { return static_cast<std::int32_t>(i); });
   }
 
-  // Simplicial LDLᵀ serves all matrices.
-  FactorStatus factorize(const SparseMatrix& A) {
+  // Simplicial LDLᵀ serves all matrices. `serves` factorizes by one of the ways, and may solve.
+  template <class Serves>
+  FactorStatus factorize(const SparseMatrix& A, const Serves& serves) {
     const auto is_finite = [&] { return all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros())); };
     usable = nullptr;
     if (!analysed(A)) analyse(A);
     const bool asks = !factors->sees_what_is_not_finite();
     if (asks && !is_finite()) return FactorStatus::not_finite;
-    if (factors->factorize(A)) {
+    if (serves(*factors)) {
       usable = factors.get();
     } else if (factors->refused()) {
       if (!others) others = simplicial_ldlt(A, multipliers);
-      if (others->factorize(A)) usable = others.get();
+      if (serves(*others)) usable = others.get();
     }
     if (usable != nullptr) return FactorStatus::ok;
     return asks || is_finite() ? FactorStatus::singular : FactorStatus::not_finite;
@@ -97,7 +98,14 @@ void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
 
 FactorStatus Ldlt::factorize(const SparseMatrix& A) {
   assert(A.isCompressed() && A.rows() == A.cols());
-  return implementation_->factorize(A);
+  return implementation_->factorize(A, [&](SymmetricFactors& factors) { return factors.factorize(A); });
+}
+
+FactorStatus Ldlt::factorize_and_solve(const SparseMatrix& A, std::span<const ScaledColumn> of, Eigen::Ref<Matrix> X) {
+  assert(A.isCompressed() && A.rows() == A.cols());
+  assert(X.rows() == A.cols() && X.cols() == static_cast<Index>(of.size()));
+  return implementation_->factorize(A,
+                                    [&](SymmetricFactors& factors) { return factors.factorize_and_solve(A, of, X); });
 }
 
 void Ldlt::solve(Eigen::Ref<Matrix> X) const {

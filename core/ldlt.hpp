@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/factorization.hpp"
@@ -40,6 +41,12 @@ class Ldlt final : public Factorization {
   void trust_pattern(bool same);
 
   FactorStatus factorize(const SparseMatrix& lower_triangle) override;
+
+  /// The same and X := A⁻¹ `of`, which is quicker for long chains than one after the other. After any status but `ok` X
+  /// is any.
+  FactorStatus factorize_and_solve(const SparseMatrix& lower_triangle, std::span<const ScaledColumn> of,
+                                   Eigen::Ref<Matrix> X);
+
   void solve(Eigen::Ref<Matrix> X) const override;
   std::optional<Inertia> inertia() const override;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "core/factorization.hpp"
 
 namespace arcwall {
@@ -24,6 +26,11 @@ class SymmetricFactors {
   /// The lower triangle of a matrix with the pattern analysed, its entries finite. False if a pivot is zero or not
   /// finite, or the matrix is none that this way serves.
   virtual bool factorize(const SparseMatrix& lower_triangle) = 0;
+
+  /// Solves for some columns along with it, which may be quicker than afterwards: X := A⁻¹ `of`. X is any where this is
+  /// false.
+  virtual bool factorize_and_solve(const SparseMatrix& lower_triangle, std::span<const ScaledColumn> of,
+                                   Eigen::Ref<Matrix> X);
 
   /// Takes over a pattern that differs from the last one in its multipliers alone, its last unknowns; false where that
   /// needs another analysis.

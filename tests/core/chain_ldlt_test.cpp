@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -42,20 +43,33 @@ Index negative(const Matrix& A) {
   return (Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues().array() < 0.0).count();
 }
 
-// |v|ᵀ |L| |D| |L|ᵀ |v| of a dense L D Lᵀ in the order of cyclic reduction: every second group, then every second of
-// those left.
-double weighted(const Matrix& A, const ChainGroups& groups, const Vector& v) {
-  std::vector<Index> order;
-  ChainGroups left = groups;
-  while (!left.empty()) {
+// The order of cyclic reduction: every second group, then every second of those left, up to one, which is given back.
+std::vector<Index> reduce(ChainGroups left, std::vector<Index>& order) {
+  while (left.size() > 1) {
     ChainGroups next;
     for (std::size_t g = 0; g < left.size(); ++g)
-      if (g % 2 == 1 || left.size() == 1)
+      if (g % 2 == 1)
         order.insert(order.end(), left[g].begin(), left[g].end());
       else
         next.push_back(left[g]);
     left = std::move(next);
   }
+  return left.front();
+}
+
+// |v|ᵀ |L| |D| |L|ᵀ |v| of a dense L D Lᵀ in the order in which four stretches of a chain are reduced, then what they
+// leave.
+double weighted(const Matrix& A, const ChainGroups& groups, const Vector& v) {
+  const auto length = static_cast<std::ptrdiff_t>((groups.size() + 3) / 4);
+  std::vector<Index> order;
+  ChainGroups left;
+  for (auto from = groups.begin(); from != groups.end();) {
+    const auto to = from + std::min(length, groups.end() - from);
+    left.push_back(reduce({from, to}, order));
+    from = to;
+  }
+  const std::vector<Index> last = reduce(left, order);
+  order.insert(order.end(), last.begin(), last.end());
   Matrix rest = A(order, order);
   const Vector size = v(order).cwiseAbs();
   double sum = 0.0;
@@ -165,9 +179,10 @@ TEST(ChainLdlt, RefusesAMatrixOfWhichAPartIsSingularAndAnotherOrderServes) {
       Matrix A = 2.0 * Matrix::Identity(nodes, nodes);
       A.diagonal(1).setConstant(-0.9);
       A.diagonal(-1).setConstant(-0.9);
-      A(3, 3) = delta;
+      const ChainGroups groups = chain_groups(lower_triangle(A), 0, ChainLdlt::widest).value();
+      A(groups[1][0], groups[1][0]) = delta;
       const SparseMatrix lower = lower_triangle(A);
-      ChainLdlt alone(lower, *chain_groups(lower, 0, ChainLdlt::widest));
+      ChainLdlt alone(lower, groups);
       EXPECT_EQ(alone.factorize(lower), delta == 1e-3);
       EXPECT_EQ(alone.refused(), delta != 1e-3);
       Ldlt ldlt;
@@ -179,40 +194,71 @@ TEST(ChainLdlt, RefusesAMatrixOfWhichAPartIsSingularAndAnotherOrderServes) {
     }
 }
 
-// A beam of length 1 and stiffness EI = 1 on two supports, its nodes with the unknowns x, z and θ, under a force of 1
-// in its middle, which goes down by 1/48; cubic elements are exact at their nodes. Entries are n⁴ times as great as
-// what they leave to resist the whole, 10¹⁸ here.
-TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
-  constexpr Index elements = 30000, nodes = elements + 1;
-  constexpr double h = 1.0 / double(elements), EA = 12.0;
-  Matrix block = Matrix::Zero(6, 6);  // of one element
-  for (const Index a : {0, 1})
-    for (const Index b : {0, 1}) {
-      const double sign = a == b ? 1.0 : -1.0, side = a == 0 ? 1.0 : -1.0;
-      block(3 * a, 3 * b) = sign * EA / h;
-      block(3 * a + 1, 3 * b + 1) = sign * 12.0 / (h * h * h);
-      block(3 * a + 1, 3 * b + 2) = block(3 * b + 2, 3 * a + 1) = side * 6.0 / (h * h);
-      block(3 * a + 2, 3 * b + 2) = (a == b ? 4.0 : 2.0) / h;
+// A beam of length 1 and stiffness EI = 1, its nodes with the unknowns x, z and θ; cubic elements are exact at their
+// nodes. It is held in z at all supports, places in eighths of its length, and in x at the first.
+struct Beam {
+  Index elements;
+  std::vector<Index> supports;
+  SparseMatrix lower{};
+  std::vector<bool> afloat{};
+
+  Beam(Index of_elements, std::vector<Index> of_supports)
+      : elements(of_elements), supports(std::move(of_supports)), unknown_(static_cast<std::size_t>(3 * elements + 3)) {
+    Index next = 0;
+    for (Index freedom = 0; freedom < 3 * elements + 3; ++freedom)
+      unknown_[static_cast<std::size_t>(freedom)] = is_held(freedom) ? -1 : next++;
+    assemble(next);
+    afloat.resize(static_cast<std::size_t>(next));
+    for (Index node = 0; node <= elements; ++node) {
+      const auto is_support = [&](Index at) { return is_held(3 * at) || is_held(3 * at + 1); };
+      if (!is_support(node) && !is_support(std::max(node - 1, Index{0})) && !is_support(std::min(node + 1, elements)))
+        afloat[static_cast<std::size_t>(unknown(3 * node))] = true;
     }
-  // Held are x and z of the first node, z of the last.
-  const auto unknown = [&](Index freedom) {
-    const bool held = freedom < 2 || freedom == 3 * nodes - 2;
-    return held ? Index{-1} : freedom < 3 * nodes - 2 ? freedom - 2 : freedom - 3;
-  };
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  for (Index e = 0; e < elements; ++e)
-    for (Index i = 0; i < 6; ++i)
-      for (Index j = 0; j <= i; ++j)
-        if (unknown(3 * e + i) >= 0 && unknown(3 * e + j) >= 0)
-          entries.emplace_back(unknown(3 * e + i), unknown(3 * e + j), block(i, j));
-  SparseMatrix lower(3 * nodes - 3, 3 * nodes - 3);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  std::vector<bool> afloat(static_cast<std::size_t>(lower.cols()));
-  for (Index node = 2; node + 2 < nodes; ++node) afloat[static_cast<std::size_t>(unknown(3 * node))] = true;
-  const Index middle = unknown(3 * (elements / 2) + 1);
+  }
+
+  Index unknown(Index freedom) const { return unknown_[static_cast<std::size_t>(freedom)]; }
+  Index deflection(Index eighths) const { return unknown(3 * (elements * eighths / 8) + 1); }
+
+ private:
+  bool is_held(Index freedom) const {
+    const auto first_of = [&](Index at) { return 3 * (elements * at / 8); };
+    return freedom == first_of(supports.front()) ||
+           std::any_of(supports.begin(), supports.end(), [&](Index at) { return freedom == first_of(at) + 1; });
+  }
+
+  void assemble(Index unknowns) {
+    const double h = 1.0 / double(elements), EA = 12.0;
+    Matrix block = Matrix::Zero(6, 6);  // of one element
+    for (const Index a : {0, 1})
+      for (const Index b : {0, 1}) {
+        const double sign = a == b ? 1.0 : -1.0, side = a == 0 ? 1.0 : -1.0;
+        block(3 * a, 3 * b) = sign * EA / h;
+        block(3 * a + 1, 3 * b + 1) = sign * 12.0 / (h * h * h);
+        block(3 * a + 1, 3 * b + 2) = block(3 * b + 2, 3 * a + 1) = side * 6.0 / (h * h);
+        block(3 * a + 2, 3 * b + 2) = (a == b ? 4.0 : 2.0) / h;
+      }
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    for (Index e = 0; e < elements; ++e)
+      for (Index i = 0; i < 6; ++i)
+        for (Index j = 0; j <= i; ++j)
+          if (unknown(3 * e + i) >= 0 && unknown(3 * e + j) >= 0)
+            entries.emplace_back(unknown(3 * e + i), unknown(3 * e + j), block(i, j));
+    lower.resize(unknowns, unknowns);
+    lower.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  std::vector<Index> unknown_;
+};
+
+// On two supports under a force of 1 in its middle, which goes down by 1/48. Entries are n⁴ times as great as what they
+// leave to resist the whole, 10¹⁸ here.
+TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
+  const Beam beam(30000, {0, 8});
+  const SparseMatrix& lower = beam.lower;
+  const Index middle = beam.deflection(4);
   const Vector bending = Vector::Unit(lower.cols(), middle);
 
-  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), afloat);
+  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.afloat);
   ASSERT_TRUE(ldlt.factorize(lower));
   EXPECT_EQ(ldlt.pivots().signs.negative, 0);
   Matrix w = bending;
@@ -225,6 +271,49 @@ TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
   w = bending;
   if (held.factorize(lower)) held.solve(w);
   EXPECT_GT(std::abs(48.0 * w(middle, 0) - 1.0), 0.1);
+}
+
+// Wherever the supports are: parts between them are afloat, and what lies beside a support is not. By eight elements.
+TEST(ChainLdlt, KnowsBetweenSupportsToo) {
+  for (const std::vector<Index>& supports : std::vector<std::vector<Index>>{{0, 3, 8}, {2, 4, 6}, {0, 1, 7}, {5, 8}}) {
+    const Beam coarse(8, supports), fine(30000, supports);
+    const Index from = supports[0] == 0 ? 2 : 0;
+    const Matrix dense = Matrix(coarse.lower).selfadjointView<Eigen::Lower>();
+    const Vector expected = dense.ldlt().solve(Vector::Unit(dense.cols(), coarse.deflection(from)));
+    ChainLdlt ldlt(fine.lower, chain_groups(fine.lower, 0, 3).value(), fine.afloat);
+    ASSERT_TRUE(ldlt.factorize(fine.lower));
+    EXPECT_EQ(ldlt.pivots().signs.negative, 0);
+    Matrix w = Vector::Unit(fine.lower.cols(), fine.deflection(from));
+    ldlt.solve(w);
+    for (Index at = 0; at <= 8; ++at)
+      if (coarse.deflection(at) >= 0) {
+        EXPECT_NEAR(w(fine.deflection(at), 0), expected[coarse.deflection(at)], 1e-6 * expected.cwiseAbs().maxCoeff())
+            << "at " << at << "/8";
+      }
+  }
+}
+
+// Of a chain so long that its numbers are brought to their places part by part.
+TEST(ChainLdlt, SolvesAlongAsAfterwards) {
+  Numbers numbers(15);
+  for (const Index nodes : {3, 130, 203}) {
+    const Matrix A = chain(nodes, 2, numbers);
+    const SparseMatrix lower = lower_triangle(A);
+    const Matrix expected = numbers.matrix(A.cols(), 3), B = A * expected;
+    for (const Index columns : {1, 2, 3}) {
+      std::vector<ScaledColumn> of;
+      for (Index c = 0; c < columns; ++c) of.push_back({B.col(c).data(), c == 0 ? 1.0 : -2.0});
+      ChainLdlt ldlt(lower, chain_groups(lower, 0, ChainLdlt::widest).value());
+      Matrix X(A.cols(), columns), Y = B.leftCols(columns);
+      ASSERT_TRUE(ldlt.factorize_and_solve(lower, of, X));
+      ldlt.solve(Y);
+      const double growth = ldlt.pivots().greatest / ldlt.pivots().least;
+      for (Index c = 0; c < columns; ++c) {
+        EXPECT_EQ(X.col(c), of[static_cast<std::size_t>(c)].factor * Y.col(c));
+        EXPECT_LE((Y.col(c) - expected.col(c)).norm(), 1e-13 * growth * double(A.cols()));
+      }
+    }
+  }
 }
 
 TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
