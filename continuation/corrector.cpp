@@ -28,7 +28,7 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
   const Row border = metric.row(along);
   double previous = length;
   while (result.iterations < options.max_iterations) {
-    if (here_.look_for_line(result.state) == FactorStatus::not_finite) return ended(CorrectorStatus::not_finite);
+    if (here_.look_for_line(result.state, line_) == FactorStatus::not_finite) return ended(CorrectorStatus::not_finite);
     if (!find_line(metric, border)) return ended(CorrectorStatus::singular);
     result.roots = constraint.advance(result.state, particular_, tangent_);
     if (!result.roots) return ended(CorrectorStatus::complex_roots);

@@ -7,9 +7,9 @@ FactorStatus FactorizedEquations::look(const State& state) {
   return solver_.factorize(now_, system_.multiplier_count(state.piece));
 }
 
-FactorStatus FactorizedEquations::look_for_line(const State& state) {
+FactorStatus FactorizedEquations::look_for_line(const State& state, EquilibriumLine& line) {
   if (!evaluate(state)) return FactorStatus::not_finite;
-  return solver_.factorize_for_line(now_, system_.multiplier_count(state.piece));
+  return solver_.factorize_for_line(now_, system_.multiplier_count(state.piece), line);
 }
 
 // False where F is not finite.

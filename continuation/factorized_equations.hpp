@@ -19,8 +19,8 @@ class FactorizedEquations {
   /// Evaluates and factorizes; `not_finite` also where F is not.
   FactorStatus look(const State& state);
 
-  /// The same where the solver's line() is asked for next.
-  FactorStatus look_for_line(const State& state);
+  /// The same where the solver's line() is asked for next, for this line.
+  FactorStatus look_for_line(const State& state, EquilibriumLine& line);
 
   /// The same, and keeps the state: what is asked from here on is of this one.
   FactorStatus arrive(const State& state);

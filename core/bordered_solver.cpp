@@ -40,21 +40,23 @@ FactorStatus BorderedSolver::factorize(const Linearization& equations, Index mul
   return status;
 }
 
-FactorStatus BorderedSolver::factorize_for_line(const Linearization& equations, Index multipliers) {
+FactorStatus BorderedSolver::factorize_for_line(const Linearization& equations, Index multipliers,
+                                                EquilibriumLine& line) {
   if (equations.B.cols() > 0) return factorize(equations, multipliers);
   expect_pattern(equations, multipliers);
-  along_.resize(equations.F.size(), 2);
   const std::array<ScaledColumn, 2> of{ScaledColumn{equations.F.data(), -1.0},
                                        ScaledColumn{equations.F_lambda.data(), -1.0}};
-  const FactorStatus status = ldlt_.factorize_and_solve(equations.K, of, along_);
-  has_along_ = regular_ = status == FactorStatus::ok;
+  line.dx.resize(equations.F.size(), 2);
+  const FactorStatus status = ldlt_.factorize_and_solve(equations.K, of, line.dx);
+  regular_ = status == FactorStatus::ok;
+  if (regular_) along_ = &line;
   return status;
 }
 
 void BorderedSolver::expect_pattern(const Linearization& equations, Index multipliers) {
   equations_ = &equations;
   multipliers_ = multipliers;
-  has_along_ = false;
+  along_ = nullptr;
   ldlt_.set_multiplier_count(multipliers);
   const SparseMatrix& K = equations.K;
   Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
@@ -129,26 +131,23 @@ bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X) const {
 }
 
 // J⁻¹ [−F  −F_λ]; false where J is singular.
-bool BorderedSolver::solve_line(Matrix& X, double& cancelled) {
-  if (std::exchange(has_along_, false)) {
-    X.swap(along_);
-    cancelled = 1.0;
-    return true;
-  }
+bool BorderedSolver::solve_line(EquilibriumLine& line, double& cancelled) {
+  line.particular_dlambda = 0.0;
+  line.tangent_dlambda = 1.0;
+  cancelled = 1.0;
+  if (std::exchange(along_, nullptr) == &line) return true;
   const Linearization& now = *equations_;
-  X.resize(now.F.size(), 2);
-  X.col(0) = -now.F;
-  X.col(1) = -now.F_lambda;
-  return regular_ && solve_inner(X, cancelled);
+  line.dx.resize(now.F.size(), 2);
+  line.dx.col(0) = -now.F;
+  line.dx.col(1) = -now.F_lambda;
+  return regular_ && solve_inner(line.dx, cancelled);
 }
 
 bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const Linearization& now = *equations_;
   Matrix& X = out.dx;
-  out.particular_dlambda = 0.0;
-  out.tangent_dlambda = 1.0;
   double cancelled = 0.0;
-  if (solve_line(X, cancelled)) {
+  if (solve_line(out, cancelled)) {
     const bool good = !is_suspicious(cancelled) && keeps_digits(border, X);
     if (good || make_line_good(border, out)) return true;
   }

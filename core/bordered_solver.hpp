@@ -34,8 +34,8 @@ class BorderedSolver {
   /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves.
   FactorStatus factorize(const Linearization& equations, Index multipliers);
 
-  /// The same where line() is asked for next: without a border its solutions are found along.
-  FactorStatus factorize_for_line(const Linearization& equations, Index multipliers);
+  /// The same where line() is asked for next, for this line: without a border its solutions are found along.
+  FactorStatus factorize_for_line(const Linearization& equations, Index multipliers, EquilibriumLine& line);
 
   /// See Ldlt.
   void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
@@ -76,7 +76,7 @@ class BorderedSolver {
   void expect_pattern(const Linearization& equations, Index multipliers);
   bool eliminate_border();
   bool solve_inner(Matrix& X, double& cancelled) const;
-  bool solve_line(Matrix& X, double& cancelled);
+  bool solve_line(EquilibriumLine& line, double& cancelled);
   bool is_suspicious(double cancelled) const;
   bool keeps_digits(const Row& border, const Matrix& X) const;
   bool make_line_good(const Row& border, EquilibriumLine& line);
@@ -89,9 +89,8 @@ class BorderedSolver {
   WholeSolver whole_;
   Index multipliers_ = 0;
   bool regular_ = false;
-  Matrix along_;  // J⁻¹ [−F  −F_λ], found with the factorization
-  bool has_along_ = false;
-  Matrix border_;  // K⁻¹ B
+  const EquilibriumLine* along_ = nullptr;  // whose solutions were found with the factorization
+  Matrix border_;                           // K⁻¹ B
   Matrix reduced_;
   Eigen::PartialPivLU<Matrix> slides_;  // of reduced_
 };

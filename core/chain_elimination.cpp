@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 namespace arcwall {
@@ -74,7 +73,12 @@ ARCWALL_IN_PLACE void for_each_gone(Index begin, Index end, Index length, const 
   }
 }
 
-// Magnitudes and signs of 1/d in lanes.
+constexpr int count_of(const Lanes*) { return lanes; }
+constexpr int count_of(const double*) { return 1; }
+inline double number(const Lanes& of, int lane) { return of[lane]; }
+inline double number(double of, int) { return of; }
+
+// ChainPivots, side by side.
 template <class Real>
 struct Seen {
   Real least = infinity, greatest = 0.0, sum = 0.0, least_first = infinity, negative = 0.0;
@@ -91,18 +95,12 @@ struct Seen {
     least_first = where_less(size, least_first, size, least_first);
   }
   void tell(ChainPivots& pivots) const {
-    for (int lane = 0; lane < (std::is_same_v<Real, Lanes> ? lanes : 1); ++lane) {
-      const auto of = [&](const Real& number) {
-        if constexpr (std::is_same_v<Real, Lanes>)
-          return number[lane];
-        else
-          return number;
-      };
-      pivots.least = std::min(pivots.least, std::abs(of(least)));
-      pivots.greatest = std::max(pivots.greatest, of(greatest));
-      pivots.sum += of(sum);
-      pivots.least_first = std::min(pivots.least_first, of(least_first));
-      pivots.negative += static_cast<Index>(of(negative));
+    for (int lane = 0; lane < count_of(&least); ++lane) {
+      pivots.least = std::min(pivots.least, std::abs(number(least, lane)));  // −0 counts as 0
+      pivots.greatest = std::max(pivots.greatest, number(greatest, lane));
+      pivots.sum += number(sum, lane);
+      pivots.least_first = std::min(pivots.least_first, number(least_first, lane));
+      pivots.negative += static_cast<Index>(number(negative, lane));
     }
   }
 };

@@ -279,7 +279,8 @@ def split(f: Figures) -> str:
     return """## Where the time goes
 
 Shares of tracing in percent, the path's events included and outputs left out. *K for events* is the share of matrices that
-belong to no step: those formed to locate events, to count unstable directions and to leave corners. Sizes are elements, of
+belong to no step: those formed to locate events, to count unstable directions and to leave corners. *LDLᵀ* includes the two
+solutions of Newton's line, which are found along with it; *solutions* are all others. Sizes are elements, of
 the star and the square frame unknowns. *kB a node* is the memory above that of Lee's frame with 20 elements.
 Paths of up to 5000 elements are timed without looking at the clock for their parts, and traced once more for these.
 
