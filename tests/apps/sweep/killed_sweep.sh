@@ -41,7 +41,7 @@ start_in_group() {
 wait_for() {
   while [[ $(count "$1") -lt $2 ]]; do
     kill -0 "$runner" 2>/dev/null || fail "the sweep ended before it could be killed"
-    sleep 0.02
+    sleep 0.002
   done
 }
 
@@ -78,7 +78,9 @@ late=$(resident_kb "$runner")
 kill_group
 first=$(count killed)
 start_in_group killed
-wait_for killed $((cases * 3 / 4))
+# A fast machine may have come further than was waited for.
+more=$((cases * 3 / 4))
+wait_for killed $((more > first ? more : first + 1))
 kill_group
 second=$(count killed)
 [[ $first -lt $second && $second -lt $cases ]] || fail "the sweep was not killed on its way: $first, $second of $cases"
