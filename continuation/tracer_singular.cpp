@@ -39,6 +39,16 @@ Direction mean(const Metric& metric, const Direction& a, const Direction& b) {
   return unit(metric, {.dx = a.dx + b.dx, .dlambda = a.dlambda + b.dlambda});
 }
 
+// Where λ turns between two points beside a place where K is singular: there λ′ is blurred by what K's inverse makes of
+// round-off, and its zero with it. Beside it the path is exact, and smooth.
+State turning_between(const Metric& metric, const PathPoint& before, const PathPoint& after, const State& otherwise) {
+  const Segment segment(metric, before, after);
+  const double L = segment.length();
+  const auto t =
+      cubic_turn(before.state.lambda, before.tangent.dlambda * L, after.state.lambda, after.tangent.dlambda * L);
+  return t ? segment.at(*t) : otherwise;
+}
+
 }  // namespace
 
 // The first singular points of a step. False if shorter steps will show more.
@@ -111,8 +121,9 @@ int Tracer::change_at_limit(const PathPoint& at) {
 // pitchfork goes through it from one side to the other.
 void Tracer::add_branch_point_at_limit(const PathPoint& before, const PathPoint& after, double half_width,
                                        Singular& limit) {
+  limit.at.state = turning_between(metric_, before, after, limit.at.state);
   limit.at.tangent = mean(metric_, before.tangent, after.tangent);
-  corrector_.inspect(limit.at.state, metric_, limit.at.tangent);
+  limit.at.residual = corrector_.inspect(limit.at.state, metric_, limit.at.tangent).residual;
   const auto pairs = corrector_.near_null(metric_.weights(), 2);
   const auto second = [](const NearNull& nearest) { return std::abs(nearest.values[1]); };
   SingularPlace place{.point = limit.at, .t = limit.found.t, .half_width = half_width, .change = limit.change};
