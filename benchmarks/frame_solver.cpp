@@ -11,6 +11,7 @@
 #include "benchmarks/figures.hpp"
 #include "benchmarks/models.hpp"
 #include "core/ldlt.hpp"
+#include "core/long_pattern.hpp"
 
 namespace {
 
@@ -58,10 +59,10 @@ Seconds by_arcwall(const SparseMatrix& K, const Matrix& right) {
   return seconds;
 }
 
-// CHOLMOD's own view of the lower triangle and the right-hand sides: nothing is copied.
+// CHOLMOD's own view of the lower triangle and the right-hand sides: no numbers are copied.
 class Cholmod {
  public:
-  Cholmod(const SparseMatrix& K, const Matrix& right, int supernodal, int ordering) {
+  Cholmod(const SparseMatrix& K, const Matrix& right, int supernodal, int ordering) : pattern_(K) {
     cholmod_l_start(&common_);
     common_.supernodal = supernodal;
     common_.print = 0;
@@ -69,8 +70,8 @@ class Cholmod {
     common_.method[0].ordering = ordering;
     matrix_.nrow = matrix_.ncol = static_cast<std::size_t>(K.cols());
     matrix_.nzmax = static_cast<std::size_t>(K.nonZeros());
-    matrix_.p = const_cast<Index*>(K.outerIndexPtr());
-    matrix_.i = const_cast<Index*>(K.innerIndexPtr());
+    matrix_.p = pattern_.columns.data();
+    matrix_.i = pattern_.rows.data();
     matrix_.x = const_cast<double*>(K.valuePtr());
     matrix_.stype = -1;
     matrix_.itype = CHOLMOD_LONG;
@@ -112,6 +113,7 @@ class Cholmod {
 
  private:
   cholmod_common common_{};
+  LongPattern pattern_;
   cholmod_sparse matrix_{};
   cholmod_dense right_{};
   cholmod_factor* factor_ = nullptr;

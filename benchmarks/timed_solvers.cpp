@@ -6,9 +6,9 @@
 
 // As GNU ld's --wrap wants it: calls of the mangled name go to __wrap_…, __real_… is the library's function. A member
 // function is called like a function with the object's address in front (Itanium C++ ABI).
-#define ARCWALL_FACTORIZE "_ZN7arcwall4Ldlt9factorizeERKN5Eigen12SparseMatrixIdLi0ElEE"
+#define ARCWALL_FACTORIZE "_ZN7arcwall4Ldlt9factorizeERKN5Eigen12SparseMatrixIdLi0EiEE"
 #define ARCWALL_FACTORIZE_AND_SOLVE                                             \
-  "_ZN7arcwall4Ldlt19factorize_and_solveERKN5Eigen12SparseMatrixIdLi0ElEESt4sp" \
+  "_ZN7arcwall4Ldlt19factorize_and_solveERKN5Eigen12SparseMatrixIdLi0EiEESt4sp" \
   "anIKNS_12ScaledColumnELm18446744073709551615EENS1_3RefINS1_6MatrixIdLin1ELi" \
   "n1ELi0ELin1ELin1EEELi0ENS1_11OuterStrideILin1EEEEE"
 #define ARCWALL_SOLVE                                                                           \

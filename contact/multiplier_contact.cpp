@@ -23,9 +23,9 @@ constexpr double out_of_reach = 1.0;
 
 // The value of an entry that the pattern has.
 double& entry(SparseMatrix& A, Index row, Index column) {
-  const Index* first = A.innerIndexPtr() + A.outerIndexPtr()[column];
-  const Index* last = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-  const Index* at = std::lower_bound(first, last, row);
+  const SparseIndex* first = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const SparseIndex* last = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  const SparseIndex* at = std::lower_bound(first, last, row);
   assert(at != last && *at == row);
   return A.valuePtr()[at - A.innerIndexPtr()];
 }
@@ -75,7 +75,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   out.F_lambda << inner.F_lambda, Vector::Zero(m);
   // Each column of K begins with the inner one; rows of multipliers follow.
   const double* from = inner.K.valuePtr();
-  const Index* start = inner.K.outerIndexPtr();
+  const SparseIndex* start = inner.K.outerIndexPtr();
   for (Index column = 0; column < n; ++column)
     std::copy(from + start[column], from + start[column + 1], out.K.valuePtr() + out.K.outerIndexPtr()[column]);
 

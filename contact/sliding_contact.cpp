@@ -308,7 +308,7 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
   out.B.setZero(size - m, m);
   out.B.topRows(n) = inner.B;
   std::fill(out.K.valuePtr(), out.K.valuePtr() + out.K.nonZeros(), 0.0);
-  const Index* start = inner.K.outerIndexPtr();
+  const SparseIndex* start = inner.K.outerIndexPtr();
   for (Index column = 0; column < n; ++column)
     std::copy(inner.K.valuePtr() + start[column], inner.K.valuePtr() + start[column + 1],
               out.K.valuePtr() + out.K.outerIndexPtr()[column]);

@@ -33,63 +33,84 @@ SparseMatrix with_rows_behind(const SparseMatrix& A, const std::vector<RowEntry>
   });
   SparseMatrix out(n + count, n + count);
   out.resizeNonZeros(A.nonZeros() + static_cast<Index>(entries.size()) + count);
-  Index *start = out.outerIndexPtr(), *row = out.innerIndexPtr();
+  SparseIndex *start = out.outerIndexPtr(), *row = out.innerIndexPtr();
+  const auto written = [&] { return static_cast<SparseIndex>(row - out.innerIndexPtr()); };
   auto behind = sorted.begin();
   for (Index column = 0; column < n; ++column) {
-    start[column] = row - out.innerIndexPtr();
+    start[column] = written();
     row = std::copy(A.innerIndexPtr() + A.outerIndexPtr()[column], A.innerIndexPtr() + A.outerIndexPtr()[column + 1],
                     row);
-    for (; behind != sorted.end() && behind->column == column; ++behind) *row++ = n + behind->row;
+    for (; behind != sorted.end() && behind->column == column; ++behind)
+      *row++ = static_cast<SparseIndex>(n + behind->row);
   }
   for (Index i = n; i < n + count; ++i) {
-    start[i] = row - out.innerIndexPtr();
-    *row++ = i;
+    start[i] = written();
+    *row++ = static_cast<SparseIndex>(i);
   }
-  start[n + count] = row - out.innerIndexPtr();
+  start[n + count] = written();
   std::fill_n(out.valuePtr(), out.nonZeros(), 0.0);
   return out;
 }
 
-SparseMatrix BlockAssembly::pattern() const {
-  SparseMatrix pattern(unknown_count(), unknown_count());
-  pattern.resizeNonZeros(static_cast<Index>(rows_.size()));
-  std::copy(columns_.begin(), columns_.end(), pattern.outerIndexPtr());
-  std::copy(rows_.begin(), rows_.end(), pattern.innerIndexPtr());
-  std::fill_n(pattern.valuePtr(), pattern.nonZeros(), 0.0);
+namespace {
+
+// Calls `visit` for the entries of the lower triangle: the diagonal, then those of the blocks, some of them more than
+// once. `unknowns_of(b)`: of block b.
+template <class UnknownsOf, class Visit>
+void for_each_entry(Index unknowns, std::size_t blocks, const UnknownsOf& unknowns_of, const Visit& visit) {
+  for (Index i = 0; i < unknowns; ++i) visit(i, i);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const auto& block = unknowns_of(b);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (std::size_t j = 0; j < block.size(); ++j)
+        if (block[j] >= 0 && block[i] > block[j]) visit(block[i], block[j]);
+  }
+}
+
+// The matrix that has them; values are zero.
+template <class UnknownsOf>
+SparseMatrix pattern_of(Index unknowns, std::size_t blocks, const UnknownsOf& unknowns_of) {
+  std::vector<std::ptrdiff_t> ends(static_cast<std::size_t>(unknowns) + 1, 0);  // of each column's entries
+  for_each_entry(unknowns, blocks, unknowns_of,
+                 [&](Index, Index column) { ++ends[static_cast<std::size_t>(column) + 1]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<SparseIndex> rows(static_cast<std::size_t>(ends.back()));  // by columns
+  for_each_entry(unknowns, blocks, unknowns_of, [&](Index row, Index column) {
+    rows[static_cast<std::size_t>(ends[static_cast<std::size_t>(column)]++)] = static_cast<SparseIndex>(row);
+  });
+  SparseMatrix pattern(unknowns, unknowns);
+  auto begin = rows.begin(), behind = begin;
+  for (Index column = 0; column < unknowns; ++column) {
+    const auto end = rows.begin() + ends[static_cast<std::size_t>(column)];
+    std::sort(begin, end);
+    pattern.outerIndexPtr()[column] = static_cast<SparseIndex>(behind - rows.begin());
+    behind = std::copy(begin, std::unique(begin, end), behind);
+    begin = end;
+  }
+  const std::ptrdiff_t count = behind - rows.begin();
+  assert(count <= std::numeric_limits<SparseIndex>::max());
+  pattern.outerIndexPtr()[unknowns] = static_cast<SparseIndex>(count);
+  pattern.resizeNonZeros(count);
+  std::copy(rows.begin(), behind, pattern.innerIndexPtr());
+  std::fill_n(pattern.valuePtr(), count, 0.0);
   return pattern;
 }
 
-BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks) {
-  assert(unknowns < std::numeric_limits<std::int32_t>::max());
-  const auto for_each_entry = [&](const auto& visit) {
-    for (Index i = 0; i < unknowns; ++i) visit(static_cast<std::size_t>(i), static_cast<std::int32_t>(i));
-    for (const std::vector<Index>& block : blocks)
-      for (const Index column : block)
-        for (const Index row : block)
-          if (column >= 0 && row > column) visit(static_cast<std::size_t>(column), static_cast<std::int32_t>(row));
-  };
-  std::vector<std::ptrdiff_t> ends(static_cast<std::size_t>(unknowns) + 1, 0);  // of each column's entries
-  for_each_entry([&](std::size_t column, std::int32_t) { ++ends[column + 1]; });
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::int32_t> sorted(static_cast<std::size_t>(ends.back()));  // by columns
-  for_each_entry([&](std::size_t column, std::int32_t row) { sorted[static_cast<std::size_t>(ends[column]++)] = row; });
-  columns_.assign(1, 0);
-  auto begin = sorted.begin();
-  for (std::size_t column = 0; column + 1 < ends.size(); ++column) {
-    const auto end = sorted.begin() + ends[column];
-    std::sort(begin, end);
-    rows_.insert(rows_.end(), begin, std::unique(begin, end));
-    columns_.push_back(static_cast<std::int32_t>(rows_.size()));
-    begin = end;
-  }
-  rows_.shrink_to_fit();
-  assert(rows_.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()));
+}  // namespace
 
+SparseMatrix BlockAssembly::pattern() const {
+  return pattern_of(unknown_count_, blocks_.size(), [&](std::size_t b) { return unknowns(static_cast<Index>(b)); });
+}
+
+BlockAssembly::BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks) : unknown_count_(unknowns) {
+  assert(unknowns < std::numeric_limits<std::int32_t>::max());
+  const SparseMatrix pattern =
+      pattern_of(unknowns, blocks.size(), [&](std::size_t b) -> const std::vector<Index>& { return blocks[b]; });
   const auto slot = [&](Index a, Index b) -> std::int32_t {
     if (a < 0 || b < 0) return -1;
-    const auto column = static_cast<std::size_t>(std::min(a, b));
-    const auto first = rows_.begin() + columns_[column], last = rows_.begin() + columns_[column + 1];
-    return static_cast<std::int32_t>(std::lower_bound(first, last, std::max(a, b)) - rows_.begin());
+    const SparseIndex* const rows = pattern.innerIndexPtr();
+    const SparseIndex* const column = pattern.outerIndexPtr() + std::min(a, b);
+    return static_cast<std::int32_t>(std::lower_bound(rows + column[0], rows + column[1], std::max(a, b)) - rows);
   };
   std::map<std::vector<std::int32_t>, std::int32_t> known;  // shapes
   std::vector<std::int32_t> shape;

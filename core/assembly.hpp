@@ -53,9 +53,9 @@ class BlockAssembly {
   /// `blocks[b]` lists the unknowns of block b in the order of its rows; −1 stands for an unknown that is held.
   BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks);
 
-  Index unknown_count() const { return static_cast<Index>(columns_.size()) - 1; }
+  Index unknown_count() const { return unknown_count_; }
 
-  /// Lower triangle with the pattern of all blocks and the whole diagonal; values are zero.
+  /// Lower triangle with the pattern of all blocks and the whole diagonal; values are zero. Made anew each time.
   SparseMatrix pattern() const;
 
   BlockUnknowns unknowns(Index block) const {
@@ -120,7 +120,7 @@ class BlockAssembly {
     return &shapes_[static_cast<std::size_t>(block.shape + block.rows)];
   }
 
-  std::vector<std::int32_t> columns_, rows_;  // of the pattern: where each column begins, and the rows of its entries
+  Index unknown_count_;
   std::vector<Block> blocks_;
   std::vector<std::int32_t> shapes_;
 };

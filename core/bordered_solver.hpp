@@ -67,7 +67,7 @@ class BorderedSolver {
  private:
   // As long as a linearization stays where it is and on one piece, so does the pattern of its K.
   struct Pattern {
-    const Index* rows = nullptr;
+    const SparseIndex* rows = nullptr;
     Index nonzeros = 0;
     std::optional<Piece> piece{};
     bool operator==(const Pattern&) const = default;

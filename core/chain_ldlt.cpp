@@ -233,7 +233,7 @@ bool ChainLdlt::grew(const SparseMatrix& A, double least_first) {
   return pivots_.greatest > much * *greatest_entry_;
 }
 
-double ChainLdlt::weighted(const Vector& v) const {
+double ChainLdlt::weighted(const Eigen::Ref<const Vector>& v) const {
   for (Index record = 0; record < chain_.length; ++record)
     unknowns_.gather(record, v.data(), 0.0, 1.0, 1, work_.entries.data() + record * chain_.width);
   return weighted_by_chain(chain_, work_);

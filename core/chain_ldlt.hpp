@@ -36,7 +36,7 @@ class ChainLdlt final : public SymmetricFactors {
   double growth(const SparseMatrix& lower_triangle) const override {
     return greatest_entry_ ? pivots_.greatest / *greatest_entry_ : SymmetricFactors::growth(lower_triangle);
   }
-  double weighted(const Vector& v) const override;
+  double weighted(const Eigen::Ref<const Vector>& v) const override;
   bool may_use_soft() const override { return false; }
 
  private:

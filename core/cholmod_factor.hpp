@@ -1,10 +1,10 @@
 #pragma once
 
-// CHOLMOD's factors and its views of our matrices, of which nothing is copied. Not installed: whoever uses the
+// CHOLMOD's factors and its views of our matrices, whose values are not copied. Not installed: whoever uses the
 // libraries needs no header of CHOLMOD.
 #include <cholmod.h>
 
-#include "core/types.hpp"
+#include "core/long_pattern.hpp"
 
 namespace arcwall {
 
@@ -12,15 +12,14 @@ static_assert(sizeof(SuiteSparse_long) == sizeof(Index));
 
 inline SuiteSparse_long* as_long(const Index* p) { return reinterpret_cast<SuiteSparse_long*>(const_cast<Index*>(p)); }
 
-/// Of a lower triangle.
-inline cholmod_sparse cholmod_view(const SparseMatrix& A) {
+/// Of a lower triangle with this pattern.
+inline cholmod_sparse cholmod_view(const LongPattern& pattern, const double* values) {
   cholmod_sparse v{};
-  v.nrow = static_cast<std::size_t>(A.rows());
-  v.ncol = static_cast<std::size_t>(A.cols());
-  v.nzmax = static_cast<std::size_t>(A.nonZeros());
-  v.p = as_long(A.outerIndexPtr());
-  v.i = as_long(A.innerIndexPtr());
-  v.x = const_cast<double*>(A.valuePtr());
+  v.nrow = v.ncol = pattern.columns.size() - 1;
+  v.nzmax = pattern.rows.size();
+  v.p = as_long(pattern.columns.data());
+  v.i = as_long(pattern.rows.data());
+  v.x = const_cast<double*>(values);
   v.stype = -1;
   v.itype = CHOLMOD_LONG;
   v.xtype = CHOLMOD_REAL;

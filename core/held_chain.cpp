@@ -16,9 +16,9 @@ constexpr Index no_entry = -1;
 // Of an entry of a lower triangle in its values.
 Index place_of(const SparseMatrix& A, Index one, Index other) {
   const Index column = std::min(one, other), row = std::max(one, other);
-  const Index* first = A.innerIndexPtr() + A.outerIndexPtr()[column];
-  const Index* last = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-  const Index* at = std::lower_bound(first, last, row);
+  const SparseIndex* first = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const SparseIndex* last = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  const SparseIndex* at = std::lower_bound(first, last, row);
   return at != last && *at == row ? at - A.innerIndexPtr() : no_entry;
 }
 
@@ -40,8 +40,8 @@ bool HeldChain::adopts(const SparseMatrix& matrix, Index multipliers) {
 // In each column A's entries come first; only multipliers may follow.
 bool HeldChain::find_chunks(const SparseMatrix& matrix, Index multipliers) {
   const Index n = matrix.cols() - multipliers;
-  const Index *start = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
-  const Index *start_of_A = A_.outerIndexPtr(), *row_of_A = A_.innerIndexPtr();
+  const SparseIndex *start = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
+  const SparseIndex *start_of_A = A_.outerIndexPtr(), *row_of_A = A_.innerIndexPtr();
   chunks_.clear();
   for (Index column = 0; column < n; ++column) {
     const Index from = start[column], to = start_of_A[column], count = start_of_A[column + 1] - to;
@@ -60,7 +60,7 @@ bool HeldChain::find_holds(const SparseMatrix& matrix, Index multipliers) {
   holds_.clear();
   if (multipliers == 0) return true;
   const Index n = matrix.cols() - multipliers;
-  const Index *start = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
+  const SparseIndex *start = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
   struct Entry {
     std::size_t group, position;
     Index place;
@@ -276,7 +276,7 @@ void HeldChain::find_multipliers(const Hold& hold, const Known& known, Eigen::Re
 }
 
 // Multipliers and what they hold add 2 |p|ᵀ |R|ᵀ |w| + |p|ᵀ |c| |p|.
-double HeldChain::weighted(const Vector& v) const {
+double HeldChain::weighted(const Eigen::Ref<const Vector>& v) const {
   Vector w = v.head(A_.cols());
   double sum = 0.0;
   for (const Hold& hold : holds_) {

@@ -23,7 +23,7 @@ class HeldChain final : public SymmetricFactors {
   bool refused() const override { return refused_; }
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
-  double weighted(const Vector& v) const override;
+  double weighted(const Eigen::Ref<const Vector>& v) const override;
   bool may_use_soft() const override { return false; }
 
  private:

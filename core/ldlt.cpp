@@ -19,7 +19,7 @@ struct Ldlt::Implementation {
   std::unique_ptr<SymmetricFactors> others;   // of the same, for what those refuse
   SymmetricFactors* usable = nullptr;         // which of them holds the last matrix
   Matrix soft;
-  std::vector<std::int32_t> columns, rows;  // the pattern that was analysed; an index beyond 32 bits never matches
+  std::vector<SparseIndex> columns, rows;  // the pattern that was analysed
   Index multipliers = 0, analysed_multipliers = 0;
   std::vector<bool> afloat, analysed_afloat;
   bool trusted = false;  // the pattern
@@ -47,15 +47,10 @@ struct Ldlt::Implementation {
     others.reset();
     if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
     factors->expect_soft(soft);
-    keep(columns, A.outerIndexPtr(), A.cols() + 1);
-    keep(rows, A.innerIndexPtr(), A.nonZeros());
+    columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
+    rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
     analysed_multipliers = multipliers;
     analysed_afloat = afloat;
-  }
-
-  static void keep(std::vector<std::int32_t>& copy, const Index* from, Index count) {
-    copy.resize(static_cast<std::size_t>(count));
-    std::transform(from, from + count, copy.begin(), [](Index i) { return static_cast<std::int32_t>(i); });
   }
 
   // Simplicial LDLᵀ serves all matrices. `serves` factorizes by one of the ways, and may solve.
@@ -131,7 +126,7 @@ double Ldlt::growth(const SparseMatrix& A) const {
 }
 
 // Wilkinson: K + E = L D Lᵀ with |E| ≤ γ |L| |D| |L|ᵀ. Without pivoting L may grow; |K| alone would not show it.
-double Ldlt::roundoff(const Vector& v) const {
+double Ldlt::roundoff(const Eigen::Ref<const Vector>& v) const {
   assert(implementation_->usable);
   return std::numeric_limits<double>::epsilon() * implementation_->usable->weighted(v);
 }

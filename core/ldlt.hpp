@@ -59,7 +59,7 @@ class Ldlt final : public Factorization {
 
   /// vᵀ E v at most, up to a small factor, of the error E of this factorization: ε |v|ᵀ |L| |D| |L|ᵀ |v|. With v the
   /// eigenvector nearest zero: eigenvalues that are no greater may have either sign.
-  double roundoff(const Vector& v) const;
+  double roundoff(const Eigen::Ref<const Vector>& v) const;
 
  private:
   struct Implementation;

@@ -77,7 +77,7 @@ class Form {
   double magnitude_[lanes] = {};
 };
 
-ARCWALL_IN_PLACE QuadraticForm form_of(const SparseMatrix& K, const Vector& v) {
+ARCWALL_IN_PLACE QuadraticForm form_of(const SparseMatrix& K, const Eigen::Ref<const Vector>& v) {
   Form form;
   Entries entries;
   for (Index column = 0; column < K.cols(); ++column)
@@ -94,14 +94,14 @@ ARCWALL_IN_PLACE QuadraticForm form_of(const SparseMatrix& K, const Vector& v) {
 
 // std::fma is a call where the compiler may not count on the instruction; the numbers are the same.
 #ifdef __x86_64__
-[[gnu::target("avx2,fma")]] QuadraticForm form_in_registers(const SparseMatrix& K, const Vector& v) {
+[[gnu::target("avx2,fma")]] QuadraticForm form_in_registers(const SparseMatrix& K, const Eigen::Ref<const Vector>& v) {
   return form_of(K, v);
 }
 #endif
 
 }  // namespace
 
-QuadraticForm quadratic_form(const SparseMatrix& K, const Vector& v) {
+QuadraticForm quadratic_form(const SparseMatrix& K, const Eigen::Ref<const Vector>& v) {
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return form_in_registers(K, v);
 #endif

@@ -15,6 +15,6 @@ struct QuadraticForm {
   bool is_zero() const { return std::abs(value) <= roundoff; }  ///< within round-off
 };
 
-QuadraticForm quadratic_form(const SparseMatrix& lower_triangle, const Vector& v);
+QuadraticForm quadratic_form(const SparseMatrix& lower_triangle, const Eigen::Ref<const Vector>& v);
 
 }  // namespace arcwall

@@ -11,12 +11,12 @@ namespace {
 
 class SimplicialLdlt final : public SymmetricFactors {
  public:
-  SimplicialLdlt(const SparseMatrix& A, Index multipliers) : multipliers_(multipliers) {
+  SimplicialLdlt(const SparseMatrix& A, Index multipliers) : pattern_(A), multipliers_(multipliers) {
     ldlt_.common.supernodal = CHOLMOD_SIMPLICIAL;
     ldlt_.common.final_ll = 0;
     std::vector<Index> order = structure_order(A);
     insert_multipliers(A, order);
-    cholmod_sparse a = cholmod_view(A);
+    cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
     ldlt_.common.method[0].ordering = CHOLMOD_GIVEN;
     ldlt_.common.postorder = 0;
     ldlt_.factor = cholmod_l_analyze_p(&a, as_long(order.data()), nullptr, 0, &ldlt_.common);
@@ -24,7 +24,7 @@ class SimplicialLdlt final : public SymmetricFactors {
 
   bool factorize(const SparseMatrix& A) override {
     if (ldlt_.factor == nullptr) return false;
-    cholmod_sparse a = cholmod_view(A);
+    cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
     cholmod_l_factorize(&a, ldlt_.factor, &ldlt_.common);
     return read_pivots();
   }
@@ -33,7 +33,7 @@ class SimplicialLdlt final : public SymmetricFactors {
 
   Pivots pivots() const override { return pivots_; }
 
-  double weighted(const Vector& v) const override {
+  double weighted(const Eigen::Ref<const Vector>& v) const override {
     const cholmod_factor& L = *ldlt_.factor;
     const auto* start = static_cast<const SuiteSparse_long*>(L.p);
     const auto* count = static_cast<const SuiteSparse_long*>(L.nz);
@@ -54,7 +54,8 @@ class SimplicialLdlt final : public SymmetricFactors {
   std::vector<Index> structure_order(const SparseMatrix& A) {
     const Index n = A.cols() - multipliers_;
     const SparseMatrix block = A.topLeftCorner(n, n);
-    cholmod_sparse b = cholmod_view(block);
+    const LongPattern pattern(block);
+    cholmod_sparse b = cholmod_view(pattern, block.valuePtr());
     ldlt_.common.method[0].ordering = CHOLMOD_AMD;
     ldlt_.common.postorder = 1;
     cholmod_factor* symbolic = cholmod_l_analyze(&b, &ldlt_.common);
@@ -100,6 +101,7 @@ class SimplicialLdlt final : public SymmetricFactors {
   }
 
   CholmodFactor ldlt_;
+  LongPattern pattern_;
   Index multipliers_;
   Pivots pivots_;
 };

@@ -51,10 +51,10 @@ class OneThread {
 
 class SprungCholesky final : public SymmetricFactors {
  public:
-  explicit SprungCholesky(const SparseMatrix& A) {
+  explicit SprungCholesky(const SparseMatrix& A) : pattern_(A) {
     cholmod_common& common = llt_.common;
     common.supernodal = CHOLMOD_SUPERNODAL;
-    cholmod_sparse a = cholmod_view(A);
+    cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
     // Nested dissection where the library has it.
     for (const int ordering : {CHOLMOD_METIS, CHOLMOD_AMD}) {
       common.method[0].ordering = ordering;
@@ -98,7 +98,7 @@ class SprungCholesky final : public SymmetricFactors {
   Pivots pivots() const override { return pivots_; }
 
   // Of K̂: what springs add to the diagonal and take away again is in it.
-  double weighted(const Vector& v) const override {
+  double weighted(const Eigen::Ref<const Vector>& v) const override {
     const Vector u = v(llt_.order()).cwiseAbs();
     double sum = 0.0;
     Vector at_rows;
@@ -187,7 +187,7 @@ class SprungCholesky final : public SymmetricFactors {
 
   // False if a pivot is not positive.
   bool factorize_with_springs(const SparseMatrix& A) {
-    cholmod_sparse a = cholmod_view(A);
+    cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
     if (root_is_held_ || !springs_.empty()) {
       sprung_.assign(A.valuePtr(), A.valuePtr() + A.nonZeros());
       const auto add = [&](Index at, double k) { sprung_[static_cast<std::size_t>(A.outerIndexPtr()[at])] += k; };
@@ -315,6 +315,7 @@ class SprungCholesky final : public SymmetricFactors {
   std::vector<double> sprung_;                // values of K̂
   Matrix responses_;                          // Y
   Eigen::PartialPivLU<Matrix> springs_left_;  // S
+  LongPattern pattern_;
   Pivots pivots_;
 };
 
@@ -323,7 +324,8 @@ bool couples_widely(const SparseMatrix& A) {
   CholmodFactor simplicial;
   simplicial.common.supernodal = CHOLMOD_SIMPLICIAL;
   simplicial.common.method[0].ordering = CHOLMOD_AMD;
-  cholmod_sparse a = cholmod_view(A);
+  const LongPattern pattern(A);
+  cholmod_sparse a = cholmod_view(pattern, A.valuePtr());
   simplicial.factor = cholmod_l_analyze(&a, &simplicial.common);
   return simplicial.factor != nullptr && simplicial.common.fl >= coupled * simplicial.common.lnz;
 }

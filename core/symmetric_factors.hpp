@@ -54,7 +54,7 @@ class SymmetricFactors {
   }
 
   /// |v|ᵀ |L| |D| |L|ᵀ |v|
-  virtual double weighted(const Vector& v) const = 0;
+  virtual double weighted(const Eigen::Ref<const Vector>& v) const = 0;
 
   /// Columns that the matrices to come hardly resist, as far as one knows.
   virtual void expect_soft(const Matrix&) {}

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <limits>
 
 namespace arcwall {
@@ -11,8 +12,9 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 using Vec2 = Eigen::Vector2d;
 
-/// Compressed columns with 64-bit indices, as CHOLMOD's and UMFPACK's long interfaces read them without a copy.
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+/// Compressed columns; up to 2³¹ entries.
+using SparseIndex = std::int32_t;
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, SparseIndex>;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinity = std::numeric_limits<double>::infinity();
