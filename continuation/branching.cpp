@@ -71,14 +71,14 @@ BranchPoint branch_point_at(const System& system, Corrector& corrector, const Me
     corrector.inspect(moved(point.state, point.along, along), metric, point.along);
     if ((pairs = corrector.near_null(weights, place.multiplicity + (place.at_limit ? 1 : 0)))) break;
   }
-  if (pairs && place.at_limit && pairs->vectors.cols() == 2)
-    pairs->vectors = across(pairs->vectors, metric, point.along);
-  if (!pairs || pairs->vectors.cols() < place.multiplicity) return point;
-  const Vector left = corrector.left_null(pairs->vectors.col(0));
+  if (pairs && place.at_limit && pairs->vectors->cols() == 2)
+    pairs->vectors = across(*pairs->vectors, metric, point.along);
+  if (!pairs || pairs->vectors->cols() < place.multiplicity) return point;
+  const Vector left = corrector.left_null(pairs->vectors->col(0));
   const auto right = corrector.right_null(left);
   if (!right) return point;
   for (Index j = 0; j < place.multiplicity; ++j) {
-    Vector mode = j == 0 ? *right : Vector(pairs->vectors.col(j));
+    Vector mode = j == 0 ? *right : Vector(pairs->vectors->col(j));
     Index largest = 0;
     mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
     if (mode[largest] < 0.0) mode = -mode;  // the mode's largest component is positive

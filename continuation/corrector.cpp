@@ -30,7 +30,7 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
   while (result.iterations < options.max_iterations) {
     if (here_.look_for_line(result.state, line_) == FactorStatus::not_finite) return ended(CorrectorStatus::not_finite);
     if (!find_line(metric, border)) return ended(CorrectorStatus::singular);
-    result.roots = constraint.advance(result.state, particular_, tangent_);
+    result.roots = constraint.advance(result.state, line_);
     if (!result.roots) return ended(CorrectorStatus::complex_roots);
     const double size = take_step(metric, result.roots->taken, result.state);
     ++result.iterations;
@@ -39,7 +39,7 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
     // Newton's next correction, from the last two; from one alone only if the path is nearly straight.
     const double next = result.iterations > 1 ? size * ratio * ratio : size * options.straight;
     const bool settled = next <= options.tolerance && ratio <= 1.0;
-    if (settled || (size <= options.stagnation && ratio > 0.1)) return arrived(std::move(result), metric, along);
+    if (settled || (size <= options.stagnation && ratio > 0.1)) return arrived(std::move(result), metric, border);
     if (ratio > options.divergence && result.iterations > 1) return ended(CorrectorStatus::diverged);
     previous = size;
   }
@@ -60,7 +60,7 @@ CorrectorResult Corrector::correct_patiently(State guess, const PathConstraint& 
 }
 
 CorrectorResult Corrector::inspect(const State& state, const Metric& metric, const Direction& along) {
-  return arrived({.state = state}, metric, along);
+  return arrived({.state = state}, metric, metric.row(along));
 }
 
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count, Settled settled) const {
@@ -72,9 +72,9 @@ std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count,
     const ReleasedBorder border(solver, now, sliding_resistance(solver, now, system_.border_rates(here_.here())));
     return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, settled)) : std::nullopt;
   }
-  const auto known = here_.tracker().vectors();
+  const Matrix none, &known = here_.tracker().vectors();
   const bool followed = known.rows() == now.K.cols() && all_finite(known);
-  return arcwall::near_null(solver.inner(), now.K, weighted, count, settled, followed ? Matrix(known) : Matrix());
+  return arcwall::near_null(solver.inner(), now.K, weighted, count, settled, followed ? known : none);
 }
 
 std::optional<Index> Corrector::count_here(const NearNull& nearest) const {
@@ -117,35 +117,30 @@ bool Corrector::find_line(const Metric& metric, const Row& border) {
     sums[0] += weighted * at(t);
     sums[1] += weighted * at(p);
   });
-  tt += metric.inner_lambda(line_.tangent_dlambda, line_.tangent_dlambda);
-  pt += metric.inner_lambda(line_.tangent_dlambda, line_.particular_dlambda);
-  const double scale = 1.0 / std::sqrt(tt), component = pt / tt;
-  particular_.dx.resize(n);
-  tangent_.dx.resize(n);
-  for_entries(n, [&](const auto& at) {
-    at.set(particular_.dx.data(), at(p) - component * at(t));
-    at.set(tangent_.dx.data(), scale * at(t));
-  });
-  particular_.dlambda = line_.particular_dlambda - component * line_.tangent_dlambda;
-  tangent_.dlambda = scale * line_.tangent_dlambda;
-  return scale > 0.0 && std::isfinite(component);
+  tt += metric.inner_lambda(line_.dlambda[1], line_.dlambda[1]);
+  pt += metric.inner_lambda(line_.dlambda[1], line_.dlambda[0]);
+  line_.scale = 1.0 / std::sqrt(tt);
+  line_.off = pt / tt;
+  return line_.scale > 0.0 && std::isfinite(line_.off);
 }
 
 // Along the line, from its point nearest the state. The length of the step.
 double Corrector::take_step(const Metric& metric, double tau, State& state) const {
   double* const x = state.x.data();
-  const double *p = particular_.dx.data(), *t = tangent_.dx.data(), *w = metric.weights().data();
+  const double *p = line_.dx.col(0).data(), *q = line_.dx.col(1).data(), *w = metric.weights().data();
+  const Lanes off = line_.off, scale = line_.scale, along = tau;
   const auto [squared] = sums_over<1>(state.x.size(), [&](const auto& at, auto& sums) {
-    const auto dx = at(p) + tau * at(t);
+    const auto column = at(q), dx = (at(p) - at(off) * column) + at(along) * (at(scale) * column);
     at.set(x, at(x) + dx);
     sums[0] += at(w) * dx * dx;
   });
-  const double dlambda = particular_.dlambda + tau * tangent_.dlambda;
+  const double dlambda = line_.particular_dlambda() + tau * line_.tangent_dlambda();
   state.lambda += dlambda;
   return std::sqrt(squared + metric.inner_lambda(dlambda, dlambda));
 }
 
-CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Direction& along) {
+CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Row& border) {
+  line_.dx.resize(0, 2);  // room for other columns
   if (here_.arrive(result.state) == FactorStatus::not_finite) {
     result.status = CorrectorStatus::not_finite;
     return result;
@@ -157,7 +152,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   const bool bordered = now.B.cols() > 0;
   Matrix columns = bordered ? Matrix(now.F.size(), 1) : here_.tracker().right_hand_sides(metric.weights(), 1);
   Direction tangent;
-  if (!solver.tangent(metric.row(along), tangent, columns)) {
+  if (!solver.tangent(border, tangent, columns)) {
     result.status = CorrectorStatus::singular;
     return result;
   }

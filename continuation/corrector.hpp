@@ -86,14 +86,13 @@ class Corrector {
                           double length, const CorrectorOptions& options);
   bool find_line(const Metric& metric, const Row& border);
   double take_step(const Metric& metric, double tau, State& state) const;
-  CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Direction& along);
+  CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Row& border);
 
   const System& system_;
   CorrectorOptions options_;
   double load_floor_;
   FactorizedEquations here_;
   EquilibriumLine line_;
-  Direction particular_, tangent_;  // of the line: normal to each other, the second of unit length
 };
 
 }  // namespace arcwall

@@ -178,7 +178,7 @@ bool Explorer::known(const BranchPoint& point) const {
   return std::any_of(known_.begin(), known_.end(), [&](const KnownPoint& other) {
     if (other.state.piece != point.state.piece) return false;
     const Metric metric(system_.weights(point.state.piece), lambda_scale_);
-    return metric.norm(difference(other.state, point.state)) <= same_branch_point;
+    return metric.distance(other.state, point.state) <= same_branch_point;
   });
 }
 

@@ -25,6 +25,13 @@ class Metric {
   }
   double norm(const Direction& a) const { return std::sqrt(inner(a, a)); }
 
+  /// Of two states on one piece.
+  double distance(const State& a, const State& b) const {
+    const auto dx = (a.x - b.x).array();
+    const double dlambda = a.lambda - b.lambda;
+    return std::sqrt((weights_.array() * dx * dx).sum() + inner_lambda(dlambda, dlambda));
+  }
+
   /// The covector ⟨a, ·⟩.
   Row row(const Direction& a) const {
     return {.dx = weights_.cwiseProduct(a.dx), .dlambda = a.dlambda / (lambda_scale_ * lambda_scale_)};

@@ -14,11 +14,13 @@ const ParameterValue parameter;
 }  // namespace
 
 // c + ∇c · (particular + τ tangent) = 0
-std::optional<ConstraintRoots> PathConstraint::advance(const State& at, const Direction& particular,
-                                                       const Direction& tangent) const {
+std::optional<ConstraintRoots> PathConstraint::advance(const State& at, const EquilibriumLine& line) const {
   const Row row = gradient(at);
-  const double slope = apply(row, tangent);
-  const double tau = -(value(at) + apply(row, particular)) / slope;
+  const auto along = [&](Index column) {
+    return row.dx.dot(line.dx.col(column)) + row.dlambda * line.dlambda[static_cast<std::size_t>(column)];
+  };
+  const double slope = along(1);
+  const double tau = -(value(at) + along(0) - line.off * slope) / (line.scale * slope);
   return std::isfinite(tau) ? std::optional(ConstraintRoots{.taken = tau}) : std::nullopt;
 }
 
@@ -40,29 +42,30 @@ Row SphereConstraint::gradient(const State& state) const {
 }
 
 // With D = X − origin + particular:  |D + τ t|² = radius²,  a τ² + 2 b τ + c = 0
-std::optional<ConstraintRoots> SphereConstraint::advance(const State& at, const Direction& particular,
-                                                         const Direction& t) const {
-  const double *x = at.x.data(), *x0 = origin_.x.data(), *p = particular.dx.data(), *line = t.dx.data(),
+std::optional<ConstraintRoots> SphereConstraint::advance(const State& at, const EquilibriumLine& line) const {
+  const double *x = at.x.data(), *x0 = origin_.x.data(), *p = line.dx.col(0).data(), *q = line.dx.col(1).data(),
                *previous = tangent_.dx.data(), *w = metric_.weights().data();
+  const Lanes off = line.off, scale = line.scale;
   auto [a, b, c, along] = sums_over<4>(at.x.size(), [&](const auto& entry, auto& sums) {
-    const auto D = entry(x) - entry(x0) + entry(p), weighted = entry(w) * entry(line);
-    sums[0] += weighted * entry(line);
+    const auto column = entry(q), t = entry(scale) * column, weighted = entry(w) * t;
+    const auto D = entry(x) - entry(x0) + (entry(p) - entry(off) * column);
+    sums[0] += weighted * t;
     sums[1] += weighted * D;
     sums[2] += entry(w) * D * D;
     sums[3] += weighted * entry(previous);
   });
   if (form_ == Form::spherical) {
-    const double D = at.lambda - origin_.lambda + particular.dlambda;
-    a += metric_.inner_lambda(t.dlambda, t.dlambda);
-    b += metric_.inner_lambda(D, t.dlambda);
+    const double D = at.lambda - origin_.lambda + line.particular_dlambda(), t = line.tangent_dlambda();
+    a += metric_.inner_lambda(t, t);
+    b += metric_.inner_lambda(D, t);
     c += metric_.inner_lambda(D, D);
-    along += metric_.inner_lambda(tangent_.dlambda, t.dlambda);
+    along += metric_.inner_lambda(tangent_.dlambda, t);
   }
   c -= radius_ * radius_;
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0.0) || a == 0.0) return std::nullopt;
-  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  const double roots[2] = {q / a, q != 0.0 ? c / q : 0.0};
+  const double greater = -(b + std::copysign(std::sqrt(discriminant), b));
+  const double roots[2] = {greater / a, greater != 0.0 ? c / greater : 0.0};
   // Nearer the previous tangent: the greater component of D + τ t along it.
   const bool first = roots[0] * along >= roots[1] * along;
   return ConstraintRoots{.taken = roots[first ? 0 : 1], .other = roots[first ? 1 : 0]};

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "continuation/metric.hpp"
+#include "core/equilibrium_line.hpp"
 #include "core/observable.hpp"
 #include "core/system.hpp"
 
@@ -21,10 +22,9 @@ struct ConstraintRoots {
 /// is defined from iterate to iterate.
 class PathConstraint : public Observable {
  public:
-  /// τ such that the state moved by particular + τ · tangent fulfils the constraint: linearised, unless a constraint
-  /// knows better. Empty if there is none (complex roots).
-  virtual std::optional<ConstraintRoots> advance(const State& at, const Direction& particular,
-                                                 const Direction& tangent) const;
+  /// τ such that the state moved along the line fulfils the constraint: linearised, unless a constraint knows better.
+  /// Empty if there is none (complex roots).
+  virtual std::optional<ConstraintRoots> advance(const State& at, const EquilibriumLine& line) const;
 };
 
 /// The quantity has a given value: load and displacement control, stop rules, values to land on.
@@ -56,12 +56,14 @@ class GuardConstraint final : public PathConstraint {
 /// ⟨normal, X − origin⟩ = offset: a fixed plane (Riks 1979; Keller 1977, who calls offset the pseudo-arclength).
 class PlaneConstraint final : public PathConstraint {
  public:
+  /// `origin` must outlive this.
   PlaneConstraint(const Metric& metric, const State& origin, const Direction& normal, double offset);
+  PlaneConstraint(const Metric&, State&&, const Direction&, double) = delete;
   double value(const State& state) const override;
   Row gradient(const State&) const override { return normal_; }
 
  private:
-  State origin_;
+  const State& origin_;
   Row normal_;
   double offset_;
 };
@@ -69,13 +71,14 @@ class PlaneConstraint final : public PathConstraint {
 /// Each iterate stays in the plane normal to the chord from the origin to the last (Ramm 1981).
 class UpdatedPlaneConstraint final : public PathConstraint {
  public:
+  /// Both must outlive this.
   UpdatedPlaneConstraint(const Metric& metric, const State& origin) : metric_(metric), origin_(origin) {}
   double value(const State&) const override { return 0.0; }
   Row gradient(const State& state) const override { return metric_.row(difference(state, origin_)); }
 
  private:
-  Metric metric_;
-  State origin_;
+  const Metric& metric_;
+  const State& origin_;
 };
 
 /// |X − origin|² = radius² (Crisfield 1981), with λ in the distance (spherical) or without (cylindrical). The quadratic
@@ -84,23 +87,23 @@ class SphereConstraint final : public PathConstraint {
  public:
   enum class Form { spherical, cylindrical };
 
-  /// `tangent` is the one at the origin.
+  /// `tangent` is the one at the origin. All three must outlive this.
   SphereConstraint(const Metric& metric, Form form, const State& origin, const Direction& tangent, double radius)
       : metric_(metric), form_(form), origin_(origin), tangent_(tangent), radius_(radius) {}
+  SphereConstraint(const Metric&, Form, State&&, const Direction&, double) = delete;
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
-  std::optional<ConstraintRoots> advance(const State& at, const Direction& particular,
-                                         const Direction& tangent) const override;
+  std::optional<ConstraintRoots> advance(const State& at, const EquilibriumLine& line) const override;
 
  private:
   double inner(const Direction& a, const Direction& b) const {
     return form_ == Form::spherical ? metric_.inner(a, b) : metric_.inner_x(a, b);
   }
 
-  Metric metric_;
+  const Metric& metric_;
   Form form_;
-  State origin_;
-  Direction tangent_;
+  const State& origin_;
+  const Direction& tangent_;
   double radius_;
 };
 
@@ -108,7 +111,7 @@ class SphereConstraint final : public PathConstraint {
 enum class PathMethod { load, displacement, riks, normal_plane, cylindrical, spherical, pseudo_arclength };
 
 /// The constraint of one step of length s along the unit tangent. `control` is the controlled quantity of
-/// `displacement`, and must outlive the constraint.
+/// `displacement`. What is given must outlive the constraint.
 std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric& metric, const State& from,
                                                 const Direction& tangent, double s, const Observable* control);
 

@@ -9,10 +9,11 @@ namespace arcwall {
 State Segment::at(double t) const {
   const double h01 = t * t * (3.0 - 2.0 * t), h10 = t * (1.0 - t) * (1.0 - t) * length_,
                h11 = t * t * (t - 1.0) * length_;
-  State state = moved(from_.state, chord_, h01);
-  state.x += h10 * from_.tangent.dx + h11 * to_.tangent.dx;
-  state.lambda += h10 * from_.tangent.dlambda + h11 * to_.tangent.dlambda;
-  return state;
+  const State &a = from_.state, &b = to_.state;
+  const Direction &u = from_.tangent, &v = to_.tangent;
+  return {.x = a.x + h01 * (b.x - a.x) + (h10 * u.dx + h11 * v.dx),
+          .lambda = a.lambda + h01 * (b.lambda - a.lambda) + (h10 * u.dlambda + h11 * v.dlambda),
+          .piece = a.piece};
 }
 
 std::optional<double> Segment::first_zero(double v0, double rate0, double v1, double rate1, double noise) const {

@@ -10,13 +10,13 @@ class Segment {
  public:
   /// All three must outlive the segment.
   Segment(const Metric& metric, const PathPoint& from, const PathPoint& to)
-      : metric_(metric), from_(from), to_(to), chord_(difference(to.state, from.state)), length_(metric.norm(chord_)) {}
+      : metric_(metric), from_(from), to_(to), length_(metric.distance(to.state, from.state)) {}
 
   const PathPoint& from() const { return from_; }
   const PathPoint& to() const { return to_; }
-  const Direction& chord() const { return chord_; }
+  Direction chord() const { return difference(to_.state, from_.state); }
   double length() const { return length_; }
-  double cosine(const Direction& tangent) const { return metric_.inner(chord_, tangent) / length_; }
+  double cosine(const Direction& tangent) const { return metric_.inner(chord(), tangent) / length_; }
 
   /// The state at fraction t of the chord, by Hermite's cubic.
   State at(double t) const;
@@ -29,7 +29,6 @@ class Segment {
   const Metric& metric_;
   const PathPoint& from_;
   const PathPoint& to_;
-  Direction chord_;
   double length_;
 };
 

@@ -291,7 +291,7 @@ std::optional<SingularLocator::Sample> SingularLocator::sample_at(const Segment&
   const State guess = segment.at(t);
   const Direction& forward = segment.from().tangent;
   CorrectorResult at = corrector_.correct(guess, plane, metric, forward, 1e-2 * L);
-  if (!at.converged() || metric.norm(difference(at.state, guess)) > 0.05 * L) return std::nullopt;
+  if (!at.converged() || metric.distance(at.state, guess) > 0.05 * L) return std::nullopt;
   if (!at.negative) at.negative = corrector_.count_here(at.nearest);
   if (metric.inner(at.tangent, forward) < 0.0) at.tangent = reversed(std::move(at.tangent));
   Sample sample{.t = t,
@@ -356,8 +356,8 @@ Matrix SingularLocator::critical_modes(const Metric& metric, const Direction& ta
   constexpr double near = 50.0;  // times the least eigenvalue
   const Vector& W = metric.weights();
   const auto pairs = corrector_.near_null(W, nearest, Settled::roughly);  // (1) holds for any modes near these
-  if (!pairs || pairs->vectors.cols() == 0 || !pairs->vectors.allFinite()) return {};
-  const Matrix C = W.asDiagonal() * without_fold(pairs->vectors, metric, tangent);
+  if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
+  const Matrix C = W.asDiagonal() * without_fold(*pairs->vectors, metric, tangent);
   const auto moved = corrector_.responses(C);
   if (!moved) return {};
   const Matrix inverse = C.transpose() * *moved;
@@ -366,7 +366,7 @@ Matrix SingularLocator::critical_modes(const Metric& metric, const Direction& ta
   std::vector<Index> critical;
   for (Index j = 0; j < size.size(); ++j)
     if (near * size[j] >= size.maxCoeff()) critical.push_back(j);
-  return pairs->vectors * axes.eigenvectors()(Eigen::all, critical);
+  return *pairs->vectors * axes.eigenvectors()(Eigen::all, critical);
 }
 
 bool SingularLocator::lies_on_path(const PathPoint& point, const Metric& metric) {

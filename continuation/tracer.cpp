@@ -245,7 +245,11 @@ std::optional<Arc> Tracer::advance(double s) {
   before_.reset();
   const bool smooth = !step->corner && !ahead_ && length > 0.0;
   PathPoint from = go_to(ahead_ ? ahead_->to : to);
-  if (smooth) before_ = std::move(from);
+  if (smooth) {
+    values_before_ = values_of_modes(here_, from);
+    from.nearest = {};
+    before_ = std::move(from);
+  }
   points_ += ahead_ ? 2 : 1;
   arc.to = std::move(to);
   return arc;
@@ -385,7 +389,7 @@ Direction Tracer::tangent_from(const PathPoint& from, const PathPoint& to) const
 // A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.
 bool Tracer::lands_where_it_began(const PathPoint& at, Index guard) const {
   return here_.guards[guard] <= options_.guard_tolerance && here_.guard_rates[guard] > 0.0 &&
-         metric_.norm(difference(at.state, here_.state)) <= same_place;
+         metric_.distance(at.state, here_.state) <= same_place;
 }
 
 // Where a continuum of equilibria lies ahead, the equations are singular at the corner: guards that should vanish
@@ -455,14 +459,14 @@ bool Tracer::passes(const PathPoint& to, const State& place) {
   const Segment segment(metric_, here_, to);
   const double L = segment.length();
   // A turning point at a pitchfork is located there, a little before or behind it.
-  if (metric_.norm(difference(to.state, place)) <= std::min(passing, 0.25 * L)) return true;
+  if (metric_.distance(to.state, place) <= std::min(passing, 0.25 * L)) return true;
   const Direction offset = difference(place, here_.state);
   const double t = metric_.inner(offset, segment.chord()) / (L * L);
   if (!(t > 0.0 && t <= 1.0 + same_place)) return false;
   const double beside = std::sqrt(std::max(0.0, metric_.inner(offset, offset) - t * t * L * L));
   if (beside > 0.25 * L) return false;
   const auto at = correct_onto(PlaneConstraint(metric_, place, segment.chord(), 0.0), segment, std::min(t, 1.0));
-  return at && metric_.norm(difference(at->state, place)) <= passing;
+  return at && metric_.distance(at->state, place) <= passing;
 }
 
 // The end of a branch at a place that was passed before; `place`, if given, becomes that place.

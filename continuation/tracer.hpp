@@ -119,9 +119,10 @@ class Tracer {
   template <typename Archive>
   void keep(Archive& archive) {
     double lambda_scale = metric_.lambda_scale();
-    archive(lambda_scale, start_, step_, here_, before_, signs_, held_, after_, near_, vanishing_, nearest_, visited_,
-            ahead_, others_, end_, last_failure_, obstruction_, refined_, points_, standing_);
+    archive(lambda_scale, start_, step_, here_, before_, values_before_, signs_, held_, after_, near_, vanishing_,
+            nearest_, visited_, ahead_, others_, end_, last_failure_, obstruction_, refined_, points_, standing_);
     archive.require(signs_.size() == (points_ == 0 ? 0 : detectors_.size()));
+    archive.require(!before_ || values_before_.size() == here_.nearest.values.size());
     for (const Singular& singular : near_) archive.require(is_known(singular.found));
     if constexpr (Archive::reads) metric_ = Metric(system_.weights(here_.state.piece), lambda_scale);
   }
@@ -200,6 +201,7 @@ class Tracer {
   bool dips(const Segment& segment);
   class Middle;
   bool dips(const Segment& segment, Index here, Index there, Middle& middle);
+  Vector values_of_modes(const PathPoint& modes_at, const PathPoint& values_at) const;
   bool rises_from_zero(const Segment& segment, Index there);
   StabilityCount count_behind(const PathPoint& beyond, Index change);
   std::optional<Found> earliest(const Segment& segment, const std::optional<Found>& already) const;
@@ -251,7 +253,8 @@ class Tracer {
   StabilityCounter counter_;
   StepControl step_;
   PathPoint here_;
-  std::optional<PathPoint> before_;  // the point before here_, if the arc between is smooth
+  std::optional<PathPoint> before_;  // the point before here_, if the arc between is smooth, without its modes
+  Vector values_before_;             // eigenvalues there of the modes of here_; NaN where a mode was not known
   std::vector<int> signs_;           // of each detector just after here_
   std::optional<Index> held_;        // negative eigenvalues just after here_, closed contacts held
   StabilityCount after_;             // the count just after here_

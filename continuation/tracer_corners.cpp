@@ -256,7 +256,7 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
 
   const auto known = [&](const Visited& v) {
     return std::abs(v.corner.lambda - here.lambda) <= same_place * metric.lambda_scale() &&
-           v.corner.piece == here.piece && metric.norm(difference(v.corner, here)) <= same_place;
+           v.corner.piece == here.piece && metric.distance(v.corner, here) <= same_place;
   };
   auto visited = std::find_if(visited_.begin(), visited_.end(), known);
   if (visited == visited_.end()) visited = visited_.insert(visited_.end(), {.corner = here, .ways = {}});

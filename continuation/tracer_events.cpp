@@ -116,7 +116,11 @@ class Tracer::ZeroSearch {
     if (!root) return std::nullopt;
     const auto best = sharpened(seen_.find(*root), found.half_width);
     found.t = best->first;
-    return best->second.between ? std::move(best->second.between) : point_at(best);
+    if (!best->second.between) return point_at(best);
+    PathPoint& at = *best->second.between;
+    if (at.nearest.values.size() == 0)
+      at.nearest = tracer_.corrector_.inspect(at.state, tracer_.metric_, at.tangent).nearest;
+    return std::move(at);
   }
 
  private:
@@ -149,7 +153,17 @@ class Tracer::ZeroSearch {
     const double v = detector_.value(*point);
     const Place at = seen_.insert_or_assign(t, Seen{.between = std::move(point), .v = v}).first;
     forget_beyond_neighbours(at);
+    forget_modes();
     return at;
+  }
+
+  // They are large, and asked for at the zero alone.
+  void forget_modes() {
+    const auto distance = [](const auto& place) { return place.second.between ? std::abs(place.second.v) : infinity; };
+    const auto nearest = std::min_element(seen_.begin(), seen_.end(),
+                                          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    for (Place place = seen_.begin(); place != seen_.end(); ++place)
+      if (place != nearest && place->second.between) place->second.between->nearest = {};
   }
 
   // What is looked at next lies between this place and one of its neighbours.

@@ -19,7 +19,7 @@ constexpr double shallow = 0.6;      // what a parabola does not see fall below 
 constexpr double nothing = 1e-4;     // an eigenvalue below this part of its other value may touch zero right there
 
 // The vector among the columns that belongs to the same mode.
-std::optional<Index> same_as(const Vector& mode, const Matrix& vectors, const Vector& weights) {
+std::optional<Index> same_as(const Eigen::Ref<const Vector>& mode, const Matrix& vectors, const Vector& weights) {
   if (vectors.rows() != mode.size()) return std::nullopt;
   for (Index j = 0; j < vectors.cols(); ++j)
     if (std::abs(vectors.col(j).dot(weights.cwiseProduct(mode))) > same_mode) return j;
@@ -244,7 +244,7 @@ bool Tracer::dips(const Segment& segment) {
   if (segment.from().state.piece != segment.to().state.piece || here.values.size() == 0) return false;
   Middle middle(system_, segment, metric_, workspace(segment.from().state.piece));
   for (Index j = 0; j < there.values.size(); ++j) {
-    const auto i = same_as(there.vectors.col(j), here.vectors, metric_.weights());
+    const auto i = same_as(there.vectors->col(j), *here.vectors, metric_.weights());
     if (i && *i >= vanishing_ && dips(segment, *i, j, middle)) return true;
     if (!i && j == 0 && rises_from_zero(segment, j)) return true;
   }
@@ -260,22 +260,32 @@ bool Tracer::dips(const Segment& segment, Index here, Index there, Middle& middl
   const double sign = v0 > 0.0 ? 1.0 : -1.0, least = std::min(std::abs(v0), std::abs(v1));
   if (least <= nothing * std::max(std::abs(v0), std::abs(v1))) return true;
   if (before_ && before_->state.piece == from.state.piece) {
-    const auto i = same_as(from.nearest.vectors.col(here), before_->nearest.vectors, metric_.weights());
-    const double before = i ? sign * before_->nearest.values[*i] : 0.0;
+    const double before = sign * values_before_[here];
     const double length = Segment(metric_, *before_, from).length();
     if (before > 0.0 && least_of_parabola(length, before, sign * v0, L, sign * v1) > shallow * least) return false;
   }
-  const double v = sign * middle.eigenvalue(from.nearest.vectors.col(here), to.nearest.vectors.col(there));
+  const double v = sign * middle.eigenvalue(from.nearest.vectors->col(here), to.nearest.vectors->col(there));
   const double first = least_of_parabola(0.5, sign * v1, v, 0.5, sign * v0),
                second = least_of_parabola(0.5, sign * v0, v, 0.5, sign * v1);
   return std::min(first, second) <= deep * least;
+}
+
+// Of the modes nearest zero at one point their eigenvalues at another, NaN where those are not nearest there.
+Vector Tracer::values_of_modes(const PathPoint& modes_at, const PathPoint& values_at) const {
+  const Matrix &modes = *modes_at.nearest.vectors, &others = *values_at.nearest.vectors;
+  Vector values(modes.cols());
+  for (Index j = 0; j < modes.cols(); ++j) {
+    const auto i = same_as(modes.col(j), others, metric_.weights());
+    values[j] = i ? values_at.nearest.values[*i] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return values;
 }
 
 // A mode that was not among the nearest at the start of the segment: the straight line back from its end.
 bool Tracer::rises_from_zero(const Segment& segment, Index there) {
   const PathPoint& to = segment.to();
   const double v1 = to.nearest.values[there];
-  const Vector mode = to.nearest.vectors.col(there);
+  const Vector mode = to.nearest.vectors->col(there);
   const double rate = eigenvalue_rate(system_, to.state, to.tangent, mode, mode, workspace(to.state.piece));
   return (v1 > 0.0) == (rate > 0.0) && std::abs(v1) <= segment.length() * std::abs(rate);
 }

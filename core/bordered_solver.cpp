@@ -33,15 +33,14 @@ Matrix product(const Linearization& equations, const Matrix& X) {
   return Y;
 }
 
-FactorStatus BorderedSolver::factorize(const Linearization& equations, Index multipliers) {
+FactorStatus BorderedSolver::factorize(Linearization& equations, Index multipliers) {
   expect_pattern(equations, multipliers);
   const FactorStatus status = ldlt_.factorize(equations.K);
   regular_ = status == FactorStatus::ok && eliminate_border();
   return status;
 }
 
-FactorStatus BorderedSolver::factorize_for_line(const Linearization& equations, Index multipliers,
-                                                EquilibriumLine& line) {
+FactorStatus BorderedSolver::factorize_for_line(Linearization& equations, Index multipliers, EquilibriumLine& line) {
   if (equations.B.cols() > 0) return factorize(equations, multipliers);
   expect_pattern(equations, multipliers);
   const std::array<ScaledColumn, 2> of{ScaledColumn{equations.F.data(), -1.0},
@@ -53,7 +52,7 @@ FactorStatus BorderedSolver::factorize_for_line(const Linearization& equations, 
   return status;
 }
 
-void BorderedSolver::expect_pattern(const Linearization& equations, Index multipliers) {
+void BorderedSolver::expect_pattern(Linearization& equations, Index multipliers) {
   equations_ = &equations;
   multipliers_ = multipliers;
   along_ = nullptr;
@@ -132,8 +131,9 @@ bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X) const {
 
 // J⁻¹ [−F  −F_λ]; false where J is singular.
 bool BorderedSolver::solve_line(EquilibriumLine& line, double& cancelled) {
-  line.particular_dlambda = 0.0;
-  line.tangent_dlambda = 1.0;
+  line.dlambda = {0.0, 1.0};
+  line.off = 0.0;
+  line.scale = 1.0;
   cancelled = 1.0;
   if (std::exchange(along_, nullptr) == &line) return true;
   const Linearization& now = *equations_;
@@ -155,8 +155,7 @@ bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
   const auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (!particular || !tangent) return false;
   X << particular->dx, tangent->dx;
-  out.particular_dlambda = particular->dlambda;
-  out.tangent_dlambda = tangent->dlambda;
+  out.dlambda = {particular->dlambda, tangent->dlambda};
   return true;
 }
 
@@ -169,10 +168,10 @@ bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
   double before = infinity;
   for (int round = 0;; ++round) {
     const double along = border.dx.dot(tangent) + border.dlambda;
-    const double off = border.dx.dot(particular) + border.dlambda * line.particular_dlambda;
+    const double off = border.dx.dot(particular) + border.dlambda * line.dlambda[0];
     particular -= off / along * tangent;
-    line.particular_dlambda -= off / along;
-    const BorderedResidual of_particular(now, -now.F, particular, line.particular_dlambda);
+    line.dlambda[0] -= off / along;
+    const BorderedResidual of_particular(now, -now.F, particular, line.dlambda[0]);
     const BorderedResidual of_tangent(now, -now.F_lambda, tangent, 0.0);
     if (!of_particular.r().allFinite() || !of_tangent.r().allFinite()) return false;
     const bool tangent_is_good = of_tangent.is_small();

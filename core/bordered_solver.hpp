@@ -4,20 +4,12 @@
 #include <optional>
 #include <utility>
 
+#include "core/equilibrium_line.hpp"
 #include "core/ldlt.hpp"
 #include "core/system.hpp"
 #include "core/whole_solver.hpp"
 
 namespace arcwall {
-
-/// The states that satisfy the linearised equilibrium K δx + F_λ δλ = −F: a line, particular + τ · tangent.
-struct EquilibriumLine {
-  Matrix dx{};  ///< columns: of the particular solution and of the tangent, which is not normalised
-  double particular_dlambda = 0.0, tangent_dlambda = 1.0;
-
-  Direction particular() const { return {.dx = dx.col(0), .dlambda = particular_dlambda}; }
-  Direction tangent() const { return {.dx = dx.col(1), .dlambda = tangent_dlambda}; }
-};
 
 /// ∂F/∂x times the columns of X.
 Matrix product(const Linearization& equations, const Matrix& X);
@@ -32,16 +24,17 @@ Matrix product(const Linearization& equations, const Matrix& X);
 class BorderedSolver {
  public:
   /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves.
-  FactorStatus factorize(const Linearization& equations, Index multipliers);
+  FactorStatus factorize(Linearization& equations, Index multipliers);
 
   /// The same where line() is asked for next, for this line: without a border its solutions are found along.
-  FactorStatus factorize_for_line(const Linearization& equations, Index multipliers, EquilibriumLine& line);
+  FactorStatus factorize_for_line(Linearization& equations, Index multipliers, EquilibriumLine& line);
 
   /// See Ldlt.
   void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
   bool may_use_soft() const { return ldlt_.may_use_soft(); }
 
-  /// `border` closes the system where K alone is singular; the line itself does not depend on it.
+  /// `border` closes the system where K alone is singular; the line itself does not depend on it. Its columns are the
+  /// particular solution and the tangent, which is not normalised.
   /// False if the bordered matrix is singular too.
   bool line(const Row& border, EquilibriumLine& out);
 
@@ -73,7 +66,7 @@ class BorderedSolver {
     bool operator==(const Pattern&) const = default;
   };
 
-  void expect_pattern(const Linearization& equations, Index multipliers);
+  void expect_pattern(Linearization& equations, Index multipliers);
   bool eliminate_border();
   bool solve_inner(Matrix& X, double& cancelled) const;
   bool solve_line(EquilibriumLine& line, double& cancelled);
@@ -83,7 +76,7 @@ class BorderedSolver {
   bool make_tangent_good(Matrix& columns);
   bool factorize_whole(const Row& border, const Matrix& columns);
 
-  const Linearization* equations_ = nullptr;
+  Linearization* equations_ = nullptr;
   Pattern pattern_;
   Ldlt ldlt_;
   WholeSolver whole_;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/sums.hpp"
@@ -29,10 +30,33 @@ void fill_with_start(Eigen::Ref<Matrix> X) {
     }
 }
 
-// Columns of unit length, without dependent ones growing: QR with respect to the ordinary product.
+// Columns of unit length, without dependent ones growing: QR with respect to the ordinary product. In place, as what
+// follows: all columns together are much beside a matrix of a chain.
 void orthonormalise(Matrix& X) {
-  const Index rows = X.rows(), columns = X.cols();
-  X = Eigen::HouseholderQR<Matrix>(X).householderQ() * Matrix::Identity(rows, columns);
+  const Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(X);
+  Vector workspace(X.cols());
+  // Q = H_0 H_1 …, column by column from the last: H_j changes rows from j on
+  for (Index j = X.cols() - 1; j >= 0; --j) {
+    const double tau = qr.hCoeffs()[j];
+    const Index rows = X.rows() - j, behind = X.cols() - j - 1;
+    if (behind > 0)
+      X.bottomRightCorner(rows, behind).applyHouseholderOnTheLeft(X.col(j).tail(rows - 1), tau, workspace.data());
+    X.col(j).tail(rows - 1) *= -tau;
+    X(j, j) = 1.0 - tau;
+    X.col(j).head(j).setZero();
+  }
+}
+
+// X := X T
+void combine(Matrix& X, const Matrix& T) {
+  constexpr Index together = 256;
+  Matrix rows;
+  for (Index first = 0; first < X.rows(); first += together) {
+    auto some = X.middleRows(first, std::min(together, X.rows() - first));
+    rows.noalias() = some * T;
+    some.leftCols(T.cols()) = rows;
+  }
+  X.conservativeResize(X.rows(), T.cols());
 }
 
 // Below which Rayleigh quotients do not settle: the diagonal's part of the round-off of φᵀ K φ.
@@ -47,7 +71,7 @@ Matrix NearNull::soft() const {
   std::vector<Index> chosen;
   for (Index j = 0; j < values.size(); ++j)
     if (j == 0 || values[j] < 0.0) chosen.push_back(j);
-  return vectors(Eigen::all, chosen);
+  return (*vectors)(Eigen::all, chosen);
 }
 
 Index pair_count(const Vector& weights) {
@@ -70,21 +94,24 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
   if (known > 0) X.leftCols(known) = start.leftCols(known);
   Vector values = Vector::Constant(block, infinity);
   for (int round = 0; round < max_rounds; ++round) {
-    X = weights.asDiagonal() * X;
+    for (auto column : X.colwise()) column.array() *= weights.array();
     K.solve(X);
     orthonormalise(X);
     // Rayleigh-Ritz: the best eigenpairs in the span of X, on which M is positive definite: K⁻¹ M leaves no column of
     // multipliers alone.
-    const Matrix KX = K.product(X);
-    const Matrix MX = weights.asDiagonal() * X;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(X.transpose() * KX, X.transpose() * MX);
+    Matrix XKX(block, block), XMX(block, block);
+    for (Index j = 0; j < block; ++j) {
+      XKX.col(j).noalias() = X.transpose() * K.product(X.col(j));
+      XMX.col(j).noalias() = X.transpose() * weights.cwiseProduct(X.col(j));
+    }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(XKX, XMX);
     if (ritz.info() != Eigen::Success || !ritz.eigenvalues().allFinite()) break;
     std::vector<Index> order(static_cast<std::size_t>(block));
     std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
       return std::abs(ritz.eigenvalues()[a]) < std::abs(ritz.eigenvalues()[b]);
     });
-    X = X * ritz.eigenvectors()(Eigen::all, order);
+    combine(X, ritz.eigenvectors()(Eigen::all, order));
     const Vector previous = values;
     values = ritz.eigenvalues()(order);
     const double scale = values.head(count).cwiseAbs().maxCoeff();
@@ -94,7 +121,8 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
         change <= std::max(1e-6 * scale, roundoff_of_quotients(K.matrix(), X.leftCols(count))))
       break;
   }
-  return {.values = values.head(count), .vectors = X.leftCols(count)};
+  X.conservativeResize(X.rows(), count);
+  return {.values = values.head(count), .vectors = std::move(X)};
 }
 
 // The matrix itself; a tiny shift of its factorization does not spoil the product.
@@ -194,25 +222,17 @@ void with_columns(Index count, const Code& code) {
 
 }  // namespace
 
-void NearNullTracker::start_from(const Matrix& vectors) {
-  pairs_ = vectors.cols();
-  if (X_.rows() == vectors.rows() && X_.cols() >= pairs_)
-    X_.leftCols(pairs_) = vectors;
-  else
-    X_ = vectors;
-}
-
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   const Index n = weights.size(), block = std::min<Index>(3, pair_count(weights));
-  pairs_ = std::max<Index>(0, std::min(pairs_, block - 1));
-  if (X_.rows() != n || X_.cols() != block) {
-    // Contact forces, which come and go at the end, have no weight and need no start.
-    const Index common = std::min(X_.rows(), n);
-    Matrix X = Matrix::Zero(n, block);
-    if (pairs_ > 0) X.topLeftCorner(common, pairs_) = X_.topLeftCorner(common, pairs_);
-    X_ = std::move(X);
+  const Index known = std::max<Index>(0, std::min(pairs_->cols(), block - 1));
+  // Contact forces, which come and go at the end, have no weight and need no start.
+  const Index common = std::min(pairs_->rows(), n);
+  X_.resize(n, block);
+  if (known > 0) {
+    X_.topLeftCorner(common, known) = pairs_->topLeftCorner(common, known);
+    X_.bottomLeftCorner(n - common, known).setZero();
   }
-  fill_with_start(X_.rightCols(block - pairs_));
+  fill_with_start(X_.rightCols(block - known));
   Matrix columns(n, front + block);
   with_columns(block, [&](auto constant) {
     constexpr std::size_t B = constant.value;
@@ -227,10 +247,9 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
 // near zero, and never to a mixture of far ones, as the least of Xᵀ K X may. y = K⁻¹ W X c has the Rayleigh quotient
 // θ/(yᵀ W y).
 NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions) {
-  const Index n = weights.size(), block = X_.cols();
+  const Index n = weights.size(), block = X_.cols(), count = std::min<Index>(2, block);
   if (block == 0 || !all_finite(solutions)) return {};
-  pairs_ = std::min<Index>(2, block);
-  NearNull pairs{.values = Vector(pairs_), .vectors = Matrix(n, pairs_)};
+  Vector values(count);
   with_columns(block, [&](auto constant) {
     constexpr std::size_t B = constant.value;
     const double* w = weights.data();
@@ -242,7 +261,7 @@ NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const 
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
       return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]);
     });
-    for (Index j = 0; j < pairs_; ++j) {
+    for (Index j = 0; j < count; ++j) {
       const auto c = ritz.eigenvectors().col(order[static_cast<std::size_t>(j)]);
       double* const x = X[static_cast<std::size_t>(j)];
       const auto [squared] = sums_over<1>(n, [&](const auto& at, auto& sums) {
@@ -252,11 +271,13 @@ NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const 
         at.set(x, sum);
         sums[0] += at(w) * sum * sum;
       });
-      pairs.values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
-      pairs.vectors.col(j) = X_.col(j) / std::sqrt(squared);
+      values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
+      X_.col(j) /= std::sqrt(squared);
     }
   });
-  return pairs;
+  X_.conservativeResize(n, count);
+  pairs_ = std::exchange(X_, Matrix());
+  return {.values = std::move(values), .vectors = pairs_};
 }
 
 }  // namespace arcwall

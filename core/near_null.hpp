@@ -2,13 +2,14 @@
 
 #include "core/factorization.hpp"
 #include "core/released_border.hpp"
+#include "core/shared_matrix.hpp"
 
 namespace arcwall {
 
 /// Eigenpairs K φ = μ M φ of a symmetric matrix whose eigenvalues lie nearest zero; M diagonal, zero for multipliers.
 struct NearNull {
-  Vector values{};   ///< by increasing magnitude
-  Matrix vectors{};  ///< columns, φᵀ M φ = 1
+  Vector values{};         ///< by increasing magnitude
+  SharedMatrix vectors{};  ///< columns, φᵀ M φ = 1
 
   /// The vectors that K may not resist a step further: the nearest one, and those of negative values.
   Matrix soft() const;
@@ -37,10 +38,10 @@ NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index co
 class NearNullTracker {
  public:
   /// Goes on from these vectors; their number of rows may be that of another piece.
-  void start_from(const Matrix& vectors);
+  void start_from(const SharedMatrix& vectors) { pairs_ = vectors; }
 
   /// Those at hand, of any length: the pairs' after advance().
-  auto vectors() const { return X_.leftCols(pairs_); }
+  const Matrix& vectors() const { return *pairs_; }
 
   /// Right-hand sides W X, whose solutions with K `advance` wants; few columns, none if W has no entry above zero.
   /// Before them `front` columns are left for others.
@@ -50,8 +51,8 @@ class NearNullTracker {
   NearNull advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions);
 
  private:
-  Matrix X_;         // the pairs' vectors, then others; W-orthonormal between right_hand_sides and advance
-  Index pairs_ = 0;  // columns that belong to pairs
+  SharedMatrix pairs_;
+  Matrix X_;  // their vectors, then others, W-orthonormal; between right_hand_sides and advance alone
 };
 
 }  // namespace arcwall

@@ -7,18 +7,21 @@
 
 namespace arcwall {
 
-/// Where entries of vectors are read or written: four at a time, and one by one at the end.
+/// Where entries of vectors are read or written: four at a time, and one by one at the end. Factors that all entries
+/// share are spread before: in the loop each would be put together anew.
 struct FourEntries {
   Index first;
 
   ARCWALL_IN_PLACE Lanes operator()(const double* entries) const { return Lanes::load(entries + first); }
   ARCWALL_IN_PLACE void set(double* entries, const Lanes& value) const { value.store(entries + first); }
+  ARCWALL_IN_PLACE const Lanes& operator()(const Lanes& spread) const { return spread; }
 };
 struct OneEntry {
   Index place;
 
   double operator()(const double* entries) const { return entries[place]; }
   void set(double* entries, double value) const { entries[place] = value; }
+  double operator()(const Lanes& spread) const { return spread[0]; }
 };
 
 /// `step(at)` for all entries, `at` being one of the above: what several expressions would read several times over.

@@ -83,9 +83,9 @@ std::optional<Nearest> nearest_pairs(const Ldlt& ldlt, const SparseMatrix& K, co
     // Roughly will do: pairs that are near converge fast, and Ψ is exact.
     Nearest found{.pairs = near_null(ldlt, K, weights, wanted, Settled::roughly, start), .roundoff = {}};
     const Index count = found.pairs.values.size();
-    if (!found.pairs.vectors.allFinite()) return std::nullopt;
+    if (!found.pairs.vectors->allFinite()) return std::nullopt;
     for (Index j = 0; j < count; ++j) {
-      const Vector v = found.pairs.vectors.col(j);
+      const auto v = found.pairs.vectors->col(j);
       const QuadraticForm form = quadratic_form(K, v);
       if (j == 0 && form.is_zero() && if_zero == IfZero::give_up) return std::nullopt;
       // The pair's own value has the round-off of the greatest entries of K, also where v is zero.
@@ -94,7 +94,7 @@ std::optional<Nearest> nearest_pairs(const Ldlt& ldlt, const SparseMatrix& K, co
       if (std::abs(found.pairs.values[j]) <= nearby * found.roundoff.back()) found.near = j + 1;
     }
     if (found.near < count || count < wanted) return found;
-    start = std::move(found.pairs.vectors);
+    start = *found.pairs.vectors;
   }
   return std::nullopt;  // round-off of K hides them all
 }
@@ -114,7 +114,7 @@ std::optional<Index> negative_at(const SparseMatrix& K, const Vector& weights, d
                                  Ldlt& ldlt) {
   if (ldlt.factorize(shifted(K, weights, shift)) != FactorStatus::ok) return std::nullopt;
   for (Index j = 0; j < nearest.pairs.values.size(); ++j)
-    if (std::abs(nearest.pairs.values[j] + shift) <= clear * ldlt.roundoff(nearest.pairs.vectors.col(j)))
+    if (std::abs(nearest.pairs.values[j] + shift) <= clear * ldlt.roundoff(nearest.pairs.vectors->col(j)))
       return std::nullopt;
   return ldlt.inertia()->negative;
 }
@@ -148,7 +148,7 @@ std::optional<SignCount> signs_beside(const std::optional<Nearest>& nearest, con
   SignCount count{.negative = *below, .positive = n - *above, .undecided = 0};
   if (nearest->near == 0) return count;
   const auto function =
-      BorderedTestFunction::of(K, sparse_border(nearest->pairs.vectors.leftCols(nearest->near), weights));
+      BorderedTestFunction::of(K, sparse_border(nearest->pairs.vectors->leftCols(nearest->near), weights));
   if (!function) return std::nullopt;
   const Matrix gram = function->vectors().transpose() * weights.asDiagonal() * function->vectors();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> axes(-function->psi(), gram);
@@ -184,8 +184,8 @@ std::optional<Index> negative_by_pivots(const Ldlt& ldlt, const Vector& weights,
   const auto inertia = ldlt.inertia();
   if (!inertia) return std::nullopt;
   if (pair_count(weights) == 0) return inertia->negative;
-  if (nearest.values.size() == 0 || !all_finite(nearest.vectors)) return std::nullopt;
-  const bool decided = std::abs(nearest.values[0]) > clear * ldlt.roundoff(nearest.vectors.col(0));
+  if (nearest.values.size() == 0 || !all_finite(*nearest.vectors)) return std::nullopt;
+  const bool decided = std::abs(nearest.values[0]) > clear * ldlt.roundoff(nearest.vectors->col(0));
   return decided ? std::optional(inertia->negative) : std::nullopt;
 }
 
@@ -199,11 +199,11 @@ std::optional<SignCount> sign_count_near_singularity(const SparseMatrix& K, cons
 std::optional<Index> negative_count(const Ldlt& ldlt, const SparseMatrix& K, const Vector& weights, Index multipliers,
                                     const NearNull& nearest) {
   if (const auto negative = negative_by_pivots(ldlt, weights, nearest)) return negative;
-  const bool known = nearest.values.size() > 0 && nearest.vectors.allFinite();
-  if (known && quadratic_form(K, nearest.vectors.col(0)).is_zero()) return std::nullopt;  // also to Ψ
+  const bool known = nearest.values.size() > 0 && nearest.vectors->allFinite();
+  if (known && quadratic_form(K, nearest.vectors->col(0)).is_zero()) return std::nullopt;  // also to Ψ
   std::optional<SignCount> signs;
   if (known && ldlt.inertia())
-    signs = signs_beside(nearest_pairs(ldlt, K, weights, nearest.vectors, IfZero::give_up), K, weights, multipliers);
+    signs = signs_beside(nearest_pairs(ldlt, K, weights, *nearest.vectors, IfZero::give_up), K, weights, multipliers);
   else
     signs = sign_count_near_singularity(K, weights, multipliers);
   if (!signs || signs->undecided > 0) return std::nullopt;

@@ -1,6 +1,7 @@
 #include "core/whole_solver.hpp"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/bordered_residual.hpp"
@@ -8,7 +9,7 @@
 
 namespace arcwall {
 
-bool WholeSolver::factorize(const Linearization& equations, const Row& border, Index multipliers, const Vector& soft) {
+bool WholeSolver::factorize(Linearization& equations, const Row& border, Index multipliers, const Vector& soft) {
   equations_ = &equations;
   border_ = border;
   has_lu_ = false;
@@ -41,18 +42,19 @@ std::optional<Direction> WholeSolver::solve_with_lu(const Vector& f, double g) c
 
 // As stiff as what it is added to, in the unknown that takes most of the energy.
 bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
-  const SparseMatrix& K = equations_->K;
+  SparseMatrix& K = equations_->K;
   const Index n = K.cols(), free = n - multipliers;
   if (free == 0) return false;
   const Vector diagonal = K.diagonal();
   at_ = soft_place(diagonal.head(free), soft.head(free));
   spring_ = std::abs(diagonal[at_]);
   if (!(spring_ > 0.0 && std::isfinite(spring_))) return false;
-  stiffened_ = K;
-  stiffened_.coeffRef(at_, at_) += spring_;
   ldlt_.set_multiplier_count(multipliers);
   ldlt_.set_afloat(afloat_beside_spring());
-  if (ldlt_.factorize(stiffened_) != FactorStatus::ok) return false;
+  const double without = std::exchange(K.coeffRef(at_, at_), diagonal[at_] + spring_);
+  const FactorStatus status = ldlt_.factorize(K);
+  K.coeffRef(at_, at_) = without;
+  if (status != FactorStatus::ok) return false;
   const Index m = equations_->B.cols(), lambda = m, force = m + 1;
   responses_.setZero(n, m + 2);
   if (m > 0) responses_.leftCols(m) = equations_->B;

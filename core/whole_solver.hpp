@@ -21,9 +21,10 @@ namespace arcwall {
 /// Solutions are refined and checked; those that stay poor come by LU of the whole.
 class WholeSolver {
  public:
-  /// `equations` must outlive the use of this factorization. `soft`: a vector that is large where K's null vector is,
-  /// as far as one knows. False if the whole is singular to working precision.
-  bool factorize(const Linearization& equations, const Row& border, Index multipliers, const Vector& soft);
+  /// `equations` must outlive the use of this factorization; the spring stands in their K while that is factorized.
+  /// `soft`: a vector that is large where K's null vector is, as far as one knows. False if the whole is singular to
+  /// working precision.
+  bool factorize(Linearization& equations, const Row& border, Index multipliers, const Vector& soft);
 
   /// Solution for a right-hand side (f, g); empty if there is none.
   std::optional<Direction> solve(const Vector& f, double g);
@@ -37,10 +38,9 @@ class WholeSolver {
   bool factorize_lu();
   std::optional<Direction> solve_with_lu(const Vector& f, double g) const;
 
-  const Linearization* equations_ = nullptr;
+  Linearization* equations_ = nullptr;
   Row border_;
   bool has_spring_ = false, has_lu_ = false;
-  SparseMatrix stiffened_;
   Ldlt ldlt_;
   Index at_ = 0;         // the unknown e
   double spring_ = 0.0;  // k

@@ -395,7 +395,7 @@ std::optional<Mechanism> find_mechanism(const Structure& structure) {
   double motion = -1.0;
   for (Index i = 0; i < K.cols(); ++i) {
     const double length = structure.meaning(i).freedom == Freedom::rotation ? 0.5 * structure.length_scale() : 1.0;
-    const double here = std::abs(softest.vectors(i, 0)) * scale[i] * length;
+    const double here = std::abs((*softest.vectors)(i, 0)) * scale[i] * length;
     if (here > motion * (1.0 + 1e-9)) {
       motion = here;
       largest = i;

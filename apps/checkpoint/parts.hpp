@@ -36,8 +36,10 @@ void parts(Archive& archive, Direction& direction) {
 
 template <typename Archive>
 void parts(Archive& archive, NearNull& pairs) {
-  archive(pairs.values, pairs.vectors);
-  archive.require(pairs.values.size() == pairs.vectors.cols());
+  Matrix vectors = *pairs.vectors;
+  archive(pairs.values, vectors);
+  archive.require(pairs.values.size() == vectors.cols());
+  if constexpr (Archive::reads) pairs.vectors = std::move(vectors);
 }
 
 template <typename Archive>

@@ -52,7 +52,8 @@ TEST(Corrector, ConvergesAtALimitPointUnderAPlane) {
   const test::SmoothToy system = test::fold();
   Corrector corrector(system, {}, 1.0);
   const Direction along{.dx = test::scalar(-1.0), .dlambda = 0.0};
-  const PlaneConstraint plane(metric, at(0.1, -0.01), along, 0.1);  // x = 0
+  const State origin = at(0.1, -0.01);
+  const PlaneConstraint plane(metric, origin, along, 0.1);  // x = 0
   const auto result = corrector.correct(at(0.0, 0.001), plane, metric, along, 0.1);
   ASSERT_TRUE(result.converged());
   EXPECT_NEAR(result.state.x[0], 0.0, 1e-12);
@@ -76,7 +77,8 @@ TEST(Corrector, SaysThatRootsAreComplex) {
   // The line of a spring's equilibria passes the origin's sphere: x = λ + 10 is 7 away.
   const auto system = toy([](double x) { return x - 10.0; }, [](double) { return 1.0; }, -1.0);
   Corrector corrector(system, {}, 1.0);
-  const SphereConstraint sphere(metric, SphereConstraint::Form::spherical, at(0.0, 0.0), up, 0.5);
+  const State origin = at(0.0, 0.0);
+  const SphereConstraint sphere(metric, SphereConstraint::Form::spherical, origin, up, 0.5);
   EXPECT_EQ(corrector.correct(at(0.0, 0.5), sphere, metric, up, 0.5).status, CorrectorStatus::complex_roots);
 }
 

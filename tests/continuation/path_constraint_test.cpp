@@ -23,6 +23,16 @@ struct First final : Observable {
 };
 const First first;
 
+// The line through two vectors, whose columns are others.
+EquilibriumLine line_of(const Direction& particular, const Direction& along) {
+  EquilibriumLine line{.dx = Matrix(2, 2), .off = 0.3, .scale = 0.5};
+  line.dx.col(1) = along.dx / line.scale;
+  line.dx.col(0) = particular.dx + line.off * line.dx.col(1);
+  line.dlambda[1] = along.dlambda / line.scale;
+  line.dlambda[0] = particular.dlambda + line.off * line.dlambda[1];
+  return line;
+}
+
 }  // namespace
 
 TEST(PathConstraint, GradientsAreConsistent) {
@@ -47,7 +57,7 @@ TEST(PathConstraint, TheUpdatedPlaneStandsAcrossTheChord) {
 TEST(PathConstraint, AdvancesToWhereTheLinearisedConstraintVanishes) {
   const Direction particular{.dx = Vector{{0.05, 0.02}}, .dlambda = -0.1};
   const PlaneConstraint plane(metric, origin, tangent, 0.2);
-  const auto tau = plane.advance(nearby, particular, tangent);
+  const auto tau = plane.advance(nearby, line_of(particular, tangent));
   ASSERT_TRUE(tau.has_value());
   EXPECT_NEAR(plane.value(moved(moved(nearby, particular, 1.0), tangent, tau->taken)), 0.0, 1e-14);
 }
@@ -55,7 +65,7 @@ TEST(PathConstraint, AdvancesToWhereTheLinearisedConstraintVanishes) {
 TEST(PathConstraint, AConstraintThatTheLineRunsAlongIsNotMet) {
   const ValueConstraint value(first, 0.3);
   const Direction along{.dx = Vector::Unit(2, 1), .dlambda = 1.0};
-  EXPECT_FALSE(value.advance(nearby, {.dx = Vector::Zero(2), .dlambda = 0.0}, along).has_value());
+  EXPECT_FALSE(value.advance(nearby, line_of({.dx = Vector::Zero(2), .dlambda = 0.0}, along)).has_value());
 }
 
 TEST(SphereConstraint, TheRootIsOnTheSphereAndTheOneNearerThePreviousTangent) {
@@ -66,7 +76,7 @@ TEST(SphereConstraint, TheRootIsOnTheSphereAndTheOneNearerThePreviousTangent) {
       const Direction particular{.dx = 0.1 * numbers.vector(2), .dlambda = 0.1 * numbers()};
       const Direction line{.dx = numbers.vector(2), .dlambda = 4.0 * numbers()};
       const State at = moved(origin, tangent, 0.9);
-      const auto tau = sphere.advance(at, particular, line);
+      const auto tau = sphere.advance(at, line_of(particular, line));
       if (!tau) continue;
       const State there = moved(moved(at, particular, 1.0), line, tau->taken);
       EXPECT_NEAR(sphere.value(there), 0.0, 1e-10);
@@ -88,7 +98,8 @@ TEST(SphereConstraint, ALineThatMissesTheSphereHasComplexRoots) {
   // From a point 1 away, along a direction normal to the way back.
   const Direction away{.dx = Vector{{std::sqrt(2.0), 0.0}}, .dlambda = 0.0};
   const Direction line{.dx = Vector::Unit(2, 1), .dlambda = 0.0};
-  EXPECT_FALSE(sphere.advance(moved(origin, away, 1.0), {.dx = Vector::Zero(2), .dlambda = 0.0}, line).has_value());
+  const EquilibriumLine through = line_of({.dx = Vector::Zero(2), .dlambda = 0.0}, line);
+  EXPECT_FALSE(sphere.advance(moved(origin, away, 1.0), through).has_value());
 }
 
 TEST(StepConstraint, ThePredictorFulfilsEveryMethodsConstraint) {

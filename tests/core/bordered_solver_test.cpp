@@ -52,7 +52,7 @@ TEST(BorderedSolver, SolvesWhetherKIsRegularNearlySingularOrSingular) {
     // A border that makes the whole regular: both have a component along the near-null vector.
     const Vector F_lambda = null + 0.3 * numbers.vector(n);
     const Row border{.dx = null + 0.3 * numbers.vector(n), .dlambda = 0.2};
-    const Linearization now = equations(K, numbers.vector(n), F_lambda);
+    Linearization now = equations(K, numbers.vector(n), F_lambda);
     BorderedSolver solver;
     ASSERT_NE(solver.factorize(now, 0), FactorStatus::not_finite);
 
@@ -76,7 +76,7 @@ TEST(BorderedSolver, SolvesWhetherKIsRegularNearlySingularOrSingular) {
 TEST(BorderedSolver, AnExactlySingularKStillHasALine) {
   // K = diag(1, 0), F_λ = (0, 1): a limit point with tangent (0, 1, 0).
   const Matrix K = Vector(Vector::Unit(2, 0)).asDiagonal();
-  const Linearization now = equations(K, Vector::Ones(2), Vector::Unit(2, 1));
+  Linearization now = equations(K, Vector::Ones(2), Vector::Unit(2, 1));
   BorderedSolver solver;
   EXPECT_EQ(solver.factorize(now, 0), FactorStatus::singular);
   EXPECT_FALSE(solver.inner_is_regular());
@@ -92,7 +92,7 @@ TEST(BorderedSolver, AnExactlySingularKStillHasALine) {
 TEST(BorderedSolver, SaysWhereTheBorderedMatrixIsSingularToo) {
   // F_λ lies in the range of K: a branch point, which no border closes with one column.
   const Matrix K = Vector(Vector::Unit(2, 0)).asDiagonal();
-  const Linearization now = equations(K, Vector::Ones(2), Vector::Unit(2, 0));
+  Linearization now = equations(K, Vector::Ones(2), Vector::Unit(2, 0));
   BorderedSolver solver;
   EXPECT_EQ(solver.factorize(now, 0), FactorStatus::singular);
   const Row border{.dx = Vector::Zero(2), .dlambda = 1.0};
@@ -110,7 +110,7 @@ TEST(BorderedSolver, WorksOnSaddlePoints) {
   K.topRightCorner(n, m) = K.bottomLeftCorner(m, n).transpose();
   Vector F_lambda = Vector::Zero(n + m);
   F_lambda.head(n) = numbers.vector(n);
-  const Linearization now = equations(K, numbers.vector(n + m), F_lambda);
+  Linearization now = equations(K, numbers.vector(n + m), F_lambda);
   BorderedSolver solver;
   ASSERT_EQ(solver.factorize(now, m), FactorStatus::ok);
   ASSERT_TRUE(solver.inner().inertia().has_value());
@@ -127,7 +127,7 @@ TEST(BorderedSolver, WorksOnSaddlePoints) {
 TEST(BorderedSolver, FindsEntriesThatAreNotFinite) {
   Matrix K = Matrix::Identity(2, 2);
   K(1, 0) = infinity;
-  const Linearization now = equations(K, Vector::Ones(2), Vector::Ones(2));
+  Linearization now = equations(K, Vector::Ones(2), Vector::Ones(2));
   BorderedSolver solver;
   EXPECT_EQ(solver.factorize(now, 0), FactorStatus::not_finite);
 }

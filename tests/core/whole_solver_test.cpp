@@ -62,7 +62,7 @@ TEST(WholeSolver, SolvesWhereKIsSingular) {
   test::Numbers numbers(61);
   for (int round = 0; round < 20; ++round) {
     const Singular at(1, numbers);
-    const Linearization now = equations(at.K, at.nulls.col(0) + 0.3 * numbers.vector(n));
+    Linearization now = equations(at.K, at.nulls.col(0) + 0.3 * numbers.vector(n));
     const Row border{.dx = at.nulls.col(0) + 0.3 * numbers.vector(n), .dlambda = 0.2};
     WholeSolver solver;
     ASSERT_TRUE(solver.factorize(now, border, 0, at.nulls.col(0)));
@@ -95,7 +95,7 @@ TEST(WholeSolver, SolvesAlsoWhereTheSoftDirectionIsMistaken) {
   Matrix K = Matrix::Zero(n, n);
   K.topLeftCorner(n - 1, n - 1) = 2.0 * Matrix::Identity(n - 1, n - 1);
   K(0, 1) = K(1, 0) = 0.5;
-  const Linearization now = equations(K, Vector::Unit(n, n - 1) + numbers.vector(n));
+  Linearization now = equations(K, Vector::Unit(n, n - 1) + numbers.vector(n));
   const Row border{.dx = Vector::Unit(n, n - 1) + 0.1 * numbers.vector(n), .dlambda = 0.2};
   WholeSolver solver;
   ASSERT_TRUE(solver.factorize(now, border, 0, Vector::Unit(n, 0)));
@@ -113,7 +113,7 @@ TEST(WholeSolver, SolvesSaddlePoints) {
   K.topRightCorner(n, m) = K.bottomLeftCorner(m, n).transpose();
   Vector soft = Vector::Zero(n + m);
   soft.head(n) = at.nulls.col(0);
-  const Linearization now = equations(K, soft + 0.3 * numbers.vector(n + m));
+  Linearization now = equations(K, soft + 0.3 * numbers.vector(n + m));
   const Row border{.dx = soft + 0.3 * numbers.vector(n + m), .dlambda = 0.2};
   WholeSolver solver;
   ASSERT_TRUE(solver.factorize(now, border, m, soft));
@@ -123,7 +123,7 @@ TEST(WholeSolver, SolvesSaddlePoints) {
 TEST(WholeSolver, SaysWhereOneBorderIsNotEnough) {
   test::Numbers numbers(64);
   const Singular at(2, numbers);
-  const Linearization now = equations(at.K, numbers.vector(n));
+  Linearization now = equations(at.K, numbers.vector(n));
   const Row border{.dx = numbers.vector(n), .dlambda = 0.2};
   WholeSolver solver;
   const bool factorized = solver.factorize(now, border, 0, at.nulls.col(0));

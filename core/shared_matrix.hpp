@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "core/types.hpp"
+
+namespace arcwall {
+
+/// A matrix that nobody changes any more: its copies are the same one.
+class SharedMatrix {
+ public:
+  SharedMatrix() = default;
+  SharedMatrix(Matrix matrix) : matrix_(std::make_shared<const Matrix>(std::move(matrix))) {}
+
+  const Matrix& operator*() const {
+    static const Matrix nothing;
+    return matrix_ ? *matrix_ : nothing;
+  }
+  const Matrix* operator->() const { return &**this; }
+
+ private:
+  std::shared_ptr<const Matrix> matrix_;
+};
+
+}  // namespace arcwall
