@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 
 #include "core/cubic_spline.hpp"
 
@@ -396,6 +397,22 @@ double ImperfectAxis::coordinate_at(double from, double length, double guess) co
     s = next;
   }
   return s;
+}
+
+AxisPoints::AxisPoints(std::shared_ptr<const Axis> axis, const std::vector<SineDeviation>& deviations, int elements,
+                       const Vec2& first, const Vec2& last)
+    : axis_(std::move(axis)), elements_(static_cast<std::size_t>(elements)), first_(first), last_(last) {
+  if (axis_->is_straight() && deviations.empty()) return;
+  const ImperfectAxis curve(*axis_, deviations);
+  for (std::size_t k = 0; k <= elements_; ++k)
+    points_.push_back(deviations.empty() ? axis_->at(arc(k)) : curve.at(arc(k)));
+}
+
+AxisPoint AxisPoints::operator[](std::size_t k) const {
+  AxisPoint point = points_.empty() ? axis_->at(arc(k)) : points_[k];
+  if (k == 0) point.position = first_;
+  if (k == elements_) point.position = last_;
+  return point;
 }
 
 double box_diagonal(const std::vector<Vec2>& points) {

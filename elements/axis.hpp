@@ -107,6 +107,29 @@ class ImperfectAxis {
   double wave_number_;  // greatest of the deviations
 };
 
+/// Points of a member's curve at the nodes of its mesh, at equal spacing of the axis' arc length; the ends are where
+/// joints were put. Those of a straight line are made when they are asked for: a mesh may have very many.
+class AxisPoints {
+ public:
+  AxisPoints() = default;
+
+  /// Of `axis` with these imperfections.
+  AxisPoints(std::shared_ptr<const Axis> axis, const std::vector<SineDeviation>& deviations, int elements,
+             const Vec2& first, const Vec2& last);
+
+  AxisPoint operator[](std::size_t k) const;
+  AxisPoint front() const { return (*this)[0]; }
+  AxisPoint back() const { return (*this)[elements_]; }
+
+ private:
+  double arc(std::size_t k) const { return axis_->length() * double(k) / double(elements_); }
+
+  std::shared_ptr<const Axis> axis_;
+  std::size_t elements_ = 0;
+  Vec2 first_ = Vec2::Zero(), last_ = Vec2::Zero();
+  std::vector<AxisPoint> points_;  // of a curve
+};
+
 /// Diagonal of the smallest upright rectangle round points [length].
 double box_diagonal(const std::vector<Vec2>& points);
 

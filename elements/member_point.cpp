@@ -103,7 +103,7 @@ MemberObservable::MemberObservable(const Structure& structure, const MemberMesh&
       component_(component),
       point_(structure, mesh, node, offset_of(mesh, component)),
       rotation_(mesh.rotations[node]) {
-  const AxisPoint& axis = mesh.axis[node];
+  const AxisPoint axis = mesh.axis[node];
   switch (component) {
     case Component::x:
       origin_ = axis.position.x();

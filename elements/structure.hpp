@@ -70,7 +70,7 @@ struct MemberMesh {
   std::string name{};
   std::vector<Index> nodes{};                     ///< index of each node in the structure
   std::vector<std::optional<Index>> rotations{};  ///< freedom of the member's rotation at each node; a bar has none
-  std::vector<AxisPoint> axis{}, shape{};         ///< without and with imperfection
+  AxisPoints axis{}, shape{};                     ///< without and with imperfection
   std::optional<double> height{};                 ///< of the section
   std::vector<Index> middle_nodes{};              ///< of each element, in the structure; empty where there are none
   std::vector<Index> middle_rotations{};          ///< their freedoms, as many

@@ -39,7 +39,7 @@ struct Stretch {
 };
 
 BeamReference beam_reference(const Stretch& stretch) {
-  const AxisPoint &first = stretch.mesh.shape[stretch.k], &second = stretch.mesh.shape[stretch.k + 1];
+  const AxisPoint first = stretch.mesh.shape[stretch.k], second = stretch.mesh.shape[stretch.k + 1];
   const Vec2 chord = stretch.chord();
   const double direction = std::atan2(chord.y(), chord.x());
   const auto against_chord = [&](double angle) { return std::remainder(angle - direction, 2.0 * pi); };
@@ -57,7 +57,7 @@ StretchReference slender_reference(const Stretch& stretch) {
 
 // From its first node, so that places far from the origin keep their digits.
 ExactBeamReference exact_reference(const Stretch& stretch) {
-  const std::vector<AxisPoint>& nodes = stretch.mesh.shape;
+  const AxisPoints& nodes = stretch.mesh.shape;
   ExactBeamReference reference{.nodes = {Vec2::Zero()}, .arcs = {0.0}};
   const auto add = [&](const Vec2& position, double fraction) {
     reference.nodes.push_back(position - nodes[stretch.k].position);
@@ -74,7 +74,7 @@ bool has_middle_nodes(const MemberDescription& member) {
 
 EssenburgReference essenburg_reference(const Stretch& stretch) {
   const MemberMesh& mesh = stretch.mesh;
-  const Vec2& origin = mesh.shape[stretch.k].position;
+  const Vec2 origin = mesh.shape[stretch.k].position;
   EssenburgReference reference;
   const auto add = [&](const AxisPoint& axis, const AxisPoint& shape) {
     const MemberSection section{.axis = axis, .shape = shape, .quadratic = stretch.member.quadratic};
@@ -204,23 +204,22 @@ Index StructureBuilder::add_member(MemberDescription member) {
          ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0 && !member.section.points.empty()));
   assert(member.theory != Theory::elastica || member.order == 4 || member.order == 6);
   const ImperfectAxis shape(*member.axis, member.imperfection);
+  const auto points = [&](const std::vector<SineDeviation>& deviations) {
+    const auto joint = [&](Index node) { return positions_[static_cast<std::size_t>(node)]; };
+    return AxisPoints(member.axis, deviations, member.elements, joint(member.from), joint(member.to));
+  };
   const bool rotates = member.theory != Theory::truss, thickens = member.theory == Theory::essenburg;
   MemberMesh mesh{.name = member.name,
+                  .axis = points({}),
+                  .shape = points(member.imperfection),
                   .height = member.section.height,
                   .length = member.axis->length(),
                   .quadratic = member.quadratic};
   for (int k = 0; k <= member.elements; ++k) {
     const bool first = k == 0, last = k == member.elements;
     if (has_middle_nodes(member) && !first) add_middle_node(member, shape, k - 1, mesh);
-    const double s = mesh.length * k / member.elements;
-    mesh.axis.push_back(member.axis->at(s));
-    mesh.shape.push_back(shape.at(s));
-    mesh.nodes.push_back(first ? member.from : last ? member.to : add_node(mesh.shape.back().position));
-    if (first || last) {
-      // Joints are where they were put, free of the axis' round-off.
-      const Vec2& joint = positions_[static_cast<std::size_t>(mesh.nodes.back())];
-      mesh.axis.back().position = mesh.shape.back().position = joint;
-    }
+    const AxisPoint place = mesh.shape[static_cast<std::size_t>(k)];
+    mesh.nodes.push_back(first ? member.from : last ? member.to : add_node(place.position));
     const bool hinged = (first && member.hinge_from) || (last && member.hinge_to);
     std::optional<Index> rotation;
     if (rotates)
@@ -228,7 +227,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
           first || last ? end_rotation(mesh.nodes.back(), hinged) : add_freedom(mesh.nodes.back(), Freedom::rotation);
     mesh.rotations.push_back(rotation);
     if (thickens)
-      mesh.thickness.push_back(first || last ? end_thickness(mesh.nodes.back(), member, mesh.shape.back().angle, hinged)
+      mesh.thickness.push_back(first || last ? end_thickness(mesh.nodes.back(), member, place.angle, hinged)
                                              : add_thickness(mesh.nodes.back()));
   }
   meshes_.push_back(std::move(mesh));
@@ -302,6 +301,9 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->positions_ = positions_;
   structure->first_freedom_ = first_freedom_;
   structure->members_ = meshes_;
+  freedom_of_unknown.shrink_to_fit();
+  freedoms_of_elements.shrink_to_fit();
+  first_freedom_of_element.shrink_to_fit();
   structure->unknown_of_freedom_ = std::move(unknown_of_freedom);
   structure->freedom_of_unknown_ = std::move(freedom_of_unknown);
   structure->meaning_of_freedom_ = freedoms_;
