@@ -153,7 +153,6 @@ bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
   for (Index begin = 0; begin < chain_.length; begin += together) {
     const Index end = std::min(begin + together, chain_.length);
     for (; there < std::min(end + 1, chain_.length); ++there) {
-      values_.expect<2>(there + together, values);
       values_.gather(there, values, filling, 1.0, 1, chain_.group(there));
     }
     eliminate_groups(chain_, begin, end, seen);
@@ -174,7 +173,6 @@ void ChainLdlt::gather(Columns of, Index end, Index& there) const {
     Lanes* const to = work_.entries.data() + there * chain_.width * columns;
     for (Index r = 0; r < columns; ++r) {
       const ScaledColumn& column = of[static_cast<std::size_t>(r)];
-      unknowns_.expect<1>(there + together, column.entries);
       unknowns_.gather(there, column.entries, 0.0, column.factor, columns, to + r);
     }
   }
@@ -201,10 +199,8 @@ void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
     const Index begin = (end - 1) / together * together;
     backward_groups(chain_, columns, begin, end, work_);
     for (Index record = begin; record < end; ++record)
-      for (Index r = 0; r < columns; ++r) {
-        unknowns_.expect<1>(record - together, &X(0, r));
+      for (Index r = 0; r < columns; ++r)
         unknowns_.scatter(record, work_.entries.data() + record * chain_.width * columns + r, columns, &X(0, r));
-      }
     end = begin;
   }
 }

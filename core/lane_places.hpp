@@ -50,16 +50,6 @@ class LanePlaces {
     }
   }
 
-  /// Numbers of a record that is worked on soon, if there is such a record, as far as `lines` of the cache hold them:
-  /// processors do not foresee several places at once.
-  template <int lines>
-  void expect(Index record, const double* array) const {
-    constexpr Index per_line = 8;
-    if (record < 0 || record >= static_cast<Index>(records_.size())) return;
-    for (const std::int32_t first : records_[static_cast<std::size_t>(record)].first)
-      for (int line = 0; line < lines; ++line) __builtin_prefetch(array + first + line * per_line);
-  }
-
   /// And back, where something came from.
   void scatter(Index record, const Lanes* from, Index step, double* to) const {
     const Record& at = records_[static_cast<std::size_t>(record)];
