@@ -16,9 +16,10 @@ class Metric {
  public:
   Metric(Vector weights, double lambda_scale) : weights_(std::move(weights)), lambda_scale_(lambda_scale) {}
 
-  double inner_x(const Direction& a, const Direction& b) const {
-    return (weights_.array() * a.dx.array() * b.dx.array()).sum();
+  double inner_x(const Eigen::Ref<const Vector>& a, const Eigen::Ref<const Vector>& b) const {
+    return (weights_.array() * a.array() * b.array()).sum();
   }
+  double inner_x(const Direction& a, const Direction& b) const { return inner_x(a.dx, b.dx); }
   double inner_lambda(double a, double b) const { return a * b / (lambda_scale_ * lambda_scale_); }
   double inner(const Direction& a, const Direction& b) const {
     return inner_x(a, b) + inner_lambda(a.dlambda, b.dlambda);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/tracer.hpp"
+#include "core/quadratic_form.hpp"
 #include "core/root_find.hpp"
 
 namespace arcwall {
@@ -221,12 +222,16 @@ class Tracer::Middle {
       : system_(system), segment_(segment), metric_(metric), now_(workspace) {}
 
   /// The eigenvalue of a mode between those at the ends: Rayleigh's quotient of their mean, whose error is of the
-  /// second order.
-  double eigenvalue(const Vector& from, const Vector& to) {
+  /// second order. Empty where the round-off of K's entries is greater than `least`, as on the finest meshes.
+  std::optional<double> eigenvalue(const Eigen::Ref<const Vector>& from, const Eigen::Ref<const Vector>& to,
+                                   double least) {
     if (!std::exchange(known_, true)) system_.linearize(segment_.at(0.5), now_);
-    const Vector weighted = metric_.weights().cwiseProduct(to);
-    const Vector mean = weighted.dot(from) < 0.0 ? Vector(to - from) : Vector(to + from);
-    return mean.dot(product(now_, mean).col(0)) / metric_.weights().dot(mean.cwiseAbs2());
+    const double sign = metric_.inner_x(from, to) < 0.0 ? -1.0 : 1.0;
+    const Vector mean = to + sign * from;
+    const double squared = metric_.inner_x(mean, mean);
+    if (now_.B.cols() > 0) return mean.dot(product(now_, mean).col(0)) / squared;
+    const QuadraticForm form = quadratic_form(now_.K, mean);
+    return form.roundoff > least * squared ? std::nullopt : std::optional(form.value / squared);
   }
 
  private:
@@ -264,9 +269,10 @@ bool Tracer::dips(const Segment& segment, Index here, Index there, Middle& middl
     const double length = Segment(metric_, *before_, from).length();
     if (before > 0.0 && least_of_parabola(length, before, sign * v0, L, sign * v1) > shallow * least) return false;
   }
-  const double v = sign * middle.eigenvalue(from.nearest.vectors->col(here), to.nearest.vectors->col(there));
-  const double first = least_of_parabola(0.5, sign * v1, v, 0.5, sign * v0),
-               second = least_of_parabola(0.5, sign * v0, v, 0.5, sign * v1);
+  const auto v = middle.eigenvalue(from.nearest.vectors->col(here), to.nearest.vectors->col(there), least);
+  if (!v) return false;
+  const double first = least_of_parabola(0.5, sign * v1, sign * *v, 0.5, sign * v0),
+               second = least_of_parabola(0.5, sign * v0, sign * *v, 0.5, sign * v1);
   return std::min(first, second) <= deep * least;
 }
 
