@@ -23,7 +23,8 @@ Matrix product(const Linearization& equations, const Matrix& X);
 /// at worst taken from a factorization that does not need K's.
 class BorderedSolver {
  public:
-  /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves.
+  /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves, for which a
+  /// spring may stand in K for a moment (WholeSolver).
   FactorStatus factorize(Linearization& equations, Index multipliers);
 
   /// The same where line() is asked for next, for this line: without a border its solutions are found along.
