@@ -73,12 +73,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   out.F_lambda.resize(n + m);
   out.F.head(n) = inner.F;
   out.F_lambda << inner.F_lambda, Vector::Zero(m);
-  // Each column of K begins with the inner one; rows of multipliers follow.
-  const double* from = inner.K.valuePtr();
-  const SparseIndex* start = inner.K.outerIndexPtr();
-  for (Index column = 0; column < n; ++column)
-    std::copy(from + start[column], from + start[column + 1], out.K.valuePtr() + out.K.outerIndexPtr()[column]);
-
+  copy_values(inner.K, out.K);
   Gap gap;
   for_each_closed(state.piece, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();

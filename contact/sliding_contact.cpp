@@ -307,11 +307,7 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
   out.F_lambda.head(n) = inner.F_lambda;
   out.B.setZero(size - m, m);
   out.B.topRows(n) = inner.B;
-  std::fill(out.K.valuePtr(), out.K.valuePtr() + out.K.nonZeros(), 0.0);
-  const SparseIndex* start = inner.K.outerIndexPtr();
-  for (Index column = 0; column < n; ++column)
-    std::copy(inner.K.valuePtr() + start[column], inner.K.valuePtr() + start[column + 1],
-              out.K.valuePtr() + out.K.outerIndexPtr()[column]);
+  copy_values(inner.K, out.K);
   const auto add_row = [&](const Touch& at, const Eigen::Vector3d& gradient, Index row) {
     const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
     for (std::size_t i = 0; i < 3; ++i)

@@ -52,6 +52,20 @@ SparseMatrix with_rows_behind(const SparseMatrix& A, const std::vector<RowEntry>
   return out;
 }
 
+// Columns that no row behind has an entry in follow each other in both matrices: they are copied together.
+void copy_values(const SparseMatrix& A, SparseMatrix& out) {
+  const Index n = A.cols();
+  const SparseIndex *start = A.outerIndexPtr(), *start_out = out.outerIndexPtr();
+  for (Index column = 0, end = 0; column < n; column = end) {
+    const SparseIndex shift = start_out[column] - start[column];
+    for (end = column + 1; end < n && start_out[end] - start[end] == shift;) ++end;
+    double* const behind =
+        std::copy(A.valuePtr() + start[column], A.valuePtr() + start[end], out.valuePtr() + start_out[column]);
+    std::fill(behind, out.valuePtr() + start_out[end], 0.0);
+  }
+  std::fill(out.valuePtr() + start_out[n], out.valuePtr() + out.nonZeros(), 0.0);
+}
+
 namespace {
 
 // Calls `visit` for the entries of the lower triangle: the diagonal, then those of the blocks, some of them more than

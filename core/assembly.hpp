@@ -18,6 +18,9 @@ struct RowEntry {
 /// The lower triangle of a matrix with `count` rows and their diagonal behind it; values are zero.
 SparseMatrix with_rows_behind(const SparseMatrix& lower_triangle, const std::vector<RowEntry>& entries, Index count);
 
+/// The values of that lower triangle into a matrix with rows behind it; zero in these.
+void copy_values(const SparseMatrix& lower_triangle, SparseMatrix& with_rows);
+
 /// The unknowns of a block in the order of its rows; −1 stands for one that is held.
 class BlockUnknowns {
  public:

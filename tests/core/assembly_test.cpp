@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/dense.hpp"
 
 namespace arcwall::assembly_test {
@@ -70,6 +72,24 @@ TEST(BlockAssembly, KnowsBlocksThatDifferByAShift) {
     together[shifted ? 0 : 1] = test::full(K);
   }
   EXPECT_EQ(together[0], together[1]);
+}
+
+// Also where a row has an entry in the first column, in neighbouring columns and in the last.
+TEST(RowsBehind, LeaveTheValuesOfTheMatrixBeforeThem) {
+  SparseMatrix A = BlockAssembly(6, some_blocks).pattern();
+  test::Numbers numbers(15);
+  for (Index i = 0; i < A.nonZeros(); ++i) A.valuePtr()[i] = numbers();
+  const std::vector<std::vector<RowEntry>> rows{
+      {}, {{0, 3}}, {{0, 0}, {1, 5}}, {{1, 2}, {0, 2}, {0, 3}}, {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}};
+  for (const std::vector<RowEntry>& entries : rows) {
+    SparseMatrix out = with_rows_behind(A, entries, 2);
+    std::fill_n(out.valuePtr(), out.nonZeros(), infinity);
+    copy_values(A, out);
+    Matrix expected = Matrix::Zero(8, 8);
+    expected.topLeftCorner(6, 6) = test::full(A);
+    EXPECT_EQ(test::full(out), expected) << entries.size();
+    EXPECT_EQ(out.nonZeros(), A.nonZeros() + static_cast<Index>(entries.size()) + 2);
+  }
 }
 
 TEST(BlockAssembly, GivesBackTheUnknownsOfEachBlock) {
