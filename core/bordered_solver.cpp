@@ -28,7 +28,7 @@ Matrix product(const Linearization& equations, const Matrix& X) {
   Y.topRows(n).noalias() = equations.K.selfadjointView<Eigen::Lower>() * X.topRows(n);
   if (m > 0) {
     Y.topRows(n).noalias() += equations.B * X.bottomRows(m);
-    Y.bottomRows(m).noalias() = equations.C * X;
+    Y.bottomRows(m) = equations.C.lazyProduct(X);
   }
   return Y;
 }
@@ -72,7 +72,7 @@ bool BorderedSolver::eliminate_border() {
   if (m == 0) return true;
   border_ = now.B;
   ldlt_.solve(border_);
-  reduced_ = now.C.leftCols(now.K.cols()) * border_ - now.C.rightCols(m);
+  reduced_ = now.C.leftCols(now.K.cols()).lazyProduct(border_) - now.C.rightCols(m);
   slides_.compute(reduced_);
   return border_.allFinite() && slides_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
 }
@@ -94,7 +94,7 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
   }
   Matrix Y = X.topRows(n);
   ldlt_.solve(Y);
-  const Matrix s = slides_.solve(now.C.leftCols(n) * Y - X.bottomRows(m));
+  const Matrix s = slides_.solve(now.C.leftCols(n).lazyProduct(Y) - X.bottomRows(m));
   X.bottomRows(m) = s;
   for (Index column = 0; column < X.cols(); ++column) {
     X.col(column).head(n) = Y.col(column);

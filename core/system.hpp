@@ -23,7 +23,7 @@ struct Linearization {
   Vector F{};                              ///< residual, internal minus external
   SparseMatrix K{};                        ///< the symmetric part: its lower triangle alone is stored
   Matrix B{};                              ///< columns of the border; none for most systems
-  Matrix C{};                              ///< rows of the border, by x and s
+  LongRows C{};                            ///< rows of the border, by x and s
   std::vector<Index> holding{};            ///< y_k, one a column of B
   Vector F_lambda{};                       ///< ∂F/∂λ
   std::vector<bool> afloat{};              ///< nodes on which no force arises where everything moves parallel, by

@@ -10,6 +10,7 @@ namespace arcwall {
 using Index = Eigen::Index;
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
+using LongRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Vec2 = Eigen::Vector2d;
 
 /// Compressed columns; up to 2³¹ entries.
