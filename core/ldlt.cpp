@@ -9,6 +9,7 @@
 
 #include "core/chain_ldlt.hpp"
 #include "core/held_chain.hpp"
+#include "core/pattern_fingerprint.hpp"
 #include "core/simplicial_ldlt.hpp"
 #include "core/sprung_cholesky.hpp"
 
@@ -19,18 +20,10 @@ struct Ldlt::Implementation {
   std::unique_ptr<SymmetricFactors> others;   // of the same, for what those refuse
   SymmetricFactors* usable = nullptr;         // which of them holds the last matrix
   Matrix soft;
-  std::vector<SparseIndex> columns, rows;  // the pattern that was analysed
+  PatternFingerprint pattern;  // that was analysed
   Index multipliers = 0, analysed_multipliers = 0;
   std::vector<bool> afloat, analysed_afloat;
   bool trusted = false;  // the pattern
-
-  bool analysed(const SparseMatrix& A) const {
-    const auto n = static_cast<std::size_t>(A.cols()) + 1, nonzeros = static_cast<std::size_t>(A.nonZeros());
-    return factors != nullptr && multipliers == analysed_multipliers && columns.size() == n &&
-           rows.size() == nonzeros &&
-           (trusted || (afloat == analysed_afloat && std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
-                        std::equal(rows.begin(), rows.end(), A.innerIndexPtr())));
-  }
 
   std::unique_ptr<SymmetricFactors> fresh(const SparseMatrix& A) const {
     if (auto groups = chain_groups(A, multipliers, ChainLdlt::widest)) {
@@ -43,12 +36,16 @@ struct Ldlt::Implementation {
     return large ? std::move(large) : simplicial_ldlt(A, multipliers);
   }
 
-  void analyse(const SparseMatrix& A) {
+  // Analyses the pattern unless that has been done.
+  void know(const SparseMatrix& A) {
+    const bool any = factors != nullptr && multipliers == analysed_multipliers;
+    if (any && trusted && pattern.has_sizes_of(A)) return;
+    const PatternFingerprint of_A(A);
+    if (any && of_A == pattern && afloat == analysed_afloat) return;
     others.reset();
     if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
     factors->expect_soft(soft);
-    columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
-    rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    pattern = of_A;
     analysed_multipliers = multipliers;
     analysed_afloat = afloat;
   }
@@ -58,7 +55,7 @@ struct Ldlt::Implementation {
   FactorStatus factorize(const SparseMatrix& A, const Serves& serves) {
     const auto is_finite = [&] { return all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros())); };
     usable = nullptr;
-    if (!analysed(A)) analyse(A);
+    know(A);
     const bool asks = !factors->sees_what_is_not_finite();
     if (asks && !is_finite()) return FactorStatus::not_finite;
     if (serves(*factors)) {
