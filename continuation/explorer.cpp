@@ -42,7 +42,6 @@ std::optional<Explorer::Step> Explorer::next() {
     if (auto arc = tracer_->next()) {
       for (const Event& event : arc->events)
         if (event.branching) look_at(event);
-      before_ = std::exchange(last_, arc->to.state);
       return Step{.branch = current_, .arc = std::move(*arc)};
     }
     branches_[static_cast<std::size_t>(current_)].end = tracer_->end();
@@ -160,13 +159,14 @@ void Explorer::enqueue(const Event& event, const Way& way, bool mirrored) {
 // The branch under way ended at a branch point of this other one: the way off that point by which it came, or whose
 // mirror image it came, is traced already.
 void Explorer::drop_arrived_at(int other) {
-  if (before_.piece != last_.piece) return;
-  const Metric metric(system_.weights(last_.piece), lambda_scale_);
-  const Direction step = difference(last_, before_);
+  if (!tracer_->before()) return;
+  const State &last = tracer_->here().state, &before = tracer_->before()->state;
+  const Metric metric(system_.weights(last.piece), lambda_scale_);
+  const Direction step = difference(last, before);
   std::erase_if(queue_, [&](const Queued& queued) {
     const State& point = queued.start.state;
-    if (queued.record.parent != other || point.piece != last_.piece || !queued.start.forward) return false;
-    const Direction arrival = difference(point, before_);
+    if (queued.record.parent != other || point.piece != last.piece || !queued.start.forward) return false;
+    const Direction arrival = difference(point, before);
     const double length = metric.norm(arrival);
     if (length > metric.norm(step) + arriving) return false;  // not in this step
     const double cosine = metric.inner(arrival, *queued.start.forward) / length;

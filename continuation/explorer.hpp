@@ -58,7 +58,7 @@ class Explorer {
   template <typename Archive>
   void keep(Archive& archive) {
     bool under_way = tracer_ != nullptr;
-    archive(lambda_scale_, current_, before_, last_, queue_, branches_, known_, stopped_, under_way);
+    archive(lambda_scale_, current_, queue_, branches_, known_, stopped_, under_way);
     const auto goes_on = [&](std::size_t branch) {
       return under_way && !stopped_ && static_cast<int>(branch) == current_;
     };
@@ -66,8 +66,9 @@ class Explorer {
     if (!under_way) return;
     archive.require(current_ >= 0 && static_cast<std::size_t>(current_) < branches_.size());
     if constexpr (Archive::reads)
-      tracer_ = std::make_unique<Tracer>(system_, BranchStart{.state = last_, .lambda_scale = lambda_scale_}, trace_,
-                                         watched_);
+      tracer_ = std::make_unique<Tracer>(
+          system_, BranchStart{.state = {.piece = system_.open_piece()}, .lambda_scale = lambda_scale_}, trace_,
+          watched_);
     tracer_->keep(archive);
   }
 
@@ -104,7 +105,6 @@ class Explorer {
   ExploreOptions options_;
   std::unique_ptr<Tracer> tracer_;
   int current_ = 0;
-  State before_, last_;  // the last two points of the branch under way
   double lambda_scale_ = 1.0;
   std::deque<Queued> queue_;
   std::vector<BranchRecord> branches_;

@@ -114,6 +114,9 @@ class Tracer {
   /// The last accepted point.
   const PathPoint& here() const { return here_; }
 
+  /// The one before it on the same smooth arc, without its eigenpairs; empty behind a corner and at the start.
+  const std::optional<PathPoint>& before() const { return before_; }
+
   /// Visits all that changes while the branch is traced: `archive(values…)` writes or reads them, `Archive::reads` says
   /// which. A tracer of the same system and options into which they are read goes on to the same last bit.
   template <typename Archive>

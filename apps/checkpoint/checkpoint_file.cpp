@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr std::string_view first_line = "arcwall checkpoint 2\n";
+constexpr std::string_view first_line = "arcwall checkpoint 3\n";
 constexpr std::size_t length_bytes = 8, crc_bytes = 4, head_bytes = first_line.size() + length_bytes + crc_bytes;
 
 // Little-endian whatever the machine.
