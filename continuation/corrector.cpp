@@ -19,7 +19,8 @@ namespace arcwall {
 // the bordered system of docs/theory.md, section 3, in a form that serves all of them and stays regular at limit
 // points.
 CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint, const Metric& metric,
-                                   const Direction& along, double length, const CorrectorOptions& options) {
+                                   const Direction& along, double length, const CorrectorOptions& options,
+                                   Wanted wanted) {
   CorrectorResult result{.state = std::move(guess)};
   const auto ended = [&](CorrectorStatus status) {
     result.status = status;
@@ -39,7 +40,8 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
     // Newton's next correction, from the last two; from one alone only if the path is nearly straight.
     const double next = result.iterations > 1 ? size * ratio * ratio : size * options.straight;
     const bool settled = next <= options.tolerance && ratio <= 1.0;
-    if (settled || (size <= options.stagnation && ratio > 0.1)) return arrived(std::move(result), metric, border);
+    if (settled || (size <= options.stagnation && ratio > 0.1))
+      return arrived(std::move(result), metric, border, wanted);
     if (ratio > options.divergence && result.iterations > 1) return ended(CorrectorStatus::diverged);
     previous = size;
   }
@@ -47,8 +49,8 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
 }
 
 CorrectorResult Corrector::correct(State guess, const PathConstraint& constraint, const Metric& metric,
-                                   const Direction& along, double length) {
-  return iterate(std::move(guess), constraint, metric, along, length, options_);
+                                   const Direction& along, double length, Wanted wanted) {
+  return iterate(std::move(guess), constraint, metric, along, length, options_, wanted);
 }
 
 CorrectorResult Corrector::correct_patiently(State guess, const PathConstraint& constraint, const Metric& metric,
@@ -56,11 +58,11 @@ CorrectorResult Corrector::correct_patiently(State guess, const PathConstraint& 
   CorrectorOptions patient = options_;
   patient.divergence = infinity;
   patient.max_iterations = options_.patient_iterations;
-  return iterate(std::move(guess), constraint, metric, along, length, patient);
+  return iterate(std::move(guess), constraint, metric, along, length, patient, Wanted::pairs);
 }
 
 CorrectorResult Corrector::inspect(const State& state, const Metric& metric, const Direction& along) {
-  return arrived({.state = state}, metric, metric.row(along));
+  return arrived({.state = state}, metric, metric.row(along), Wanted::pairs);
 }
 
 std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count, Settled settled) const {
@@ -139,7 +141,7 @@ double Corrector::take_step(const Metric& metric, double tau, State& state) cons
   return std::sqrt(squared + metric.inner_lambda(dlambda, dlambda));
 }
 
-CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Row& border) {
+CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Row& border, Wanted wanted) {
   line_.dx.resize(0, 2);  // room for other columns
   if (here_.arrive(result.state) == FactorStatus::not_finite) {
     result.status = CorrectorStatus::not_finite;
@@ -149,14 +151,16 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   const Linearization& now = here_.equations();
   BorderedSolver& solver = here_.solver();
   // Pairs near zero are followed where there is no border.
-  const bool bordered = now.B.cols() > 0;
-  Matrix columns = bordered ? Matrix(now.F.size(), 1) : here_.tracker().right_hand_sides(metric.weights(), 1);
+  const bool bordered = now.B.cols() > 0, alone = bordered || wanted == Wanted::tangent;
+  Matrix columns = alone ? Matrix(now.F.size(), 1) : here_.tracker().right_hand_sides(metric.weights(), 1);
   Direction tangent;
   if (!solver.tangent(border, tangent, columns)) {
     result.status = CorrectorStatus::singular;
     return result;
   }
   result.tangent = unit(metric, std::move(tangent));
+  result.residual = relative_residual(metric, now, result.state.lambda, load_floor_);
+  if (wanted == Wanted::tangent) return result;
   if (bordered) {
     result.negative = negative_eigenvalues(system_, result.state, solver, now, {});
   } else {
@@ -165,7 +169,6 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
     if (const auto negative = negative_by_pivots(solver.inner(), metric.weights(), result.nearest))
       result.negative = *negative - system_.multiplier_count(result.state.piece);
   }
-  result.residual = relative_residual(metric, now, result.state.lambda, load_floor_);
   return result;
 }
 

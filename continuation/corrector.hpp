@@ -34,6 +34,10 @@ struct CorrectorResult {
   bool converged() const { return status == CorrectorStatus::converged; }
 };
 
+/// What is asked of a point that Newton's method arrives at: the tangent alone, or the eigenpairs nearest zero and
+/// their count, too.
+enum class Wanted { tangent, pairs };
+
 /// Newton's method on the closed system, whatever closes it. Keeps factorization and workspaces from call to call.
 class Corrector {
  public:
@@ -44,7 +48,7 @@ class Corrector {
   /// From `guess` to F = 0, c = 0. `length` is the distance from the guess to the last point known, `along` the tangent
   /// there, which closes the system where K is singular.
   CorrectorResult correct(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
-                          double length);
+                          double length, Wanted wanted = Wanted::pairs);
 
   /// The same from a guess of another shape than the solution, which may be long in coming: where next to nothing
   /// resists some change, the first corrections follow the guess's errors. They may grow for a while.
@@ -83,10 +87,10 @@ class Corrector {
 
  private:
   CorrectorResult iterate(State guess, const PathConstraint& constraint, const Metric& metric, const Direction& along,
-                          double length, const CorrectorOptions& options);
+                          double length, const CorrectorOptions& options, Wanted wanted);
   bool find_line(const Metric& metric, const Row& border);
   double take_step(const Metric& metric, double tau, State& state) const;
-  CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Row& border);
+  CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Row& border, Wanted wanted);
 
   const System& system_;
   CorrectorOptions options_;

@@ -405,20 +405,27 @@ bool Tracer::leads_to_family(const Step& step) const {
 }
 
 std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, double t) {
-  return correct_onto(constraint, segment, segment.at(t), segment.length() * std::min(t, 1.0 - t));
+  return correct_onto(constraint, segment, segment.at(t), segment.length() * std::min(t, 1.0 - t), Wanted::pairs);
 }
 
 // The same from a guess at a distance from points that are known.
 std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, State guess,
-                                              double distance) {
+                                              double distance, Wanted wanted) {
   distance = std::max(distance, 1e-3 * segment.length());
-  CorrectorResult result = corrector_.correct(std::move(guess), constraint, metric_, here_.tangent, distance);
+  CorrectorResult result = corrector_.correct(std::move(guess), constraint, metric_, here_.tangent, distance, wanted);
   last_failure_ = result.status;
   if (!result.converged()) return std::nullopt;
   // The place must lie inside the step, up to the curvature of the arc.
   const double along = metric_.inner(difference(result.state, here_.state), segment.chord()) / segment.length();
   if (along < -1e-6 * segment.length() || along > 1.2 * segment.length()) return std::nullopt;
   return point_of(std::move(result), here_.tangent);
+}
+
+// The eigenpairs nearest zero and their count, of a point that was found without them.
+void Tracer::find_pairs(PathPoint& at) {
+  CorrectorResult seen = corrector_.inspect(at.state, metric_, at.tangent);
+  at.nearest = std::move(seen.nearest);
+  at.held = at.count.unstable = seen.negative;
 }
 
 PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) const {

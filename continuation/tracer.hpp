@@ -212,7 +212,8 @@ class Tracer {
   std::optional<PathPoint> locate(Found& found, const PathPoint& to);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, double t);
   std::optional<PathPoint> correct_onto(const PathConstraint& constraint, const Segment& segment, State guess,
-                                        double distance);
+                                        double distance, Wanted wanted);
+  void find_pairs(PathPoint& at);
   Event event_of(const Found& found, const PathPoint& at, const PathPoint& beyond, const StabilityCount& behind,
                  double length) const;
   std::vector<Event> events_of(const Singular& singular, const PathPoint& at, const PathPoint& beyond,

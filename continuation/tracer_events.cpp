@@ -105,6 +105,7 @@ class Tracer::ZeroSearch {
         segment_(tracer.metric_, tracer.here_, to),
         at_start_(start_value(tracer, which)),
         at_end_(detector_.value(to)),
+        is_ours_(which + tracer.options_.detectors.size() < tracer.detectors_.size()),
         range_(std::abs(at_end_ - at_start_)) {
     seen_.emplace(0.0, Seen{.v = at_start_});
     seen_.emplace(1.0, Seen{.v = at_end_});
@@ -117,10 +118,10 @@ class Tracer::ZeroSearch {
     const auto best = sharpened(seen_.find(*root), found.half_width);
     found.t = best->first;
     if (!best->second.between) return point_at(best);
-    PathPoint& at = *best->second.between;
-    if (at.nearest.values.size() == 0)
-      at.nearest = tracer_.corrector_.inspect(at.state, tracer_.metric_, at.tangent).nearest;
-    return std::move(at);
+    PathPoint at = std::move(*best->second.between);
+    seen_.clear();
+    if (at.nearest.values.size() == 0) tracer_.find_pairs(at);
+    return at;
   }
 
  private:
@@ -145,34 +146,23 @@ class Tracer::ZeroSearch {
 
   std::optional<Place> look(double t) {
     const auto behind = seen_.lower_bound(t), before = std::prev(behind);
+    forget_all_but(before, behind);
     const Segment near(tracer_.metric_, point_at(before), point_at(behind));
     const double L = segment_.length(), part = (t - before->first) / (behind->first - before->first);
     const PlaneConstraint plane(tracer_.metric_, tracer_.here_.state, segment_.chord(), t * L * L);
-    auto point = tracer_.correct_onto(plane, segment_, near.at(part), near.length() * std::min(part, 1.0 - part));
+    auto point = tracer_.correct_onto(plane, segment_, near.at(part), near.length() * std::min(part, 1.0 - part),
+                                      is_ours_ ? Wanted::tangent : Wanted::pairs);
     if (!point) return std::nullopt;
     const double v = detector_.value(*point);
-    const Place at = seen_.insert_or_assign(t, Seen{.between = std::move(point), .v = v}).first;
-    forget_beyond_neighbours(at);
-    forget_modes();
-    return at;
+    return seen_.insert_or_assign(t, Seen{.between = std::move(point), .v = v}).first;
   }
 
-  // They are large, and asked for at the zero alone.
-  void forget_modes() {
-    const auto distance = [](const auto& place) { return place.second.between ? std::abs(place.second.v) : infinity; };
-    const auto nearest = std::min_element(seen_.begin(), seen_.end(),
-                                          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-    for (Place place = seen_.begin(); place != seen_.end(); ++place)
-      if (place != nearest && place->second.between) place->second.between->nearest = {};
-  }
-
-  // What is looked at next lies between this place and one of its neighbours.
-  void forget_beyond_neighbours(Place at) {
-    const auto is_near = [&](Place place) {
-      return place == at || place == std::prev(at) || place == std::next(at) || place == best_;
-    };
+  // A place that lies beyond these is never asked for again. Pairs are large, and asked for at the zero alone.
+  void forget_all_but(Place before, Place behind) {
     for (Place place = std::next(seen_.begin()); place->first < 1.0;)
-      place = is_near(place) ? std::next(place) : seen_.erase(place);
+      place = place == before || place == behind || place == best_ ? std::next(place) : seen_.erase(place);
+    for (auto& [t, seen] : seen_)
+      if (seen.between) seen.between->nearest = {};
   }
 
   // Zero where the bracket need be no narrower.
@@ -234,7 +224,9 @@ class Tracer::ZeroSearch {
   Tracer& tracer_;
   const EventDetector& detector_;
   Segment segment_;
-  double at_start_, at_end_, range_;
+  double at_start_, at_end_;
+  bool is_ours_;  // and reads no pairs; of the program's own one does not know
+  double range_;
   std::map<double, Seen> seen_;  // by the fraction of the chord
   Place best_ = seen_.end();     // so far
   double blurred_ = 0.0;         // width within which values are round-off
