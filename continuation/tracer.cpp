@@ -430,9 +430,8 @@ void Tracer::find_pairs(PathPoint& at) {
 
 PathPoint Tracer::point_of(CorrectorResult result, const Direction& forward) const {
   PathPoint point;
-  const Metric metric(system_.weights(result.state.piece), metric_.lambda_scale());
   point.tangent =
-      metric.inner(result.tangent, forward) >= 0.0 ? std::move(result.tangent) : reversed(std::move(result.tangent));
+      metric_.inner(result.tangent, forward) >= 0.0 ? std::move(result.tangent) : reversed(std::move(result.tangent));
   point.state = std::move(result.state);
   point.held = point.count.unstable = result.negative;
   point.iterations = result.iterations;

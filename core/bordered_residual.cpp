@@ -1,15 +1,14 @@
 #include "core/bordered_residual.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace arcwall {
 
-BorderedResidual::BorderedResidual(const Linearization& equations, Vector f, const Eigen::Ref<const Vector>& dx,
-                                   double dlambda)
-    : equations_(equations), f_(std::move(f)), dx_(dx), dlambda_(dlambda) {
+BorderedResidual::BorderedResidual(const Linearization& equations, double sign, const Vector& f,
+                                   const Eigen::Ref<const Vector>& dx, double dlambda)
+    : equations_(equations), f_(f), dx_(dx), dlambda_(dlambda) {
   const Index n = equations_.K.cols(), m = equations_.B.cols();
-  r_ = f_;
+  r_ = sign * f_;
   if (dlambda_ != 0.0) r_ -= equations_.F_lambda * dlambda_;
   r_.head(n).noalias() -= equations_.K.selfadjointView<Eigen::Lower>() * dx_.head(n);
   if (m == 0) return;

@@ -171,10 +171,15 @@ bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
     const double off = border.dx.dot(particular) + border.dlambda * line.dlambda[0];
     particular -= off / along * tangent;
     line.dlambda[0] -= off / along;
-    const BorderedResidual of_particular(now, -now.F, particular, line.dlambda[0]);
-    const BorderedResidual of_tangent(now, -now.F_lambda, tangent, 0.0);
-    if (!of_particular.r().allFinite() || !of_tangent.r().allFinite()) return false;
-    const bool tangent_is_good = of_tangent.is_small();
+    Vector tangent_lacks;
+    {
+      BorderedResidual of_tangent(now, -1.0, now.F_lambda, tangent, 0.0);
+      if (!of_tangent.r().allFinite()) return false;
+      if (!of_tangent.is_small()) tangent_lacks = std::move(of_tangent).r();
+    }
+    const bool tangent_is_good = tangent_lacks.size() == 0;
+    const BorderedResidual of_particular(now, -1.0, now.F, particular, line.dlambda[0]);
+    if (!of_particular.r().allFinite()) return false;
     if (tangent_is_good && of_particular.is_small()) return true;
     const double left = of_particular.r().norm();
     if (tangent_is_good && left > 0.1 * before && left <= left_to_newton * now.F.norm()) return true;
@@ -182,7 +187,7 @@ bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
     before = left;
     Matrix correction(now.F.size(), tangent_is_good ? 1 : 2);
     correction.col(0) = of_particular.r();
-    if (!tangent_is_good) correction.col(1) = of_tangent.r();
+    if (!tangent_is_good) correction.col(1) = tangent_lacks;
     if (!solve_inner(correction)) return false;
     line.dx.leftCols(correction.cols()) += correction;
   }
@@ -208,7 +213,7 @@ bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns)
 bool BorderedSolver::make_tangent_good(Matrix& columns) {
   const Linearization& now = *equations_;
   for (int round = 0;; ++round) {
-    const BorderedResidual tangent(now, -now.F_lambda, columns.col(0), 0.0);
+    const BorderedResidual tangent(now, -1.0, now.F_lambda, columns.col(0), 0.0);
     if (!tangent.r().allFinite()) return false;
     if (tangent.is_small()) return true;
     if (round == max_refinements) return false;
@@ -228,7 +233,8 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
     // δλ = (g − cᵀ J⁻¹ f) / (d − cᵀ J⁻¹ F_λ),  δx = J⁻¹ f − δλ J⁻¹ F_λ
     const double dlambda = (g - border.dx.dot(X.col(0))) / (border.dlambda - border.dx.dot(X.col(1)));
     Direction solution{.dx = X.col(0) - dlambda * X.col(1), .dlambda = dlambda};
-    if (solved && solution.dx.allFinite() && BorderedResidual(now, f, solution.dx, dlambda).is_small()) return solution;
+    if (solved && solution.dx.allFinite() && BorderedResidual(now, 1.0, f, solution.dx, dlambda).is_small())
+      return solution;
   }
   if (!factorize_whole(border, X)) return std::nullopt;
   return whole_.solve(f, g);

@@ -112,7 +112,7 @@ std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, doubl
   constexpr int most_refinements = 3;
   Direction solution = solve_with_spring(f, g);
   for (int round = 0;; ++round) {
-    const BorderedResidual left(*equations_, f, solution.dx, solution.dlambda);
+    const BorderedResidual left(*equations_, 1.0, f, solution.dx, solution.dlambda);
     const double gap = g - apply(border_, solution);
     const double terms =
         std::abs(g) + border_.dx.cwiseAbs().dot(solution.dx.cwiseAbs()) + std::abs(border_.dlambda * solution.dlambda);

@@ -246,6 +246,27 @@ double Structure::force_roundoff() const {
   return 0.1 * std::numeric_limits<double>::epsilon() * length_scale_ * stiffness;
 }
 
+// Means over all nodes and all rotations, held ones included: they count as zeros.
+Vector Structure::weights(const Piece&) const {
+  const double L = length_scale_, of_displacement = 1.0 / (double(positions_.size()) * L * L);
+  const auto weight = [&](Freedom which) {
+    switch (which) {
+      case Freedom::x:
+      case Freedom::z:
+        return of_displacement;
+      case Freedom::rotation:
+        return 1.0 / rotations_;
+      case Freedom::thickness:
+      case Freedom::thickness2:
+        return 0.0;
+    }
+    return 0.0;
+  };
+  Vector weights(size({}));
+  for (Index i = 0; i < weights.size(); ++i) weights[i] = weight(meaning(i).freedom);
+  return weights;
+}
+
 std::optional<Index> Structure::unknown(Index freedom) const {
   const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
   return i < 0 ? std::nullopt : std::optional(i);

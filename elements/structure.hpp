@@ -110,7 +110,7 @@ class Structure final : public System {
   double energy(const State& state) const override;
 
   /// ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale(); changes of thickness follow these.
-  Vector weights(const Piece&) const override { return weights_; }
+  Vector weights(const Piece&) const override;
 
   /// Diagonal of the box around the stress-free structure [length].
   double length_scale() const { return length_scale_; }
@@ -218,7 +218,7 @@ class Structure final : public System {
   std::vector<std::uint32_t> loads_by_element_, first_load_of_element_{0};
   PointLoads load_, constant_load_;
   BlockAssembly assembly_;
-  Vector weights_;
+  double rotations_ = 1.0;  // how many there are
   double length_scale_ = 1.0, force_scale_ = 0.0;
 };
 

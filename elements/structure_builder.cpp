@@ -355,24 +355,8 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     structure->first_load_of_element_.push_back(static_cast<std::uint32_t>(behind - loads.begin()));
   }
 
-  // Means over all nodes and all rotations, held ones included: they count as zeros.
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
-  const auto rotations = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
-  const auto weight = [&](Freedom which) {
-    switch (which) {
-      case Freedom::x:
-      case Freedom::z:
-        return 1.0 / (double(positions_.size()) * L * L);
-      case Freedom::rotation:
-        return 1.0 / rotations;
-      case Freedom::thickness:
-      case Freedom::thickness2:
-        return 0.0;
-    }
-    return 0.0;
-  };
-  structure->weights_.resize(static_cast<Index>(structure->freedom_of_unknown_.size()));
-  for (Index i = 0; i < structure->weights_.size(); ++i) structure->weights_[i] = weight(structure->meaning(i).freedom);
+  structure->rotations_ = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
   return structure;
 }
 
