@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,31 @@ SparseMatrix with_rows_behind(const SparseMatrix& lower_triangle, const std::vec
 
 /// The values of that lower triangle into a matrix with rows behind it; zero in these.
 void copy_values(const SparseMatrix& lower_triangle, SparseMatrix& with_rows);
+
+/// Lists of indices, one behind the other.
+class IndexLists {
+ public:
+  IndexLists() = default;
+  IndexLists(std::initializer_list<std::initializer_list<Index>> lists) {
+    for (const auto& list : lists) add(list);
+  }
+
+  std::size_t size() const { return ends_.size(); }
+  std::span<const Index> operator[](std::size_t i) const {
+    const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
+    return std::span(entries_).subspan(begin, ends_[i] - begin);
+  }
+
+  void add(std::span<const Index> list) {
+    entries_.insert(entries_.end(), list.begin(), list.end());
+    ends_.push_back(entries_.size());
+  }
+  void add(std::initializer_list<Index> list) { add(std::span(list.begin(), list.size())); }
+
+ private:
+  std::vector<Index> entries_;
+  std::vector<std::size_t> ends_;
+};
 
 /// The unknowns of a block in the order of its rows; −1 stands for one that is held.
 class BlockUnknowns {
@@ -54,7 +80,7 @@ class BlockUnknowns {
 class BlockAssembly {
  public:
   /// `blocks[b]` lists the unknowns of block b in the order of its rows; −1 stands for an unknown that is held.
-  BlockAssembly(Index unknowns, const std::vector<std::vector<Index>>& blocks);
+  BlockAssembly(Index unknowns, const IndexLists& blocks);
 
   Index unknown_count() const { return unknown_count_; }
 

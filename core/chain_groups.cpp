@@ -2,39 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace arcwall {
 
 namespace {
 
-using Neighbours = std::vector<std::vector<Index>>;  // of each unknown, itself included, sorted
+// Of each unknown, itself included, sorted.
+class Neighbours {
+ public:
+  Neighbours(const SparseMatrix& lower_triangle, Index n)
+      : both_triangles_(SparseMatrix(lower_triangle.topLeftCorner(n, n)).selfadjointView<Eigen::Lower>()) {}
 
-Neighbours neighbours(const SparseMatrix& A, Index n) {
-  Neighbours result(static_cast<std::size_t>(n));
-  for (Index column = 0; column < n; ++column)
-    for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry) {
-      if (entry.row() >= n) continue;
-      result[static_cast<std::size_t>(column)].push_back(entry.row());
-      if (entry.row() != column) result[static_cast<std::size_t>(entry.row())].push_back(column);
-    }
-  for (auto& list : result) std::sort(list.begin(), list.end());
-  return result;
-}
+  Index size() const { return both_triangles_.cols(); }
+  std::span<const SparseIndex> of(Index unknown) const {
+    const SparseIndex* const start = both_triangles_.outerIndexPtr() + unknown;
+    return {both_triangles_.innerIndexPtr() + start[0], both_triangles_.innerIndexPtr() + start[1]};
+  }
+
+ private:
+  SparseMatrix both_triangles_;
+};
 
 // The unknowns with the same neighbours.
 std::vector<Index> alike(const Neighbours& neighbours, Index unknown) {
-  const std::vector<Index>& near = neighbours[static_cast<std::size_t>(unknown)];
+  const auto near = neighbours.of(unknown);
   std::vector<Index> result;
-  for (const Index other : near)
-    if (neighbours[static_cast<std::size_t>(other)] == near) result.push_back(other);
+  for (const SparseIndex other : near)
+    if (std::ranges::equal(neighbours.of(other), near)) result.push_back(other);
   return result;
 }
 
 // What can be reached from some unknowns, by the number of steps that it takes.
 class Levels {
  public:
-  explicit Levels(const Neighbours& neighbours) : neighbours_(neighbours), seen_(neighbours.size(), 0) {}
+  explicit Levels(const Neighbours& neighbours)
+      : neighbours_(neighbours), seen_(static_cast<std::size_t>(neighbours.size()), 0) {}
 
   bool seen(Index unknown) const { return seen_[static_cast<std::size_t>(unknown)] == visit_; }
 
@@ -45,7 +49,7 @@ class Levels {
       if (static_cast<Index>(level.size()) > widest) return false;
       std::vector<Index> next;
       for (const Index unknown : level)
-        for (const Index other : neighbours_[static_cast<std::size_t>(unknown)])
+        for (const Index other : neighbours_.of(unknown))
           if (!seen(other)) {
             mark(other);
             next.push_back(other);
@@ -85,7 +89,7 @@ bool is_tridiagonal(const SparseMatrix& A, const ChainGroups& groups) {
 std::optional<ChainGroups> chain_groups(const SparseMatrix& A, Index multipliers, Index widest) {
   const Index n = A.cols() - multipliers;
   if (n == 0) return std::nullopt;
-  const Neighbours near = neighbours(A, n);
+  const Neighbours near(A, n);
   Levels search(near), levels(near);
   ChainGroups groups;
   for (Index unknown = 0; unknown < n; ++unknown) {

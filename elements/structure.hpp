@@ -193,7 +193,7 @@ class Structure final : public System {
   friend class StructureBuilder;
 
   Structure(const Structure&) = default;
-  Structure(Index unknowns, const std::vector<std::vector<Index>>& blocks) : assembly_(unknowns, blocks) {}
+  Structure(Index unknowns, const IndexLists& blocks) : assembly_(unknowns, blocks) {}
   void arrange();                    // what follows from the elements
   std::vector<bool> afloat() const;  // see Linearization
   void gather(Index block, const Vector& x, double* u) const;

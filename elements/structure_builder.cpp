@@ -285,16 +285,17 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   };
   std::vector<std::int32_t> freedoms_of_elements;
   std::vector<std::uint32_t> first_freedom_of_element{0};
-  std::vector<std::vector<Index>> blocks;
+  IndexLists blocks;
   for (const MemberMesh& mesh : meshes_)
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
-      blocks.push_back(element_freedoms(mesh, k));
-      freedoms_of_elements.insert(freedoms_of_elements.end(), blocks.back().begin(), blocks.back().end());
+      std::vector<Index> of_element = element_freedoms(mesh, k);
+      freedoms_of_elements.insert(freedoms_of_elements.end(), of_element.begin(), of_element.end());
       first_freedom_of_element.push_back(static_cast<std::uint32_t>(freedoms_of_elements.size()));
-      for (Index& freedom : blocks.back()) {
+      for (Index& freedom : of_element) {
         number(freedom);
         freedom = unknown_of_freedom[static_cast<std::size_t>(freedom)];
       }
+      blocks.add(of_element);
     }
 
   auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));

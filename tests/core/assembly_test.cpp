@@ -11,7 +11,7 @@ namespace arcwall::assembly_test {
 namespace {
 
 // Blocks that overlap, whose unknowns are in any order and in part held.
-const std::vector<std::vector<Index>> some_blocks{{0, 1, 2}, {4, 2, -1}, {-1, -1}, {3, 0}, {5}};
+const IndexLists some_blocks{{0, 1, 2}, {4, 2, -1}, {-1, -1}, {3, 0}, {5}};
 
 }  // namespace
 
@@ -52,10 +52,9 @@ TEST(BlockAssembly, PatternIsTheLowerTriangleOfAllBlocksWithTheWholeDiagonal) {
 // A row of blocks whose places differ by a shift, but for the first, which is held in part, and the last, numbered in
 // another order.
 TEST(BlockAssembly, KnowsBlocksThatDifferByAShift) {
-  std::vector<std::vector<Index>> blocks;
-  for (Index i = 0; i < 6; ++i) blocks.push_back({2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3});
-  blocks.front()[0] = -1;
-  std::swap(blocks.back()[0], blocks.back()[1]);
+  IndexLists blocks{{-1, 1, 2, 3}};
+  for (Index i = 1; i < 5; ++i) blocks.add({2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3});
+  blocks.add({11, 10, 12, 13});
   const BlockAssembly assembly(14, blocks);
   EXPECT_TRUE(assembly.are_shifted(std::array<Index, 4>{1, 2, 3, 4}));
   EXPECT_FALSE(assembly.are_shifted(std::array<Index, 4>{0, 1, 2, 3}));

@@ -27,7 +27,7 @@ ClassicBeam beam_of(Numbers& numbers) {
 // A row of elements from left to right, three unknowns a node; every fifth is a bar.
 struct Row {
   std::vector<std::shared_ptr<const Element>> elements{};
-  std::vector<std::vector<Index>> blocks{};
+  IndexLists blocks{};
   std::vector<Vec2> middles{};
 
   explicit Row(Index count) {
@@ -39,12 +39,14 @@ struct Row {
       else
         elements.push_back(
             std::make_shared<ClassicBeam>(BeamReference{.chord = {1.0, 0.0}, .length = 1.0}, 100.0, 1.0));
-      blocks.push_back(bar ? std::vector<Index>{i, i + 1, i + 3, i + 4}
-                           : std::vector<Index>{i, i + 1, i + 2, i + 3, i + 4, i + 5});
+      const Index x = e == 0 ? -1 : i, z = e == 0 ? -1 : i + 1;  // the first end is pinned
+      if (bar)
+        blocks.add({x, z, i + 3, i + 4});
+      else
+        blocks.add({x, z, i + 2, i + 3, i + 4, i + 5});
       // They are numbered from the right.
       middles.emplace_back(-double(e), 0.3 * double(e % 7));
     }
-    for (const Index held : {0, 1}) blocks.front()[static_cast<std::size_t>(held)] = -1;
   }
 
   BlockAssembly assembly() const { return {3 * static_cast<Index>(elements.size()) + 3, blocks}; }
