@@ -150,8 +150,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   result.status = CorrectorStatus::converged;
   const Linearization& now = here_.equations();
   BorderedSolver& solver = here_.solver();
-  // Pairs near zero are followed where there is no border.
-  const bool bordered = now.B.cols() > 0, alone = bordered || wanted == Wanted::tangent;
+  const bool alone = now.B.cols() > 0 || wanted == Wanted::tangent;
   Matrix columns = alone ? Matrix(now.F.size(), 1) : here_.tracker().right_hand_sides(metric.weights(), 1);
   Direction tangent;
   if (!solver.tangent(border, tangent, columns)) {
@@ -160,16 +159,36 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   }
   result.tangent = unit(metric, std::move(tangent));
   result.residual = relative_residual(metric, now, result.state.lambda, load_floor_);
-  if (wanted == Wanted::tangent) return result;
-  if (bordered) {
-    result.negative = negative_eigenvalues(system_, result.state, solver, now, {});
-  } else {
-    if (const Index others = columns.cols() - 1; others > 0)
-      result.nearest = here_.tracker().advance(metric.weights(), columns.rightCols(others));
-    if (const auto negative = negative_by_pivots(solver.inner(), metric.weights(), result.nearest))
-      result.negative = *negative - system_.multiplier_count(result.state.piece);
-  }
+  if (wanted == Wanted::pairs) add_pairs(metric, columns.rightCols(columns.cols() - 1), result);
   return result;
+}
+
+CorrectorResult Corrector::find_pairs(const State& state, const Metric& metric) {
+  CorrectorResult result;
+  if (here_.arrive(state) == FactorStatus::not_finite) {
+    result.status = CorrectorStatus::not_finite;
+    return result;
+  }
+  Matrix columns;
+  if (here_.equations().B.cols() == 0) columns = here_.tracker().right_hand_sides(metric.weights());
+  const bool solved = here_.solver().inner_is_regular() && columns.cols() > 0 && here_.solver().solve_inner(columns);
+  result.status = CorrectorStatus::converged;
+  add_pairs(metric, columns.leftCols(solved ? columns.cols() : 0), result);
+  return result;
+}
+
+// At the state reached last; `solved`: K⁻¹ times what the tracker asked for. Pairs are followed where there is no
+// border.
+void Corrector::add_pairs(const Metric& metric, const Eigen::Ref<const Matrix>& solved, CorrectorResult& result) {
+  const State& state = here_.here();
+  const BorderedSolver& solver = here_.solver();
+  if (here_.equations().B.cols() > 0) {
+    result.negative = negative_eigenvalues(system_, state, solver, here_.equations(), {});
+    return;
+  }
+  if (solved.cols() > 0) result.nearest = here_.tracker().advance(metric.weights(), solved);
+  if (const auto negative = negative_by_pivots(solver.inner(), metric.weights(), result.nearest))
+    result.negative = *negative - system_.multiplier_count(state.piece);
 }
 
 }  // namespace arcwall

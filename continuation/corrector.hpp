@@ -55,6 +55,9 @@ class Corrector {
   CorrectorResult correct_patiently(State guess, const PathConstraint& constraint, const Metric& metric,
                                     const Direction& along, double length);
 
+  /// The eigenpairs of a point that was found without them, and their count; the rest of the result is not there.
+  CorrectorResult find_pairs(const State& state, const Metric& metric);
+
   /// Eigenpairs nearest zero of K at the state reached last, with what a border holds let go; empty where K is singular
   /// to working precision.
   std::optional<NearNull> near_null(const Vector& weights, Index count, Settled settled = Settled::fully) const;
@@ -90,6 +93,7 @@ class Corrector {
                           double length, const CorrectorOptions& options, Wanted wanted);
   bool find_line(const Metric& metric, const Row& border);
   double take_step(const Metric& metric, double tau, State& state) const;
+  void add_pairs(const Metric& metric, const Eigen::Ref<const Matrix>& solved, CorrectorResult& result);
   CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Row& border, Wanted wanted);
 
   const System& system_;

@@ -423,7 +423,7 @@ std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, 
 
 // The eigenpairs nearest zero and their count, of a point that was found without them.
 void Tracer::find_pairs(PathPoint& at) {
-  CorrectorResult seen = corrector_.inspect(at.state, metric_, at.tangent);
+  CorrectorResult seen = corrector_.find_pairs(at.state, metric_);
   at.nearest = std::move(seen.nearest);
   at.held = at.count.unstable = seen.negative;
 }

@@ -48,6 +48,26 @@ TEST(Corrector, ArrivesAtThePathWithTangentSignsAndResidual) {
   EXPECT_NEAR(2.0 * x * result.tangent.dx[0] + result.tangent.dlambda, 0.0, 1e-12);
 }
 
+TEST(Corrector, FindsPairsAlongOrLater) {
+  const test::SmoothToy system = test::fold();
+  const ValueConstraint hold(lambda, -0.5);
+  Corrector along(system, {}, 1.0), later(system, {}, 1.0);
+  const auto whole = along.correct(at(-0.8, -0.5), hold, metric, up, 0.2);
+  const auto alone = later.correct(at(-0.8, -0.5), hold, metric, up, 0.2, Wanted::tangent);
+  ASSERT_TRUE(whole.converged() && alone.converged());
+  EXPECT_EQ(alone.state, whole.state);
+  EXPECT_EQ(alone.tangent.dx, whole.tangent.dx);
+  EXPECT_EQ(alone.residual, whole.residual);
+  EXPECT_EQ(alone.nearest.values.size(), 0);
+  EXPECT_FALSE(alone.negative);
+
+  const auto pairs = later.find_pairs(alone.state, metric);
+  EXPECT_EQ(pairs.negative, Index{1});
+  ASSERT_EQ(pairs.nearest.values.size(), 1);
+  EXPECT_NEAR(pairs.nearest.values[0], 2.0 * whole.state.x[0], 1e-12);
+  EXPECT_EQ(*pairs.nearest.vectors, *whole.nearest.vectors);
+}
+
 TEST(Corrector, ConvergesAtALimitPointUnderAPlane) {
   const test::SmoothToy system = test::fold();
   Corrector corrector(system, {}, 1.0);
