@@ -42,7 +42,11 @@ struct Task {
 
 // What arcs without events took, so that steps with and without closed contacts can be compared.
 struct StepCosts {
-  std::vector<double> open{}, closed{};  // CPU per linearization [s]
+  // CPU per linearization, and per linearization and unknown [s]: meshes that follow contacts have more elements.
+  struct Costs {
+    std::vector<double> whole{}, by_unknown{};
+  };
+  Costs open{}, closed{};
 };
 
 struct Tally {
@@ -100,8 +104,12 @@ Measured traced(const Task& task) {
       if (!step) break;
       const double now = cpu_seconds();
       const Index used = system.times().linearizations - linearizations;
-      auto& costs = step->arc.to.state.piece.closed_count() > 0 ? measured.step_costs.closed : measured.step_costs.open;
-      if (step->arc.events.empty() && used > 0) costs.push_back((now - last) / double(used));
+      const State& to = step->arc.to.state;
+      StepCosts::Costs& costs = to.piece.closed_count() > 0 ? measured.step_costs.closed : measured.step_costs.open;
+      if (step->arc.events.empty() && used > 0) {
+        costs.whole.push_back((now - last) / double(used));
+        costs.by_unknown.push_back(costs.whole.back() / double(to.x.size()));
+      }
       last = now;
       linearizations = system.times().linearizations;
       add(step->arc, measured.tally);
@@ -153,9 +161,13 @@ void print(const std::string& work, long size, const Task& task, const Measured&
   per_element("per iteration of accepted steps and element", seconds, tally.iterations);
   per_element("per linearization and element", seconds, system.linearizations);
   per_element("per factorization and element", ldlt.factorization, ldlt.factorizations);
-  if (!measured.step_costs.closed.empty()) {
-    figure("per linearization with open contacts", "us", 1e6 * median(measured.step_costs.open));
-    figure("per linearization with closed contacts", "us", 1e6 * median(measured.step_costs.closed));
+  const auto costs = [&](const std::string& of, const StepCosts::Costs& all) {
+    figure(("per linearization with " + of).c_str(), "us", 1e6 * median(all.whole));
+    figure(("per linearization and unknown with " + of).c_str(), "us", 1e6 * median(all.by_unknown));
+  };
+  if (!measured.step_costs.closed.whole.empty()) {
+    costs("open contacts", measured.step_costs.open);
+    costs("closed contacts", measured.step_costs.closed);
   }
   figure("peak memory", "kB", peak_kilobytes());
 }
