@@ -49,6 +49,11 @@ struct alignas(32) Lanes {
   ARCWALL_IN_PLACE friend Lanes operator-(const Lanes& a) { return Lanes(-a.four); }
 };
 
+/// The last three of some and the first of others.
+ARCWALL_IN_PLACE Lanes next_of(const Lanes& these, const Lanes& others) {
+  return Lanes(__builtin_shufflevector(these.four, others.four, 1, 2, 3, 4));
+}
+
 #ifdef __x86_64__
 /// Whether the processor has registers of four numbers. Code for those is made beside that for any processor, by
 /// [[gnu::target("avx")]].

@@ -13,6 +13,7 @@ namespace {
 using End = SlidingBeamLanes::End;
 using Properties = SlidingBeamLanes::Properties;
 using Response = SlidingBeamLanes::Response;
+using Rest = SlidingBeamLanes::Rest;
 using Wanted = SlidingBeamLanes::Wanted;
 
 // The deviation y from the axis at a place, and its derivatives by s.
@@ -68,35 +69,41 @@ ARCWALL_IN_PLACE Lanes length_by(const RuleInLanes<points>& rule, const Properti
   return half * sum;
 }
 
-// v = √(1 + y′²) with its derivatives:  v v′ = y′y″,  v v″ = y″² + y′y‴ − v′²,  v v‴ = 3 y″y‴ + y′y⁗ − 3 v′v″.
-struct SpeedLanes {
-  Lanes value, first, second, third;
-};
-
-ARCWALL_IN_PLACE SpeedLanes speed_of(const DeviationLanes& y) {
-  const Lanes v = square_root(1.0 + y.slope * y.slope), inverse = 1.0 / v;
+// v v′ = y′y″,  v v″ = y″² + y′y‴ − v′²,  v v‴ = 3 y″y‴ + y′y⁗ − 3 v′v″.
+ARCWALL_IN_PLACE void find_rest(const Properties& of, const Lanes& s, Rest& out) {
+  const DeviationLanes y = deviation_at(of, s);
+  const Lanes v = square_root(1.0 + y.slope * y.slope), inverse = 1.0 / v, one = 1.0;
   const Lanes first = y.slope * y.second * inverse;
   const Lanes second = (y.second * y.second + y.slope * y.third - first * first) * inverse;
   const Lanes third = (3.0 * (y.second * y.third) + y.slope * y.fourth - 3.0 * (first * second)) * inverse;
-  return {.value = v, .first = first, .second = second, .third = third};
+  out = {.s = s,
+         .deviation = y.value,
+         .slope = y.slope,
+         .bend = y.second,
+         .angle = arc_tangent(y.slope, one),
+         .speed = v,
+         .speed_first = first,
+         .speed_second = second,
+         .speed_third = third};
 }
 
 // ∫ v ds by Hermite's rule of degree 7 on an element of length h, from both ends. On a part of a wave of the phase φ it
 // is off by at most (2φ)⁸ · 4·10⁻⁸.
-ARCWALL_IN_PLACE Lanes length_by_ends(const SpeedLanes& a, const SpeedLanes& b, const Lanes& h) {
-  const Lanes odd = (a.first - b.first) * (3.0 / 28.0) + (h * h) * ((a.third - b.third) * (1.0 / 1680.0));
-  return h * (0.5 * (a.value + b.value) + h * (odd + h * ((a.second + b.second) * (1.0 / 84.0))));
+ARCWALL_IN_PLACE Lanes length_by_ends(const Rest& a, const Rest& b) {
+  const Lanes h = b.s - a.s;
+  const Lanes odd =
+      (a.speed_first - b.speed_first) * (3.0 / 28.0) + (h * h) * ((a.speed_third - b.speed_third) * (1.0 / 1680.0));
+  return h * (0.5 * (a.speed + b.speed) + h * (odd + h * ((a.speed_second + b.speed_second) * (1.0 / 84.0))));
 }
 
 // As ImperfectAxis::length().
-ARCWALL_IN_PLACE Lanes length_between(const Properties& of, const End& first, const SpeedLanes& speed1,
-                                      const End& second, const SpeedLanes& speed2) {
+ARCWALL_IN_PLACE Lanes length_between(const Properties& of, const Rest& first, const Rest& second) {
   const Lanes &from = first.s, &to = second.s;
   if (of.waves.empty()) return to - from;
   double phase = 0.0;
   for (int lane = 0; lane < Lanes::count; ++lane)
     phase = std::max(phase, of.greatest_number * std::abs(to[lane] - from[lane]));
-  if (phase <= 0.05) return length_by_ends(speed1, speed2, to - from);
+  if (phase <= 0.05) return length_by_ends(first, second);
   if (phase <= 0.25) return length_by(rule_of_5, of, from, to);
   if (phase <= 1.0) return length_by(rule_of_7, of, from, to);
   return length_by(rule_of_10, of, from, to);
@@ -106,14 +113,12 @@ ARCWALL_IN_PLACE Lanes length_between(const Properties& of, const End& first, co
 // and the tangent there by y″/(1 + y′²).
 ARCWALL_IN_PLACE void respond_in_lanes(const Properties& of, const End& first, const End& second, Wanted wanted,
                                        Response& out) {
-  const DeviationLanes y1 = deviation_at(of, first.s), y2 = deviation_at(of, second.s);
-  const SpeedLanes speed1 = speed_of(y1), speed2 = speed_of(y2);
-  const Lanes along = second.s - first.s, across = y2.value - y1.value;
+  const Rest &r1 = first.rest, &r2 = second.rest;
+  const Lanes along = r2.s - r1.s, across = r2.deviation - r1.deviation;
   const Lanes square = along * along + across * across, chord = square_root(square);
-  const Lanes direction = arc_tangent(across, along), one = 1.0;
-  const Lanes slope1 = arc_tangent(y1.slope, one) - direction, slope2 = arc_tangent(y2.slope, one) - direction;
-  const ClassicBeamMaterial<Lanes> material = classic_beam_material(
-      along, across, chord, length_between(of, first, speed1, second, speed2), slope1, slope2, of.EA, of.EI);
+  const Lanes direction = arc_tangent(across, along), slope1 = r1.angle - direction, slope2 = r2.angle - direction;
+  const ClassicBeamMaterial<Lanes> material =
+      classic_beam_material(along, across, chord, length_between(of, r1, r2), slope1, slope2, of.EA, of.EI);
 
   const BasicChordMotion<Lanes> at =
       motion_between(second.x - first.x, second.z - first.z, first.angle, second.angle, chord, slope1, slope2);
@@ -124,11 +129,11 @@ ARCWALL_IN_PLACE void respond_in_lanes(const Properties& of, const End& first, c
   nodal_stiffness(at, slopes, U.curvatures(), out.stiffness);
   if (wanted == Wanted::stiffness) return;
 
-  const Lanes turn1 = (across - along * y1.slope) / square, turn2 = (along * y2.slope - across) / square;
-  const ClassicBeamRate<Lanes> rate1 = classic_beam_rate(material, -speed1.value, (-along - across * y1.slope) / chord,
-                                                         y1.second / (speed1.value * speed1.value) - turn1, -turn1);
-  const ClassicBeamRate<Lanes> rate2 = classic_beam_rate(material, speed2.value, (along + across * y2.slope) / chord,
-                                                         -turn2, y2.second / (speed2.value * speed2.value) - turn2);
+  const Lanes turn1 = (across - along * r1.slope) / square, turn2 = (along * r2.slope - across) / square;
+  const ClassicBeamRate<Lanes> rate1 = classic_beam_rate(material, -r1.speed, (-along - across * r1.slope) / chord,
+                                                         r1.bend / (r1.speed * r1.speed) - turn1, -turn1);
+  const ClassicBeamRate<Lanes> rate2 = classic_beam_rate(material, r2.speed, (along + across * r2.slope) / chord,
+                                                         -turn2, r2.bend / (r2.speed * r2.speed) - turn2);
   nodal_forces(at, U.slope_rates(rate1), out.force_rate[0]);
   nodal_forces(at, U.slope_rates(rate2), out.force_rate[1]);
 }
@@ -137,6 +142,9 @@ ARCWALL_IN_PLACE void respond_in_lanes(const Properties& of, const End& first, c
 [[gnu::target("avx")]] void respond_in_wide_lanes(const Properties& of, const End& first, const End& second,
                                                   Wanted wanted, Response& out) {
   respond_in_lanes(of, first, second, wanted, out);
+}
+[[gnu::target("avx")]] void find_rest_in_wide_lanes(const Properties& of, const Lanes& s, Rest& out) {
+  find_rest(of, s, out);
 }
 #endif
 
@@ -148,6 +156,31 @@ SlidingBeamLanes::SlidingBeamLanes(const ImperfectAxis& shape, double EA, double
     properties_.waves.push_back({.number = wave.waves * pi / shape.axis_length(), .height = wave.amplitude});
     properties_.greatest_number = std::max(properties_.greatest_number, std::abs(properties_.waves.back().number));
   }
+}
+
+SlidingBeamLanes::Rest SlidingBeamLanes::rest_at(const Lanes& s) const {
+  Rest rest;
+#ifdef __x86_64__
+  if (has_wide_registers()) {
+    find_rest_in_wide_lanes(properties_, s, rest);
+    return rest;
+  }
+#endif
+  find_rest(properties_, s, rest);
+  return rest;
+}
+
+SlidingBeamLanes::Rest SlidingBeamLanes::next_of(const Rest& these, const Rest& others) {
+  const auto next = [&](Lanes Rest::*number) { return arcwall::next_of(these.*number, others.*number); };
+  return {.s = next(&Rest::s),
+          .deviation = next(&Rest::deviation),
+          .slope = next(&Rest::slope),
+          .bend = next(&Rest::bend),
+          .angle = next(&Rest::angle),
+          .speed = next(&Rest::speed),
+          .speed_first = next(&Rest::speed_first),
+          .speed_second = next(&Rest::speed_second),
+          .speed_third = next(&Rest::speed_third)};
 }
 
 void SlidingBeamLanes::respond(const End& first, const End& second, Wanted wanted, Response& out) const {

@@ -14,9 +14,20 @@ class SlidingBeamLanes {
   /// `shape.is_straight()` must hold.
   SlidingBeamLanes(const ImperfectAxis& shape, double EA, double EI);
 
-  /// An end of each: its material coordinate, and its place and the angle of the tangent now.
+  /// The stress-free axis at four material coordinates: the deviation y and its derivatives, the angle of the tangent,
+  /// v = √(1 + y′²) and its derivatives.
+  struct Rest {
+    Lanes s, deviation, slope, bend, angle, speed, speed_first, speed_second, speed_third;
+  };
+  Rest rest_at(const Lanes& s) const;
+
+  /// At the last three places of some and the first of others.
+  static Rest next_of(const Rest& these, const Rest& others);
+
+  /// An end of each: where it lies at rest, and its place and the angle of the tangent now.
   struct End {
-    Lanes s, x, z, angle;
+    Rest rest;
+    Lanes x, z, angle;
   };
 
   /// Derivatives are by x1, z1, angle1, x2, z2, angle2.

@@ -94,9 +94,15 @@ class SlidingStructureMesh final : public SlidingMesh {
     std::array<Index, 2> breakpoint;                  // between which they lie; −1: an end of the run
     std::array<double, Lanes::count + 1> from_first;  // of their nodes: fraction of the way to the second
     bool shifted;                                     // BlockAssembly::are_shifted()
+    bool inside;                                      // there are four, and no node is an end of the run
   };
+  using Rest = SlidingBeamLanes::Rest;
   void number_fours();
-  void add(const Four& four, const Vector& x, const Vector& s, Eigen::Ref<Vector> F, Linearization* out) const;
+  Rest rest_from(Index run, Index position, Index most, const Vector& s) const;
+  void add_fours(const Vector& x, const Vector& s, Eigen::Ref<Vector> F, Linearization* out) const;
+  void add(const Four& four, const Rest& first, const Rest& second, const Vector& x, Eigen::Ref<Vector> F,
+           Linearization* out) const;
+  void add_nodal(const Four& four, const Lanes* of_elements, double* to) const;
 
   // visit(beam) with the beam of a stretch, by value.
   template <typename Visit>

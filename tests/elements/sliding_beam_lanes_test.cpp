@@ -31,9 +31,9 @@ struct Places {
   std::array<Vec2, 4> place{};
   std::array<double, 4> angle{};
 
-  SlidingBeamLanes::End end() const {
+  SlidingBeamLanes::End of(const SlidingBeamLanes& beams) const {
     const auto four = [](const auto& value) { return Lanes(value(0), value(1), value(2), value(3)); };
-    return {.s = four([&](std::size_t i) { return s[i]; }),
+    return {.rest = beams.rest_at(four([&](std::size_t i) { return s[i]; })),
             .x = four([&](std::size_t i) { return place[i].x(); }),
             .z = four([&](std::size_t i) { return place[i].y(); }),
             .angle = four([&](std::size_t i) { return angle[i]; })};
@@ -67,7 +67,8 @@ TEST(SlidingBeamLanes, AreTheBeamsOneByOne) {
           second.angle[i] = b.angle + turn + 0.3 * numbers();
         }
         SlidingBeamLanes::Response found;
-        SlidingBeamLanes(shape, EA, EI).respond(first.end(), second.end(), Wanted::rates, found);
+        const SlidingBeamLanes beams(shape, EA, EI);
+        beams.respond(first.of(beams), second.of(beams), Wanted::rates, found);
         for (std::size_t i = 0; i < 4; ++i) {
           BeamResponse expected;
           ClassicBeam(stretch_reference(shape, first.s[i], second.s[i], DividedPart::Inside::left_out), EA, EI)
@@ -100,14 +101,29 @@ TEST(SlidingBeamLanes, LeaveOutWhatIsNotWanted) {
                       .place = {Vec2(0.3, 0.1), Vec2(1.3, 0), Vec2(2.3, -0.1), Vec2(3.3, 1)}};
   const SlidingBeamLanes beams(shape, 100.0, 1.0);
   SlidingBeamLanes::Response all, stiffness, force;
-  beams.respond(first.end(), second.end(), Wanted::rates, all);
-  beams.respond(first.end(), second.end(), Wanted::stiffness, stiffness);
-  beams.respond(first.end(), second.end(), Wanted::force, force);
+  beams.respond(first.of(beams), second.of(beams), Wanted::rates, all);
+  beams.respond(first.of(beams), second.of(beams), Wanted::stiffness, stiffness);
+  beams.respond(first.of(beams), second.of(beams), Wanted::force, force);
   for (int lane = 0; lane < 4; ++lane)
     for (Index row = 0; row < 6; ++row) {
       EXPECT_EQ(force.force[row][lane], all.force[row][lane]);
       EXPECT_EQ(stiffness.force[row][lane], all.force[row][lane]);
       EXPECT_EQ(stiffness.stiffness[row][lane], all.stiffness[row][lane]);
+    }
+}
+
+// Of places that follow each other each is found once.
+TEST(SlidingBeamLanes, AreAtRestWhereTheNextOnesBegin) {
+  const auto axis = straight_axis({0.0, 0.0}, {2.0, 0.0});
+  const SlidingBeamLanes beams(ImperfectAxis(*axis, {{.amplitude = 0.05, .waves = 2}}), 100.0, 1.0);
+  using Rest = SlidingBeamLanes::Rest;
+  const Rest next = SlidingBeamLanes::next_of(beams.rest_at(Lanes(0.1, 0.2, 0.4, 0.7)), beams.rest_at(Lanes(1.1)));
+  const Rest expected = beams.rest_at(Lanes(0.2, 0.4, 0.7, 1.1));
+  for (const auto number : {&Rest::s, &Rest::deviation, &Rest::slope, &Rest::bend, &Rest::angle, &Rest::speed,
+                            &Rest::speed_first, &Rest::speed_second, &Rest::speed_third})
+    for (int lane = 0; lane < 4; ++lane) {
+      EXPECT_NE((expected.*number)[lane], 0.0);
+      EXPECT_EQ((next.*number)[lane], (expected.*number)[lane]);
     }
 }
 
