@@ -4,6 +4,7 @@
 
 #include "contact/sliding_contact.hpp"
 #include "contact/sliding_draft.hpp"
+#include "core/lanes.hpp"
 
 namespace arcwall {
 
@@ -37,6 +38,31 @@ std::optional<Least> least_inside(double v0, double r0, double v1, double r1) {
   return Least{.at = t, .value = v0 + t * (r0 + t * (b + t * a))};
 }
 
+// Where the nodes of a run are, and the tangents there.
+struct Placed {
+  Vec2 position, tangent;
+};
+
+std::vector<Placed> placed_nodes(const SlidingMesh& mesh, Index run, const Vector& x) {
+  const auto count = static_cast<std::size_t>(mesh.nodes(run));
+  std::vector<Placed> nodes(count);
+  for (std::size_t first = 0; first < count; first += Lanes::count) {
+    const std::size_t end = std::min<std::size_t>(first + Lanes::count, count);
+    Lanes angle = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      const AxisPlace place = mesh.node(run, static_cast<Index>(i), x);
+      nodes[i].position = place.position;
+      angle.set(static_cast<int>(i - first), place.angle);
+    }
+    const CosineAndSine<Lanes> turn = cosine_and_sine(angle);
+    for (std::size_t i = first; i < end; ++i) {
+      const auto lane = static_cast<int>(i - first);
+      nodes[i].tangent = {turn.cosine[lane], turn.sine[lane]};
+    }
+  }
+  return nodes;
+}
+
 }  // namespace
 
 // visit(Minimum) for each least gap inside an element, the gap being a cubic between its nodes. Beside contact points,
@@ -46,8 +72,9 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
   const Layout_& on = layout(state.piece);
   const SlidingMesh& mesh = on.mesh();
   const Vector x = on.x_of(state), s = on.s_of(state);
-  for (std::size_t w = 0; w < obstacles_.size(); ++w)
-    for (Index run = 0; run < body_.runs(); ++run) {
+  for (Index run = 0; run < body_.runs(); ++run) {
+    const std::vector<Placed> nodes = placed_nodes(mesh, run, x);
+    for (std::size_t w = 0; w < obstacles_.size(); ++w) {
       if (!obstacles_[w].runs[static_cast<std::size_t>(run)]) continue;
       std::vector<std::uint8_t> skip(static_cast<std::size_t>(mesh.nodes(run)), 0);  // element behind the node
       for (std::size_t k = 0; k < on.points().size() && !everywhere; ++k) {
@@ -65,13 +92,12 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
         double rate;  // of the gap, by the face moved along the tangent
       };
       const auto sample = [&](Index position) {
-        const AxisPlace place = mesh.node(run, position, x);
-        const Vec2 t = Vec2(std::cos(place.angle), std::sin(place.angle));
+        const auto& [place, t] = nodes[static_cast<std::size_t>(position)];
         const double o = t.x() >= 0.0 ? offset : -offset;
-        const Vec2 face = place.position + o * perp(t);
+        const Vec2 face = place + o * perp(t);
         Sample out{.gap = infinity, .face = face, .rate = 0.0};
         if (!obstacles_[w].profile->covers(face.x())) return out;
-        const SurfaceGap g = surface_gap(*obstacles_[w].profile, obstacles_[w].side, face);
+        const SurfaceSlope g = surface_slope(*obstacles_[w].profile, obstacles_[w].side, face);
         out.gap = g.value;
         out.rate = g.x * t.x() + g.z * t.y();
         return out;
@@ -91,6 +117,7 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
         before = after;
       }
     }
+  }
 }
 
 std::optional<SlidingContact::Minimum> SlidingContact::deepest(const State& state, double margin) const {
