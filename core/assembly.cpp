@@ -25,6 +25,21 @@ std::int32_t made_offsets(Iterator begin, Iterator end) {
 
 }  // namespace
 
+void ShiftedLists::add(std::span<const Index> list) {
+  std::vector<std::int32_t> shape{static_cast<std::int32_t>(list.size())};
+  for (const Index index : list) shape.push_back(static_cast<std::int32_t>(index));
+  const std::int32_t first = made_offsets(shape.begin() + 1, shape.end());
+  const auto [at, is_new] = known_.try_emplace(shape, static_cast<std::int32_t>(offsets_.size()));
+  if (is_new) offsets_.insert(offsets_.end(), shape.begin(), shape.end());
+  lists_.push_back({.first = first, .shape = at->second});
+}
+
+void ShiftedLists::complete() {
+  known_.clear();
+  lists_.shrink_to_fit();
+  offsets_.shrink_to_fit();
+}
+
 SparseMatrix with_rows_behind(const SparseMatrix& A, const std::vector<RowEntry>& entries, Index count) {
   const Index n = A.cols();
   std::vector<RowEntry> sorted = entries;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -47,15 +48,26 @@ class IndexLists {
   std::vector<std::size_t> ends_;
 };
 
-/// The unknowns of a block in the order of its rows; −1 stands for one that is held.
-class BlockUnknowns {
+/// Indices that differ from those of other lists by a shift: of the unknowns of a block in the order of its rows, −1
+/// for one that is held, for example.
+class ShiftedIndices {
  public:
-  BlockUnknowns(Index first, std::span<const std::int32_t> offsets) : first_(first), offsets_(offsets) {}
+  ShiftedIndices(Index first, std::span<const std::int32_t> offsets) : first_(first), offsets_(offsets) {}
 
   std::size_t size() const { return offsets_.size(); }
   Index operator[](std::size_t i) const { return offsets_[i] < 0 ? -1 : first_ + offsets_[i]; }
 
-  /// Unknown i is first() + offsets()[i] where none is held.
+  Index front() const { return (*this)[0]; }
+  Index back() const { return (*this)[size() - 1]; }
+
+  /// Where an index stands; size() if it does not.
+  std::size_t place_of(Index index) const {
+    std::size_t i = 0;
+    while (i < size() && (*this)[i] != index) ++i;
+    return i;
+  }
+
+  /// Index i is first() + offsets()[i] where none is −1.
   Index first() const { return first_; }
   const std::int32_t* offsets() const { return offsets_.data(); }
 
@@ -74,6 +86,32 @@ class BlockUnknowns {
   std::span<const std::int32_t> offsets_;
 };
 
+/// Lists of indices, of which those that differ by a shift share their offsets: the first index and where these stand
+/// are kept of each.
+class ShiftedLists {
+ public:
+  /// The next list, of indices ≥ 0.
+  void add(std::span<const Index> list);
+
+  /// No list follows.
+  void complete();
+
+  ShiftedIndices operator[](Index i) const {
+    const List& list = lists_[static_cast<std::size_t>(i)];
+    const auto size = static_cast<std::size_t>(offsets_[static_cast<std::size_t>(list.shape)]);
+    return {list.first, std::span(offsets_).subspan(static_cast<std::size_t>(list.shape) + 1, size)};
+  }
+
+ private:
+  struct List {
+    std::int32_t first, shape;  // where the size and then the offsets stand
+  };
+
+  std::vector<List> lists_;
+  std::vector<std::int32_t> offsets_;
+  std::map<std::vector<std::int32_t>, std::int32_t> known_;  // shapes
+};
+
 /// Sums small symmetric blocks into a sparse matrix whose pattern is laid out once: where every entry of every block
 /// goes is looked up here, never in a step. Blocks that differ by a shift of their unknowns and of their places alone,
 /// as those of a member do, share what is looked up.
@@ -87,7 +125,7 @@ class BlockAssembly {
   /// Lower triangle with the pattern of all blocks and the whole diagonal; values are zero. Made anew each time.
   SparseMatrix pattern() const;
 
-  BlockUnknowns unknowns(Index block) const {
+  ShiftedIndices unknowns(Index block) const {
     const Block& at = blocks_[static_cast<std::size_t>(block)];
     return {at.first_unknown, std::span(shapes_).subspan(static_cast<std::size_t>(at.shape), at.size())};
   }

@@ -8,17 +8,16 @@ namespace arcwall {
 
 namespace {
 
-using Elements = std::vector<std::shared_ptr<const Element>>;
-
 constexpr std::size_t large = 2000;  // elements whose evaluation takes many times as long as to wake a thread
 
-ElementOrder::Part part_of(const Elements& elements, const BlockAssembly& assembly, const std::vector<Index>& which) {
+ElementOrder::Part part_of(const ElementList& elements, const BlockAssembly& assembly,
+                           const std::vector<Index>& which) {
   ElementOrder::Part part;
   std::array<std::int32_t, Lanes::count> waiting{};
   std::array<const ClassicBeam*, Lanes::count> beams{}, last{};
   std::size_t count = 0;
   for (const Index e : which) {
-    const auto* beam = dynamic_cast<const ClassicBeam*>(elements[static_cast<std::size_t>(e)].get());
+    const auto* beam = dynamic_cast<const ClassicBeam*>(&elements[e]);
     if (beam == nullptr) {
       part.others.push_back(e);
       continue;
@@ -59,7 +58,8 @@ std::vector<bool> first_half(const std::vector<Vec2>& middles) {
 
 }  // namespace
 
-ElementOrder element_order(const Elements& elements, const BlockAssembly& assembly, const std::vector<Vec2>& middles) {
+ElementOrder element_order(const ElementList& elements, const BlockAssembly& assembly,
+                           const std::vector<Vec2>& middles) {
   std::vector<Index> first(elements.size()), second, last;
   std::iota(first.begin(), first.end(), Index{0});
   if (elements.size() >= large) {
@@ -68,7 +68,7 @@ ElementOrder element_order(const Elements& elements, const BlockAssembly& assemb
                                               [&](Index e) { return in_first[static_cast<std::size_t>(e)]; });
     std::vector<bool> touched(static_cast<std::size_t>(assembly.unknown_count()), false);
     for (auto e = first.begin(); e != middle; ++e) {
-      const BlockUnknowns unknowns = assembly.unknowns(*e);
+      const ShiftedIndices unknowns = assembly.unknowns(*e);
       for (std::size_t i = 0; i < unknowns.size(); ++i)
         if (unknowns[i] >= 0) touched[static_cast<std::size_t>(unknowns[i])] = true;
     }

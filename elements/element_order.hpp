@@ -2,12 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "core/assembly.hpp"
 #include "elements/classic_beam_lanes.hpp"
-#include "elements/element.hpp"
+#include "elements/element_list.hpp"
 
 namespace arcwall {
 
@@ -33,7 +32,7 @@ struct ElementOrder {
 };
 
 /// `middles`: a place of each element; those of the second part lie beyond those of the first.
-ElementOrder element_order(const std::vector<std::shared_ptr<const Element>>& elements, const BlockAssembly& assembly,
+ElementOrder element_order(const ElementList& elements, const BlockAssembly& assembly,
                            const std::vector<Vec2>& middles);
 
 }  // namespace arcwall

@@ -1,6 +1,7 @@
 #include "elements/structure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <future>
@@ -20,12 +21,12 @@ struct Local {
 };
 
 template <class Entries>
-void scatter_entries(const BlockUnknowns& unknowns, double factor, double* F, const Entries& f) {
+void scatter_entries(const ShiftedIndices& unknowns, double factor, double* F, const Entries& f) {
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     if (unknowns[i] >= 0) F[unknowns[i]] += factor * f(i);
 }
 
-void scatter(const BlockUnknowns& unknowns, const double* f, double factor, double* F) {
+void scatter(const ShiftedIndices& unknowns, const double* f, double factor, double* F) {
   scatter_entries(unknowns, factor, F, [f](std::size_t i) { return f[i]; });
 }
 
@@ -71,7 +72,7 @@ std::vector<MemberSection> MemberMesh::contact_sections() const {
 }
 
 void Structure::gather(Index block, const Vector& x, double* u) const {
-  const BlockUnknowns unknowns = assembly_.unknowns(block);
+  const ShiftedIndices unknowns = assembly_.unknowns(block);
   for (std::size_t i = 0; i < unknowns.size(); ++i) u[i] = unknowns[i] >= 0 ? x[unknowns[i]] : 0.0;
 }
 
@@ -125,7 +126,7 @@ void Structure::add(const ElementOrder::Part& part, const Vector& x, double* F, 
   Local local;
   for (const Index e : part.others) {
     gather(e, x, local.u);
-    elements_[static_cast<std::size_t>(e)]->evaluate(local.u, local.f, K != nullptr ? local.K : nullptr);
+    elements_[e].evaluate(local.u, local.f, K != nullptr ? local.K : nullptr);
     scatter(assembly_.unknowns(e), local.f, 1.0, F);
     if (K != nullptr) assembly_.add(e, local.K, 1.0, K);
   }
@@ -176,8 +177,8 @@ std::vector<bool> Structure::afloat() const {
       const Freedom which = meaning_of(freedom).freedom;
       return (which == Freedom::x || which == Freedom::z) && !unknown(freedom);
     };
-    if (std::any_of(freedoms.begin(), freedoms.end(), is_held))
-      for (const Index freedom : freedoms) held[node_of(freedom)] = true;
+    if (freedoms.any(is_held))
+      for (std::size_t i = 0; i < freedoms.size(); ++i) held[node_of(freedoms[i])] = true;
   }
   std::vector<bool> result(static_cast<std::size_t>(assembly_.unknown_count()));
   for (std::size_t node = 0; node < held.size(); ++node) {
@@ -218,9 +219,9 @@ void Structure::linearize(const State& state, Linearization& out) const {
 double Structure::energy(const State& state) const {
   Local local;
   double energy = 0.0;
-  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
+  for (Index e = 0; e < element_count(); ++e) {
     gather(e, state.x, local.u);
-    energy += elements_[static_cast<std::size_t>(e)]->evaluate(local.u, nullptr, nullptr);
+    energy += elements_[e].evaluate(local.u, nullptr, nullptr);
   }
   for (const ElementLoad& loaded : element_loads_) {
     gather(loaded.element, state.x, local.u);
@@ -249,21 +250,11 @@ double Structure::force_roundoff() const {
 // Means over all nodes and all rotations, held ones included: they count as zeros.
 Vector Structure::weights(const Piece&) const {
   const double L = length_scale_, of_displacement = 1.0 / (double(positions_.size()) * L * L);
-  const auto weight = [&](Freedom which) {
-    switch (which) {
-      case Freedom::x:
-      case Freedom::z:
-        return of_displacement;
-      case Freedom::rotation:
-        return 1.0 / rotations_;
-      case Freedom::thickness:
-      case Freedom::thickness2:
-        return 0.0;
-    }
-    return 0.0;
-  };
+  std::array<double, 5> of{};  // a freedom; thickness has none
+  of[static_cast<std::size_t>(Freedom::x)] = of[static_cast<std::size_t>(Freedom::z)] = of_displacement;
+  of[static_cast<std::size_t>(Freedom::rotation)] = 1.0 / rotations_;
   Vector weights(size({}));
-  for (Index i = 0; i < weights.size(); ++i) weights[i] = weight(meaning(i).freedom);
+  for (Index i = 0; i < weights.size(); ++i) weights[i] = of[static_cast<std::size_t>(meaning(i).freedom)];
   return weights;
 }
 
@@ -288,9 +279,10 @@ Structure::Meaning Structure::meaning(Index unknown) const {
 std::unique_ptr<Structure> Structure::updated(const Vector& x) const {
   auto moved = std::unique_ptr<Structure>(new Structure(*this));
   Local local;
-  for (Index e = 0; e < static_cast<Index>(elements_.size()); ++e) {
+  moved->elements_ = {};
+  for (Index e = 0; e < element_count(); ++e) {
     gather(e, x, local.u);
-    moved->elements_[static_cast<std::size_t>(e)] = elements_[static_cast<std::size_t>(e)]->updated(local.u);
+    moved->elements_.add(elements_[e].updated(local.u));
   }
   moved->arrange();
   return moved;
@@ -298,23 +290,23 @@ std::unique_ptr<Structure> Structure::updated(const Vector& x) const {
 
 bool Structure::can_be_updated() const {
   const Local rest{};
-  return std::all_of(elements_.begin(), elements_.end(),
-                     [&](const auto& element) { return element->updated(rest.u) != nullptr; });
+  for (Index e = 0; e < element_count(); ++e)
+    if (elements_[e].updated(rest.u) == nullptr) return false;
+  return true;
 }
 
 double Structure::reaction(const State& state, Index freedom) const {
   if (unknown(freedom)) return 0.0;
   Local local;
   double force = -state.lambda * load_.coeff(freedom) - constant_load_.coeff(freedom);
-  const auto add = [&](const Element& element, Index block, std::span<const std::int32_t> freedoms, double factor) {
-    const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
-    if (at == freedoms.end()) return;
+  const auto add = [&](const Element& element, Index block, const ShiftedIndices& freedoms, double factor) {
+    const std::size_t at = freedoms.place_of(freedom);
+    if (at == freedoms.size()) return;
     gather(block, state.x, local.u);
     element.evaluate(local.u, local.f, nullptr);
-    force += factor * local.f[at - freedoms.begin()];
+    force += factor * local.f[at];
   };
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    add(*elements_[e], static_cast<Index>(e), element_freedoms(static_cast<Index>(e)), 1.0);
+  for (Index e = 0; e < element_count(); ++e) add(elements_[e], e, element_freedoms(e), 1.0);
   for (const ElementLoad& loaded : element_loads_)
     add(*loaded.potential, loaded.element, element_freedoms(loaded.element),
         loaded.kind == LoadKind::proportional ? state.lambda : 1.0);
@@ -326,20 +318,19 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
   if (unknown(freedom)) return row;
   Local local;
   row.dlambda = -load_.coeff(freedom);
-  const auto add = [&](const Element& element, Index block, std::span<const std::int32_t> freedoms, double factor) {
-    const auto at = std::find(freedoms.begin(), freedoms.end(), freedom);
-    if (at == freedoms.end()) return 0.0;
+  const auto add = [&](const Element& element, Index block, const ShiftedIndices& freedoms, double factor) {
+    const std::size_t at = freedoms.place_of(freedom);
+    if (at == freedoms.size()) return 0.0;
     gather(block, state.x, local.u);
     element.evaluate(local.u, local.f, local.K);
-    const auto n = static_cast<Index>(freedoms.size()), i = static_cast<Index>(at - freedoms.begin());
+    const auto n = static_cast<Index>(freedoms.size()), i = static_cast<Index>(at);
     const auto unknowns = assembly_.unknowns(block);
     for (Index j = 0; j < n; ++j)
       if (unknowns[static_cast<std::size_t>(j)] >= 0)
         row.dx[unknowns[static_cast<std::size_t>(j)]] += factor * local.K[std::max(i, j) + n * std::min(i, j)];
     return local.f[i];
   };
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    add(*elements_[e], static_cast<Index>(e), element_freedoms(static_cast<Index>(e)), 1.0);
+  for (Index e = 0; e < element_count(); ++e) add(elements_[e], e, element_freedoms(e), 1.0);
   for (const ElementLoad& loaded : element_loads_) {
     const bool proportional = loaded.kind == LoadKind::proportional;
     const double f =

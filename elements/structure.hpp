@@ -154,14 +154,10 @@ class Structure final : public System {
 
   /// Elements are numbered member by member, along each.
   Index element_count() const { return static_cast<Index>(elements_.size()); }
-  const Element& element(Index e) const { return *elements_[static_cast<std::size_t>(e)]; }
+  const Element& element(Index e) const { return elements_[e]; }
 
   /// Of the local unknowns of an element.
-  std::span<const std::int32_t> element_freedoms(Index e) const {
-    const auto first = first_element_freedom_[static_cast<std::size_t>(e)];
-    const auto last = first_element_freedom_[static_cast<std::size_t>(e) + 1];
-    return std::span(element_freedoms_).subspan(first, last - first);
-  }
+  ShiftedIndices element_freedoms(Index e) const { return element_freedoms_[e]; }
 
   /// A load along an element, whose unknowns its potential has.
   struct ElementLoad {
@@ -173,6 +169,7 @@ class Structure final : public System {
 
   /// Which of them act on an element.
   std::span<const std::uint32_t> loads_of_element(Index e) const {
+    if (first_load_of_element_.empty()) return {};
     const auto first = first_load_of_element_[static_cast<std::size_t>(e)];
     const auto last = first_load_of_element_[static_cast<std::size_t>(e) + 1];
     return std::span(loads_by_element_).subspan(first, last - first);
@@ -210,12 +207,11 @@ class Structure final : public System {
   std::vector<std::int32_t> unknown_of_freedom_;  // −1: held
   std::vector<Meaning> meaning_of_freedom_;
   std::vector<std::int32_t> freedom_of_unknown_;
-  std::vector<std::shared_ptr<const Element>> elements_;  // element e is block e of the assembly
+  ElementList elements_;  // element e is block e of the assembly
   ElementOrder order_;
-  std::vector<std::int32_t> element_freedoms_;  // of all elements in turn
-  std::vector<std::uint32_t> first_element_freedom_{0};
+  ShiftedLists element_freedoms_;
   std::vector<ElementLoad> element_loads_;
-  std::vector<std::uint32_t> loads_by_element_, first_load_of_element_{0};
+  std::vector<std::uint32_t> loads_by_element_, first_load_of_element_;  // empty without loads
   PointLoads load_, constant_load_;
   BlockAssembly assembly_;
   double rotations_ = 1.0;  // how many there are

@@ -114,16 +114,15 @@ std::unique_ptr<Element> make_element(const Stretch& stretch) {
 }
 
 // Of a member, in turn. Those that are alike are one object, where it knows no more of its place than the chord.
-void add_elements(const MemberDescription& member, const MemberMesh& mesh,
-                  std::vector<std::shared_ptr<const Element>>& elements) {
+void add_elements(const MemberDescription& member, const MemberMesh& mesh, ElementList& elements) {
   const ImperfectAxis shape(*member.axis, member.imperfection);
   const auto element = [&](std::size_t k) { return Stretch{.member = member, .shape = shape, .mesh = mesh, .k = k}; };
   const std::size_t count = mesh.nodes.size() - 1;
   const bool knows_places = member.theory == Theory::exact || member.theory == Theory::essenburg;
   if (!knows_places && element(0).is_like_all_others())
-    elements.insert(elements.end(), count, std::shared_ptr<const Element>(make_element(element(0))));
+    elements.add(make_element(element(0)), count);
   else
-    for (std::size_t k = 0; k < count; ++k) elements.push_back(make_element(element(k)));
+    for (std::size_t k = 0; k < count; ++k) elements.add(make_element(element(k)));
 }
 
 std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
@@ -283,14 +282,12 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     unknown = static_cast<std::int32_t>(freedom_of_unknown.size());
     freedom_of_unknown.push_back(static_cast<std::int32_t>(freedom));
   };
-  std::vector<std::int32_t> freedoms_of_elements;
-  std::vector<std::uint32_t> first_freedom_of_element{0};
+  ShiftedLists freedoms_of_elements;
   IndexLists blocks;
   for (const MemberMesh& mesh : meshes_)
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
       std::vector<Index> of_element = element_freedoms(mesh, k);
-      freedoms_of_elements.insert(freedoms_of_elements.end(), of_element.begin(), of_element.end());
-      first_freedom_of_element.push_back(static_cast<std::uint32_t>(freedoms_of_elements.size()));
+      freedoms_of_elements.add(of_element);
       for (Index& freedom : of_element) {
         number(freedom);
         freedom = unknown_of_freedom[static_cast<std::size_t>(freedom)];
@@ -303,13 +300,11 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->first_freedom_ = first_freedom_;
   structure->members_ = meshes_;
   freedom_of_unknown.shrink_to_fit();
-  freedoms_of_elements.shrink_to_fit();
-  first_freedom_of_element.shrink_to_fit();
+  freedoms_of_elements.complete();
   structure->unknown_of_freedom_ = std::move(unknown_of_freedom);
   structure->freedom_of_unknown_ = std::move(freedom_of_unknown);
   structure->meaning_of_freedom_ = freedoms_;
   structure->element_freedoms_ = std::move(freedoms_of_elements);
-  structure->first_element_freedom_ = std::move(first_freedom_of_element);
   structure->length_scale_ = box_diagonal(positions_);
 
   std::vector<Index> first_element;
@@ -317,6 +312,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     first_element.push_back(static_cast<Index>(structure->elements_.size()));
     add_elements(descriptions_[m], meshes_[m], structure->elements_);
   }
+  structure->elements_.shrink_to_fit();
   structure->arrange();
 
   const double L = structure->length_scale_;
@@ -350,8 +346,9 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   const auto element_of = [&](std::uint32_t load) { return structure->element_loads_[load].element; };
   std::stable_sort(loads.begin(), loads.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return element_of(a) < element_of(b); });
+  if (!loads.empty()) structure->first_load_of_element_.push_back(0);
   auto behind = loads.begin();
-  for (Index e = 0; e < structure->element_count(); ++e) {
+  for (Index e = 0; e < structure->element_count() && !loads.empty(); ++e) {
     behind = std::find_if(behind, loads.end(), [&](std::uint32_t load) { return element_of(load) > e; });
     structure->first_load_of_element_.push_back(static_cast<std::uint32_t>(behind - loads.begin()));
   }

@@ -153,8 +153,10 @@ template <class Visit>
 void for_each_point_load(const Study& study, const State& state, const Visit& visit) {
   const Structure& structure = study.structure();
   std::set<Index> freedoms;
-  for (Index e = 0; e < structure.element_count(); ++e)
-    freedoms.insert(structure.element_freedoms(e).begin(), structure.element_freedoms(e).end());
+  for (Index e = 0; e < structure.element_count(); ++e) {
+    const ShiftedIndices of_element = structure.element_freedoms(e);
+    for (std::size_t i = 0; i < of_element.size(); ++i) freedoms.insert(of_element[i]);
+  }
   for (const Index freedom : freedoms) {
     const double load = state.lambda * structure.point_load(freedom, LoadKind::proportional) +
                         structure.point_load(freedom, LoadKind::constant);

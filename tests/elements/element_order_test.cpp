@@ -26,7 +26,7 @@ ClassicBeam beam_of(Numbers& numbers) {
 
 // A row of elements from left to right, three unknowns a node; every fifth is a bar.
 struct Row {
-  std::vector<std::shared_ptr<const Element>> elements{};
+  ElementList elements{};
   IndexLists blocks{};
   std::vector<Vec2> middles{};
 
@@ -35,10 +35,9 @@ struct Row {
       const Index i = 3 * e;
       const bool bar = e % 5 == 4;
       if (bar)
-        elements.push_back(std::make_shared<Truss>(Vec2(1.0, 0.0), 100.0, TrussStrain::green));
+        elements.add(std::make_shared<Truss>(Vec2(1.0, 0.0), 100.0, TrussStrain::green));
       else
-        elements.push_back(
-            std::make_shared<ClassicBeam>(BeamReference{.chord = {1.0, 0.0}, .length = 1.0}, 100.0, 1.0));
+        elements.add(std::make_shared<ClassicBeam>(BeamReference{.chord = {1.0, 0.0}, .length = 1.0}, 100.0, 1.0));
       const Index x = e == 0 ? -1 : i, z = e == 0 ? -1 : i + 1;  // the first end is pinned
       if (bar)
         blocks.add({x, z, i + 3, i + 4});
