@@ -18,7 +18,7 @@ constexpr double suspicious_pivot = 1e-13;
 constexpr double suspicious_growth = 1e3, suspicious_cancellation = 1e3;
 constexpr int max_refinements = 3;
 // Part of F that a Newton correction may leave where round-off leaves no better one: the next correction takes it.
-constexpr double left_to_newton = 1e-2;
+constexpr double left_to_newton = 0.1;
 
 }  // namespace
 

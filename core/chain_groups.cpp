@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -12,17 +13,36 @@ namespace {
 // Of each unknown, itself included, sorted.
 class Neighbours {
  public:
-  Neighbours(const SparseMatrix& lower_triangle, Index n)
-      : both_triangles_(SparseMatrix(lower_triangle.topLeftCorner(n, n)).selfadjointView<Eigen::Lower>()) {}
+  Neighbours(const SparseMatrix& lower_triangle, Index n) : ends_(static_cast<std::size_t>(n) + 1, 0) {
+    const auto behind = [this](Index unknown) -> SparseIndex& { return ends_[static_cast<std::size_t>(unknown) + 1]; };
+    for_each(lower_triangle, n, [&](Index unknown, Index) { ++behind(unknown); });
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    all_.resize(static_cast<std::size_t>(ends_.back()));
+    std::vector<SparseIndex> next(ends_.begin(), ends_.end() - 1);
+    // By columns: those before an unknown come before its own column.
+    for_each(lower_triangle, n, [&](Index unknown, Index other) {
+      all_[static_cast<std::size_t>(next[static_cast<std::size_t>(unknown)]++)] = static_cast<SparseIndex>(other);
+    });
+  }
 
-  Index size() const { return both_triangles_.cols(); }
+  std::size_t size() const { return ends_.size() - 1; }
   std::span<const SparseIndex> of(Index unknown) const {
-    const SparseIndex* const start = both_triangles_.outerIndexPtr() + unknown;
-    return {both_triangles_.innerIndexPtr() + start[0], both_triangles_.innerIndexPtr() + start[1]};
+    const SparseIndex* const ends = &ends_[static_cast<std::size_t>(unknown)];
+    return {all_.data() + ends[0], all_.data() + ends[1]};
   }
 
  private:
-  SparseMatrix both_triangles_;
+  template <class Visit>
+  static void for_each(const SparseMatrix& lower_triangle, Index n, const Visit& visit) {
+    for (Index column = 0; column < n; ++column)
+      for (SparseMatrix::InnerIterator entry(lower_triangle, column); entry; ++entry) {
+        if (entry.row() >= n) continue;
+        visit(column, entry.row());
+        if (entry.row() != column) visit(entry.row(), column);
+      }
+  }
+
+  std::vector<SparseIndex> ends_, all_;
 };
 
 // The unknowns with the same neighbours.
@@ -37,8 +57,7 @@ std::vector<Index> alike(const Neighbours& neighbours, Index unknown) {
 // What can be reached from some unknowns, by the number of steps that it takes.
 class Levels {
  public:
-  explicit Levels(const Neighbours& neighbours)
-      : neighbours_(neighbours), seen_(static_cast<std::size_t>(neighbours.size()), 0) {}
+  explicit Levels(const Neighbours& neighbours) : neighbours_(neighbours), seen_(neighbours.size(), 0) {}
 
   bool seen(Index unknown) const { return seen_[static_cast<std::size_t>(unknown)] == visit_; }
 
