@@ -29,6 +29,31 @@ PlaneConstraint::PlaneConstraint(const Metric& metric, const State& origin, cons
 
 double PlaneConstraint::value(const State& state) const { return apply(normal_, difference(state, origin_)) - offset_; }
 
+double ChordPlaneConstraint::value(const State& state) const {
+  const Direction chord = difference(b_, a_);
+  return metric_.inner(chord, difference(state, a_)) - part_ * metric_.inner(chord, chord);
+}
+
+// As PathConstraint::advance(), in one pass.
+std::optional<ConstraintRoots> ChordPlaneConstraint::advance(const State& at, const EquilibriumLine& line) const {
+  const double *x = at.x.data(), *a = a_.x.data(), *b = b_.x.data(), *p = line.dx.col(0).data(),
+               *q = line.dx.col(1).data(), *w = metric_.weights().data();
+  auto [squared, covered, along_p, along_q] = sums_over<4>(at.x.size(), [&](const auto& entry, auto& sums) {
+    const auto chord = entry(b) - entry(a), weighted = entry(w) * chord;
+    sums[0] += weighted * chord;
+    sums[1] += weighted * (entry(x) - entry(a));
+    sums[2] += weighted * entry(p);
+    sums[3] += weighted * entry(q);
+  });
+  const double dlambda = b_.lambda - a_.lambda;
+  squared += metric_.inner_lambda(dlambda, dlambda);
+  covered += metric_.inner_lambda(dlambda, at.lambda - a_.lambda);
+  along_p += metric_.inner_lambda(dlambda, line.dlambda[0]);
+  along_q += metric_.inner_lambda(dlambda, line.dlambda[1]);
+  const double tau = -(covered - part_ * squared + along_p - line.off * along_q) / (line.scale * along_q);
+  return std::isfinite(tau) ? std::optional(ConstraintRoots{.taken = tau}) : std::nullopt;
+}
+
 double SphereConstraint::value(const State& state) const {
   const Direction chord = difference(state, origin_);
   return inner(chord, chord) - radius_ * radius_;

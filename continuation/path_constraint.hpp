@@ -68,6 +68,22 @@ class PlaneConstraint final : public PathConstraint {
   double offset_;
 };
 
+/// ⟨b − a, X − a⟩ = part · |b − a|²: the plane across the chord of a stretch of path.
+class ChordPlaneConstraint final : public PathConstraint {
+ public:
+  /// All three must outlive this.
+  ChordPlaneConstraint(const Metric& metric, const State& a, const State& b, double part)
+      : metric_(metric), a_(a), b_(b), part_(part) {}
+  double value(const State& state) const override;
+  Row gradient(const State&) const override { return metric_.row(difference(b_, a_)); }
+  std::optional<ConstraintRoots> advance(const State& at, const EquilibriumLine& line) const override;
+
+ private:
+  const Metric& metric_;
+  const State &a_, &b_;
+  double part_;
+};
+
 /// Each iterate stays in the plane normal to the chord from the origin to the last (Ramm 1981).
 class UpdatedPlaneConstraint final : public PathConstraint {
  public:

@@ -95,8 +95,8 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
   return first;
 }
 
-// The zero of a detector inside a step, in planes across the chord. Points that were looked at are ends to interpolate
-// between for the next, as long as they are neighbours of the last: soon one iteration is enough.
+// The zero of a detector inside a step, in planes across the chord. The point nearest the next place and an end of the
+// step are what the guess there is interpolated between: soon one iteration is enough.
 class Tracer::ZeroSearch {
  public:
   ZeroSearch(Tracer& tracer, std::size_t which, const PathPoint& to)
@@ -117,8 +117,10 @@ class Tracer::ZeroSearch {
     if (!root) return std::nullopt;
     const auto best = sharpened(seen_.find(*root), found.half_width);
     found.t = best->first;
-    if (!best->second.between) return point_at(best);
-    PathPoint at = std::move(*best->second.between);
+    if (is_end(best)) return point_at(best);
+    const auto there = best->second.between ? std::optional(best) : look(best->first);
+    if (!there) return std::nullopt;
+    PathPoint at = std::move(*(*there)->second.between);
     seen_.clear();
     if (at.nearest.values.size() == 0) tracer_.find_pairs(at);
     return at;
@@ -126,7 +128,7 @@ class Tracer::ZeroSearch {
 
  private:
   struct Seen {
-    std::optional<PathPoint> between{};  // the ends of the step; else they are the segment's
+    std::optional<PathPoint> between{};  // the ends of the step, which are the segment's; may have been forgotten
     double v;
   };
   using Place = std::map<double, Seen>::iterator;
@@ -139,17 +141,21 @@ class Tracer::ZeroSearch {
 
   double tolerance() const { return std::max(tracer_.options_.localisation, 1e-10); }
 
-  const PathPoint& point_at(std::map<double, Seen>::const_iterator place) const {
+  static bool is_end(Place place) { return place->first == 0.0 || place->first == 1.0; }
+  bool has_point(Place place) const { return is_end(place) || place->second.between; }
+  const PathPoint& point_at(Place place) const {
     if (place->second.between) return *place->second.between;
     return place->first == 0.0 ? segment_.from() : segment_.to();
   }
 
   std::optional<Place> look(double t) {
-    const auto behind = seen_.lower_bound(t), before = std::prev(behind);
-    forget_all_but(before, behind);
+    forget_all_but_nearest(t);
+    auto behind = seen_.lower_bound(t), before = std::prev(behind);
+    while (!has_point(before)) --before;
+    while (!has_point(behind)) ++behind;
     const Segment near(tracer_.metric_, point_at(before), point_at(behind));
-    const double L = segment_.length(), part = (t - before->first) / (behind->first - before->first);
-    const PlaneConstraint plane(tracer_.metric_, tracer_.here_.state, segment_.chord(), t * L * L);
+    const double part = (t - before->first) / (behind->first - before->first);
+    const ChordPlaneConstraint plane(tracer_.metric_, segment_.from().state, segment_.to().state, t);
     auto point = tracer_.correct_onto(plane, segment_, near.at(part), near.length() * std::min(part, 1.0 - part),
                                       is_ours_ ? Wanted::tangent : Wanted::pairs);
     if (!point) return std::nullopt;
@@ -157,12 +163,20 @@ class Tracer::ZeroSearch {
     return seen_.insert_or_assign(t, Seen{.between = std::move(point), .v = v}).first;
   }
 
-  // A place that lies beyond these is never asked for again. Pairs are large, and asked for at the zero alone.
-  void forget_all_but(Place before, Place behind) {
-    for (Place place = std::next(seen_.begin()); place->first < 1.0;)
-      place = place == before || place == behind || place == best_ ? std::next(place) : seen_.erase(place);
-    for (auto& [t, seen] : seen_)
-      if (seen.between) seen.between->nearest = {};
+  // Points are large: between the ends the nearest one stays, and the best. Pairs are asked for at the zero alone.
+  void forget_all_but_nearest(double t) {
+    Place nearest = seen_.end();
+    for (Place place = seen_.begin(); place != seen_.end(); ++place)
+      if (place->second.between &&
+          (nearest == seen_.end() || std::abs(place->first - t) < std::abs(nearest->first - t)))
+        nearest = place;
+    for (Place place = seen_.begin(); place != seen_.end(); ++place) {
+      std::optional<PathPoint>& point = place->second.between;
+      if (place != nearest && place != best_)
+        point.reset();
+      else if (point)
+        point->nearest = {};
+    }
   }
 
   // Zero where the bracket need be no narrower.

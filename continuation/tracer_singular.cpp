@@ -140,8 +140,8 @@ void Tracer::add_branch_point_at_limit(const PathPoint& before, const PathPoint&
 
 // A point of the path beside a limit point, with a count.
 std::optional<PathPoint> Tracer::beside(const Segment& segment, double t) {
-  const double L = segment.length();
-  auto point = correct_onto(PlaneConstraint(metric_, here_.state, segment.chord(), t * L * L), segment, t);
+  const ChordPlaneConstraint plane(metric_, segment.from().state, segment.to().state, t);
+  auto point = correct_onto(plane, segment, t);
   if (!point) return std::nullopt;
   decide_count(*point);
   return point->held ? point : std::nullopt;
