@@ -68,8 +68,9 @@ BranchPoint branch_point_at(const System& system, Corrector& corrector, const Me
   constexpr double beside = 1e-7;  // [path metric]
   std::optional<NearNull> pairs;
   for (const double along : {0.0, beside, -beside}) {
-    corrector.inspect(moved(point.state, point.along, along), metric, point.along);
-    if ((pairs = corrector.near_null(weights, place.multiplicity + (place.at_limit ? 1 : 0)))) break;
+    const State here = moved(point.state, point.along, along);
+    corrector.inspect(here, metric, point.along);
+    if ((pairs = corrector.near_null(here, weights, place.multiplicity + (place.at_limit ? 1 : 0)))) break;
   }
   if (pairs && place.at_limit && pairs->vectors->cols() == 2)
     pairs->vectors = across(*pairs->vectors, metric, point.along);

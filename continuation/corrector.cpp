@@ -1,6 +1,7 @@
 #include "continuation/corrector.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -65,13 +66,15 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
   return arrived({.state = state}, metric, metric.row(along), Wanted::pairs);
 }
 
-std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count, Settled settled) const {
+std::optional<NearNull> Corrector::near_null(const State& here, const Vector& weights, Index count,
+                                             Settled settled) const {
+  assert(!here_.has_arrived() || here_.is_at(here));
   const Linearization& now = here_.equations();
   const BorderedSolver& solver = here_.solver();
   if (!here_.has_arrived() || !solver.inner_is_regular()) return std::nullopt;
   const Vector weighted = weights.head(now.K.cols());
   if (now.B.cols() > 0) {
-    const ReleasedBorder border(solver, now, sliding_resistance(solver, now, system_.border_rates(here_.here())));
+    const ReleasedBorder border(solver, now, sliding_resistance(solver, now, system_.border_rates(here)));
     return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, settled)) : std::nullopt;
   }
   const Matrix none, &known = here_.tracker().vectors();
@@ -79,8 +82,9 @@ std::optional<NearNull> Corrector::near_null(const Vector& weights, Index count,
   return arcwall::near_null(solver.inner(), now.K, weighted, count, settled, followed ? known : none);
 }
 
-std::optional<Index> Corrector::count_here(const NearNull& nearest) const {
-  return negative_eigenvalues(system_, here_.here(), here_.solver(), here_.equations(), nearest);
+std::optional<Index> Corrector::count_here(const State& here, const NearNull& nearest) const {
+  assert(here_.is_at(here));
+  return negative_eigenvalues(system_, here, here_.solver(), here_.equations(), nearest);
 }
 
 std::optional<Matrix> Corrector::responses(Matrix columns) const {
@@ -159,7 +163,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
   }
   result.tangent = unit(metric, std::move(tangent));
   result.residual = relative_residual(metric, now, result.state.lambda, load_floor_);
-  if (wanted == Wanted::pairs) add_pairs(metric, columns.rightCols(columns.cols() - 1), result);
+  if (wanted == Wanted::pairs) add_pairs(result.state, metric, columns.rightCols(columns.cols() - 1), result);
   return result;
 }
 
@@ -173,22 +177,22 @@ CorrectorResult Corrector::find_pairs(const State& state, const Metric& metric) 
   if (here_.equations().B.cols() == 0) columns = here_.tracker().right_hand_sides(metric.weights());
   const bool solved = here_.solver().inner_is_regular() && columns.cols() > 0 && here_.solver().solve_inner(columns);
   result.status = CorrectorStatus::converged;
-  add_pairs(metric, columns.leftCols(solved ? columns.cols() : 0), result);
+  add_pairs(state, metric, columns.leftCols(solved ? columns.cols() : 0), result);
   return result;
 }
 
-// At the state reached last; `solved`: K⁻¹ times what the tracker asked for. Pairs are followed where there is no
-// border.
-void Corrector::add_pairs(const Metric& metric, const Eigen::Ref<const Matrix>& solved, CorrectorResult& result) {
-  const State& state = here_.here();
+// At the state reached last, `here`; `solved`: K⁻¹ times what the tracker asked for. Pairs are followed where there is
+// no border.
+void Corrector::add_pairs(const State& here, const Metric& metric, const Eigen::Ref<const Matrix>& solved,
+                          CorrectorResult& result) {
   const BorderedSolver& solver = here_.solver();
   if (here_.equations().B.cols() > 0) {
-    result.negative = negative_eigenvalues(system_, state, solver, here_.equations(), {});
+    result.negative = negative_eigenvalues(system_, here, solver, here_.equations(), {});
     return;
   }
   if (solved.cols() > 0) result.nearest = here_.tracker().advance(metric.weights(), solved);
   if (const auto negative = negative_by_pivots(solver.inner(), metric.weights(), result.nearest))
-    result.negative = *negative - system_.multiplier_count(state.piece);
+    result.negative = *negative - system_.multiplier_count(here.piece);
 }
 
 }  // namespace arcwall

@@ -58,9 +58,10 @@ class Corrector {
   /// The eigenpairs of a point that was found without them, and their count; the rest of the result is not there.
   CorrectorResult find_pairs(const State& state, const Metric& metric);
 
-  /// Eigenpairs nearest zero of K at the state reached last, with what a border holds let go; empty where K is singular
-  /// to working precision.
-  std::optional<NearNull> near_null(const Vector& weights, Index count, Settled settled = Settled::fully) const;
+  /// Eigenpairs nearest zero of K at the state reached last, which is `here`, with what a border holds let go; empty
+  /// where K is singular to working precision.
+  std::optional<NearNull> near_null(const State& here, const Vector& weights, Index count,
+                                    Settled settled = Settled::fully) const;
 
   /// K⁻¹ times the columns, K at the state reached last; empty where it is singular to working precision.
   std::optional<Matrix> responses(Matrix columns) const;
@@ -75,9 +76,9 @@ class Corrector {
   /// Tangent and signs at a state that is already on the path.
   CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);
 
-  /// Negative eigenvalues of K at the state reached last, as CorrectorResult::negative, but also where the pivots do
-  /// not tell; `nearest`: the pairs that were found there. Empty where K is singular.
-  std::optional<Index> count_here(const NearNull& nearest) const;
+  /// Negative eigenvalues of K at the state reached last, which is `here`, as CorrectorResult::negative, but also where
+  /// the pivots do not tell; `nearest`: the pairs that were found there. Empty where K is singular.
+  std::optional<Index> count_here(const State& here, const NearNull& nearest) const;
 
   /// Whether this is the state reached last.
   bool is_at(const State& state) const { return here_.is_at(state); }
@@ -93,7 +94,8 @@ class Corrector {
                           double length, const CorrectorOptions& options, Wanted wanted);
   bool find_line(const Metric& metric, const Row& border);
   double take_step(const Metric& metric, double tau, State& state) const;
-  void add_pairs(const Metric& metric, const Eigen::Ref<const Matrix>& solved, CorrectorResult& result);
+  void add_pairs(const State& here, const Metric& metric, const Eigen::Ref<const Matrix>& solved,
+                 CorrectorResult& result);
   CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Row& border, Wanted wanted);
 
   const System& system_;

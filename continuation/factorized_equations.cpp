@@ -22,7 +22,7 @@ bool FactorizedEquations::evaluate(const State& state) {
 
 FactorStatus FactorizedEquations::arrive(const State& state) {
   const FactorStatus status = look(state);
-  here_ = state;
+  here_ = StateFingerprint(state);
   arrived_ = status != FactorStatus::not_finite;
   return status;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cassert>
 #include <optional>
 
 #include "core/bordered_solver.hpp"
+#include "core/fingerprint.hpp"
 #include "core/near_null.hpp"
 #include "core/system.hpp"
 
@@ -22,16 +22,14 @@ class FactorizedEquations {
   /// The same where the solver's line() is asked for next, for this line.
   FactorStatus look_for_line(const State& state, EquilibriumLine& line);
 
-  /// The same, and keeps the state: what is asked from here on is of this one.
+  /// The same, and knows the state again: what is asked from here on is of this one.
   FactorStatus arrive(const State& state);
 
-  /// Whether nothing was looked at or evaluated since a state was arrived at: here().
+  /// Whether nothing was looked at or evaluated since a state was arrived at.
   bool has_arrived() const { return arrived_; }
-  const State& here() const {
-    assert(arrived_);
-    return here_;
-  }
-  bool is_at(const State& state) const { return arrived_ && here_ == state; }
+
+  /// And whether that is this one.
+  bool is_at(const State& state) const { return arrived_ && here_ == StateFingerprint(state); }
 
   /// Whether the matrix at hand has the pattern of this piece, so that its analysis serves again.
   bool is_on(const Piece& piece) const { return piece_ == piece; }
@@ -57,7 +55,7 @@ class FactorizedEquations {
   BorderedSolver solver_;
   NearNullTracker tracker_;
   std::optional<Piece> piece_;  // of the matrix
-  State here_;
+  StateFingerprint here_;
   bool arrived_ = false;
 };
 

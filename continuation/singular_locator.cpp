@@ -287,12 +287,12 @@ std::optional<std::vector<SingularPlace>> SingularLocator::touches(const Segment
 std::optional<SingularLocator::Sample> SingularLocator::sample_at(const Segment& segment, const Metric& metric,
                                                                   double t) {
   const double L = segment.length();
-  const PlaneConstraint plane(metric, segment.from().state, segment.chord(), t * L * L);
+  const ChordPlaneConstraint plane(metric, segment.from().state, segment.to().state, t);
   const State guess = segment.at(t);
   const Direction& forward = segment.from().tangent;
   CorrectorResult at = corrector_.correct(guess, plane, metric, forward, 1e-2 * L);
   if (!at.converged() || metric.distance(at.state, guess) > 0.05 * L) return std::nullopt;
-  if (!at.negative) at.negative = corrector_.count_here(at.nearest);
+  if (!at.negative) at.negative = corrector_.count_here(at.state, at.nearest);
   if (metric.inner(at.tangent, forward) < 0.0) at.tangent = reversed(std::move(at.tangent));
   Sample sample{.t = t,
                 .state = std::move(at.state),
@@ -332,7 +332,7 @@ std::optional<Matrix> SingularLocator::test_matrix(const Sample& sample, const M
     // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least
     // positive.
     constexpr Index nearest = 4;
-    const auto eigen = corrector_.near_null(metric.weights(), nearest);
+    const auto eigen = corrector_.near_null(sample.state, metric.weights(), nearest);
     if (!eigen || !sample.negative) return std::nullopt;
     const bool negative = *sample.negative >= order;
     double value = 0.0;
@@ -341,7 +341,7 @@ std::optional<Matrix> SingularLocator::test_matrix(const Sample& sample, const M
     if (value == 0.0) return std::nullopt;
     return Matrix::Constant(1, 1, value);
   }
-  if (modes.cols() == 0) modes = critical_modes(metric, sample.tangent);
+  if (modes.cols() == 0) modes = critical_modes(sample, metric);
   if (modes.cols() == 0) return std::nullopt;
   const Matrix C = metric.weights().asDiagonal() * without_fold(modes, metric, sample.tangent);
   const auto moved = corrector_.responses(C);
@@ -351,13 +351,14 @@ std::optional<Matrix> SingularLocator::test_matrix(const Sample& sample, const M
 }
 
 // The modes at the sample reached last whose eigenvalues, with Q of (1), are near zero.
-Matrix SingularLocator::critical_modes(const Metric& metric, const Direction& tangent) const {
+Matrix SingularLocator::critical_modes(const Sample& sample, const Metric& metric) const {
   constexpr Index nearest = 4;
   constexpr double near = 50.0;  // times the least eigenvalue
   const Vector& W = metric.weights();
-  const auto pairs = corrector_.near_null(W, nearest, Settled::roughly);  // (1) holds for any modes near these
+  const auto pairs =
+      corrector_.near_null(sample.state, W, nearest, Settled::roughly);  // (1) holds for any modes near these
   if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
-  const Matrix C = W.asDiagonal() * without_fold(*pairs->vectors, metric, tangent);
+  const Matrix C = W.asDiagonal() * without_fold(*pairs->vectors, metric, sample.tangent);
   const auto moved = corrector_.responses(C);
   if (!moved) return {};
   const Matrix inverse = C.transpose() * *moved;

@@ -59,7 +59,7 @@ class SingularLocator {
   std::optional<Bracket> bisect(const Segment& segment, const Metric& metric, Index before, Index after);
   std::optional<Level> level_at(const Segment& segment, const Metric& metric, double centre, double spread, What what,
                                 Index order);
-  Matrix critical_modes(const Metric& metric, const Direction& tangent) const;
+  Matrix critical_modes(const Sample& sample, const Metric& metric) const;
   std::optional<Matrix> test_matrix(const Sample& sample, const Metric& metric, What what, Index order, Matrix& modes);
   std::vector<SingularPlace> roots(const Level& level, const Segment& segment, const Metric& metric,
                                    const Bracket& bracket) const;

@@ -52,7 +52,7 @@ class StabilityCounter {
   FactorizedEquations& shared_;
   FactorizedEquations own_;
   const NearNull* start_ = nullptr;     // of what its own equations follow, until they are used
-  std::optional<State> last_;           // the state counted last: what pivots leave undecided takes long
+  StateFingerprint last_;               // of the state counted last: what pivots leave undecided takes long
   std::optional<Index> last_negative_;  // on it
 };
 

@@ -452,7 +452,7 @@ PathPoint Tracer::go_to(PathPoint point) {
 // The count of negative eigenvalues where the pivots do not tell it.
 void Tracer::decide_count(PathPoint& point) {
   if (point.held) return;
-  if (corrector_.is_at(point.state)) counter_.remember(point.state, corrector_.count_here(point.nearest));
+  if (corrector_.is_at(point.state)) counter_.remember(point.state, corrector_.count_here(point.state, point.nearest));
   point.held = point.count.unstable = counter_.negative_on(point.state);
 }
 

@@ -125,7 +125,7 @@ void Tracer::add_branch_point_at_limit(const PathPoint& before, const PathPoint&
   limit.at.state = turning_between(metric_, before, after, limit.at.state);
   limit.at.tangent = mean(metric_, before.tangent, after.tangent);
   limit.at.residual = corrector_.inspect(limit.at.state, metric_, limit.at.tangent).residual;
-  const auto pairs = corrector_.near_null(metric_.weights(), 2);
+  const auto pairs = corrector_.near_null(limit.at.state, metric_.weights(), 2);
   const auto second = [](const NearNull& nearest) { return std::abs(nearest.values[1]); };
   SingularPlace place{.point = limit.at, .t = limit.found.t, .half_width = half_width, .change = limit.change};
   place.at_limit = pairs && pairs->values.size() > 1 && after.nearest.values.size() > 1 &&

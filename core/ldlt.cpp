@@ -9,7 +9,7 @@
 
 #include "core/chain_ldlt.hpp"
 #include "core/held_chain.hpp"
-#include "core/pattern_fingerprint.hpp"
+#include "core/fingerprint.hpp"
 #include "core/simplicial_ldlt.hpp"
 #include "core/sprung_cholesky.hpp"
 

@@ -1,12 +1,13 @@
-#include "core/pattern_fingerprint.hpp"
+#include "core/fingerprint.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "core/assembly.hpp"
 
-namespace arcwall::pattern_fingerprint_test {
+namespace arcwall::fingerprint_test {
 
 namespace {
 
@@ -39,4 +40,21 @@ TEST(PatternFingerprint, TellsPatternsApart) {
   for (const SparseMatrix& A : others) EXPECT_FALSE(PatternFingerprint() == PatternFingerprint(A));
 }
 
-}  // namespace arcwall::pattern_fingerprint_test
+TEST(StateFingerprint, TellsStatesApartToTheLastBit) {
+  const State state{.x = Vector{{1.0, 2.0, 3.0}}, .lambda = 0.5, .piece = {0, 1}};
+  EXPECT_EQ(StateFingerprint(state), StateFingerprint(State(state)));
+  const auto differs = [&](const auto& change) {
+    State other = state;
+    change(other);
+    return !(StateFingerprint(other) == StateFingerprint(state));
+  };
+  EXPECT_TRUE(differs([](State& other) { other.x[2] = std::nextafter(3.0, 4.0); }));
+  EXPECT_TRUE(differs([](State& other) { other.x.reverseInPlace(); }));
+  EXPECT_TRUE(differs([](State& other) { other.x.conservativeResize(2); }));
+  EXPECT_TRUE(differs([](State& other) { other.lambda = std::nextafter(0.5, 1.0); }));
+  EXPECT_TRUE(differs([](State& other) { other.piece[0] = 1; }));
+  EXPECT_TRUE(differs([](State& other) { other.piece = Piece(2, 0); }));
+  EXPECT_FALSE(StateFingerprint() == StateFingerprint(State{}));
+}
+
+}  // namespace arcwall::fingerprint_test
