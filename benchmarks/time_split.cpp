@@ -80,6 +80,7 @@ void add(const Arc& arc, Tally& tally) {
 }
 
 struct Measured {
+  Index unknowns = 0;  // at the start
   Tally tally{};
   StepCosts step_costs{};
   double seconds = 0.0;    // of the whole path
@@ -88,15 +89,15 @@ struct Measured {
   SolverTimes ldlt{};
 };
 
-Measured traced(const Task& task) {
+Measured traced(const Task& task, State start_at) {
   const TimedSystem system(task.system);
-  Measured measured;
+  Measured measured{.unknowns = start_at.x.size()};
   TraceOptions options = task.options;
   options.ledger = [&](const StepAttempt& attempt) { measured.tally.attempted += attempt.iterations + 1; };
   const SolverTimes before = solver_times();
   {
     const double start = cpu_seconds();
-    Explorer explorer(system, task.start, options, task.watched, task.explore);
+    Explorer explorer(system, std::move(start_at), options, task.watched, task.explore);
     double last = cpu_seconds();
     Index linearizations = 0;
     while (measured.tally.points_past_limit < task.most_past_limit) {
@@ -144,7 +145,7 @@ void print(const std::string& work, long size, const Task& task, const Measured&
         measured.all_parts - system.assembly - system.side_conditions - ldlt.factorization - ldlt.solution);
   count("elements", task.elements);
   count("nodes", task.nodes);
-  count("unknowns", task.start.x.size());
+  count("unknowns", measured.unknowns);
   count("points", tally.points);
   count("points past the limit point", tally.points_past_limit);
   count("iterations", tally.iterations);
@@ -174,18 +175,18 @@ void print(const std::string& work, long size, const Task& task, const Measured&
 
 // Where looking at the clock would count, or the first steps of a process, the path is traced without it before, more
 // than once; of these the least time.
-void trace(const std::string& work, long size, const Task& task) {
+void trace(const std::string& work, long size, Task task) {
   constexpr Index small = 5000;
   constexpr int times = 5;
   constexpr double slow = 2.0;  // [s]: once is enough
   times_parts = false;
   double untouched = infinity;
   for (int round = 0; round < times && task.elements <= small; ++round) {
-    untouched = std::min(untouched, traced(task).seconds);
+    untouched = std::min(untouched, traced(task, task.start).seconds);
     if (untouched > slow) break;
   }
   times_parts = true;
-  Measured measured = traced(task);
+  Measured measured = traced(task, std::move(task.start));  // the path alone holds states
   if (task.elements <= small) measured.seconds = untouched;
   print(work, size, task, measured);
 }
