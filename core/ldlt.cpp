@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/chain_ldlt.hpp"
-#include "core/held_chain.hpp"
 #include "core/fingerprint.hpp"
+#include "core/held_chain.hpp"
 #include "core/simplicial_ldlt.hpp"
 #include "core/sprung_cholesky.hpp"
 
