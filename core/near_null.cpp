@@ -19,15 +19,17 @@ namespace arcwall {
 namespace {
 
 constexpr int max_rounds = 100;
+constexpr Index most_pairs = 2;  // that are followed
 
-// The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants).
-void fill_with_start(Eigen::Ref<Matrix> X) {
-  std::uint64_t seed = 1;
+// The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants), from a seed.
+// Gives that of those that follow.
+std::uint64_t fill_with_start(Eigen::Ref<Matrix> X, std::uint64_t seed) {
   for (Index j = 0; j < X.cols(); ++j)
     for (double *entry = &X(0, j), *end = entry + X.rows(); entry != end; ++entry) {
       seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
       *entry = double(seed >> 11) * 0x1p-53 - 0.5;
     }
+  return seed;
 }
 
 // Columns of unit length, without dependent ones growing: QR with respect to the ordinary product. In place, as what
@@ -89,7 +91,7 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
   const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
   if (block == 0) return {};
   Matrix X(weights.size(), block);
-  fill_with_start(X);
+  fill_with_start(X, 1);
   const Index known = std::min(start.cols(), block);
   if (known > 0) X.leftCols(known) = start.leftCols(known);
   Vector values = Vector::Constant(block, infinity);
@@ -164,6 +166,15 @@ std::array<Pointer, B> columns_from(Pointer first, Index stride) {
   return columns;
 }
 
+// Those that become pairs, then the guard.
+template <std::size_t B>
+std::array<double*, B> followed_columns(Matrix& X, Vector& guard) {
+  std::array<double*, B> columns;
+  for (std::size_t j = 0; j < B; ++j)
+    columns[j] = static_cast<Index>(j) < X.cols() ? X.col(static_cast<Index>(j)).data() : guard.data();
+  return columns;
+}
+
 template <std::size_t B>
 using Small = Eigen::Matrix<double, static_cast<int>(B), static_cast<int>(B)>;
 
@@ -223,20 +234,23 @@ void with_columns(Index count, const Code& code) {
 }  // namespace
 
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
-  const Index n = weights.size(), block = std::min<Index>(3, pair_count(weights));
+  const Index n = weights.size(), block = std::min<Index>(most_pairs + 1, pair_count(weights));
   const Index known = std::max<Index>(0, std::min(pairs_->cols(), block - 1));
   // Contact forces, which come and go at the end, have no weight and need no start.
-  const Index common = std::min(pairs_->rows(), n);
-  X_.resize(n, block);
+  const Index common = std::min(pairs_->rows(), n), kept = std::min(block, most_pairs);
+  X_.resize(n, kept);
+  guard_.resize(block > kept ? n : 0);
   if (known > 0) {
     X_.topLeftCorner(common, known) = pairs_->topLeftCorner(common, known);
     X_.bottomLeftCorner(n - common, known).setZero();
   }
-  fill_with_start(X_.rightCols(block - known));
+  std::uint64_t seed = 1;
+  if (known < kept) seed = fill_with_start(X_.rightCols(kept - known), seed);
+  if (block > kept) fill_with_start(guard_, seed);
   Matrix columns(n, front + block);
   with_columns(block, [&](auto constant) {
     constexpr std::size_t B = constant.value;
-    const auto X = columns_from<B>(X_.data(), n), WX = columns_from<B>(columns.col(front).data(), n);
+    const auto X = followed_columns<B>(X_, guard_), WX = columns_from<B>(columns.col(front).data(), n);
     const Small<B> T = orthonormalising<B>(projection(weights.data(), X, X, n));
     transform(weights.data(), X, T, WX, n);
   });
@@ -247,13 +261,13 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
 // near zero, and never to a mixture of far ones, as the least of Xᵀ K X may. y = K⁻¹ W X c has the Rayleigh quotient
 // θ/(yᵀ W y).
 NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions) {
-  const Index n = weights.size(), block = X_.cols(), count = std::min<Index>(2, block);
+  const Index n = weights.size(), count = X_.cols(), block = count + (guard_.size() > 0 ? 1 : 0);
   if (block == 0 || !all_finite(solutions)) return {};
   Vector values(count);
   with_columns(block, [&](auto constant) {
     constexpr std::size_t B = constant.value;
     const double* w = weights.data();
-    const auto X = columns_from<B>(X_.data(), n);
+    const auto X = followed_columns<B>(X_, guard_);
     const auto Y = columns_from<B>(solutions.data(), solutions.outerStride());
     const Eigen::SelfAdjointEigenSolver<Small<B>> ritz(projection(w, X, Y, n));
     std::array<Index, B> order;
@@ -275,7 +289,7 @@ NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const 
       X_.col(j) /= std::sqrt(squared);
     }
   });
-  X_.conservativeResize(n, count);
+  guard_.resize(0);
   pairs_ = std::exchange(X_, Matrix());
   return {.values = std::move(values), .vectors = pairs_};
 }

@@ -52,7 +52,10 @@ class NearNullTracker {
 
  private:
   SharedMatrix pairs_;
-  Matrix X_;  // their vectors, then others, W-orthonormal; between right_hand_sides and advance alone
+  // Between right_hand_sides and advance alone: the vectors that become the pairs', and one more, W-orthonormal. They
+  // are apart so that no vector has to be made room for where three had been.
+  Matrix X_;
+  Vector guard_;
 };
 
 }  // namespace arcwall
