@@ -52,8 +52,8 @@ class NearNullTracker {
 
  private:
   SharedMatrix pairs_;
-  // Between right_hand_sides and advance alone: the vectors that become the pairs', and one more, W-orthonormal. They
-  // are apart so that no vector has to be made room for where three had been.
+  // Between right_hand_sides and advance alone: the vectors that become the pairs', and one more, W-orthonormal. The
+  // first stay and the other goes: of one block for all, a hole would be left in which the next one has no room.
   Matrix X_;
   Vector guard_;
 };
