@@ -166,18 +166,19 @@ bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
   const Linearization& now = *equations_;
   auto particular = line.dx.col(0), tangent = line.dx.col(1);
   double before = infinity;
+  bool tangent_is_good = false;
   for (int round = 0;; ++round) {
     const double along = border.dx.dot(tangent) + border.dlambda;
     const double off = border.dx.dot(particular) + border.dlambda * line.dlambda[0];
     particular -= off / along * tangent;
     line.dlambda[0] -= off / along;
     Vector tangent_lacks;
-    {
+    if (!tangent_is_good) {
       BorderedResidual of_tangent(now, -1.0, now.F_lambda, tangent, 0.0);
       if (!of_tangent.r().allFinite()) return false;
-      if (!of_tangent.is_small()) tangent_lacks = std::move(of_tangent).r();
+      tangent_is_good = of_tangent.is_small();
+      if (!tangent_is_good) tangent_lacks = std::move(of_tangent).r();
     }
-    const bool tangent_is_good = tangent_lacks.size() == 0;
     const BorderedResidual of_particular(now, -1.0, now.F, particular, line.dlambda[0]);
     if (!of_particular.r().allFinite()) return false;
     if (tangent_is_good && of_particular.is_small()) return true;
