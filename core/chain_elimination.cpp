@@ -21,8 +21,8 @@ struct WholeChain {
   using InLanes = Chain<B, Lanes>;
   using One = Chain<B, double>;
 
-  // Numbers of two groups that a solution comes to soon: processors do not foresee its order.
-  static constexpr Index ahead = 8;
+  // Numbers of two groups that a solution comes to soon: processors do not foresee its order, and main memory is far.
+  static constexpr Index ahead = 24;
   template <Index distance>
   ARCWALL_IN_PLACE static void expect(const Going& j, const ChainNumbers& chain) {
     constexpr Index per_line = 2;

@@ -48,7 +48,7 @@ struct ChainNumbers {
   Index before(Index row, Index column) const { return packed(width, 0) + row * width + column; }
   Index behind(Index row, Index column) const { return before(width, 0) + row * width + column; }
   Index per_group() const { return behind(width, 0); }
-  Lanes* group(Index i) { return &numbers[static_cast<std::size_t>(i * per_group())]; }
+  Lanes* group(Index i) { return numbers.data() + i * per_group(); }
 
   Index width = 0, length = 0;  ///< of groups in unknowns, of stretches in groups
   std::vector<Lanes> numbers{};

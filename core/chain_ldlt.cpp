@@ -14,6 +14,19 @@ constexpr int stretches = Lanes::count;
 constexpr Index most_columns = 2;  // that are solved for at once
 constexpr Index together = 16;     // groups of a stretch whose numbers are brought to their places before the next ones
 
+// Brings what the next part works on near the processor while this one is worked on.
+template <bool to_write>
+void expect(const Lanes* begin, const Lanes* end) {
+  constexpr Index per_line = 2;
+  for (; begin < end; begin += per_line) __builtin_prefetch(begin, to_write);
+}
+
+// Whether numbers come from main memory each time: caches hold no more than these.
+bool are_far(const std::vector<Lanes>& numbers) {
+  constexpr std::size_t caches = 8 << 20;  // bytes
+  return numbers.size() * sizeof(Lanes) > caches;
+}
+
 }  // namespace
 
 ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std::vector<bool>& afloat)
@@ -148,6 +161,7 @@ bool ChainLdlt::factorize_and_solve(const SparseMatrix& A, Columns of, Eigen::Re
 bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
   const double* const values = A.valuePtr();
   const double filling = filling_ ? values[*filling_] : 0.0;
+  const bool far = are_far(chain_.numbers);
   ChainPivots seen;
   Index there = 0, sides_there = 0;  // groups with their numbers and right-hand sides
   for (Index begin = 0; begin < chain_.length; begin += together) {
@@ -155,6 +169,7 @@ bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
     for (; there < std::min(end + 1, chain_.length); ++there) {
       values_.gather(there, values, filling, 1.0, 1, chain_.group(there));
     }
+    if (far) expect<true>(chain_.group(there), chain_.group(std::min(there + together, chain_.length)));
     eliminate_groups(chain_, begin, end, seen);
     if (of.empty()) continue;
     gather(of, end, sides_there);
@@ -195,14 +210,25 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
 
 void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
   const Index columns = X.cols();
+  const bool far = are_far(chain_.numbers);
   for (Index end = chain_.length; end > 0;) {
     const Index begin = (end - 1) / together * together;
+    if (far) expect_solutions(std::max<Index>(0, begin - together), begin, X);
     backward_groups(chain_, columns, begin, end, work_);
     for (Index record = begin; record < end; ++record)
       for (Index r = 0; r < columns; ++r)
         unknowns_.scatter(record, work_.entries.data() + record * chain_.width * columns + r, columns, &X(0, r));
     end = begin;
   }
+}
+
+// In lanes, and where they go.
+void ChainLdlt::expect_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const {
+  const Lanes* const entries = work_.entries.data();
+  const Index count = X.cols() * chain_.width;
+  expect<false>(entries + begin * count, entries + end * count);
+  for (Index record = begin; record < end; ++record)
+    for (Index r = 0; r < X.cols(); ++r) unknowns_.expect(record, X.col(r).data());
 }
 
 // False for one that is zero, or so near that it is what rounding has left of rounding errors, or not finite. Where no
