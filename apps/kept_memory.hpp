@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdlib>  // says which C library it is
 
 #ifdef __GLIBC__
@@ -16,6 +17,15 @@ inline void keep_freed_memory() {
   constexpr int greatest_threshold = 32 << 20;  // that glibc accepts for blocks of their own [byte]
   mallopt(M_MMAP_THRESHOLD, greatest_threshold);
   mallopt(M_TRIM_THRESHOLD, 2 * greatest_threshold);
+#endif
+}
+
+/// But what building and analysing a large structure left free goes back, once that is done: a path uses its own
+/// vectors again and again, and seldom the room between.
+inline void give_back_freed_memory() {
+#ifdef __GLIBC__
+  constexpr std::size_t much = 4 << 20;  // [byte]
+  if (mallinfo2().fordblks > much) malloc_trim(0);
 #endif
 }
 

@@ -103,6 +103,7 @@ Measured traced(const Task& task, State start_at) {
     while (measured.tally.points_past_limit < task.most_past_limit) {
       const auto step = explorer.next();
       if (!step) break;
+      if (measured.tally.points == 0) give_back_freed_memory();  // as trace-path does
       const double now = cpu_seconds();
       const Index used = system.times().linearizations - linearizations;
       const State& to = step->arc.to.state;

@@ -7,6 +7,7 @@
 
 #include "apps/build_path.hpp"
 #include "apps/checkpoint/parts.hpp"
+#include "apps/kept_memory.hpp"
 #include "apps/output/recorder.hpp"
 #include "apps/run/step_ledger.hpp"
 #include "core/text.hpp"
@@ -25,6 +26,7 @@ class PathTracing final : public Tracing {
 
   bool advance() override {
     const std::optional<Explorer::Step> step = explorer_.next();
+    if (branch_ < 0) give_back_freed_memory();
     if (!step) {
       finish();
       return false;
