@@ -196,8 +196,13 @@ void HeldChain::take_out(Hold& hold) {
   }
 }
 
+// Products with these are formed entry by entry: they are small, and others would take room from the heap.
+HeldChain::SmallVector HeldChain::entries(const Eigen::Ref<const Vector>& x, const Unknowns& unknowns) {
+  return x(unknowns);
+}
+
 HeldChain::SmallVector HeldChain::turned(const Hold& hold, const Eigen::Ref<const Vector>& x) {
-  return hold.Q.transpose() * x(*hold.unknowns);
+  return hold.Q.transpose().lazyProduct(entries(x, *hold.unknowns));
 }
 
 // With r the rigid and s the soft multipliers of a group, K the rows of QᵀAQ that they hold and f in turned
@@ -206,14 +211,10 @@ HeldChain::SmallVector HeldChain::turned(const Hold& hold, const Eigen::Ref<cons
 //   R_rrᵀ w_r = g_r,   A w = f − K_rᵀ w_r − R_ss c⁻¹ (R_rsᵀ w_r − g_s)                                    (1)
 //
 // Then R p = f − K w and c p = Rᵀ w − g: each multiplier from that of the two where fewer digits cancel.   (2)
-struct HeldChain::Known {
-  SmallVector w, f, g;  // w of the rigid ones
-};
-
 void HeldChain::solve(Eigen::Ref<Matrix> X) const {
-  std::vector<Known> all_known(holds_.size() * static_cast<std::size_t>(X.cols()));
+  known_.resize(holds_.size() * static_cast<std::size_t>(X.cols()));
   const auto known = [&](Index column, std::size_t h) -> Known& {
-    return all_known[static_cast<std::size_t>(column) * holds_.size() + h];
+    return known_[static_cast<std::size_t>(column) * holds_.size() + h];
   };
   for (Index column = 0; column < X.cols(); ++column) {
     auto x = X.col(column);
@@ -229,7 +230,7 @@ void HeldChain::solve(Eigen::Ref<Matrix> X) const {
       for (Index j = 0; j < holds_[h].rigid; ++j) x[holds_[h].unknown(j)] = known(column, h).w[j];
     for (std::size_t h = 0; h < holds_.size(); ++h) find_multipliers(holds_[h], known(column, h), x);
     for (const Hold& hold : holds_) {
-      const SmallVector u = hold.Q * x(*hold.unknowns);
+      const SmallVector u = hold.Q.lazyProduct(entries(x, *hold.unknowns));
       x(*hold.unknowns) = u;
     }
   }
@@ -240,10 +241,8 @@ HeldChain::Known HeldChain::turn_right_hand_side(const Hold& hold, Eigen::Ref<Ve
   x(*hold.unknowns) = f;
   Known known{.w = {}, .f = f.head(hold.c.size()), .g = SmallVector(hold.c.size())};
   for (Index j = 0; j < hold.c.size(); ++j) known.g[j] = x[hold.multiplier(j)];
-  known.w = hold.R.topLeftCorner(hold.rigid, hold.rigid)
-                .triangularView<Eigen::Upper>()
-                .transpose()
-                .solve(known.g.head(hold.rigid));
+  known.w = known.g.head(hold.rigid);
+  hold.R.topLeftCorner(hold.rigid, hold.rigid).triangularView<Eigen::Upper>().transpose().solveInPlace(known.w);
   return known;
 }
 
@@ -251,18 +250,19 @@ HeldChain::Known HeldChain::turn_right_hand_side(const Hold& hold, Eigen::Ref<Ve
 void HeldChain::move_known(const Hold& hold, const Known& known, Eigen::Ref<Vector> x) {
   const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
   for (std::size_t b = 0; b < hold.blocks.size(); ++b)
-    x(*hold.blocks[b].columns) -= hold.rows[b].topRows(rigid).transpose() * known.w;
+    x(*hold.blocks[b].columns) -= hold.rows[b].topRows(rigid).transpose().lazyProduct(known.w);
   const auto R = hold.R.rightCols(soft);
   const SmallVector pull =
-      (R.topRows(rigid).transpose() * known.w - known.g.tail(soft)).cwiseQuotient(hold.c.tail(soft));
-  const SmallVector force = R.bottomRows(soft) * pull;
+      (R.topRows(rigid).transpose().lazyProduct(known.w) - known.g.tail(soft)).cwiseQuotient(hold.c.tail(soft));
+  const SmallVector force = R.bottomRows(soft).lazyProduct(pull);
   for (Index j = 0; j < soft; ++j) x[hold.unknown(rigid + j)] -= force[j];
 }
 
 // By (2).
 void HeldChain::find_multipliers(const Hold& hold, const Known& known, Eigen::Ref<Vector> x) {
   SmallVector left = known.f;
-  for (std::size_t b = 0; b < hold.blocks.size(); ++b) left -= hold.rows[b] * x(*hold.blocks[b].columns);
+  for (std::size_t b = 0; b < hold.blocks.size(); ++b)
+    left -= hold.rows[b].lazyProduct(entries(x, *hold.blocks[b].columns));
   for (Index j = hold.c.size(); j-- > 0;) {
     double p = left[j] / hold.R(j, j);
     if (!hold.is_stiff[static_cast<std::size_t>(j)]) {

@@ -62,6 +62,11 @@ class HeldChain final : public SymmetricFactors {
     }
   };
 
+  // Of a right-hand side, in turned coordinates: what a group's multipliers hold.
+  struct Known {
+    SmallVector w, f, g;  // w of the rigid ones
+  };
+
   HeldChain(const SparseMatrix& A, const ChainGroups& groups) : groups_(groups), A_(A), chain_(A, groups) {}
   bool find_chunks(const SparseMatrix& matrix, Index multipliers);
   bool find_holds(const SparseMatrix& matrix, Index multipliers);
@@ -70,8 +75,8 @@ class HeldChain final : public SymmetricFactors {
   void set_values(const Block& block, const Small& values);
   bool turn(const SparseMatrix& matrix, Hold& hold);
   void take_out(Hold& hold);
+  static SmallVector entries(const Eigen::Ref<const Vector>& x, const Unknowns& unknowns);
   static SmallVector turned(const Hold& hold, const Eigen::Ref<const Vector>& x);
-  struct Known;
   static Known turn_right_hand_side(const Hold& hold, Eigen::Ref<Vector> x);
   static void move_known(const Hold& hold, const Known& known, Eigen::Ref<Vector> x);
   static void find_multipliers(const Hold& hold, const Known& known, Eigen::Ref<Vector> x);
@@ -81,6 +86,7 @@ class HeldChain final : public SymmetricFactors {
   ChainLdlt chain_;
   std::vector<Chunk> chunks_;
   std::vector<Hold> holds_;
+  mutable std::vector<Known> known_;
   Pivots pivots_;
   bool refused_ = false;
 };
