@@ -14,18 +14,8 @@ constexpr int stretches = Lanes::count;
 constexpr Index most_columns = 2;  // that are solved for at once
 constexpr Index together = 16;     // groups of a stretch whose numbers are brought to their places before the next ones
 
-// Brings what the next part works on near the processor while this one is worked on.
-template <bool to_write>
-void expect(const Lanes* begin, const Lanes* end) {
-  constexpr Index per_line = 2;
-  for (; begin < end; begin += per_line) __builtin_prefetch(begin, to_write);
-}
-
-// Whether numbers come from main memory each time: caches hold no more than these.
-bool are_far(const std::vector<Lanes>& numbers) {
-  constexpr std::size_t caches = 8 << 20;  // bytes
-  return numbers.size() * sizeof(Lanes) > caches;
-}
+// Caches hold no more of a chain's numbers than these [byte].
+constexpr std::size_t caches = 8 << 20;
 
 }  // namespace
 
@@ -35,6 +25,7 @@ ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std
   for (const auto& group : groups) greatest = std::max(greatest, static_cast<Index>(group.size()));
   assert(elimination_width(greatest) > 0);
   chain_ = ChainNumbers(elimination_width(greatest), static_cast<Index>(groups.size()));
+  is_far_ = chain_.numbers.size() * sizeof(Lanes) > caches;
   find_values(A, groups);
   find_unknowns(groups);
   find_afloat(groups, afloat);
@@ -161,7 +152,6 @@ bool ChainLdlt::factorize_and_solve(const SparseMatrix& A, Columns of, Eigen::Re
 bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
   const double* const values = A.valuePtr();
   const double filling = filling_ ? values[*filling_] : 0.0;
-  const bool far = are_far(chain_.numbers);
   ChainPivots seen;
   Index there = 0, sides_there = 0;  // groups with their numbers and right-hand sides
   for (Index begin = 0; begin < chain_.length; begin += together) {
@@ -169,7 +159,7 @@ bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
     for (; there < std::min(end + 1, chain_.length); ++there) {
       values_.gather(there, values, filling, 1.0, 1, chain_.group(there));
     }
-    if (far) expect<true>(chain_.group(there), chain_.group(std::min(there + together, chain_.length)));
+    if (is_far_) expect<true>(chain_.group(there), chain_.group(std::min(there + together, chain_.length)));
     eliminate_groups(chain_, begin, end, seen);
     if (of.empty()) continue;
     gather(of, end, sides_there);
@@ -210,10 +200,9 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
 
 void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
   const Index columns = X.cols();
-  const bool far = are_far(chain_.numbers);
   for (Index end = chain_.length; end > 0;) {
     const Index begin = (end - 1) / together * together;
-    if (far) expect_solutions(std::max<Index>(0, begin - together), begin, X);
+    if (is_far_) expect_solutions(std::max<Index>(0, begin - together), begin, X);
     backward_groups(chain_, columns, begin, end, work_);
     for (Index record = begin; record < end; ++record)
       for (Index r = 0; r < columns; ++r)
@@ -226,7 +215,7 @@ void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
 void ChainLdlt::expect_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const {
   const Lanes* const entries = work_.entries.data();
   const Index count = X.cols() * chain_.width;
-  expect<false>(entries + begin * count, entries + end * count);
+  expect(entries + begin * count, entries + end * count);
   for (Index record = begin; record < end; ++record)
     for (Index r = 0; r < X.cols(); ++r) unknowns_.expect(record, X.col(r).data());
 }

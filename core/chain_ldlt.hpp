@@ -53,6 +53,7 @@ class ChainLdlt final : public SymmetricFactors {
   bool grew(const SparseMatrix& A, double least_first);
 
   ChainNumbers chain_;
+  bool is_far_ = false;           // its numbers come from main memory each time: what comes next is asked for ahead
   LanePlaces values_, unknowns_;  // of the matrix and of right-hand sides
   Index unknown_count_ = 0;
   std::optional<Index> filling_;  // value of the matrix that stands on the diagonal where no unknown does
