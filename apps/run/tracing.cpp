@@ -26,7 +26,7 @@ class PathTracing final : public Tracing {
 
   bool advance() override {
     const std::optional<Explorer::Step> step = explorer_.next();
-    if (branch_ < 0) give_back_freed_memory();
+    if (!std::exchange(has_analysed_, true)) give_back_freed_memory();
     if (!step) {
       finish();
       return false;
@@ -86,6 +86,7 @@ class PathTracing final : public Tracing {
   std::optional<Recorder> recorder_;
   int branch_ = -1;
   bool finished_ = false;
+  bool has_analysed_ = false;  // the first matrices of this process
 };
 
 // Whether the way between two states crosses a bound that stops.

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <vector>
 
+#ifdef __GLIBC__
+
 namespace {
 
 using namespace arcwall;
@@ -35,3 +37,5 @@ TEST(KeptMemory, FreedMemoryStaysUntilItIsGivenBack) {
 }
 
 }  // namespace
+
+#endif
