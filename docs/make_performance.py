@@ -187,7 +187,11 @@ GOALS = [
 
 def goals(f: Figures) -> str:
     rows = [row for row in (goal.row(f) for goal in GOALS) if row]
-    return "## Goals\n\n" + table(["what", "goal", "figure", "met"], rows)
+    return "## Goals\n\n" + table(["what", "goal", "figure", "met"], rows) + """
+
+Closed contacts that slide cost a step two things: a border, which is in the figure by unknowns, and a finer mesh, as
+stretches get elements of their own while the parts beside them keep theirs. Why they do, and what merging them earlier costs,
+is in docs/decisions.md ("Parts beside a growing stretch")."""
 
 
 # --- sections -------------------------------------------------------------------------------------------------------
