@@ -134,6 +134,7 @@ class SlidingContact final : public System {
   const SlidingContactLayout& layout(const Piece& piece) const;
   Touch touch(const SlidingContactLayout& on, std::size_t j) const;
   double normal_offset(std::size_t obstacle, Index run) const;
+  static Vec2 face(double offset, const AxisPlace& place);
   double face_gap(const Touch& touch, const AxisPlace& place) const;
   NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
   CurvatureGap curvature_gap(const State& state, std::size_t k) const;

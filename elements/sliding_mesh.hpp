@@ -44,16 +44,18 @@ class SlidingStructureMesh final : public SlidingMesh {
   SlidingStructure::Reaction reaction(const Vector& x, const Vector& s, double lambda, Index freedom) const;
 
  private:
+  static constexpr Index held = -1;  // in place of an unknown, or of a breakpoint
+
   // A place that is fixed, or moves: S = constant + Σ weight_j s_j over two breakpoints at most.
   struct Coordinate {
     double constant = 0.0;
-    std::array<Index, 2> breakpoint{-1, -1};  // −1: none
+    std::array<Index, 2> breakpoint{held, held};
     std::array<double, 2> weight{};
 
     double at(const Vector& s) const {
       double S = constant;
       for (std::size_t j = 0; j < 2; ++j)
-        if (breakpoint[j] >= 0) S += weight[j] * s[breakpoint[j]];
+        if (breakpoint[j] != held) S += weight[j] * s[breakpoint[j]];
       return S;
     }
   };
@@ -91,7 +93,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   struct Four {
     Index run, position;  // of the first
     int count;
-    std::array<Index, 2> breakpoint;                  // between which they lie; −1: an end of the run
+    std::array<Index, 2> breakpoint;                  // between which they lie; held: an end of the run
     std::array<double, Lanes::count + 1> from_first;  // of their nodes: fraction of the way to the second
     bool shifted;                                     // BlockAssembly::are_shifted()
     bool inside;                                      // there are four, and no node is an end of the run
@@ -115,7 +117,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   std::vector<std::pair<Index, Index>> breakpoints_;
   std::vector<MeshedRun> runs_;
   std::vector<Index> unknown_of_freedom_;  // of the anchors
-  std::vector<Index> freedom_of_unknown_;  // −1 for inner nodes
+  std::vector<Index> freedom_of_unknown_;  // held for inner nodes
   BlockAssembly assembly_{0, {}};
   std::vector<Four> fours_;
   std::vector<std::pair<Index, Index>> others_;  // run and position of the elements that are evaluated one by one
