@@ -73,9 +73,11 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
   const SlidingMesh& mesh = on.mesh();
   const Vector x = on.x_of(state), s = on.s_of(state);
   for (Index run = 0; run < body_.runs(); ++run) {
+    const auto concerns = [run](const Obstacle& obstacle) { return obstacle.runs[static_cast<std::size_t>(run)] != 0; };
+    if (std::none_of(obstacles_.begin(), obstacles_.end(), concerns)) continue;
     const std::vector<Placed> nodes = placed_nodes(mesh, run, x);
     for (std::size_t w = 0; w < obstacles_.size(); ++w) {
-      if (!obstacles_[w].runs[static_cast<std::size_t>(run)]) continue;
+      if (!concerns(obstacles_[w])) continue;
       std::vector<std::uint8_t> skip(static_cast<std::size_t>(mesh.nodes(run)), 0);  // element behind the node
       for (std::size_t k = 0; k < on.points().size() && !everywhere; ++k) {
         const auto [at, position] = mesh.breakpoint(static_cast<Index>(k));

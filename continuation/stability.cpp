@@ -50,7 +50,11 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
-  if (last_ != StateFingerprint(state)) remember(state, counted_on(state));
+  const StateFingerprint here(state);
+  if (last_ != here) {
+    last_negative_ = counted_on(state);
+    last_ = here;
+  }
   return last_negative_;
 }
 
