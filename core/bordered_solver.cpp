@@ -92,15 +92,15 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
     ldlt_.solve(X);
     return all_finite(X);
   }
-  Matrix Y = X.topRows(n);
-  ldlt_.solve(Y);
-  const Matrix s = slides_.solve(now.C.leftCols(n).lazyProduct(Y) - X.bottomRows(m));
+  ldlt_.solve(X.topRows(n));
+  const Matrix s = slides_.solve(now.C.leftCols(n).lazyProduct(X.topRows(n)) - X.bottomRows(m));
   X.bottomRows(m) = s;
   for (Index column = 0; column < X.cols(); ++column) {
-    X.col(column).head(n) = Y.col(column);
-    X.col(column).head(n).noalias() -= border_.lazyProduct(s.col(column));
-    const auto size = [&](const auto& x) { return x.head(n - multipliers_).cwiseAbs().maxCoeff(); };
-    cancelled = std::max(cancelled, size(Y.col(column)) / size(X.col(column)));
+    auto x = X.col(column).head(n);  // first y
+    const auto size = [&] { return x.head(n - multipliers_).cwiseAbs().maxCoeff(); };
+    const double of_y = size();
+    x.noalias() -= border_.lazyProduct(s.col(column));
+    cancelled = std::max(cancelled, of_y / size());
   }
   return all_finite(X);
 }
