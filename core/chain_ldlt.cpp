@@ -35,20 +35,17 @@ ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std
 
 // Where an entry of a group and itself or the one beside it stands in the numbers of which group of its stretch: a
 // coupling belongs to those of odd number, and to the last.
-Index ChainLdlt::place_of(Index group, Index row, Index other, Index other_row, Index& record) const {
+ChainLdlt::Spot ChainLdlt::spot_of(Index group, Index row, Index other, Index other_row) const {
   const Index length = chain_.length;
-  if (group == other) {
-    record = group % length;
-    return packed(std::max(row, other_row), std::min(row, other_row));
-  }
+  if (group == other)
+    return {.record = group % length, .place = packed(std::max(row, other_row), std::min(row, other_row))};
   if (group > other) {
     std::swap(group, other);
     std::swap(row, other_row);
   }
-  record = group % length;
-  if (record % 2 == 1 || record + 1 == length) return chain_.behind(row, other_row);
-  ++record;
-  return chain_.before(other_row, row);
+  const Index record = group % length;
+  if (record % 2 == 1 || record + 1 == length) return {.record = record, .place = chain_.behind(row, other_row)};
+  return {.record = record + 1, .place = chain_.before(other_row, row)};
 }
 
 void ChainLdlt::find_values(const SparseMatrix& A, const ChainGroups& groups) {
@@ -70,9 +67,8 @@ void ChainLdlt::find_values(const SparseMatrix& A, const ChainGroups& groups) {
     for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry, ++value) {
       if (entry.row() == first && column == first) filling_ = value;
       const auto i = static_cast<std::size_t>(entry.row()), j = static_cast<std::size_t>(column);
-      Index record = 0;
-      const Index place = place_of(group_of[i], row_of[i], group_of[j], row_of[j], record);
-      at(record, place, std::min(group_of[i], group_of[j]) / length) = value;
+      const Spot spot = spot_of(group_of[i], row_of[i], group_of[j], row_of[j]);
+      at(spot.record, spot.place, std::min(group_of[i], group_of[j]) / length) = value;
     }
   for (Index record = 0; record < length; ++record) {
     for (Index lane = 0; lane < stretches; ++lane) {
@@ -156,9 +152,8 @@ bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
   Index there = 0, sides_there = 0;  // groups with their numbers and right-hand sides
   for (Index begin = 0; begin < chain_.length; begin += together) {
     const Index end = std::min(begin + together, chain_.length);
-    for (; there < std::min(end + 1, chain_.length); ++there) {
+    for (; there < std::min(end + 1, chain_.length); ++there)
       values_.gather(there, values, filling, 1.0, 1, chain_.group(there));
-    }
     if (is_far_) expect<true>(chain_.group(there), chain_.group(std::min(there + together, chain_.length)));
     eliminate_groups(chain_, begin, end, seen);
     if (of.empty()) continue;

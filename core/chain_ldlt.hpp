@@ -43,7 +43,11 @@ class ChainLdlt final : public SymmetricFactors {
   void find_values(const SparseMatrix& A, const ChainGroups& groups);
   void find_unknowns(const ChainGroups& groups);
   void find_afloat(const ChainGroups& groups, const std::vector<bool>& unknowns);
-  Index place_of(Index group, Index row, Index other, Index other_row, Index& record) const;
+  // Of an entry: the group of a stretch to which it belongs, and where among that one's numbers.
+  struct Spot {
+    Index record, place;
+  };
+  Spot spot_of(Index group, Index row, Index other, Index other_row) const;
   using Columns = std::span<const ScaledColumn>;
   bool factorize_beside(const SparseMatrix& A, Columns of);
   void gather(Columns of, Index end, Index& there) const;
