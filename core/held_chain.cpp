@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -196,13 +195,20 @@ void HeldChain::take_out(Hold& hold) {
   }
 }
 
-// Products with these are formed entry by entry: they are small, and others would take room from the heap.
-HeldChain::SmallVector HeldChain::entries(const Eigen::Ref<const Vector>& x, const Unknowns& unknowns) {
-  return x(unknowns);
+// A group's entries of a long vector, and back. Eigen's x(unknowns) would copy the list to the heap each time, and so
+// would its products of such entries, but for lazy ones.
+HeldChain::SmallVector HeldChain::gathered(const Eigen::Ref<const Vector>& x, const Unknowns& unknowns) {
+  SmallVector entries(static_cast<Index>(unknowns.size()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) entries[static_cast<Index>(i)] = x[unknowns[i]];
+  return entries;
+}
+
+void HeldChain::scatter(const SmallVector& entries, const Unknowns& unknowns, Eigen::Ref<Vector> x) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) x[unknowns[i]] = entries[static_cast<Index>(i)];
 }
 
 HeldChain::SmallVector HeldChain::turned(const Hold& hold, const Eigen::Ref<const Vector>& x) {
-  return hold.Q.transpose().lazyProduct(entries(x, *hold.unknowns));
+  return hold.Q.transpose().lazyProduct(gathered(x, *hold.unknowns));
 }
 
 // With r the rigid and s the soft multipliers of a group, K the rows of QᵀAQ that they hold and f in turned
@@ -230,15 +236,15 @@ void HeldChain::solve(Eigen::Ref<Matrix> X) const {
       for (Index j = 0; j < holds_[h].rigid; ++j) x[holds_[h].unknown(j)] = known(column, h).w[j];
     for (std::size_t h = 0; h < holds_.size(); ++h) find_multipliers(holds_[h], known(column, h), x);
     for (const Hold& hold : holds_) {
-      const SmallVector u = hold.Q.lazyProduct(entries(x, *hold.unknowns));
-      x(*hold.unknowns) = u;
+      const SmallVector u = hold.Q.lazyProduct(gathered(x, *hold.unknowns));
+      scatter(u, *hold.unknowns, x);
     }
   }
 }
 
 HeldChain::Known HeldChain::turn_right_hand_side(const Hold& hold, Eigen::Ref<Vector> x) {
   const SmallVector f = turned(hold, x);
-  x(*hold.unknowns) = f;
+  scatter(f, *hold.unknowns, x);
   Known known{.w = {}, .f = f.head(hold.c.size()), .g = SmallVector(hold.c.size())};
   for (Index j = 0; j < hold.c.size(); ++j) known.g[j] = x[hold.multiplier(j)];
   known.w = known.g.head(hold.rigid);
@@ -249,8 +255,10 @@ HeldChain::Known HeldChain::turn_right_hand_side(const Hold& hold, Eigen::Ref<Ve
 // To the right-hand side of (1).
 void HeldChain::move_known(const Hold& hold, const Known& known, Eigen::Ref<Vector> x) {
   const Index rigid = hold.rigid, soft = hold.c.size() - rigid;
-  for (std::size_t b = 0; b < hold.blocks.size(); ++b)
-    x(*hold.blocks[b].columns) -= hold.rows[b].topRows(rigid).transpose().lazyProduct(known.w);
+  for (std::size_t b = 0; b < hold.blocks.size(); ++b) {
+    const SmallVector there = gathered(x, *hold.blocks[b].columns);
+    scatter(there - hold.rows[b].topRows(rigid).transpose().lazyProduct(known.w), *hold.blocks[b].columns, x);
+  }
   const auto R = hold.R.rightCols(soft);
   const SmallVector pull =
       (R.topRows(rigid).transpose().lazyProduct(known.w) - known.g.tail(soft)).cwiseQuotient(hold.c.tail(soft));
@@ -262,7 +270,7 @@ void HeldChain::move_known(const Hold& hold, const Known& known, Eigen::Ref<Vect
 void HeldChain::find_multipliers(const Hold& hold, const Known& known, Eigen::Ref<Vector> x) {
   SmallVector left = known.f;
   for (std::size_t b = 0; b < hold.blocks.size(); ++b)
-    left -= hold.rows[b].lazyProduct(entries(x, *hold.blocks[b].columns));
+    left -= hold.rows[b].lazyProduct(gathered(x, *hold.blocks[b].columns));
   for (Index j = hold.c.size(); j-- > 0;) {
     double p = left[j] / hold.R(j, j);
     if (!hold.is_stiff[static_cast<std::size_t>(j)]) {
@@ -281,7 +289,7 @@ double HeldChain::weighted(const Eigen::Ref<const Vector>& v) const {
   double sum = 0.0;
   for (const Hold& hold : holds_) {
     const SmallVector here = turned(hold, w);
-    w(*hold.unknowns) = here;
+    scatter(here, *hold.unknowns, w);
     for (Index j = 0; j < hold.c.size(); ++j) {
       const double p = std::abs(v[hold.multiplier(j)]);
       for (Index i = 0; i <= j; ++i) sum += 2.0 * p * std::abs(hold.R(i, j) * here[i]);
@@ -290,7 +298,7 @@ double HeldChain::weighted(const Eigen::Ref<const Vector>& v) const {
   }
   for (const Hold& hold : holds_)
     for (std::size_t b = 0; b < hold.blocks.size(); ++b) {
-      const SmallVector there = w(*hold.blocks[b].columns);
+      const SmallVector there = gathered(w, *hold.blocks[b].columns);
       for (Index i = 0; i < hold.rigid; ++i)
         for (Index j = 0; j < there.size(); ++j)
           sum += 2.0 * std::abs(w[hold.unknown(i)] * hold.rows[b](i, j) * there[j]);

@@ -62,7 +62,7 @@ class HeldChain final : public SymmetricFactors {
     }
   };
 
-  // Of a right-hand side, in turned coordinates: what a group's multipliers hold.
+  // Of (1) and (2), in solve(): what a right-hand side gives a group.
   struct Known {
     SmallVector w, f, g;  // w of the rigid ones
   };
@@ -75,7 +75,8 @@ class HeldChain final : public SymmetricFactors {
   void set_values(const Block& block, const Small& values);
   bool turn(const SparseMatrix& matrix, Hold& hold);
   void take_out(Hold& hold);
-  static SmallVector entries(const Eigen::Ref<const Vector>& x, const Unknowns& unknowns);
+  static SmallVector gathered(const Eigen::Ref<const Vector>& x, const Unknowns& unknowns);
+  static void scatter(const SmallVector& entries, const Unknowns& unknowns, Eigen::Ref<Vector> x);
   static SmallVector turned(const Hold& hold, const Eigen::Ref<const Vector>& x);
   static Known turn_right_hand_side(const Hold& hold, Eigen::Ref<Vector> x);
   static void move_known(const Hold& hold, const Known& known, Eigen::Ref<Vector> x);
@@ -86,7 +87,7 @@ class HeldChain final : public SymmetricFactors {
   ChainLdlt chain_;
   std::vector<Chunk> chunks_;
   std::vector<Hold> holds_;
-  mutable std::vector<Known> known_;
+  mutable std::vector<Known> known_;  // room for solve()
   Pivots pivots_;
   bool refused_ = false;
 };
