@@ -24,10 +24,10 @@ struct WholeChain {
   // Numbers of two groups that a solution comes to soon: processors do not foresee its order, and main memory is far.
   static constexpr Index ahead = 24;
   template <Index distance>
-  ARCWALL_IN_PLACE static void expect_from(const Going& j, const ChainNumbers& chain) {
+  ARCWALL_IN_PLACE static void ask_from(const Going& j, const ChainNumbers& chain) {
     const Index group = std::clamp<Index>(j.group + distance, 0, chain.length - 1);
     const Lanes* const from = chain.numbers.data() + group * InLanes::per_group;
-    expect(from, from + InLanes::per_group * 2);
+    ask_ahead(from, from + InLanes::per_group * 2);
   }
 
   ARCWALL_IN_PLACE static void eliminate(ChainNumbers& chain, Index begin, Index end, ChainPivots& pivots) {
@@ -82,7 +82,7 @@ struct WholeChain {
     Lanes *const x = work.entries.data(), *const behind = x + chain.length * B * R;
     if (begin == 0) std::fill_n(behind, B * R, Lanes(0.0));
     for_each_going(begin, end, chain.length, [&] [[gnu::always_inline]] (const Going& j) {
-      if (j.distance == 1) expect_from<ahead>(j, chain);
+      if (j.distance == 1) ask_from<ahead>(j, chain);
       InLanes::template forward<R>(j, numbers, x);
     });
     if (end == chain.length) solve_last<R>(chain, x, behind, work.last.data());
@@ -91,7 +91,7 @@ struct WholeChain {
   template <Index R>
   ARCWALL_IN_PLACE static void backward(const ChainNumbers& chain, Index begin, Index end, ChainWork& work) {
     for_each_gone(begin, end, chain.length, [&] [[gnu::always_inline]] (const Going& j) {
-      if (j.distance == 1) expect_from<-ahead>(j, chain);
+      if (j.distance == 1) ask_from<-ahead>(j, chain);
       InLanes::template backward<R>(j, chain.numbers.data(), work.entries.data());
     });
   }
@@ -120,7 +120,7 @@ struct WholeChain {
     for (Index k = 0; k < B; ++k) end[k] = Lanes(v[k][1], v[k][2], v[k][3], 0.0);
     Lanes sum = 0.0;
     for_each_going(0, chain.length, chain.length, [&] [[gnu::always_inline]] (const Going& j) {
-      if (j.distance == 1) expect_from<ahead>(j, chain);
+      if (j.distance == 1) ask_from<ahead>(j, chain);
       std::array<Lanes, B> common;
       common.fill(0.0);
       const unsigned which = chain.afloat.empty() ? 0U : chain.went_afloat[static_cast<std::size_t>(j.group)];

@@ -154,7 +154,7 @@ bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
     const Index end = std::min(begin + together, chain_.length);
     for (; there < std::min(end + 1, chain_.length); ++there)
       values_.gather(there, values, filling, 1.0, 1, chain_.group(there));
-    if (is_far_) expect<true>(chain_.group(there), chain_.group(std::min(there + together, chain_.length)));
+    if (is_far_) ask_ahead<true>(chain_.group(there), chain_.group(std::min(there + together, chain_.length)));
     eliminate_groups(chain_, begin, end, seen);
     if (of.empty()) continue;
     gather(of, end, sides_there);
@@ -197,7 +197,7 @@ void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
   const Index columns = X.cols();
   for (Index end = chain_.length; end > 0;) {
     const Index begin = (end - 1) / together * together;
-    if (is_far_) expect_solutions(std::max<Index>(0, begin - together), begin, X);
+    if (is_far_) ask_for_solutions(std::max<Index>(0, begin - together), begin, X);
     backward_groups(chain_, columns, begin, end, work_);
     for (Index record = begin; record < end; ++record)
       for (Index r = 0; r < columns; ++r)
@@ -207,12 +207,12 @@ void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
 }
 
 // In lanes, and where they go.
-void ChainLdlt::expect_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const {
+void ChainLdlt::ask_for_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const {
   const Lanes* const entries = work_.entries.data();
   const Index count = X.cols() * chain_.width;
-  expect(entries + begin * count, entries + end * count);
+  ask_ahead(entries + begin * count, entries + end * count);
   for (Index record = begin; record < end; ++record)
-    for (Index r = 0; r < X.cols(); ++r) unknowns_.expect(record, X.col(r).data());
+    for (Index r = 0; r < X.cols(); ++r) unknowns_.ask_ahead(record, X.col(r).data());
 }
 
 // False for one that is zero, or so near that it is what rounding has left of rounding errors, or not finite. Where no

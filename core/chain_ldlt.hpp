@@ -52,7 +52,7 @@ class ChainLdlt final : public SymmetricFactors {
   bool factorize_beside(const SparseMatrix& A, Columns of);
   void gather(Columns of, Index end, Index& there) const;
   void solve_backward(Eigen::Ref<Matrix> X) const;
-  void expect_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const;
+  void ask_for_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const;
   bool read(const ChainPivots& seen, double filling);
   bool grew(const SparseMatrix& A, double least_first);
 

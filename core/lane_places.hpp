@@ -62,8 +62,8 @@ class LanePlaces {
     }
   }
 
-  /// Brings the places in an array that a record begins at near the processor.
-  void expect(Index record, const double* array) const {
+  /// Asks memory for the places in an array that a record begins at.
+  void ask_ahead(Index record, const double* array) const {
     for (const std::int32_t first : records_[static_cast<std::size_t>(record)].first) __builtin_prefetch(array + first);
   }
 

@@ -54,11 +54,11 @@ ARCWALL_IN_PLACE Lanes next_of(const Lanes& these, const Lanes& others) {
   return Lanes(__builtin_shufflevector(these.four, others.four, 1, 2, 3, 4));
 }
 
-/// Brings numbers near the processor, which goes on meanwhile: those that it does not foresee, as main memory is far.
+/// Asks memory for numbers ahead, a cache line of 64 bytes at a time; the processor does not wait for them.
 template <bool to_write = false>
-ARCWALL_IN_PLACE void expect(const Lanes* begin, const Lanes* end) {
+ARCWALL_IN_PLACE void ask_ahead(const Lanes* begin, const Lanes* end) {
   constexpr Index per_line = 2;
-#pragma GCC unroll 8
+#pragma GCC unroll 8  // a loop costs 1 % of an iteration with 2000 elements
   for (; begin < end; begin += per_line) __builtin_prefetch(begin, to_write);
 }
 
