@@ -187,11 +187,14 @@ GOALS = [
 
 def goals(f: Figures) -> str:
     rows = [row for row in (goal.row(f) for goal in GOALS) if row]
-    return "## Goals\n\n" + table(["what", "goal", "figure", "met"], rows) + """
+    text = "## Goals\n\n" + table(["what", "goal", "figure", "met"], rows)
+    if closed_against_open("channel", 1280)(f):
+        text += """
 
-Closed contacts that slide cost a step two things: a border, which is in the figure by unknowns, and a finer mesh, as
-stretches get elements of their own while the parts beside them keep theirs. Why they do, and what merging them earlier costs,
-is in docs/decisions.md ("Parts beside a growing stretch")."""
+Closed contacts that slide make a matrix dearer in two ways: by a border, which the figures by unknowns show, and by a finer mesh,
+as stretches get elements of their own while the parts beside them keep theirs down to a quarter of the size asked for. What
+merging these earlier would cost is in docs/decisions.md ("Parts beside a growing stretch")."""
+    return text
 
 
 # --- sections -------------------------------------------------------------------------------------------------------
