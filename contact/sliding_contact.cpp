@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "contact/sliding_layout.hpp"
 #include "core/assembly.hpp"
 
 namespace arcwall {

@@ -1,4 +1,4 @@
-// Gaps, tilts and curvatures between the body and the walls.
+// Gaps, tilts and curvatures between the body and the walls, and what would hold the one on the other.
 #include <cmath>
 
 #include "contact/sliding_contact.hpp"

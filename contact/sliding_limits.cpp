@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "contact/sliding_contact.hpp"
-#include "contact/sliding_layout.hpp"
 
 namespace arcwall {
 

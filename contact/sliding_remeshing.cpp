@@ -1,4 +1,4 @@
-// The same shape on another layout.
+// Layouts, and the same shape on another one.
 #include <algorithm>
 #include <cmath>
 

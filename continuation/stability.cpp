@@ -51,15 +51,12 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
   const StateFingerprint here(state);
-  if (last_ != here) {
-    last_negative_ = counted_on(state);
-    last_ = here;
-  }
+  if (last_ != here) remember(here, counted_on(state));
   return last_negative_;
 }
 
-void StabilityCounter::remember(const State& state, std::optional<Index> negative) {
-  last_ = StateFingerprint(state);
+void StabilityCounter::remember(const StateFingerprint& state, std::optional<Index> negative) {
+  last_ = state;
   last_negative_ = negative;
 }
 

@@ -38,7 +38,7 @@ class StabilityCounter {
   std::optional<Index> negative_on(const State& state);
 
   /// What was counted elsewhere: negative_on() need not count again there.
-  void remember(const State& state, std::optional<Index> negative);
+  void remember(const State& state, std::optional<Index> negative) { remember(StateFingerprint(state), negative); }
 
   /// From where the eigenpairs nearest zero are followed, instead of the state counted last. Not copied before its
   /// own equations need it: `nearest` must outlive the counts to come.
@@ -46,6 +46,7 @@ class StabilityCounter {
 
  private:
   std::optional<Index> counted_on(const State& state);
+  void remember(const StateFingerprint& state, std::optional<Index> negative);
 
   const System& system_;
   double force_tolerance_;

@@ -86,7 +86,7 @@ class PathTracing final : public Tracing {
   std::optional<Recorder> recorder_;
   int branch_ = -1;
   bool finished_ = false;
-  bool has_analysed_ = false;  // the first matrices of this process
+  bool has_analysed_ = false;  // since this was made
 };
 
 // Whether the way between two states crosses a bound that stops.
