@@ -160,17 +160,16 @@ class Suite:
         return Process("time_split", case, size, command, **more)
 
     def lee(self) -> Iterator[Process]:
-        for n in self.wanted([20], [200, 2000], [20000, 100000]):
-            few = 2 if n > 2000 else None
+        for n in self.wanted([20], [100, 200, 2000], [20000, 100000]):
+            yield self.split("lee", n)
             if n > 20000:  # where the yardstick's rounded matrix is no longer the frame's
-                yield self.split("lee", n, rounds=few)
                 continue
+            few = 2 if n > 2000 else None
             values = [f"member.column.elements={n // 2}", f"member.short.elements={n // 10}",
                       f"member.long.elements={n - n // 2 - n // 10}"]
             yardstick = [self.program("chain_yardstick"), str(n)]
             yield Process("chain_yardstick", "lee", n, yardstick, rounds=few)
             yield Process("chain_yardstick again", "lee", n, [*yardstick, "5" if n <= 5000 else "1"], rounds=few)
-            yield self.split("lee", n, rounds=few)
             yield self.traced("lee", n, "examples/lee.toml", [*values, "path.watch=[]"], rounds=few)
             if n == 20:
                 yield self.traced("lee without pictures", n, "examples/lee.toml", [*values, "path.watch=[]"],
