@@ -111,8 +111,9 @@ void line_solve(benchmark::State& timing) {
   BorderedSolver solver;
   if (solver.factorize(now, 0) != FactorStatus::ok) timing.SkipWithError("K is singular");
   const Row border{.dx = Vector::Zero(at.x.size()), .dlambda = 1.0};
+  const Vector weights = frame.structure->weights({});
   EquilibriumLine line;
-  for (auto _ : timing) benchmark::DoNotOptimize(solver.line(border, line));
+  for (auto _ : timing) benchmark::DoNotOptimize(solver.line(border, weights, line));
   per_element(timing, 1.0, elements);
 }
 

@@ -14,7 +14,9 @@
 #define ARCWALL_SOLVE                                                                           \
   "_ZNK7arcwall4Ldlt5solveEN5Eigen3RefINS1_6MatrixIdLin1ELin1ELi0ELin1ELin1EEELi0ENS1_11OuterS" \
   "trideILin1EEEEE"
-#define ARCWALL_LINE "_ZN7arcwall14BorderedSolver4lineERKNS_3RowERNS_15EquilibriumLineE"
+#define ARCWALL_LINE                                                                        \
+  "_ZN7arcwall14BorderedSolver4lineERKNS_3RowERKN5Eigen6MatrixIdLin1ELi1ELi0ELin1ELi1EEERN" \
+  "S_15EquilibriumLineE"
 
 namespace arcwall::bench {
 
@@ -31,13 +33,15 @@ FactorStatus real_factorize_and_solve(Ldlt* self, const SparseMatrix& matrix, st
                                       Eigen::Ref<Matrix> X) __asm__("__real_" ARCWALL_FACTORIZE_AND_SOLVE);
 void real_solve(const Ldlt* self, Eigen::Ref<Matrix> X) __asm__("__real_" ARCWALL_SOLVE);
 
-bool real_line(BorderedSolver* self, const Row& border, EquilibriumLine& out) __asm__("__real_" ARCWALL_LINE);
+std::optional<LineProducts> real_line(BorderedSolver* self, const Row& border, const Vector& weights,
+                                      EquilibriumLine& out) __asm__("__real_" ARCWALL_LINE);
 
 FactorStatus timed_factorize(Ldlt* self, const SparseMatrix& matrix) __asm__("__wrap_" ARCWALL_FACTORIZE);
 FactorStatus timed_factorize_and_solve(Ldlt* self, const SparseMatrix& matrix, std::span<const ScaledColumn> of,
                                        Eigen::Ref<Matrix> X) __asm__("__wrap_" ARCWALL_FACTORIZE_AND_SOLVE);
 void timed_solve(const Ldlt* self, Eigen::Ref<Matrix> X) __asm__("__wrap_" ARCWALL_SOLVE);
-bool counted_line(BorderedSolver* self, const Row& border, EquilibriumLine& out) __asm__("__wrap_" ARCWALL_LINE);
+std::optional<LineProducts> counted_line(BorderedSolver* self, const Row& border, const Vector& weights,
+                                         EquilibriumLine& out) __asm__("__wrap_" ARCWALL_LINE);
 
 FactorStatus timed_factorize(Ldlt* self, const SparseMatrix& matrix) {
   const ScopedTimer timer(times.factorization);
@@ -62,9 +66,10 @@ void timed_solve(const Ldlt* self, Eigen::Ref<Matrix> X) {
 }
 
 // A line is found once an iteration.
-bool counted_line(BorderedSolver* self, const Row& border, EquilibriumLine& out) {
+std::optional<LineProducts> counted_line(BorderedSolver* self, const Row& border, const Vector& weights,
+                                         EquilibriumLine& out) {
   ++times.iterations;
-  return real_line(self, border, out);
+  return real_line(self, border, weights, out);
 }
 
 }  // namespace arcwall::bench

@@ -115,16 +115,10 @@ std::optional<Vector> Corrector::right_null(const Vector& left) {
 
 // The line (1), its tangent of unit length and its particular solution normal to it.
 bool Corrector::find_line(const Metric& metric, const Row& border) {
-  if (!here_.solver().line(border, line_)) return false;
-  const Index n = line_.dx.rows();
-  const double *p = line_.dx.col(0).data(), *t = line_.dx.col(1).data(), *w = metric.weights().data();
-  auto [tt, pt] = sums_over<2>(n, [&](const auto& at, auto& sums) {
-    const auto weighted = at(w) * at(t);
-    sums[0] += weighted * at(t);
-    sums[1] += weighted * at(p);
-  });
-  tt += metric.inner_lambda(line_.dlambda[1], line_.dlambda[1]);
-  pt += metric.inner_lambda(line_.dlambda[1], line_.dlambda[0]);
+  const std::optional<LineProducts> found = here_.solver().line(border, metric.weights(), line_);
+  if (!found) return false;
+  const double tt = found->tt + metric.inner_lambda(line_.dlambda[1], line_.dlambda[1]);
+  const double pt = found->pt + metric.inner_lambda(line_.dlambda[1], line_.dlambda[0]);
   line_.scale = 1.0 / std::sqrt(tt);
   line_.off = pt / tt;
   return line_.scale > 0.0 && std::isfinite(line_.off);

@@ -1,44 +1,45 @@
 #include "core/bordered_residual.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcwall {
 
+// r and the sums of the terms' magnitudes, in one pass over K.
 BorderedResidual::BorderedResidual(const Linearization& equations, double sign, const Vector& f,
-                                   const Eigen::Ref<const Vector>& dx, double dlambda)
-    : equations_(equations), f_(f), dx_(dx), dlambda_(dlambda) {
-  const Index n = equations_.K.cols(), m = equations_.B.cols();
-  r_ = sign * f_;
-  if (dlambda_ != 0.0) r_ -= equations_.F_lambda * dlambda_;
-  r_.head(n).noalias() -= equations_.K.selfadjointView<Eigen::Lower>() * dx_.head(n);
-  if (m == 0) return;
-  r_.head(n).noalias() -= equations_.B * dx_.tail(m);
-  r_.tail(m).noalias() -= equations_.C * dx_;
-}
-
-// The terms of the diagonal alone are some of them, and often enough.
-bool BorderedResidual::is_small() const {
+                                   const Eigen::Ref<const Vector>& dx, double dlambda) {
   constexpr double good = 1e-10;  // of f
-  const Index n = equations_.K.cols();
-  const double size = r_.norm();
-  if (size <= good * f_.norm()) return true;
-  if (size <= rounding * equations_.K.diagonal().cwiseProduct(dx_.head(n)).norm()) return true;
-  return size <= rounding * terms().norm();
-}
-
-Vector BorderedResidual::terms() const {
-  const SparseMatrix& K = equations_.K;
-  const Index n = K.cols(), m = equations_.B.cols();
-  Vector terms = f_.cwiseAbs() + equations_.F_lambda.cwiseAbs() * std::abs(dlambda_);
-  for (Index column = 0; column < n; ++column)
+  const SparseMatrix& K = equations.K;
+  const Index n = K.cols(), m = equations.B.cols();
+  r_ = sign * f;
+  Vector terms = f.cwiseAbs();
+  if (dlambda != 0.0) {
+    r_ -= equations.F_lambda * dlambda;
+    terms += equations.F_lambda.cwiseAbs() * std::abs(dlambda);
+  }
+  for (Index column = 0; column < n; ++column) {
+    const double x = dx[column];
+    double sum = 0.0, magnitudes = 0.0;
     for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
-      terms[entry.row()] += std::abs(entry.value() * dx_[column]);
-      if (entry.row() != column) terms[column] += std::abs(entry.value() * dx_[entry.row()]);
+      const double term = entry.value() * dx[entry.row()];
+      sum += term;
+      magnitudes += std::abs(term);
+      if (entry.row() == column) continue;
+      const double mirrored = entry.value() * x;
+      r_[entry.row()] -= mirrored;
+      terms[entry.row()] += std::abs(mirrored);
     }
-  if (m == 0) return terms;
-  terms.head(n) += equations_.B.cwiseAbs() * dx_.tail(m).cwiseAbs();
-  terms.tail(m) += equations_.C.cwiseAbs() * dx_.cwiseAbs();
-  return terms;
+    r_[column] -= sum;
+    terms[column] += magnitudes;
+  }
+  if (m > 0) {
+    r_.head(n).noalias() -= equations.B * dx.tail(m);
+    r_.tail(m).noalias() -= equations.C * dx;
+    terms.head(n) += equations.B.cwiseAbs() * dx.tail(m).cwiseAbs();
+    terms.tail(m) += equations.C.cwiseAbs() * dx.cwiseAbs();
+  }
+  size_ = r_.norm();
+  small_ = std::max(good * f.norm(), rounding * terms.norm());
 }
 
 }  // namespace arcwall

@@ -14,22 +14,18 @@ class BorderedResidual {
  public:
   static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-  /// `sign`: of f. `equations`, `f` and `dx` must outlive this.
+  /// `sign`: of f.
   BorderedResidual(const Linearization& equations, double sign, const Vector& f, const Eigen::Ref<const Vector>& dx,
                    double dlambda);
 
   const Vector& r() const& { return r_; }
   Vector r() && { return std::move(r_); }
-  bool is_small() const;
+  double size() const { return size_; }  ///< ‖r‖
+  bool is_small() const { return size_ <= small_; }
 
  private:
-  Vector terms() const;
-
-  const Linearization& equations_;
-  const Vector& f_;
-  Eigen::Ref<const Vector> dx_;
-  double dlambda_;
   Vector r_;
+  double size_, small_;  // small: what round-off leaves
 };
 
 }  // namespace arcwall

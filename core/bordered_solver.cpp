@@ -20,6 +20,17 @@ constexpr int max_refinements = 3;
 // Part of F that a Newton correction may leave where round-off leaves no better one: the next correction takes it.
 constexpr double left_to_newton = 0.1;
 
+LineProducts products_of(const Vector& weights, const Matrix& X) {
+  const double *w = weights.data(), *p = X.col(0).data(), *t = X.col(1).data();
+  const auto [pp, pt, tt] = sums_over<3>(X.rows(), [&](const auto& at, auto& sums) {
+    const auto of_p = at(w) * at(p), of_t = at(w) * at(t);
+    sums[0] += of_p * at(p);
+    sums[1] += of_t * at(p);
+    sums[2] += of_t * at(t);
+  });
+  return {.pp = pp, .pt = pt, .tt = tt};
+}
+
 }  // namespace
 
 Matrix product(const Linearization& equations, const Matrix& X) {
@@ -113,9 +124,10 @@ bool BorderedSolver::is_suspicious(double cancelled) const {
 }
 
 // Where J is nearly singular, J⁻¹ F and J⁻¹ F_λ are large multiples of one vector, and the digits that they differ in
-// are lost. What is not finite shows in the sums.
-bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X) const {
-  if (ldlt_.pivot_ratio() >= suspicious_pivot) return all_finite(X);
+// are lost. What is not finite shows in the products, without weight, too.
+bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X, const LineProducts& found) const {
+  if (!std::isfinite(found.pp) || !std::isfinite(found.tt)) return false;
+  if (ldlt_.pivot_ratio() >= suspicious_pivot) return true;
   const double *b = border.dx.data(), *p = X.col(0).data(), *t = X.col(1).data();
   const auto [bp, bt, pp, pt, tt] = sums_over<5>(X.rows(), [&](const auto& at, auto& sums) {
     sums[0] += at(b) * at(p);
@@ -124,7 +136,6 @@ bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X) const {
     sums[3] += at(p) * at(t);
     sums[4] += at(t) * at(t);
   });
-  if (!std::isfinite(pp) || !std::isfinite(tt)) return false;
   const double off = bp / (bt + border.dlambda), left = pp - off * (2.0 * pt - off * tt);
   return pp < suspicious_cancellation * suspicious_cancellation * left;
 }
@@ -143,20 +154,21 @@ bool BorderedSolver::solve_line(EquilibriumLine& line, double& cancelled) {
   return regular_ && solve_inner(line.dx, cancelled);
 }
 
-bool BorderedSolver::line(const Row& border, EquilibriumLine& out) {
+std::optional<LineProducts> BorderedSolver::line(const Row& border, const Vector& weights, EquilibriumLine& out) {
   const Linearization& now = *equations_;
   Matrix& X = out.dx;
   double cancelled = 0.0;
   if (solve_line(out, cancelled)) {
-    const bool good = !is_suspicious(cancelled) && keeps_digits(border, X);
-    if (good || make_line_good(border, out)) return true;
+    const LineProducts found = products_of(weights, X);
+    if (!is_suspicious(cancelled) && keeps_digits(border, X, found)) return found;
+    if (make_line_good(border, out)) return products_of(weights, X);
   }
-  if (!factorize_whole(border, X)) return false;
+  if (!factorize_whole(border, X)) return std::nullopt;
   const auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
-  if (!particular || !tangent) return false;
+  if (!particular || !tangent) return std::nullopt;
   X << particular->dx, tangent->dx;
   out.dlambda = {particular->dlambda, tangent->dlambda};
-  return true;
+  return products_of(weights, X);
 }
 
 // The particular solution becomes the one that the border asks for, which is no larger than need be. What either lacks
@@ -175,14 +187,14 @@ bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
     Vector tangent_lacks;
     if (!tangent_is_good) {
       BorderedResidual of_tangent(now, -1.0, now.F_lambda, tangent, 0.0);
-      if (!of_tangent.r().allFinite()) return false;
+      if (!std::isfinite(of_tangent.size())) return false;
       tangent_is_good = of_tangent.is_small();
       if (!tangent_is_good) tangent_lacks = std::move(of_tangent).r();
     }
     const BorderedResidual of_particular(now, -1.0, now.F, particular, line.dlambda[0]);
-    if (!of_particular.r().allFinite()) return false;
+    if (!std::isfinite(of_particular.size())) return false;
     if (tangent_is_good && of_particular.is_small()) return true;
-    const double left = of_particular.r().norm();
+    const double left = of_particular.size();
     if (tangent_is_good && left > 0.1 * before && left <= left_to_newton * now.F.norm()) return true;
     if (round == max_refinements) return false;
     before = left;
@@ -215,7 +227,7 @@ bool BorderedSolver::make_tangent_good(Matrix& columns) {
   const Linearization& now = *equations_;
   for (int round = 0;; ++round) {
     const BorderedResidual tangent(now, -1.0, now.F_lambda, columns.col(0), 0.0);
-    if (!tangent.r().allFinite()) return false;
+    if (!std::isfinite(tangent.size())) return false;
     if (tangent.is_small()) return true;
     if (round == max_refinements) return false;
     Matrix correction = tangent.r();

@@ -35,9 +35,10 @@ class BorderedSolver {
   bool may_use_soft() const { return ldlt_.may_use_soft(); }
 
   /// `border` closes the system where K alone is singular; the line itself does not depend on it. Its columns are the
-  /// particular solution and the tangent, which is not normalised.
-  /// False if the bordered matrix is singular too.
-  bool line(const Row& border, EquilibriumLine& out);
+  /// particular solution and the tangent, which is not normalised. `weights`: those of System; what they make of the
+  /// columns is found by the way.
+  /// Empty if the bordered matrix is singular too.
+  std::optional<LineProducts> line(const Row& border, const Vector& weights, EquilibriumLine& out);
 
   /// The tangent of the line alone, not normalised. Column 0 of `columns` is a workspace, the others become K⁻¹ times
   /// themselves by the way, unchecked; none of them is left where K is singular. False if the bordered matrix is
@@ -72,7 +73,7 @@ class BorderedSolver {
   bool solve_inner(Matrix& X, double& cancelled) const;
   bool solve_line(EquilibriumLine& line, double& cancelled);
   bool is_suspicious(double cancelled) const;
-  bool keeps_digits(const Row& border, const Matrix& X) const;
+  bool keeps_digits(const Row& border, const Matrix& X, const LineProducts& found) const;
   bool make_line_good(const Row& border, EquilibriumLine& line);
   bool make_tangent_good(Matrix& columns);
   bool factorize_whole(const Row& border, const Matrix& columns);

@@ -21,4 +21,9 @@ struct EquilibriumLine {
   Direction tangent() const { return {.dx = scale * dx.col(1), .dlambda = tangent_dlambda()}; }
 };
 
+/// Σ w_i a_i b_i of the columns of a line.
+struct LineProducts {
+  double pp, pt, tt;  ///< p: column 0, t: column 1
+};
+
 }  // namespace arcwall

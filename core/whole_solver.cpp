@@ -116,7 +116,7 @@ std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, doubl
     const double gap = g - apply(border_, solution);
     const double terms =
         std::abs(g) + border_.dx.cwiseAbs().dot(solution.dx.cwiseAbs()) + std::abs(border_.dlambda * solution.dlambda);
-    if (!left.r().allFinite() || !std::isfinite(gap)) return std::nullopt;
+    if (!std::isfinite(left.size()) || !std::isfinite(gap)) return std::nullopt;
     if (left.is_small() && std::abs(gap) <= BorderedResidual::rounding * terms) return solution;
     if (round == most_refinements) return std::nullopt;
     const Direction correction = solve_with_spring(left.r(), gap);

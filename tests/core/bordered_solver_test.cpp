@@ -57,7 +57,7 @@ TEST(BorderedSolver, SolvesWhetherKIsRegularNearlySingularOrSingular) {
     ASSERT_NE(solver.factorize(now, 0), FactorStatus::not_finite);
 
     EquilibriumLine line;
-    ASSERT_TRUE(solver.line(border, line));
+    ASSERT_TRUE(solver.line(border, Vector::Ones(n), line));
     expect_line(now, line);
 
     const Vector f = numbers.vector(n);
@@ -82,7 +82,7 @@ TEST(BorderedSolver, AnExactlySingularKStillHasALine) {
   EXPECT_FALSE(solver.inner_is_regular());
   EXPECT_FALSE(solver.inner().inertia().has_value());
   EquilibriumLine line;
-  ASSERT_TRUE(solver.line({.dx = Vector::Unit(2, 1), .dlambda = 0.0}, line));
+  ASSERT_TRUE(solver.line({.dx = Vector::Unit(2, 1), .dlambda = 0.0}, Vector::Ones(2), line));
   EXPECT_NEAR(line.tangent().dlambda, 0.0, 1e-15);
   EXPECT_NEAR(line.tangent().dx[0], 0.0, 1e-15);
   EXPECT_NEAR(std::abs(line.tangent().dx[1]), 1.0, 1e-15);
@@ -97,7 +97,7 @@ TEST(BorderedSolver, SaysWhereTheBorderedMatrixIsSingularToo) {
   EXPECT_EQ(solver.factorize(now, 0), FactorStatus::singular);
   const Row border{.dx = Vector::Zero(2), .dlambda = 1.0};
   EquilibriumLine line;
-  EXPECT_FALSE(solver.line(border, line));
+  EXPECT_FALSE(solver.line(border, Vector::Ones(2), line));
   EXPECT_FALSE(solver.solve(border, Vector::Ones(2), 1.0).has_value());
 }
 
@@ -116,7 +116,7 @@ TEST(BorderedSolver, WorksOnSaddlePoints) {
   ASSERT_TRUE(solver.inner().inertia().has_value());
   EXPECT_EQ(solver.inner().inertia()->negative, m);
   EquilibriumLine line;
-  ASSERT_TRUE(solver.line({.dx = Vector::Zero(n + m), .dlambda = 1.0}, line));
+  ASSERT_TRUE(solver.line({.dx = Vector::Zero(n + m), .dlambda = 1.0}, Vector::Ones(n + m), line));
   expect_line(now, line);
   Matrix X = numbers.matrix(n + m, 2);
   const Matrix right = X;
