@@ -12,7 +12,7 @@ namespace {
 
 constexpr int stretches = Lanes::count;
 constexpr Index most_columns = 2;  // that are solved for at once
-constexpr Index together = 16;     // groups of a stretch whose numbers are brought to their places before the next ones
+constexpr Index ahead = 24;        // groups behind which memory is asked for what comes next
 
 // Caches hold no more of a chain's numbers than these [byte].
 constexpr std::size_t caches = 8 << 20;
@@ -26,6 +26,7 @@ ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std
   assert(elimination_width(greatest) > 0);
   chain_ = ChainNumbers(elimination_width(greatest), static_cast<Index>(groups.size()));
   is_far_ = chain_.numbers.size() * sizeof(Lanes) > caches;
+  together_ = is_far_ ? 2 : 16;
   find_values(A, groups);
   find_unknowns(groups);
   find_afloat(groups, afloat);
@@ -150,11 +151,11 @@ bool ChainLdlt::factorize_beside(const SparseMatrix& A, Columns of) {
   const double filling = filling_ ? values[*filling_] : 0.0;
   ChainPivots seen;
   Index there = 0, sides_there = 0;  // groups with their numbers and right-hand sides
-  for (Index begin = 0; begin < chain_.length; begin += together) {
-    const Index end = std::min(begin + together, chain_.length);
+  for (Index begin = 0; begin < chain_.length; begin += together_) {
+    const Index end = std::min(begin + together_, chain_.length);
+    if (is_far_) ask_for_entries(begin + ahead, values, of);
     for (; there < std::min(end + 1, chain_.length); ++there)
       values_.gather(there, values, filling, 1.0, 1, chain_.group(there));
-    if (is_far_) ask_ahead<true>(chain_.group(there), chain_.group(std::min(there + together, chain_.length)));
     eliminate_groups(chain_, begin, end, seen);
     if (of.empty()) continue;
     gather(of, end, sides_there);
@@ -184,8 +185,8 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
     std::array<ScaledColumn, most_columns> of{};
     for (Index r = 0; r < columns.cols(); ++r) of[static_cast<std::size_t>(r)] = {columns.col(r).data(), 1.0};
     Index there = 0;
-    for (Index begin = 0; begin < chain_.length; begin += together) {
-      const Index end = std::min(begin + together, chain_.length);
+    for (Index begin = 0; begin < chain_.length; begin += together_) {
+      const Index end = std::min(begin + together_, chain_.length);
       gather({of.data(), static_cast<std::size_t>(columns.cols())}, end, there);
       forward_groups(chain_, columns.cols(), begin, end, work_);
     }
@@ -196,8 +197,8 @@ void ChainLdlt::solve(Eigen::Ref<Matrix> X) const {
 void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
   const Index columns = X.cols();
   for (Index end = chain_.length; end > 0;) {
-    const Index begin = (end - 1) / together * together;
-    if (is_far_) ask_for_solutions(std::max<Index>(0, begin - together), begin, X);
+    const Index begin = (end - 1) / together_ * together_;
+    if (is_far_) ask_for_solutions(begin - ahead, X);
     backward_groups(chain_, columns, begin, end, work_);
     for (Index record = begin; record < end; ++record)
       for (Index r = 0; r < columns; ++r)
@@ -206,13 +207,22 @@ void ChainLdlt::solve_backward(Eigen::Ref<Matrix> X) const {
   }
 }
 
+// Of groups from `begin` on: their numbers' places, and what goes there.
+void ChainLdlt::ask_for_entries(Index begin, const double* values, Columns of) {
+  const Index end = std::min(begin + together_, chain_.length - 1);
+  if (begin >= end) return;
+  ask_ahead<true>(chain_.group(begin), chain_.group(end));
+  values_.ask_ahead(begin, end, values);
+  for (const ScaledColumn& column : of) unknowns_.ask_ahead(begin, end, column.entries);
+}
+
 // In lanes, and where they go.
-void ChainLdlt::ask_for_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const {
+void ChainLdlt::ask_for_solutions(Index begin, const Eigen::Ref<const Matrix>& X) const {
+  if (begin < 0) return;
   const Lanes* const entries = work_.entries.data();
-  const Index count = X.cols() * chain_.width;
+  const Index count = X.cols() * chain_.width, end = begin + together_;
   ask_ahead(entries + begin * count, entries + end * count);
-  for (Index record = begin; record < end; ++record)
-    for (Index r = 0; r < X.cols(); ++r) unknowns_.ask_ahead(record, X.col(r).data());
+  for (Index r = 0; r < X.cols(); ++r) unknowns_.ask_ahead(begin, end, X.col(r).data());
 }
 
 // False for one that is zero, or so near that it is what rounding has left of rounding errors, or not finite. Where no

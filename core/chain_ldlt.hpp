@@ -52,12 +52,16 @@ class ChainLdlt final : public SymmetricFactors {
   bool factorize_beside(const SparseMatrix& A, Columns of);
   void gather(Columns of, Index end, Index& there) const;
   void solve_backward(Eigen::Ref<Matrix> X) const;
-  void ask_for_solutions(Index begin, Index end, const Eigen::Ref<const Matrix>& X) const;
+  void ask_for_entries(Index begin, const double* values, Columns of);
+  void ask_for_solutions(Index begin, const Eigen::Ref<const Matrix>& X) const;
   bool read(const ChainPivots& seen, double filling);
   bool grew(const SparseMatrix& A, double least_first);
 
   ChainNumbers chain_;
-  bool is_far_ = false;           // its numbers come from main memory each time: what comes next is asked for ahead
+  // Its numbers come from main memory each time: what comes later is asked for ahead, and little is done at a time, so
+  // that memory and processor work at once.
+  bool is_far_ = false;
+  Index together_ = 0;            // groups of a stretch whose numbers are brought to their places before the next ones
   LanePlaces values_, unknowns_;  // of the matrix and of right-hand sides
   Index unknown_count_ = 0;
   std::optional<Index> filling_;  // value of the matrix that stands on the diagonal where no unknown does

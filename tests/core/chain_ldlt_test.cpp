@@ -316,6 +316,24 @@ TEST(ChainLdlt, SolvesAlongAsAfterwards) {
   }
 }
 
+// One whose numbers no cache holds: memory is asked for what comes later.
+TEST(ChainLdlt, SolvesAlongALongChainAsAfterwards) {
+  const Beam beam(60000, {0, 8});
+  const SparseMatrix& lower = beam.lower;
+  const Index middle = beam.deflection(4);
+  const Vector bending = Vector::Unit(lower.cols(), middle), pulling = Vector::Unit(lower.cols(), lower.cols() - 2);
+  const std::array<ScaledColumn, 2> of{ScaledColumn{bending.data(), 1.0}, ScaledColumn{pulling.data(), -2.0}};
+  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.afloat);
+  Matrix X(lower.cols(), 2), Y(lower.cols(), 2);
+  Y << bending, pulling;
+  ASSERT_TRUE(ldlt.factorize_and_solve(lower, of, X));
+  ldlt.solve(Y);
+  EXPECT_EQ(X.col(0), Y.col(0));
+  EXPECT_EQ(X.col(1), -2.0 * Y.col(1));
+  EXPECT_NEAR(48.0 * Y(middle, 0), 1.0, 1e-5);
+  EXPECT_NEAR(12.0 * Y(lower.cols() - 2, 1), 1.0, 1e-5);  // EA = 12
+}
+
 TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
   Numbers numbers(14);
   for (const Index nodes : {1, 4, 5, 6, 7, 8, 30}) {
