@@ -119,8 +119,8 @@ std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& 
                       .profile = profile_of(wall),
                       .side = side_of(wall),
                       .on_face = wall.acts_on == deck::ActsOn::face};
-    for (Index run = 0; run < structure.runs(); ++run)
-      obstacle.runs.push_back(concerns(wall, structure.label({.run = run, .s = 0.0}).first) ? 1 : 0);
+    for (Index strand = 0; strand < structure.strands(); ++strand)
+      obstacle.strands.push_back(concerns(wall, structure.label({.strand = strand, .s = 0.0}).first) ? 1 : 0);
     obstacles.push_back(std::move(obstacle));
   }
   return obstacles;

@@ -288,7 +288,7 @@ TraceOptions trace_options(const deck::Deck& deck, const Model& model, const std
   };
   const auto mark = [&](const std::string& name, double value, bool stops) {
     if (auto q = quantity(name))
-      options.landmarks.push_back(
+      options.target_values.push_back(
           {.quantity = std::move(q), .value = value, .stops = stops, .label = name + " = " + round_trip(value)});
   };
   for (const deck::Landing& landing : path.land)

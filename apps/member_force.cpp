@@ -65,7 +65,7 @@ SlidingMemberForce::SlidingMemberForce(const SlidingStructure& structure, const 
   constexpr double same = 1e-12;
   for (const SlidingStructure::MemberPart& part : structure.parts_of(member)) {
     const double t = (fraction - part.first_fraction) / (part.last_fraction - part.first_fraction);
-    at_ = {.run = part.run, .s = part.from + std::clamp(t, 0.0, 1.0) * (part.to - part.from)};
+    at_ = {.strand = part.strand, .s = part.from + std::clamp(t, 0.0, 1.0) * (part.to - part.from)};
     begin_ = part.from;
     if (fraction <= part.last_fraction + same) break;
   }
@@ -75,11 +75,11 @@ SlidingMemberForce::SlidingMemberForce(const SlidingStructure& structure, const 
 ShapePoint SlidingMemberForce::place(const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
   const Vector s = state.x.tail(mesh.breakpoints());
-  const double same = 1e-12 * structure_.length(at_.run);
+  const double same = 1e-12 * structure_.length(at_.strand);
   Index position = 0;
-  const auto end = [&] { return mesh.coordinate(at_.run, position + 1, s); };
-  while (position + 2 < mesh.nodes(at_.run) && (end() < at_.s - same || end() <= begin_ + same)) ++position;
-  return sliding_stretch(structure_, at_.run, position, state).at(at_.s);
+  const auto end = [&] { return mesh.coordinate(at_.strand, position + 1, s); };
+  while (position + 2 < mesh.nodes(at_.strand) && (end() < at_.s - same || end() <= begin_ + same)) ++position;
+  return sliding_stretch(structure_, at_.strand, position, state).at(at_.s);
 }
 
 Vector SlidingMemberForce::steps(const State& state) const {

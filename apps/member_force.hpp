@@ -57,7 +57,7 @@ class SlidingMemberForce final : public MemberForce {
 
   const SlidingStructure& structure_;
   MaterialPoint at_;
-  double begin_ = 0.0;  // of the member on its run
+  double begin_ = 0.0;  // of the member on its strand
 };
 
 }  // namespace arcwall

@@ -126,7 +126,7 @@ Study::Study(deck::Deck deck) : deck_(std::move(deck)) {
   explore_.depth = deck_.path.depth;
   for (const MonitorColumn& monitor : monitors_) explore_.preference.push_back(monitor.raw);
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
-  options_.tied_contacts =
+  options_.node_contacts =
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }
 
@@ -170,7 +170,7 @@ std::optional<State> Study::start(std::string& reason) const {
   options.step.first = 0.1;
   options.max_points = 2000;
   options.events = EventSearch::none;
-  options.landmarks.push_back(
+  options.target_values.push_back(
       {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
   const System* ramp = ramp_structure_.get();
   if (ramp_contact_) ramp = ramp_contact_.get();

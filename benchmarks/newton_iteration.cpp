@@ -12,7 +12,7 @@ namespace {
 // A state in the middle of the snap, so that the matrices are typical: indefinite and far from rest.
 State deformed(const Model& frame) {
   TraceOptions options{.step = {.first = 0.1}};
-  options.landmarks.push_back({.quantity = frame.down, .value = 55.0, .stops = true, .label = "down"});
+  options.target_values.push_back({.quantity = frame.down, .value = 55.0, .stops = true, .label = "down"});
   Tracer tracer(*frame.structure, rest(*frame.structure), options);
   while (tracer.next()) {
   }
@@ -31,7 +31,7 @@ void path(benchmark::State& timing) {
   const auto elements = static_cast<int>(timing.range(0));
   const Model frame = lee_frame(elements);
   TraceOptions options{.step = {.first = 0.1}};
-  options.landmarks.push_back({.quantity = frame.down, .value = frame.end, .stops = true, .label = "down"});
+  options.target_values.push_back({.quantity = frame.down, .value = frame.end, .stops = true, .label = "down"});
   int points = 0, iterations = 0;
   double limit = 0.0;
   for (auto _ : timing) {

@@ -196,7 +196,7 @@ void trace(const std::string& work, long size, Task task) {
 void trace_model(const std::string& work, long size, Model (*make)(Index), int most_past_limit) {
   const Model model = make(size);
   TraceOptions options{.step = {.first = model.first_step}};
-  options.landmarks.push_back({.quantity = model.down, .value = model.end, .stops = true, .label = "down"});
+  options.target_values.push_back({.quantity = model.down, .value = model.end, .stops = true, .label = "down"});
   trace(work, size,
         {.system = *model.structure,
          .start = rest(*model.structure),

@@ -83,27 +83,27 @@ class TimedSystem final : public System {
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
     return inner_.transfer(x, from, to);
   }
-  std::vector<Passage> passages(const State& state, const Direction& forward, Index limit,
-                                double tolerance) const override {
+  std::vector<Transition> transitions(const State& state, const Direction& forward, Index limit,
+                                      double tolerance) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.passages(state, forward, limit, tolerance);
+    return inner_.transitions(state, forward, limit, tolerance);
   }
   bool admissible(const State& state, double margin) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.admissible(state, margin);
   }
-  std::optional<Passage> refined(const State& from, const Direction& forward, const State& to,
-                                 double margin) const override {
+  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
+                                                  double margin) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.refined(from, forward, to, margin);
+    return inner_.with_inserted_contact(from, forward, to, margin);
   }
-  Piece settled(const State& state) const override {
+  Piece canonical_piece(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.settled(state);
+    return inner_.canonical_piece(state);
   }
-  std::optional<std::string> obstruction(const State& state) const override {
+  std::optional<std::string> invalid_reason(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.obstruction(state);
+    return inner_.invalid_reason(state);
   }
 
  private:

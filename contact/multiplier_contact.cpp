@@ -102,7 +102,7 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
     for (const Index unknown : candidates_[j].point().unknowns()) entries.push_back({.row = k, .column = unknown});
   });
   out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.piece));
-  out.afloat = entries.empty() ? out.inner->afloat : std::vector<bool>{};  // walls hold
+  out.translation_free = entries.empty() ? out.inner->translation_free : std::vector<bool>{};  // walls hold
   out.pattern_of = state.piece;
 }
 
@@ -187,7 +187,7 @@ Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Pie
   return moved;
 }
 
-std::optional<std::string> MultiplierContact::obstruction(const State& state) const {
+std::optional<std::string> MultiplierContact::invalid_reason(const State& state) const {
   for (std::size_t j = 0; j < candidates_.size(); ++j)
     if (state.piece[j] && !candidates_[j].faces_wall(state.x)) return "wall_end";
   return std::nullopt;

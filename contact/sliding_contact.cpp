@@ -12,13 +12,14 @@ using Bound = SlidingContactLayout::Bound;
 
 SlidingContact::SlidingContact(const SlidingBody& body, std::vector<Obstacle> obstacles, const ContactScales& scales)
     : body_(body), obstacles_(std::move(obstacles)), scales_(scales) {
-  Cut cut;
-  for (Index run = 0; run < body.runs(); ++run) {
-    cut.push_back({std::max(1, static_cast<int>(std::lround(body.elements_between(run, 0.0, body.length(run)))))});
+  ElementsPerSegment cut;
+  for (Index strand = 0; strand < body.strands(); ++strand) {
+    cut.push_back(
+        {std::max(1, static_cast<int>(std::lround(body.elements_between(strand, 0.0, body.length(strand)))))});
     for (std::size_t w = 0; w < obstacles_.size(); ++w)
       for (const bool last : {false, true})
-        if (obstacles_[w].runs[static_cast<std::size_t>(run)] && !body.end_is_held(run, last))
-          tied_.push_back({.run = run, .last = last, .obstacle = w, .travel = 0.0});
+        if (obstacles_[w].strands[static_cast<std::size_t>(strand)] && !body.end_is_held(strand, last))
+          tied_.push_back({.strand = strand, .last = last, .obstacle = w, .travel = 0.0});
   }
   const auto layout = std::make_shared<SlidingContactLayout>(body, body.mesh(cut),
                                                              std::vector<SlidingContactLayout::Point>{}, Vector());
@@ -26,7 +27,7 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<Obstacle> ob
   for (Tied& end : tied_) {
     constexpr double vertical = 1e-6;
     const double along =
-        std::cos(layout->mesh().node(end.run, end.last ? layout->mesh().nodes(end.run) - 1 : 0, rest).angle);
+        std::cos(layout->mesh().node(end.strand, end.last ? layout->mesh().nodes(end.strand) - 1 : 0, rest).angle);
     end.travel = std::abs(along) > vertical ? std::copysign(1.0, along) : 0.0;
   }
   open_ = Piece(tied_.size(), 0, layout);
@@ -43,8 +44,8 @@ State SlidingContact::rest() const {
 
 State SlidingContact::adopted(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const auto here =
-      std::make_shared<SlidingContactLayout>(body_, body_.mesh(on.mesh().cut()), on.points(), on.s_of(state));
+  const auto here = std::make_shared<SlidingContactLayout>(body_, body_.mesh(on.mesh().elements_per_segment()),
+                                                           on.points(), on.s_of(state));
   State out{.x = state.x, .lambda = state.lambda, .piece = Piece(state.piece.size(), 0, here)};
   for (std::size_t j = 0; j < state.piece.size(); ++j) out.piece[j] = state.piece[j];
   return out;
@@ -86,10 +87,10 @@ void SlidingContact::for_each_force(const State& state, const Visit& visit) cons
   for (std::size_t j = 0; j < state.piece.size(); ++j)
     if (state.piece[j]) visit(touch(on, j), at++);
   for (const SlidingContactLayout::Held& node : on.held())
-    visit(Touch{.run = node.run,
+    visit(Touch{.strand = node.strand,
                 .position = node.position,
                 .obstacle = node.obstacle,
-                .offset = normal_offset(node.obstacle, node.run)},
+                .offset = normal_offset(node.obstacle, node.strand)},
           at++);
 }
 
@@ -105,7 +106,7 @@ void SlidingContact::add_contact(const State& state, Eigen::Ref<Vector> F) const
   const Index m = border_width(state.piece);
   const Vector x = on.x_of(state);
   const auto add = [&](const Touch& at, const Eigen::Vector3d& gradient, double force) {
-    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
     for (std::size_t i = 0; i < 3; ++i)
       if (unknowns[i] >= 0) F[unknowns[i]] -= force * gradient[static_cast<Index>(i)];
   };
@@ -145,12 +146,12 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
   out.B.topRows(n) = inner.B;
   copy_values(inner.K, out.K);
   const auto add_row = [&](const Touch& at, const Eigen::Vector3d& gradient, Index row) {
-    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
     for (std::size_t i = 0; i < 3; ++i)
       if (unknowns[i] >= 0) out.K.coeffRef(row, unknowns[i]) = -gradient[static_cast<Index>(i)];
   };
   const auto add_hessian = [&](const Touch& at, const Eigen::Matrix3d& hessian, double force) {
-    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+    const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j <= i; ++j) {
         if (unknowns[i] < 0 || unknowns[j] < 0) continue;
@@ -172,7 +173,7 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
     add_row(at, gap.tilt_gradient, moments + k);
     add_hessian(at, gap.tilt_hessian, state.x[moments + k]);
     if (on.lies_pressed(static_cast<std::size_t>(k))) {
-      const double EI = body_.bending_stiffness(at.run);
+      const double EI = body_.bending_stiffness(at.strand);
       const CurvatureGap bend = curvature_gap(state, static_cast<std::size_t>(k));
       out.C.row(k).head(n) = EI * bend.dx;
       out.C.row(k).tail(m) = EI * bend.ds;
@@ -188,7 +189,7 @@ void SlidingContact::lay_out(const State& state, Linearization& out) const {
   const Index n = out.inner->K.cols(), m = border_width(state.piece), core = state.x.size() - m;
   std::vector<RowEntry> entries;
   const auto touches = [&](const Touch& at, Index row) {
-    for (const Index unknown : on.mesh().node_unknowns(at.run, at.position))
+    for (const Index unknown : on.mesh().node_unknowns(at.strand, at.position))
       if (unknown >= 0) entries.push_back({.row = row - n, .column = unknown});
   };
   for_each_force(state, touches);
@@ -222,7 +223,7 @@ double SlidingContact::guard(const State& state, Index j) const {
   if (const auto p = multiplier_index(state.piece, j)) return state.x[*p] / scales_.force;
   const SlidingContactLayout& on = layout(state.piece);
   const Touch at = touch(on, static_cast<std::size_t>(j));
-  const double gap = face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state)));
+  const double gap = face_gap(at, on.mesh().node(at.strand, at.position, on.x_of(state)));
   return std::isfinite(gap) ? gap / scales_.length : 1.0;
 }
 
@@ -237,9 +238,9 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
   const SlidingContactLayout& on = layout(state.piece);
   const Touch at = touch(on, static_cast<std::size_t>(j));
   const Vector x = on.x_of(state);
-  if (!std::isfinite(face_gap(at, on.mesh().node(at.run, at.position, x)))) return row;
+  if (!std::isfinite(face_gap(at, on.mesh().node(at.strand, at.position, x)))) return row;
   const NodeGap gap = node_gap(at, x, on);
-  const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+  const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
   for (std::size_t i = 0; i < 3; ++i)
     if (unknowns[i] >= 0) row.dx[unknowns[i]] = gap.gap_gradient[static_cast<Index>(i)] / scales_.length;
   return row;
@@ -264,12 +265,12 @@ Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece&
   return moved;
 }
 
-std::optional<std::string> SlidingContact::obstruction(const State& state) const {
+std::optional<std::string> SlidingContact::invalid_reason(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
   const Vector x = on.x_of(state);
   for (std::size_t j = 0; j < state.piece.size(); ++j) {
     const Touch at = touch(on, j);
-    if (state.piece[j] && !std::isfinite(face_gap(at, on.mesh().node(at.run, at.position, x)))) return "wall_end";
+    if (state.piece[j] && !std::isfinite(face_gap(at, on.mesh().node(at.strand, at.position, x)))) return "wall_end";
   }
   return std::nullopt;
 }
@@ -281,7 +282,8 @@ std::optional<SlidingContact::Lifting> SlidingContact::lifting(const State& stat
   const auto limit = on.limits()[static_cast<std::size_t>(j) - state.piece.size()];
   assert(limit.bound == Bound::pressure);
   const SlidingContactLayout::Held& held = on.held()[limit.which];
-  return Lifting{.obstacle = held.obstacle, .at = {.run = held.run, .s = least_pressure_place(state, limit.which)}};
+  return Lifting{.obstacle = held.obstacle,
+                 .at = {.strand = held.strand, .s = least_pressure_place(state, limit.which)}};
 }
 
 ContactLabel SlidingContact::label(const State& state, Index j) const {
@@ -292,16 +294,16 @@ ContactLabel SlidingContact::label(const State& state, Index j) const {
   if (const auto least = lifting(state, j)) return named(least->obstacle, least->at);
   const SlidingContactLayout& on = layout(state.piece);
   const Touch at = touch(on, static_cast<std::size_t>(j));
-  return named(at.obstacle, {.run = at.run, .s = on.mesh().coordinate(at.run, at.position, on.s_of(state))});
+  return named(at.obstacle, {.strand = at.strand, .s = on.mesh().coordinate(at.strand, at.position, on.s_of(state))});
 }
 
 Vec2 SlidingContact::place(const State& state, Index j) const {
   const SlidingContactLayout& on = layout(state.piece);
   if (const auto least = lifting(state, j))
-    return face(normal_offset(least->obstacle, least->at.run),
+    return face(normal_offset(least->obstacle, least->at.strand),
                 on.mesh().place(least->at, on.x_of(state), on.s_of(state)));
   const Touch at = touch(on, static_cast<std::size_t>(j));
-  return face(at.offset, on.mesh().node(at.run, at.position, on.x_of(state)));
+  return face(at.offset, on.mesh().node(at.strand, at.position, on.x_of(state)));
 }
 
 double SlidingContact::force(const State& state, Index j) const {
@@ -315,14 +317,15 @@ std::vector<SlidingContact::HeldNode> SlidingContact::held_nodes(const State& st
   std::vector<HeldNode> nodes;
   Index force = on.mesh().unknowns() + state.piece.closed_count();
   for (const SlidingContactLayout::Held& held : on.held()) {
-    const auto coordinate = [&](Index position) { return on.mesh().coordinate(held.run, position, s); };
-    const auto [member, fraction] = body_.label({.run = held.run, .s = coordinate(held.position)});
-    nodes.push_back({.label = {.wall = obstacles_[held.obstacle].name,
-                               .member = member,
-                               .fraction = fraction,
-                               .tributary = 0.5 * (coordinate(held.position + 1) - coordinate(held.position - 1))},
-                     .place = face(normal_offset(held.obstacle, held.run), on.mesh().node(held.run, held.position, x)),
-                     .force = state.x[force++]});
+    const auto coordinate = [&](Index position) { return on.mesh().coordinate(held.strand, position, s); };
+    const auto [member, fraction] = body_.label({.strand = held.strand, .s = coordinate(held.position)});
+    nodes.push_back(
+        {.label = {.wall = obstacles_[held.obstacle].name,
+                   .member = member,
+                   .fraction = fraction,
+                   .tributary = 0.5 * (coordinate(held.position + 1) - coordinate(held.position - 1))},
+         .place = face(normal_offset(held.obstacle, held.strand), on.mesh().node(held.strand, held.position, x)),
+         .force = state.x[force++]});
   }
   return nodes;
 }

@@ -18,11 +18,11 @@ struct Obstacle {
   std::string name{};
   std::shared_ptr<const Profile> profile{};
   Side side = Side::above;
-  bool on_face = true;               ///< contact of the members' faces, or of their axes
-  std::vector<std::uint8_t> runs{};  ///< per run whether it concerns it
+  bool on_face = true;                  ///< contact of the members' faces, or of their axes
+  std::vector<std::uint8_t> strands{};  ///< per strand whether it concerns it
 };
 
-struct SlidingDraft;
+struct LayoutEdit;
 
 /// A body of slender members among obstacles, with contact where it is: the material coordinates s of the contact
 /// points are unknowns, and the mesh moves with them (docs/theory.md, section 8).
@@ -58,13 +58,13 @@ class SlidingContact final : public System {
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
-  std::vector<Passage> passages(const State& state, const Direction& forward, Index limit,
-                                double tolerance) const override;
+  std::vector<Transition> transitions(const State& state, const Direction& forward, Index limit,
+                                      double tolerance) const override;
   bool admissible(const State& state, double margin) const override;
-  std::optional<Passage> refined(const State& from, const Direction& forward, const State& to,
-                                 double margin) const override;
-  Piece settled(const State& state) const override;
-  std::optional<std::string> obstruction(const State& state) const override;
+  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
+                                                  double margin) const override;
+  Piece canonical_piece(const State& state) const override;
+  std::optional<std::string> invalid_reason(const State& state) const override;
 
   /// The stress-free state, all contacts open.
   State rest() const;
@@ -73,7 +73,8 @@ class SlidingContact final : public System {
   State adopted(const State& state) const;
 
   /// The layout with this cut and these points that began at these places; null if they do not belong together.
-  std::shared_ptr<const SlidingContactLayout> layout_of(const Cut& cut, std::vector<SlidingContactLayout::Point> points,
+  std::shared_ptr<const SlidingContactLayout> layout_of(const ElementsPerSegment& cut,
+                                                        std::vector<SlidingContactLayout::Point> points,
                                                         const Vector& origin) const;
 
   /// Where contact j of a piece is, and its force. The number of a guard on the pressure of a part on a wall stands for
@@ -106,7 +107,7 @@ class SlidingContact final : public System {
   };
   // A node that touches or may touch.
   struct Touch {
-    Index run, position;
+    Index strand, position;
     std::size_t obstacle;
     double offset;
   };
@@ -129,11 +130,11 @@ class SlidingContact final : public System {
     std::size_t first = 0;
     Vector weights{};
   };
-  using Edit = std::function<void(SlidingDraft&)>;
+  using Edit = std::function<void(LayoutEdit&)>;
 
   const SlidingContactLayout& layout(const Piece& piece) const;
   Touch touch(const SlidingContactLayout& on, std::size_t j) const;
-  double normal_offset(std::size_t obstacle, Index run) const;
+  double normal_offset(std::size_t obstacle, Index strand) const;
   static Vec2 face(double offset, const AxisPlace& place);
   double face_gap(const Touch& touch, const AxisPlace& place) const;
   NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
@@ -164,37 +165,36 @@ class SlidingContact final : public System {
   std::optional<Minimum> deepest(const State& state, double margin) const;
   std::optional<Minimum> nearest(const State& state, const Minimum& other) const;
 
-  SlidingDraft draft_of(const State& state) const;
-  std::shared_ptr<const SlidingContactLayout> layout_of(const SlidingDraft& draft) const;
-  State redrawn(const State& state, const SlidingDraft& by,
-                const std::shared_ptr<const SlidingContactLayout>& on) const;
-  Passage remeshed(const State& state, const Direction& forward, const Edit& edit) const;
+  LayoutEdit draft_of(const State& state) const;
+  std::shared_ptr<const SlidingContactLayout> layout_of(const LayoutEdit& edit) const;
+  State redrawn(const State& state, const LayoutEdit& by, const std::shared_ptr<const SlidingContactLayout>& on) const;
+  Transition remeshed(const State& state, const Direction& forward, const Edit& edit) const;
 
   std::vector<std::size_t> reached(const State& state, SlidingContactLayout::Bound bound, double tolerance) const;
-  std::vector<Passage> straightened(const State& state, double tolerance) const;
-  Passage family(const State& state, Index lines, Index ends) const;
-  std::vector<Passage> spreads(const State& state, const std::vector<std::size_t>& points) const;
+  std::vector<Transition> straightened(const State& state, double tolerance) const;
+  Transition continuum(const State& state, Index lines, Index ends) const;
+  std::vector<Transition> spreads(const State& state, const std::vector<std::size_t>& points) const;
   std::string why_none_spreads(const State& state, const std::vector<std::size_t>& points) const;
-  Passage spread(const State& state, const std::vector<std::size_t>& points, SlidingContactLayout::Span between,
-                 double length) const;
-  Passage shrunk(const State& state, std::size_t k, double tolerance) const;
-  Passage shrunk_passage(const State& state, const SlidingDraft& draft, double s, Passage::Change change) const;
-  Passage gathered(const State& state, const std::vector<std::size_t>& spans) const;
-  Passage joined(const State& state, const std::vector<std::size_t>& gaps) const;
-  std::vector<Passage> lifted(const State& state, double tolerance) const;
+  Transition spread(const State& state, const std::vector<std::size_t>& points, SlidingContactLayout::Span between,
+                    double length) const;
+  Transition shrunk(const State& state, std::size_t k, double tolerance) const;
+  Transition shrunk_passage(const State& state, const LayoutEdit& edit, double s, Transition::Change change) const;
+  Transition gathered(const State& state, const std::vector<std::size_t>& spans) const;
+  Transition joined(const State& state, const std::vector<std::size_t>& gaps) const;
+  std::vector<Transition> lifted(const State& state, double tolerance) const;
   void add_split(const State& state, const std::vector<std::size_t>& nodes, double length,
-                 std::vector<Passage>& to) const;
-  Passage without(const State& state, const Direction& forward, std::size_t k) const;
-  Passage with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;
+                 std::vector<Transition>& to) const;
+  Transition without(const State& state, const Direction& forward, std::size_t k) const;
+  Transition with_elements(const State& state, const Direction& forward, std::size_t segment, int elements) const;
   Index straightened_ends(const State& state, std::size_t k) const;
-  double least_span(Index run) const;
+  double least_span(Index strand) const;
   double least_span(const SlidingContactLayout& on, std::size_t k) const;
 
   const SlidingBody& body_;
   std::vector<Obstacle> obstacles_;
   ContactScales scales_;
-  struct Tied {  // a free end of a run, which may touch though no tangent does
-    Index run;
+  struct Tied {  // a free end of a strand, which may touch though no tangent does
+    Index strand;
     bool last;
     std::size_t obstacle;
     double travel;  // ±1: with or against x at rest; 0: neither

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/layout_edit.hpp"
 #include "contact/sliding_contact.hpp"
-#include "contact/sliding_draft.hpp"
 #include "core/lanes.hpp"
 
 namespace arcwall {
@@ -38,19 +38,19 @@ std::optional<Least> least_inside(double v0, double r0, double v1, double r1) {
   return Least{.at = t, .value = v0 + t * (r0 + t * (b + t * a))};
 }
 
-// Where the nodes of a run are, and the tangents there.
+// Where the nodes of a strand are, and the tangents there.
 struct Placed {
   Vec2 position, tangent;
 };
 
-std::vector<Placed> placed_nodes(const SlidingMesh& mesh, Index run, const Vector& x) {
-  const auto count = static_cast<std::size_t>(mesh.nodes(run));
+std::vector<Placed> placed_nodes(const SlidingMesh& mesh, Index strand, const Vector& x) {
+  const auto count = static_cast<std::size_t>(mesh.nodes(strand));
   std::vector<Placed> nodes(count);
   for (std::size_t first = 0; first < count; first += Lanes::count) {
     const std::size_t end = std::min<std::size_t>(first + Lanes::count, count);
     Lanes angle = 0.0;
     for (std::size_t i = first; i < end; ++i) {
-      const AxisPlace place = mesh.node(run, static_cast<Index>(i), x);
+      const AxisPlace place = mesh.node(strand, static_cast<Index>(i), x);
       nodes[i].position = place.position;
       angle.set(static_cast<int>(i - first), place.angle);
     }
@@ -72,22 +72,24 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
   const Layout_& on = layout(state.piece);
   const SlidingMesh& mesh = on.mesh();
   const Vector x = on.x_of(state), s = on.s_of(state);
-  for (Index run = 0; run < body_.runs(); ++run) {
-    const auto concerns = [run](const Obstacle& obstacle) { return obstacle.runs[static_cast<std::size_t>(run)] != 0; };
+  for (Index strand = 0; strand < body_.strands(); ++strand) {
+    const auto concerns = [strand](const Obstacle& obstacle) {
+      return obstacle.strands[static_cast<std::size_t>(strand)] != 0;
+    };
     if (std::none_of(obstacles_.begin(), obstacles_.end(), concerns)) continue;
-    const std::vector<Placed> nodes = placed_nodes(mesh, run, x);
+    const std::vector<Placed> nodes = placed_nodes(mesh, strand, x);
     for (std::size_t w = 0; w < obstacles_.size(); ++w) {
       if (!concerns(obstacles_[w])) continue;
-      std::vector<std::uint8_t> skip(static_cast<std::size_t>(mesh.nodes(run)), 0);  // element behind the node
+      std::vector<std::uint8_t> skip(static_cast<std::size_t>(mesh.nodes(strand)), 0);  // element behind the node
       for (std::size_t k = 0; k < on.points().size() && !everywhere; ++k) {
         const auto [at, position] = mesh.breakpoint(static_cast<Index>(k));
-        if (at != run || on.points()[k].obstacle != w) continue;
+        if (at != strand || on.points()[k].obstacle != w) continue;
         skip[static_cast<std::size_t>(position) - 1] = skip[static_cast<std::size_t>(position)] = 1;
         if (on.points()[k].behind == Span::free) continue;
         const Index last = mesh.breakpoint(static_cast<Index>(k) + 1).second;
         std::fill(skip.begin() + position, skip.begin() + last, std::uint8_t{1});
       }
-      const double offset = normal_offset(w, run);
+      const double offset = normal_offset(w, strand);
       struct Sample {
         double gap;
         Vec2 face;
@@ -105,7 +107,7 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
         return out;
       };
       Sample before = sample(0);
-      for (Index e = 0; e + 1 < mesh.nodes(run); ++e) {
+      for (Index e = 0; e + 1 < mesh.nodes(strand); ++e) {
         const Sample after = sample(e + 1);
         const double length = (after.face - before.face).norm();
         const double r0 = before.rate * length, r1 = after.rate * length;
@@ -113,8 +115,9 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
         if (!skip[static_cast<std::size_t>(e)] && std::isfinite(before.gap) && std::isfinite(after.gap) &&
             (!far || everywhere))
           if (const auto least = least_inside(before.gap, r0, after.gap, r1)) {
-            const double S1 = mesh.coordinate(run, e, s), S2 = mesh.coordinate(run, e + 1, s);
-            visit(Minimum{.obstacle = w, .at = {.run = run, .s = S1 + least->at * (S2 - S1)}, .gap = least->value});
+            const double S1 = mesh.coordinate(strand, e, s), S2 = mesh.coordinate(strand, e + 1, s);
+            visit(
+                Minimum{.obstacle = w, .at = {.strand = strand, .s = S1 + least->at * (S2 - S1)}, .gap = least->value});
           }
         before = after;
       }
@@ -132,11 +135,11 @@ std::optional<SlidingContact::Minimum> SlidingContact::deepest(const State& stat
 
 bool SlidingContact::admissible(const State& state, double margin) const { return !deepest(state, margin); }
 
-// Of the least gaps on the same run and obstacle the one nearest another.
+// Of the least gaps on the same strand and obstacle the one nearest another.
 std::optional<SlidingContact::Minimum> SlidingContact::nearest(const State& state, const Minimum& other) const {
   std::optional<Minimum> nearest;
   for_each_minimum(state, true, [&](const Minimum& minimum) {
-    if (minimum.obstacle != other.obstacle || minimum.at.run != other.at.run) return;
+    if (minimum.obstacle != other.obstacle || minimum.at.strand != other.at.strand) return;
     if (!nearest || std::abs(minimum.at.s - other.at.s) < std::abs(nearest->at.s - other.at.s)) nearest = minimum;
   });
   return nearest;
@@ -144,23 +147,23 @@ std::optional<SlidingContact::Minimum> SlidingContact::nearest(const State& stat
 
 // A least gap that becomes negative within the step is followed from the step's start on by an open point. It must
 // exist there already.
-std::optional<Passage> SlidingContact::refined(const State& from, const Direction& forward, const State& to,
-                                               double margin) const {
+std::optional<Transition> SlidingContact::with_inserted_contact(const State& from, const Direction& forward,
+                                                                const State& to, double margin) const {
   const auto violated = deepest(to, margin);
   if (!violated) return std::nullopt;
   const auto start = nearest(from, *violated);
-  const Index run = violated->at.run;
-  if (!start || std::abs(start->at.s - violated->at.s) > 0.25 * body_.length(run)) return std::nullopt;
+  const Index strand = violated->at.strand;
+  if (!start || std::abs(start->at.s - violated->at.s) > 0.25 * body_.length(strand)) return std::nullopt;
 
   const Layout_& on = layout(from.piece);
   const Vector s = on.s_of(from);
   for (std::size_t k = 0; k < on.points().size(); ++k)
-    if (on.points()[k].obstacle == start->obstacle && on.mesh().breakpoint(static_cast<Index>(k)).first == run &&
-        std::abs(s[static_cast<Index>(k)] - start->at.s) < least_span(run))
+    if (on.points()[k].obstacle == start->obstacle && on.mesh().breakpoint(static_cast<Index>(k)).first == strand &&
+        std::abs(s[static_cast<Index>(k)] - start->at.s) < least_span(strand))
       return std::nullopt;  // it is followed already
   const auto holds = [&](const Layout_::Segment& segment) {
     const auto [a, b] = on.ends(body_, segment, s);
-    return segment.run == run && a <= start->at.s && start->at.s < b;
+    return segment.strand == strand && a <= start->at.s && start->at.s < b;
   };
   const auto at = std::find_if(on.segments().begin(), on.segments().end(), holds);
   if (at == on.segments().end()) return std::nullopt;
@@ -172,22 +175,22 @@ std::optional<Passage> SlidingContact::refined(const State& from, const Directio
   const int elements = std::max(2, at->elements);
   const int first = std::clamp(static_cast<int>(std::lround(elements * (touch - a) / (b - a) - 1e-3)), 1, elements - 1);
   const auto at_least = [&](double begin, double end) {
-    return static_cast<int>(std::ceil(body_.elements_between(run, begin, end) / coarsest));
+    return static_cast<int>(std::ceil(body_.elements_between(strand, begin, end) / coarsest));
   };
   const int before = std::max(first, at_least(a, start->at.s));
   const int behind = std::max(elements - first, at_least(start->at.s, b));
   std::size_t k = 0;
-  Passage passage = remeshed(from, forward, [&](SlidingDraft& draft) {
-    k = draft.insert({.point = {.obstacle = start->obstacle}, .run = run, .s = start->at.s}, before, behind);
+  Transition transition = remeshed(from, forward, [&](LayoutEdit& edit) {
+    k = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = start->at.s}, before, behind);
   });
-  const auto& limits = layout(passage.guess.piece).limits();
+  const auto& limits = layout(transition.guess.piece).limits();
   for (std::size_t l = 0; l < limits.size(); ++l) {
     const auto [bound, which] = limits[l];
     const bool shallow = bound == Bound::curvature && which == k;
     const bool cramped = bound == Bound::room;  // beside the end of the member, a load or a contact with another wall
-    if ((shallow || cramped) && limit_value(passage.guess, l) <= 0.0) return std::nullopt;
+    if ((shallow || cramped) && limit_value(transition.guess, l) <= 0.0) return std::nullopt;
   }
-  return passage;
+  return transition;
 }
 
 double SlidingContact::least_gap(const State& state, int places) const {
@@ -195,12 +198,12 @@ double SlidingContact::least_gap(const State& state, int places) const {
   const Vector x = on.x_of(state), s = on.s_of(state);
   double least = infinity;
   for (std::size_t w = 0; w < obstacles_.size(); ++w)
-    for (Index run = 0; run < body_.runs(); ++run) {
-      if (!obstacles_[w].runs[static_cast<std::size_t>(run)]) continue;
-      const Touch surface{.run = run, .position = 0, .obstacle = w, .offset = normal_offset(w, run)};
-      for (Index e = 0; e + 1 < on.mesh().nodes(run); ++e)
+    for (Index strand = 0; strand < body_.strands(); ++strand) {
+      if (!obstacles_[w].strands[static_cast<std::size_t>(strand)]) continue;
+      const Touch surface{.strand = strand, .position = 0, .obstacle = w, .offset = normal_offset(w, strand)};
+      for (Index e = 0; e + 1 < on.mesh().nodes(strand); ++e)
         for (int i = 0; i <= places; ++i)
-          least = std::min(least, face_gap(surface, on.mesh().inside(run, e, double(i) / places, x, s)));
+          least = std::min(least, face_gap(surface, on.mesh().inside(strand, e, double(i) / places, x, s)));
     }
   return least;
 }

@@ -43,21 +43,21 @@ Vec2 SlidingContact::face(double offset, const AxisPlace& place) {
 }
 
 // Of the face that looks at the obstacle, along the wall's normal (upwards).
-double SlidingContact::normal_offset(std::size_t obstacle, Index run) const {
-  return obstacles_[obstacle].on_face ? -sign_of(obstacles_[obstacle].side) * body_.half_height(run) : 0.0;
+double SlidingContact::normal_offset(std::size_t obstacle, Index strand) const {
+  return obstacles_[obstacle].on_face ? -sign_of(obstacles_[obstacle].side) * body_.half_height(strand) : 0.0;
 }
 
 SlidingContact::Touch SlidingContact::touch(const SlidingContactLayout& on, std::size_t j) const {
   if (j < on.points().size()) {
-    const auto [run, position] = on.mesh().breakpoint(static_cast<Index>(j));
+    const auto [strand, position] = on.mesh().breakpoint(static_cast<Index>(j));
     const std::size_t obstacle = on.points()[j].obstacle;
-    return {.run = run, .position = position, .obstacle = obstacle, .offset = normal_offset(obstacle, run)};
+    return {.strand = strand, .position = position, .obstacle = obstacle, .offset = normal_offset(obstacle, strand)};
   }
   const Tied& end = tied_[j - on.points().size()];
-  return {.run = end.run,
-          .position = end.last ? on.mesh().nodes(end.run) - 1 : 0,
+  return {.strand = end.strand,
+          .position = end.last ? on.mesh().nodes(end.strand) - 1 : 0,
           .obstacle = end.obstacle,
-          .offset = normal_offset(end.obstacle, end.run)};
+          .offset = normal_offset(end.obstacle, end.strand)};
 }
 
 double SlidingContact::face_gap(const Touch& touch, const AxisPlace& place) const {
@@ -69,7 +69,7 @@ double SlidingContact::face_gap(const Touch& touch, const AxisPlace& place) cons
 // The face r + o n(θ) with ∂n/∂θ = −t; the tilt is θ − φ(x of the face), φ the wall's slope.
 SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const Vector& x,
                                                  const SlidingContactLayout& on) const {
-  const AxisPlace place = on.mesh().node(touch.run, touch.position, x);
+  const AxisPlace place = on.mesh().node(touch.strand, touch.position, x);
   const Obstacle& obstacle = obstacles_[touch.obstacle];
   const Vec2 n = normal(place.angle), t = tangent(place.angle);
   const double o = t.x() >= 0.0 ? touch.offset : -touch.offset;
@@ -103,7 +103,7 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, s
   const SlidingContactLayout& on = layout(state.piece);
   const Vector x = on.x_of(state), s = on.s_of(state);
   const Touch at = touch(on, k);
-  const AxisPlace place = on.mesh().node(at.run, at.position, x);
+  const AxisPlace place = on.mesh().node(at.strand, at.position, x);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0, offset = travel * at.offset;
   const double side = sign_of(obstacles_[at.obstacle].side);
   const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), free_side(on, k), x, s, state.lambda);
@@ -115,7 +115,7 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, s
   out.dx = side * (travel * strain.curvature_dx - parallel * strain.stretch_dx);
   out.ds = side * (travel * strain.curvature_ds - parallel * strain.stretch_ds);
   out.dlambda = side * (travel * strain.curvature_dlambda - parallel * strain.stretch_dlambda);
-  const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+  const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
   out.dx[unknowns[0]] -= side * strain.stretch * parallel_x;
   out.dx[unknowns[2]] += side * strain.stretch * parallel_x * offset * std::cos(place.angle);
   return out;
@@ -123,8 +123,8 @@ SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, s
 
 // In terms of a moment.
 double SlidingContact::bending_gap(const State& state, std::size_t k) const {
-  const Index run = layout(state.piece).mesh().breakpoint(static_cast<Index>(k)).first;
-  return body_.bending_stiffness(run) * curvature_gap(state, k).value;
+  const Index strand = layout(state.piece).mesh().breakpoint(static_cast<Index>(k)).first;
+  return body_.bending_stiffness(strand) * curvature_gap(state, k).value;
 }
 
 // Force per length that would hold the body on the wall at point k: ± [EI (κ̂″ − κ₀″) + P κ̂ − q·n], q the load along
@@ -133,23 +133,24 @@ double SlidingContact::pressure(const State& state, std::size_t k) const {
   const SlidingContactLayout& on = layout(state.piece);
   const Vector x = on.x_of(state), s = on.s_of(state);
   const Touch at = touch(on, k);
-  const AxisPlace place = on.mesh().node(at.run, at.position, x);
+  const AxisPlace place = on.mesh().node(at.strand, at.position, x);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
-  const double L = body_.length(at.run), step = 0.01 * L, S = s[static_cast<Index>(k)];
+  const double L = body_.length(at.strand), step = 0.01 * L, S = s[static_cast<Index>(k)];
   const Profile& profile = *obstacles_[at.obstacle].profile;
   const auto second = [step](const auto& f) { return (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (step * step); };
-  const double natural = second([&](double i) { return body_.natural_curvature({.run = at.run, .s = S + i * step}); });
+  const double natural =
+      second([&](double i) { return body_.natural_curvature({.strand = at.strand, .s = S + i * step}); });
   const auto wall = [&](double i) {
     const double x_there = place.position.x() + i * step * std::cos(place.angle);
     return profile.covers(x_there) ? bend(profile, x_there).curvature : 0.0;
   };
-  const double EI = body_.bending_stiffness(at.run), EA = body_.axial_stiffness(at.run);
+  const double EI = body_.bending_stiffness(at.strand), EA = body_.axial_stiffness(at.strand);
   const double thrust =
       -EA * (on.mesh().strain(static_cast<Index>(k), free_side(on, k), x, s, state.lambda).stretch - 1.0);
   const Vec2 up = travel * normal(place.angle);
   const double q =
       sign_of(obstacles_[at.obstacle].side) *
-      (EI * (second(wall) - travel * natural) + thrust * wall(0.0) - body_.load(at.run, state.lambda).dot(up));
+      (EI * (second(wall) - travel * natural) + thrust * wall(0.0) - body_.load(at.strand, state.lambda).dot(up));
   const double noise = 1e-7 * EI / (L * L * L);
   return std::abs(q) > noise ? q : 0.0;
 }
@@ -157,7 +158,7 @@ double SlidingContact::pressure(const State& state, std::size_t k) const {
 double SlidingContact::wall_curvature(const State& state, std::size_t k) const {
   const SlidingContactLayout& on = layout(state.piece);
   const Touch at = touch(on, k);
-  const AxisPlace place = on.mesh().node(at.run, at.position, on.x_of(state));
+  const AxisPlace place = on.mesh().node(at.strand, at.position, on.x_of(state));
   return bend(*obstacles_[at.obstacle].profile, place.position.x()).curvature;
 }
 
@@ -177,7 +178,7 @@ Vector SlidingContact::border_rates(const State& state) const {
     if (on.lies_beside(point)) continue;
     const Touch at = touch(on, point);
     const AxisStrain strain = on.mesh().strain(k, free_side(on, point), x, s, state.lambda);
-    const double angle = on.mesh().node(at.run, at.position, x).angle, travel = std::cos(angle) >= 0.0 ? 1.0 : -1.0;
+    const double angle = on.mesh().node(at.strand, at.position, x).angle, travel = std::cos(angle) >= 0.0 ? 1.0 : -1.0;
     const Vec2 along = strain.stretch * tangent(angle);
     const double rate = node_gap(at, x, on).tilt_gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
     constexpr double touching = 1e-9;  // a line is about to form, or has just vanished

@@ -6,20 +6,20 @@ SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_
                                            std::vector<Point> points, const Vector& s)
     : mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
   Index point = 0;
-  for (Index run = 0; run < body.runs(); ++run) {
-    const std::vector<int>& elements = mesh_->cut()[static_cast<std::size_t>(run)];
+  for (Index strand = 0; strand < body.strands(); ++strand) {
+    const std::vector<int>& elements = mesh_->elements_per_segment()[static_cast<std::size_t>(strand)];
     Index position = 0;
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const bool first = i == 0, last = i + 1 == elements.size();
       const Span span = first ? Span::free : points_[static_cast<std::size_t>(point - 1)].behind;
-      segments_.push_back({.run = run,
+      segments_.push_back({.strand = strand,
                            .first_point = first ? -1 : point - 1,
                            .last_point = last ? -1 : point,
                            .elements = elements[i],
                            .span = span});
       if (span == Span::pressed)
         for (Index node = position + 1; node < position + elements[i]; ++node)
-          held_.push_back({.run = run,
+          held_.push_back({.strand = strand,
                            .position = node,
                            .obstacle = points_[static_cast<std::size_t>(point - 1)].obstacle,
                            .segment = segments_.size() - 1});
@@ -46,21 +46,21 @@ SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_
     }
     limits_.push_back({.bound = Bound::coarse, .which = i});
     const auto [from, to] = ends(body, segment, s);
-    if (segment.elements > 1 && body.elements_between(segment.run, from, to) > 1.2 * finest * segment.elements)
+    if (segment.elements > 1 && body.elements_between(segment.strand, from, to) > 1.2 * finest * segment.elements)
       limits_.push_back({.bound = Bound::fine, .which = i});
   }
   for (std::size_t i = 0; i < held_.size(); ++i) limits_.push_back({.bound = Bound::pressure, .which = i});
-  for (Index run = 0; run < body.runs(); ++run)
+  for (Index strand = 0; strand < body.strands(); ++strand)
     for (const bool last : {false, true}) {
-      if (body.end_is_held(run, last)) continue;
+      if (body.end_is_held(strand, last)) continue;
       for (const Bound bound : {Bound::lies, Bound::upright})
-        limits_.push_back({.bound = bound, .which = 2 * static_cast<std::size_t>(run) + (last ? 1 : 0)});
+        limits_.push_back({.bound = bound, .which = 2 * static_cast<std::size_t>(strand) + (last ? 1 : 0)});
     }
 }
 
 SlidingContactLayout::Span SlidingContactLayout::span_before(std::size_t point) const {
-  const auto run = [this](std::size_t k) { return mesh_->breakpoint(static_cast<Index>(k)).first; };
-  return point == 0 || run(point) != run(point - 1) ? Span::free : points_[point - 1].behind;
+  const auto strand = [this](std::size_t k) { return mesh_->breakpoint(static_cast<Index>(k)).first; };
+  return point == 0 || strand(point) != strand(point - 1) ? Span::free : points_[point - 1].behind;
 }
 
 bool SlidingContactLayout::parts_pressed(std::size_t point) const {
@@ -71,7 +71,7 @@ bool SlidingContactLayout::parts_pressed(std::size_t point) const {
 std::pair<double, double> SlidingContactLayout::ends(const SlidingBody& body, const Segment& segment,
                                                      const Vector& s) const {
   return {segment.first_point < 0 ? 0.0 : s[segment.first_point],
-          segment.last_point < 0 ? body.length(segment.run) : s[segment.last_point]};
+          segment.last_point < 0 ? body.length(segment.strand) : s[segment.last_point]};
 }
 
 }  // namespace arcwall

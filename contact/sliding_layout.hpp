@@ -26,13 +26,13 @@ class SlidingContactLayout final : public SlidingLayout {
 
   /// A node inside a pressed part, which is a segment.
   struct Held {
-    Index run, position;
+    Index strand, position;
     std::size_t obstacle, segment;
   };
 
-  /// A stretch between breakpoints; −1: the end of the run.
+  /// A stretch between breakpoints; −1: the end of the strand.
   struct Segment {
-    Index run, first_point, last_point;
+    Index strand, first_point, last_point;
     int elements;
     Span span;
   };
@@ -69,7 +69,7 @@ class SlidingContactLayout final : public SlidingLayout {
   /// `s` where it began.
   const Vector& origin() const { return origin_; }
 
-  /// A free end as a limit's `which`: 2 run + 1 for the last.
+  /// A free end as a limit's `which`: 2 strand + 1 for the last.
   static std::pair<Index, bool> end_of(std::size_t which) { return {static_cast<Index>(which / 2), which % 2 == 1}; }
 
   Vector x_of(const State& state) const { return state.x.head(mesh_->unknowns()); }

@@ -58,9 +58,9 @@ double SlidingContact::least_span(const SlidingContactLayout& on, std::size_t k)
   return (between_parts ? 4.0 : 1.0) * least_span(on.mesh().breakpoint(static_cast<Index>(k)).first);
 }
 
-double SlidingContact::least_span(Index run) const {
-  const double L = body_.length(run);
-  return std::max(0.125 * L / body_.elements_between(run, 0.0, L), 1e-3 * L);
+double SlidingContact::least_span(Index strand) const {
+  const double L = body_.length(strand);
+  return std::max(0.125 * L / body_.elements_between(strand, 0.0, L), 1e-3 * L);
 }
 
 // Where the force of a held node stands in x.
@@ -120,15 +120,15 @@ double SlidingContact::least_pressure_place(const State& state, std::size_t node
   const Layout_::Segment& segment = on.segments()[held.segment];
   const Vector s = on.s_of(state);
   const double h = (s[segment.last_point] - s[segment.first_point]) / segment.elements;
-  return on.mesh().coordinate(held.run, held.position, s) + least_pressure(state, node).offset * h;
+  return on.mesh().coordinate(held.strand, held.position, s) + least_pressure(state, node).offset * h;
 }
 
 // Which contact of a free end touches, if one does.
 std::optional<std::size_t> SlidingContact::touching_end(const State& state, std::size_t which) const {
-  const auto [run, last] = Layout_::end_of(which);
+  const auto [strand, last] = Layout_::end_of(which);
   const std::size_t points = layout(state.piece).points().size();
   for (std::size_t j = 0; j < tied_.size(); ++j)
-    if (tied_[j].run == run && tied_[j].last == last && state.piece[points + j]) return points + j;
+    if (tied_[j].strand == strand && tied_[j].last == last && state.piece[points + j]) return points + j;
   return std::nullopt;
 }
 
@@ -139,14 +139,14 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
   const auto asked = [&, which = which] {
     const Layout_::Segment& segment = on.segments()[which];
     const auto [from, to] = on.ends(body_, segment, s);
-    return body_.elements_between(segment.run, from, to);
+    return body_.elements_between(segment.strand, from, to);
   };
   switch (bound) {
     case Bound::curvature: {
       const double bend = curvature_gap(state, which).value * scales_.length;
       if (state.piece[which]) return bend;
       const Touch at = touch(on, which);
-      return bend - flatness * face_gap(at, on.mesh().node(at.run, at.position, on.x_of(state))) / scales_.length;
+      return bend - flatness * face_gap(at, on.mesh().node(at.strand, at.position, on.x_of(state))) / scales_.length;
     }
     case Bound::length: {
       const auto k = static_cast<Index>(which);
@@ -163,7 +163,7 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       const Index k = segment.last_point;
       const double d = s[k] - s[k - 1],
                    stretch = on.mesh().strain(k, SlidingMesh::At::before, on.x_of(state), s, state.lambda).stretch;
-      const double EA = body_.axial_stiffness(segment.run), EI = body_.bending_stiffness(segment.run);
+      const double EA = body_.axial_stiffness(segment.strand), EI = body_.bending_stiffness(segment.strand);
       const double waves = EA * (1.0 - stretch) * stretch / EI * d * d / (pi * pi);
       return bound == Bound::half_wave ? 1.0 - waves : waves - shortest_flat * shortest_flat;
     }
@@ -184,7 +184,7 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       const Touch at = j ? touch(on, *j) : Touch{};
       if (!j || at.offset == 0.0 || tied_[*j - on.points().size()].travel == 0.0) break;
       return tied_[*j - on.points().size()].travel *
-                 std::cos(on.mesh().node(at.run, at.position, on.x_of(state)).angle) -
+                 std::cos(on.mesh().node(at.strand, at.position, on.x_of(state)).angle) -
              nearly_upright;
     }
   }
@@ -200,9 +200,9 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
   const auto by_ends = [&, which = which](double factor) {
     const Layout_::Segment& segment = on.segments()[which];
     const auto [from, to] = on.ends(body_, segment, s);
-    const double step = 1e-6 * body_.length(segment.run);
+    const double step = 1e-6 * body_.length(segment.strand);
     const auto density = [&](double S) {
-      return body_.elements_between(segment.run, S - step, S + step) / (2.0 * step) * factor;
+      return body_.elements_between(segment.strand, S - step, S + step) / (2.0 * step) * factor;
     };
     if (segment.first_point >= 0) row.dx[first_s + segment.first_point] = -density(from);
     if (segment.last_point >= 0) row.dx[first_s + segment.last_point] = density(to);
@@ -216,7 +216,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       if (state.piece[which]) break;
       const Touch at = touch(on, which);
       const Eigen::Vector3d by_gap = flatness / scales_.length * node_gap(at, on.x_of(state), on).gap_gradient;
-      const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+      const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
       for (std::size_t i = 0; i < 3; ++i)
         if (unknowns[i] >= 0) row.dx[unknowns[i]] -= by_gap[static_cast<Index>(i)];
       break;
@@ -236,7 +236,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       const Layout_::Segment& segment = on.segments()[which];
       const Index k = segment.last_point;
       const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, on.x_of(state), s, state.lambda);
-      const double EA = body_.axial_stiffness(segment.run), EI = body_.bending_stiffness(segment.run);
+      const double EA = body_.axial_stiffness(segment.strand), EI = body_.bending_stiffness(segment.strand);
       const double sign = bound == Bound::half_wave ? -1.0 : 1.0, d = s[k] - s[k - 1];
       const double factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
       const double by_stretch = factor * (1.0 - 2.0 * stretch) * d * d;
@@ -271,7 +271,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       const NodeGap gap = node_gap(at, on.x_of(state), on);
       const Eigen::Vector3d gradient =
           outward(obstacles_[end.obstacle].side, end.last) * std::cos(gap.angle) * gap.tilt_gradient;
-      const NodeUnknowns unknowns = on.mesh().node_unknowns(at.run, at.position);
+      const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
       for (std::size_t i = 0; i < 3; ++i)
         if (unknowns[i] >= 0) row.dx[unknowns[i]] = gradient[static_cast<Index>(i)];
       break;
@@ -280,10 +280,10 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       const auto j = touching_end(state, which);
       const Touch at = j ? touch(on, *j) : Touch{};
       if (!j || at.offset == 0.0) break;
-      const Index turn = on.mesh().node_unknowns(at.run, at.position)[2];
+      const Index turn = on.mesh().node_unknowns(at.strand, at.position)[2];
       if (turn >= 0)
         row.dx[turn] = -tied_[*j - on.points().size()].travel *
-                       std::sin(on.mesh().node(at.run, at.position, on.x_of(state)).angle);
+                       std::sin(on.mesh().node(at.strand, at.position, on.x_of(state)).angle);
       break;
     }
   }

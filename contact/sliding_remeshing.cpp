@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/layout_edit.hpp"
 #include "contact/sliding_contact.hpp"
-#include "contact/sliding_draft.hpp"
 
 namespace arcwall {
 
@@ -11,34 +11,35 @@ using Layout_ = SlidingContactLayout;
 using Span = SlidingContactLayout::Span;
 using Point = SlidingContactLayout::Point;
 
-SlidingDraft SlidingContact::draft_of(const State& state) const {
+LayoutEdit SlidingContact::draft_of(const State& state) const {
   const Layout_& on = layout(state.piece);
-  SlidingDraft draft{.cut = on.mesh().cut(), .points = on.points(), .s = on.s_of(state)};
+  LayoutEdit edit{.cut = on.mesh().elements_per_segment(), .points = on.points(), .s = on.s_of(state)};
   for (std::size_t k = 0; k < on.points().size(); ++k) {
-    draft.runs.push_back(on.mesh().breakpoint(static_cast<Index>(k)).first);
-    draft.closed.push_back(state.piece[k]);
-    draft.forces.push_back(force(state, static_cast<Index>(k)));
+    edit.strands.push_back(on.mesh().breakpoint(static_cast<Index>(k)).first);
+    edit.closed.push_back(state.piece[k]);
+    edit.forces.push_back(force(state, static_cast<Index>(k)));
   }
-  return draft;
+  return edit;
 }
 
-std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const SlidingDraft& draft) const {
-  return std::make_shared<Layout_>(body_, body_.mesh(draft.cut), draft.points, draft.s);
+std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const LayoutEdit& edit) const {
+  return std::make_shared<Layout_>(body_, body_.mesh(edit.cut), edit.points, edit.s);
 }
 
-std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const Cut& cut, std::vector<Point> points,
+std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const ElementsPerSegment& cut,
+                                                                      std::vector<Point> points,
                                                                       const Vector& origin) const {
-  if (static_cast<Index>(cut.size()) != body_.runs() || static_cast<Index>(points.size()) != origin.size())
+  if (static_cast<Index>(cut.size()) != body_.strands() || static_cast<Index>(points.size()) != origin.size())
     return nullptr;
   Index k = 0;
-  for (Index run = 0; run < body_.runs(); ++run) {
-    const std::vector<int>& elements = cut[static_cast<std::size_t>(run)];
-    const double most = 1000.0 + 100.0 * body_.elements_between(run, 0.0, body_.length(run));  // of a segment
+  for (Index strand = 0; strand < body_.strands(); ++strand) {
+    const std::vector<int>& elements = cut[static_cast<std::size_t>(strand)];
+    const double most = 1000.0 + 100.0 * body_.elements_between(strand, 0.0, body_.length(strand));  // of a segment
     const auto wrong = [most](int n) { return n < 1 || n > most; };
     if (elements.empty() || std::any_of(elements.begin(), elements.end(), wrong)) return nullptr;
     double before = 0.0;
     for (std::size_t i = 0; i + 1 < elements.size(); ++i, ++k) {
-      if (k == origin.size() || !(origin[k] >= before && origin[k] <= body_.length(run))) return nullptr;
+      if (k == origin.size() || !(origin[k] >= before && origin[k] <= body_.length(strand))) return nullptr;
       before = origin[k];
     }
   }
@@ -47,7 +48,7 @@ std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const Cut&
   return std::make_shared<Layout_>(body_, body_.mesh(cut), std::move(points), origin);
 }
 
-State SlidingContact::redrawn(const State& state, const SlidingDraft& by,
+State SlidingContact::redrawn(const State& state, const LayoutEdit& by,
                               const std::shared_ptr<const SlidingContactLayout>& on) const {
   const Layout_& from = layout(state.piece);
   const std::size_t points = by.points.size(), before = from.points().size();
@@ -64,46 +65,46 @@ State SlidingContact::redrawn(const State& state, const SlidingDraft& by,
   return out;
 }
 
-Passage SlidingContact::remeshed(const State& state, const Direction& forward, const Edit& edit) const {
+Transition SlidingContact::remeshed(const State& state, const Direction& forward, const Edit& edit) const {
   constexpr double step = 1e-6;  // [path metric]
-  const auto draft = [&](const State& from) {
-    SlidingDraft changed = draft_of(from);
+  const auto edit = [&](const State& from) {
+    LayoutEdit changed = draft_of(from);
     edit(changed);
     return changed;
   };
-  const SlidingDraft here = draft(state);
+  const LayoutEdit here = edit(state);
   const auto on = layout_of(here);
-  Passage passage{.change = Passage::Change::remeshed, .guess = redrawn(state, here, on)};
+  Transition transition{.change = Transition::Change::remeshed, .guess = redrawn(state, here, on)};
   const State ahead = moved(state, forward, step);
-  passage.forward = difference(redrawn(ahead, draft(ahead), on), passage.guess);
-  passage.forward.dx /= step;
-  passage.forward.dlambda /= step;
-  return passage;
+  transition.forward = difference(redrawn(ahead, edit(ahead), on), transition.guess);
+  transition.forward.dx /= step;
+  transition.forward.dlambda /= step;
+  return transition;
 }
 
 // The least gap that an open point followed is about to vanish, or has become shallow for its distance: before the body
 // is straight it must be let go, as nothing would say where it is.
-Passage SlidingContact::without(const State& state, const Direction& forward, std::size_t k) const {
+Transition SlidingContact::without(const State& state, const Direction& forward, std::size_t k) const {
   return remeshed(state, forward,
-                  [k](SlidingDraft& draft) { draft.erase(k, draft.elements_before(k) + draft.elements_behind(k)); });
+                  [k](LayoutEdit& edit) { edit.erase(k, edit.elements_before(k) + edit.elements_behind(k)); });
 }
 
-Passage SlidingContact::with_elements(const State& state, const Direction& forward, std::size_t segment,
-                                      int elements) const {
+Transition SlidingContact::with_elements(const State& state, const Direction& forward, std::size_t segment,
+                                         int elements) const {
   const Layout_::Segment& changed = layout(state.piece).segments()[segment];
-  return remeshed(state, forward, [&changed, elements](SlidingDraft& draft) {
+  return remeshed(state, forward, [&changed, elements](LayoutEdit& edit) {
     if (changed.last_point >= 0) {
-      draft.elements_before(static_cast<std::size_t>(changed.last_point)) = elements;
+      edit.elements_before(static_cast<std::size_t>(changed.last_point)) = elements;
     } else if (changed.first_point >= 0) {
-      draft.elements_behind(static_cast<std::size_t>(changed.first_point)) = elements;
+      edit.elements_behind(static_cast<std::size_t>(changed.first_point)) = elements;
     } else {
-      draft.cut[static_cast<std::size_t>(changed.run)] = {elements};
+      edit.cut[static_cast<std::size_t>(changed.strand)] = {elements};
     }
   });
 }
 
 // A flat part that is bent is none.
-Piece SlidingContact::settled(const State& state) const {
+Piece SlidingContact::canonical_piece(const State& state) const {
   const Layout_& on = layout(state.piece);
   constexpr double bent = 1e-6;
   std::vector<Point> points = on.points();

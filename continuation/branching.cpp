@@ -99,9 +99,9 @@ std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, c
     CorrectorResult at =
         corrector.correct(moved(point.state, point.other, sign * distance), plane, metric, point.other, distance);
     if (!at.converged()) continue;
-    at.state.piece = system.settled(at.state);
+    at.state.piece = system.canonical_piece(at.state);
     if (system.guard_count(at.state.piece) > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;
-    if (!system.admissible(at.state, -let_pass)) continue;
+    if (!system.admissible(at.state, -penetration_tolerance)) continue;
     const Direction chord = difference(at.state, point.state);
     if (metric.norm(chord) > 2.0 * distance) continue;
     Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);

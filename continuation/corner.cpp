@@ -9,44 +9,44 @@ namespace arcwall {
 
 namespace {
 
-// The rate problem in the weak contacts' guards: ġ + c ṗ = λ̇ a + M ṗ, c their compliances.
+// The rate problem in the degenerate contacts' guards: ġ + c ṗ = λ̇ a + M ṗ, c their compliances.
 struct RateProblem {
-  State open{};        // the corner with all weak contacts open
-  Vector free_rate{};  // ẋ for λ̇ = 1 without weak forces
-  Matrix response{};   // ẋ for unit weak forces
+  State open{};        // the corner with all degenerate contacts open
+  Vector free_rate{};  // ẋ for λ̇ = 1 without degenerate forces
+  Matrix response{};   // ẋ for unit degenerate forces
   Vector a{};
   Matrix M{};
 };
 
-// Rates of λ and of the weak contacts' forces.
+// Rates of λ and of the degenerate contacts' forces.
 struct Solution {
   double lambda;
   Vector p;
 };
 
-std::optional<RateProblem> reduce(const System& system, const State& corner, const std::vector<Index>& weak,
+std::optional<RateProblem> reduce(const System& system, const State& corner, const std::vector<Index>& degenerate,
                                   CornerWorkspace& workspace) {
   RateProblem problem;
   Piece piece = corner.piece;
-  for (const Index j : weak) piece[static_cast<std::size_t>(j)] = 0;
+  for (const Index j : degenerate) piece[static_cast<std::size_t>(j)] = 0;
   problem.open = system.with_piece(corner, piece);
   auto& [now, solver] = workspace;
   system.linearize(problem.open, now);
   if (solver.factorize(now, system.multiplier_count(piece)) != FactorStatus::ok) return std::nullopt;
-  const auto w = static_cast<Index>(weak.size());
+  const auto w = static_cast<Index>(degenerate.size());
   Matrix X(now.F.size(), 1 + w);
   X.col(0) = -now.F_lambda;
-  for (Index i = 0; i < w; ++i) X.col(1 + i) = system.unit_force(problem.open, weak[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < w; ++i) X.col(1 + i) = system.unit_force(problem.open, degenerate[static_cast<std::size_t>(i)]);
   if (!solver.solve_inner(X)) return std::nullopt;
   problem.free_rate = X.col(0);
   problem.response = X.rightCols(w);
   problem.a.resize(w);
   problem.M.resize(w, w);
   for (Index i = 0; i < w; ++i) {
-    const Row gap = system.guard_gradient(problem.open, weak[static_cast<std::size_t>(i)]);
+    const Row gap = system.guard_gradient(problem.open, degenerate[static_cast<std::size_t>(i)]);
     problem.a[i] = gap.dx.dot(problem.free_rate) + gap.dlambda;
     problem.M.row(i) = gap.dx.transpose() * problem.response;
-    problem.M(i, i) += system.compliance(weak[static_cast<std::size_t>(i)]);
+    problem.M(i, i) += system.compliance(degenerate[static_cast<std::size_t>(i)]);
   }
   if (!problem.a.allFinite() || !problem.M.allFinite()) return std::nullopt;
   return problem;
@@ -146,7 +146,7 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
 }
 
 // The ray of a solution in the unknowns of its own piece; none if a rate has the wrong sign.
-std::vector<Ray> ray_of(const System& system, const State& corner, const std::vector<Index>& weak,
+std::vector<Ray> ray_of(const System& system, const State& corner, const std::vector<Index>& degenerate,
                         const RateProblem& problem, const Solution& solution, const CornerOptions& options) {
   Direction motion{.dx = solution.lambda * problem.free_rate + problem.response * solution.p,
                    .dlambda = solution.lambda};
@@ -165,14 +165,14 @@ std::vector<Ray> ray_of(const System& system, const State& corner, const std::ve
   ray.piece = corner.piece;
   ray.loading = Piece(corner.piece.size(), 0);
   for (Index i = 0; i < p.size(); ++i) {
-    const auto j = static_cast<std::size_t>(weak[static_cast<std::size_t>(i)]);
+    const auto j = static_cast<std::size_t>(degenerate[static_cast<std::size_t>(i)]);
     if (p[i] > p_zero) ray.piece[j] = ray.loading[j] = 1;
     if (p[i] <= p_zero && gap_rate[i] > g_zero) ray.piece[j] = 0;
   }
   ray.direction.dlambda = motion.dlambda;
   ray.direction.dx = system.transfer(motion.dx, problem.open.piece, ray.piece);
   for (Index i = 0; i < p.size(); ++i)
-    if (const auto k = system.multiplier_index(ray.piece, weak[static_cast<std::size_t>(i)]))
+    if (const auto k = system.multiplier_index(ray.piece, degenerate[static_cast<std::size_t>(i)]))
       ray.direction.dx[*k] = p[i] * system.multiplier_scale();
   return {std::move(ray)};
 }
@@ -190,14 +190,14 @@ bool same(const System& system, const Ray& a, const Ray& b, double tolerance) {
 
 }  // namespace
 
-std::vector<Ray> rays_of(const System& system, const State& corner, const std::vector<Index>& weak,
+std::vector<Ray> rays_of(const System& system, const State& corner, const std::vector<Index>& degenerate,
                          const CornerOptions& options, CornerWorkspace& workspace) {
-  const auto problem = reduce(system, corner, weak, workspace);
+  const auto problem = reduce(system, corner, degenerate, workspace);
   if (!problem) return {};
-  const bool small = static_cast<int>(weak.size()) <= options.max_enumerated;
+  const bool small = static_cast<int>(degenerate.size()) <= options.max_enumerated;
   std::vector<Ray> rays;
   for (const Solution& solution : small ? enumerate(*problem) : pivoted(*problem))
-    for (Ray& ray : ray_of(system, corner, weak, *problem, solution, options)) {
+    for (Ray& ray : ray_of(system, corner, degenerate, *problem, solution, options)) {
       const auto known = [&](const Ray& other) { return same(system, ray, other, options.same_direction); };
       if (std::none_of(rays.begin(), rays.end(), known)) rays.push_back(std::move(ray));
     }

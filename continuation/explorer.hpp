@@ -54,9 +54,9 @@ class Explorer {
   /// Ends everything where it is.
   void stop(const BranchEnd& end);
 
-  /// Visits all that changes, as Tracer::keep().
+  /// Visits all that changes, as Tracer::serialize().
   template <typename Archive>
-  void keep(Archive& archive) {
+  void serialize(Archive& archive) {
     bool under_way = tracer_ != nullptr;
     archive(lambda_scale_, current_, queue_, branches_, known_, stopped_, under_way);
     const auto goes_on = [&](std::size_t branch) {
@@ -69,7 +69,7 @@ class Explorer {
       tracer_ = std::make_unique<Tracer>(
           system_, BranchStart{.state = {.piece = system_.open_piece()}, .lambda_scale = lambda_scale_}, trace_,
           watched_);
-    tracer_->keep(archive);
+    tracer_->serialize(archive);
   }
 
  private:
@@ -78,7 +78,7 @@ class Explorer {
     BranchRecord record;
 
     template <typename Archive>
-    void keep(Archive& archive) {
+    void serialize(Archive& archive) {
       archive(start, record);
     }
   };

@@ -36,9 +36,9 @@ class LoadIncrements {
   /// Takes an increment that was taken before as taken, in the order in which they were.
   void repeat(const State& state) { advance_(state); }
 
-  /// Visits what else changes, as Tracer::keep().
+  /// Visits what else changes, as Tracer::serialize().
   template <typename Archive>
-  void keep(Archive& archive) {
+  void serialize(Archive& archive) {
     archive(last_, unsettled_, end_);
   }
 

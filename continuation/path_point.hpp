@@ -98,7 +98,7 @@ enum class EndReason {
   no_ray,           ///< no equilibrium leaves a corner
   turning_control,  ///< the controlled quantity turns
   wall_end,         ///< a contact reached the end of its wall
-  family,           ///< a continuum of equilibria with one load and energy lies ahead
+  continuum,        ///< a continuum of equilibria with one load and energy lies ahead
   unsupported,      ///< something lies ahead that is not modelled
 };
 
@@ -107,7 +107,7 @@ struct BranchEnd {
   EndReason reason = EndReason::stop;
   std::string detail{};          ///< which bound; what to try
   std::optional<int> partner{};  ///< the branch that it joined or that goes on
-  std::optional<Family> family{};
+  std::optional<Continuum> continuum{};
 };
 
 /// One accepted stretch of path and the events at its end. The first arc of a branch has length zero.

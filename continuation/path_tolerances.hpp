@@ -4,9 +4,9 @@
 namespace arcwall {
 
 /// Points of a path that are nearer to each other are one [path metric].
-inline constexpr double same_place = 1e-8;
+inline constexpr double coincidence_tolerance = 1e-8;
 
 /// Penetration that is let pass between contacts [scale of guards].
-inline constexpr double let_pass = 1e-9;
+inline constexpr double penetration_tolerance = 1e-9;
 
 }  // namespace arcwall

@@ -170,7 +170,7 @@ std::optional<SingularLocator::Bracket> SingularLocator::bisect(const Segment& s
 std::vector<SingularPlace> SingularLocator::roots(const Level& level, const Segment& segment, const Metric& metric,
                                                   const Bracket& bracket) const {
   constexpr double reach = 3.0;  // of the spread
-  const double ignored = same_place / segment.length();
+  const double ignored = coincidence_tolerance / segment.length();
   const double from = std::max({bracket.from, ignored, level.centre() - reach * level.spread()});
   const double to = std::min(bracket.to, level.centre() + reach * level.spread());
   const Vector first = level.eigenvalues(from), last = level.eigenvalues(to);
@@ -185,7 +185,7 @@ std::vector<SingularPlace> SingularLocator::roots(const Level& level, const Segm
   std::sort(zeros.begin(), zeros.end());
   std::vector<SingularPlace> places;
   for (const double t : zeros) {
-    if (!places.empty() && (t - places.back().t) * segment.length() <= same_place) {
+    if (!places.empty() && (t - places.back().t) * segment.length() <= coincidence_tolerance) {
       ++places.back().multiplicity;
       places.back().change += falls ? 1 : -1;
     } else {
@@ -229,7 +229,7 @@ std::optional<std::vector<SingularPlace>> SingularLocator::touches(const Segment
   for (const double spread : {0.25, 0.06, 0.01}) {
     level = level_at(segment, metric, valley.t, spread, what, 0);
     if (!level) return std::nullopt;
-    const double first = from_singular ? 10.0 * same_place / L : -margin;
+    const double first = from_singular ? 10.0 * coincidence_tolerance / L : -margin;
     const double from = std::max(first, valley.t - reach), to = std::min(1.0 + margin, valley.t + reach);
     outside = level->negative(from);
     if (level->negative(to) != outside) return std::nullopt;
@@ -267,7 +267,7 @@ std::optional<std::vector<SingularPlace>> SingularLocator::touches(const Segment
     const auto first = bracketed_root(value, left, side(left), valley.t, valley.value, 1e-14);
     const auto second = bracketed_root(value, valley.t, valley.value, right, side(right), 1e-14);
     if (!first || !second) return std::nullopt;
-    if ((second->at - first->at) * L > same_place) {
+    if ((second->at - first->at) * L > coincidence_tolerance) {
       const Index change = level->negative(valley.t) - outside;
       places = {place_at(first->at), place_at(second->at)};
       places[0].change = change;
@@ -278,7 +278,8 @@ std::optional<std::vector<SingularPlace>> SingularLocator::touches(const Segment
   }
   places = {place_at(valley.t)};
   places[0].multiplicity = std::max<Index>(
-      1, (level->eigenvalues(valley.t).array().abs() <= std::max(touching, 2.0 * same_place) * valley.at_one).count());
+      1, (level->eigenvalues(valley.t).array().abs() <= std::max(touching, 2.0 * coincidence_tolerance) * valley.at_one)
+             .count());
   places[0].touches = places[0].multiplicity == 1;
   return places;
 }

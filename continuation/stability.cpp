@@ -22,7 +22,7 @@ std::optional<Index> negative_eigenvalues(const System& system, const State& sta
   return let_go ? std::optional(inertia->negative - multipliers + *let_go) : std::nullopt;
 }
 
-Piece strongly_closed(const System& system, const State& state, double force_tolerance) {
+Piece strictly_active(const System& system, const State& state, double force_tolerance) {
   Piece piece = state.piece;
   for (std::size_t j = 0; j < piece.size(); ++j) {
     const auto force = system.multiplier_index(state.piece, static_cast<Index>(j));
@@ -36,10 +36,10 @@ void StabilityCounter::track_from(const NearNull& nearest) {
   last_ = {};
 }
 
-// With weak contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0}, so a
-// count of 0 there means stable; it contains {G_S v = 0, G_W v = 0}, so a count above 0 there means unstable.
+// With degenerate contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0},
+// so a count of 0 there means stable; it contains {G_S v = 0, G_W v = 0}, so a count above 0 there means unstable.
 StabilityCount StabilityCounter::count(const State& state, std::optional<Index> negative_held) {
-  const Piece strong = strongly_closed(system_, state, force_tolerance_);
+  const Piece strong = strictly_active(system_, state, force_tolerance_);
   if (!negative_held) negative_held = negative_on(state);
   const std::optional<Index> unstable =
       strong == state.piece ? negative_held : negative_on(system_.with_piece(state, strong));

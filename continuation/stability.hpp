@@ -58,6 +58,6 @@ class StabilityCounter {
 };
 
 /// The piece on which only the contacts that carry more than the tolerance are closed.
-Piece strongly_closed(const System& system, const State& state, double force_tolerance);
+Piece strictly_active(const System& system, const State& state, double force_tolerance);
 
 }  // namespace arcwall

@@ -38,9 +38,9 @@ class StepControl {
   void failed(double taken) { length_ = 0.5 * taken; }
   void restart(double length) { length_ = std::clamp(length, options_.min, options_.max); }
 
-  /// Visits what changes, as Tracer::keep().
+  /// Visits what changes, as Tracer::serialize().
   template <typename Archive>
-  void keep(Archive& archive) {
+  void serialize(Archive& archive) {
     archive(length_);
   }
 

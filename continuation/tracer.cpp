@@ -111,7 +111,7 @@ std::optional<Arc> Tracer::begin() {
   decide_count(here_);
   Arc arc;
   if (system_.guard_count(here_.state.piece) > 0 &&
-      !weak_contacts(here_.guards, here_.state.piece, options_.guard_tolerance).empty()) {
+      !degenerate_contacts(here_.guards, here_.state.piece, options_.guard_tolerance).empty()) {
     if (!turn_corner(here_, -1, 0.0, arc.events)) return std::nullopt;
   }
   here_.count = counter_.count(here_.state, here_.held);
@@ -156,7 +156,7 @@ std::optional<Arc> Tracer::advance(double s) {
   std::vector<Singular> singular = std::exchange(near_, {});
   auto step = singular.empty() ? take_clear_of_singular(s) : std::optional(Step{.to = singular.front().at});
   if (!step) return std::nullopt;
-  if (step->family) step->to.held = std::nullopt;
+  if (step->continuum) step->to.held = std::nullopt;
   if (singular.empty() && options_.events != EventSearch::none && !find_singular(step->to, singular))
     return rejected(StepOutcome::events_unclear);
 
@@ -169,7 +169,7 @@ std::optional<Arc> Tracer::advance(double s) {
     step->corner = false;
   };
   if (!singular.empty()) end_at(singular.front().found, singular.front().at);
-  const bool looks = options_.events != EventSearch::none || !options_.landmarks.empty();
+  const bool looks = options_.events != EventSearch::none || !options_.target_values.empty();
   double length = 0.0;
   for (;;) {
     constexpr double same = 1e-9;  // what was located lies at the end itself
@@ -187,7 +187,7 @@ std::optional<Arc> Tracer::advance(double s) {
   if (!singular.empty())
     to.count = {};  // an eigenvalue is zero there
   else
-    to.count = step->family ? StabilityCount{.unstable = after_.unstable} : counter_.count(to.state, to.held);
+    to.count = step->continuum ? StabilityCount{.unstable = after_.unstable} : counter_.count(to.state, to.held);
 
   // A pitchfork met along its own branch, where λ turns and an eigenvalue touches zero, was reported on the other.
   const bool crosses = !singular.empty() && singular.front().branching && singular.front().change % 2 == 0;
@@ -206,12 +206,12 @@ std::optional<Arc> Tracer::advance(double s) {
     held_ = *held_ + first.change;
     vanishing_ = first.branching ? first.branching->multiplicity : 1;
   } else {
-    if (found && found->what != Found::What::landmark)
+    if (found && found->what != Found::What::target_value)
       arc.events.push_back(event_of(*found, to, beyond, behind, length));
-    if (to.held || step->family) held_ = to.held;
+    if (to.held || step->continuum) held_ = to.held;
     vanishing_ = to.held ? 0 : 1;
   }
-  if (found && found->what == Found::What::landmark) stop_at(options_.landmarks[found->which], to);
+  if (found && found->what == Found::What::target_value) stop_at(options_.target_values[found->which], to);
   if (!step->corner) after_ = behind;
   if (!step->corner && !end_) end_ = end_where_known(to);
   step_.succeeded(to.iterations, step->turn, step->corner || found ? length : s);
@@ -255,9 +255,9 @@ std::optional<Arc> Tracer::advance(double s) {
   return arc;
 }
 
-// A landmark was landed on: the branch ends if it, or another of the same quantity and value, is a bound.
-void Tracer::stop_at(const Landmark& landed, const PathPoint& to) {
-  for (const Landmark& mark : options_.landmarks)
+// A target_value was landed on: the branch ends if it, or another of the same quantity and value, is a bound.
+void Tracer::stop_at(const TargetValue& landed, const PathPoint& to) {
+  for (const TargetValue& mark : options_.target_values)
     if (mark.stops && mark.value == landed.value && mark.quantity->value(to.state) == landed.quantity->value(to.state))
       end_ = {.reason = EndReason::stop, .detail = mark.label};
 }
@@ -293,8 +293,8 @@ std::optional<Tracer::Step> Tracer::take(double s) {
   attempt_.residual = result.residual;
   attempt_.roots = result.roots;
   if (!result.converged()) return rejected(outcome_of(result.status));
-  obstruction_ = system_.obstruction(result.state);
-  if (obstruction_) return rejected(StepOutcome::obstructed);
+  invalid_reason_ = system_.invalid_reason(result.state);
+  if (invalid_reason_) return rejected(StepOutcome::obstructed);
 
   Step step{.to = point_of(std::move(result), here_.tangent)};
   const bool trusted = trustworthy(step.to, s, step.turn);
@@ -304,11 +304,12 @@ std::optional<Tracer::Step> Tracer::take(double s) {
     if (const auto crossing = first_crossing(Segment(metric_, here_, step.to)); crossing && !land(step, *crossing))
       return rejected(StepOutcome::not_landed);
   // What vanishes with the guard that was landed on belongs to the corner.
-  const double margin = step.corner ? near_corner : -let_pass;
+  const double margin = step.corner ? near_corner : -penetration_tolerance;
   if (!system_.admissible(step.to.state, margin)) {
     refine(step.to.state, margin);
     if (refined_) return rejected(StepOutcome::refined);
-    if (!step.corner || !system_.admissible(step.to.state, -let_pass)) return rejected(StepOutcome::penetrates);
+    if (!step.corner || !system_.admissible(step.to.state, -penetration_tolerance))
+      return rejected(StepOutcome::penetrates);
   }
   decide_count(step.to);
   return step;
@@ -366,9 +367,9 @@ bool Tracer::land(Step& step, GuardCrossing crossing) {
     step.guard = crossing.guard;
     step.to = std::move(*at);
     step.slack = std::max(0.0, -step.to.guards.minCoeff());
-    step.family = leads_to_family(step);
-    if (step.family && segment.length() > same_place) step.to.tangent = tangent_from(here_, step.to);
-    if (step.slack <= options_.guard_tolerance || step.family) return true;
+    step.continuum = leads_to_continuum(step);
+    if (step.continuum && segment.length() > coincidence_tolerance) step.to.tangent = tangent_from(here_, step.to);
+    if (step.slack <= options_.guard_tolerance || step.continuum) return true;
     if (step.slack <= together * options_.guard_tolerance && (!nearly || step.slack < nearly->slack)) nearly = step;
     const auto before = first_crossing(Segment(metric_, here_, step.to));
     if (!before || (nearly && landing >= 3)) break;
@@ -389,19 +390,19 @@ Direction Tracer::tangent_from(const PathPoint& from, const PathPoint& to) const
 // A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.
 bool Tracer::lands_where_it_began(const PathPoint& at, Index guard) const {
   return here_.guards[guard] <= options_.guard_tolerance && here_.guard_rates[guard] > 0.0 &&
-         metric_.distance(at.state, here_.state) <= same_place;
+         metric_.distance(at.state, here_.state) <= coincidence_tolerance;
 }
 
 // Where a continuum of equilibria lies ahead, the equations are singular at the corner: guards that should vanish
 // together miss each other by more than elsewhere, eigenvalues that should be zero have no sure sign, and the tangent
 // is any.
-bool Tracer::leads_to_family(const Step& step) const {
+bool Tracer::leads_to_continuum(const Step& step) const {
   constexpr double singular = 1e-6;  // in the scale of guards
   const PathPoint& at = step.to;
   if (step.guard < static_cast<Index>(at.state.piece.size()) || step.slack > singular) return false;
   const double tolerance = std::max(options_.guard_tolerance, 2.0 * step.slack);
-  const auto ahead = system_.passages(at.state, at.tangent, step.guard, tolerance);
-  return !ahead.empty() && ahead.front().change == Passage::Change::family;
+  const auto ahead = system_.transitions(at.state, at.tangent, step.guard, tolerance);
+  return !ahead.empty() && ahead.front().change == Transition::Change::continuum;
 }
 
 std::optional<PathPoint> Tracer::correct_onto(const PathConstraint& constraint, const Segment& segment, double t) {
@@ -468,7 +469,7 @@ bool Tracer::passes(const PathPoint& to, const State& place) {
   if (metric_.distance(to.state, place) <= std::min(passing, 0.25 * L)) return true;
   const Direction offset = difference(place, here_.state);
   const double t = metric_.inner(offset, segment.chord()) / (L * L);
-  if (!(t > 0.0 && t <= 1.0 + same_place)) return false;
+  if (!(t > 0.0 && t <= 1.0 + coincidence_tolerance)) return false;
   const double beside = std::sqrt(std::max(0.0, metric_.inner(offset, offset) - t * t * L * L));
   if (beside > 0.25 * L) return false;
   const auto at = correct_onto(PlaneConstraint(metric_, place, segment.chord(), 0.0), segment, std::min(t, 1.0));
@@ -477,7 +478,7 @@ bool Tracer::passes(const PathPoint& to, const State& place) {
 
 // The end of a branch at a place that was passed before; `place`, if given, becomes that place.
 std::optional<BranchEnd> Tracer::end_where_known(const PathPoint& to, State* place) {
-  const bool far = to.arc > 3.0 * (to.arc - here_.arc) + same_place;
+  const bool far = to.arc > 3.0 * (to.arc - here_.arc) + coincidence_tolerance;
   if (!far) return std::nullopt;
   if (passes(to, start_.state)) {
     if (place) *place = start_.state;
@@ -511,7 +512,7 @@ void Tracer::tell_ledger(const std::optional<Arc>& arc) {
 
 void Tracer::give_up() {
   const bool controlled = options_.method == PathMethod::load || options_.method == PathMethod::displacement;
-  if (obstruction_) {
+  if (invalid_reason_) {
     end_ = {.reason = EndReason::wall_end, .detail = "a closed contact reached the end of its wall"};
   } else if (controlled) {
     end_ = {.reason = EndReason::turning_control,

@@ -19,7 +19,7 @@
 namespace arcwall {
 
 /// A bound that ends the branch, or a value to land on and go on.
-struct Landmark {
+struct TargetValue {
   std::shared_ptr<const Observable> quantity{};
   double value = 0.0;
   bool stops = false;
@@ -46,13 +46,13 @@ struct TraceOptions {
   StepOptions step{};
   CorrectorOptions corrector{};
   CornerOptions corner{};
-  std::vector<Landmark> landmarks{};
+  std::vector<TargetValue> target_values{};
   std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
   std::vector<StopEvent> stop_events{};  ///< the first of any of these ends the branch
   EventSearch events = EventSearch::locate;
   std::vector<EventDetector> detectors{};  ///< besides limit points and watched monitors
-  bool tied_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
-  double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it weak
+  bool node_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
+  double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it degenerate
   double localisation = 1e-12;     ///< bracket of an event as a part of its step
   int max_points = 5000;
   bool every_ray = false;  ///< report a corner that several rays leave also where one alone of them is stable
@@ -120,10 +120,10 @@ class Tracer {
   /// Visits all that changes while the branch is traced: `archive(values…)` writes or reads them, `Archive::reads` says
   /// which. A tracer of the same system and options into which they are read goes on to the same last bit.
   template <typename Archive>
-  void keep(Archive& archive) {
+  void serialize(Archive& archive) {
     double lambda_scale = metric_.lambda_scale();
     archive(lambda_scale, start_, step_, here_, before_, values_before_, signs_, held_, after_, near_, vanishing_,
-            nearest_, visited_, ahead_, others_, end_, last_failure_, obstruction_, refined_, points_, standing_);
+            nearest_, visited_, ahead_, others_, end_, last_failure_, invalid_reason_, refined_, points_, standing_);
     archive.require(signs_.size() == (points_ == 0 ? 0 : detectors_.size()));
     archive.require(!before_ || values_before_.size() == here_.nearest.values.size());
     for (const Singular& singular : near_) archive.require(is_known(singular.found));
@@ -133,14 +133,14 @@ class Tracer {
  private:
   // Something that happens inside a step.
   struct Found {
-    enum class What { branch_point, detector, landmark } what;
-    friend constexpr std::int64_t greatest(What) { return static_cast<std::int64_t>(What::landmark); }
+    enum class What { branch_point, detector, target_value } what;
+    friend constexpr std::int64_t greatest(What) { return static_cast<std::int64_t>(What::target_value); }
     std::size_t which;
     double t;  // estimate, then place, as a fraction of the step
     double half_width;
 
     template <typename Archive>
-    void keep(Archive& archive) {
+    void serialize(Archive& archive) {
       archive(what, which, t, half_width);
     }
   };
@@ -149,10 +149,10 @@ class Tracer {
   struct Step {
     PathPoint to;
     bool corner = false;
-    Index guard = -1;     // landed on
-    double turn = 0.0;    // of the tangent [rad]
-    double slack = 0.0;   // by how much other guards are violated at the corner: they belong to it
-    bool family = false;  // whether a continuum of equilibria lies behind the corner
+    Index guard = -1;        // landed on
+    double turn = 0.0;       // of the tangent [rad]
+    double slack = 0.0;      // by how much other guards are violated at the corner: they belong to it
+    bool continuum = false;  // whether a continuum of equilibria lies behind the corner
   };
 
   // A singular point of a step, located: a branch point, a limit point, or both at one place.
@@ -164,7 +164,7 @@ class Tracer {
     bool suspected = false;
 
     template <typename Archive>
-    void keep(Archive& archive) {
+    void serialize(Archive& archive) {
       archive(found, at, change, branching, suspected);
     }
   };
@@ -175,7 +175,7 @@ class Tracer {
   std::optional<Arc> advance(double s);
   std::optional<Step> take(double s);
   std::optional<Step> take_clear_of_singular(double s);
-  void stop_at(const Landmark& landed, const PathPoint& to);
+  void stop_at(const TargetValue& landed, const PathPoint& to);
   void stop_at(const std::vector<Event>& events);
   bool trustworthy(const PathPoint& to, double s, double& turn) const;
   bool hides_two_zeros(const Segment& segment, double part) const;
@@ -188,7 +188,7 @@ class Tracer {
   std::optional<GuardCrossing> first_crossing(const Segment& segment) const;
   bool land(Step& step, GuardCrossing crossing);
   bool lands_where_it_began(const PathPoint& at, Index guard) const;
-  bool leads_to_family(const Step& step) const;
+  bool leads_to_continuum(const Step& step) const;
   Direction tangent_from(const PathPoint& from, const PathPoint& to) const;
 
   bool find_singular(const PathPoint& to, std::vector<Singular>& found);
@@ -223,9 +223,9 @@ class Tracer {
   bool pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events);
   bool pass_shifted_limit(PathPoint& at, std::vector<Event>& events);
   enum class Effort { usual, patient };
-  const Passage* enter_any(const std::vector<Passage>& passages, const PathPoint& from,
-                           std::optional<PathPoint>& after);
-  std::optional<PathPoint> enter(const Passage& passage, const PathPoint& from, Effort effort = Effort::usual);
+  const Transition* enter_any(const std::vector<Transition>& transitions, const PathPoint& from,
+                              std::optional<PathPoint>& after);
+  std::optional<PathPoint> enter(const Transition& transition, const PathPoint& from, Effort effort = Effort::usual);
   void refine(const State& violated, double margin);
   void add_turns(const PathPoint& after, Event event, std::vector<Event>& events) const;
   Piece held_by(const Ray& ray, const State& corner) const;
@@ -273,7 +273,7 @@ class Tracer {
     std::vector<Direction> ways;
 
     template <typename Archive>
-    void keep(Archive& archive) {
+    void serialize(Archive& archive) {
       archive(corner, ways);
     }
   };
@@ -282,7 +282,7 @@ class Tracer {
   std::vector<Ray> others_;   // rays of the last corner that were not taken
   std::optional<BranchEnd> end_;
   CorrectorStatus last_failure_ = CorrectorStatus::converged;
-  std::optional<std::string> obstruction_;
+  std::optional<std::string> invalid_reason_;
   StepAttempt attempt_;   // under way
   bool refined_ = false;  // the last attempt ended with a finer description of its start
   int points_ = 0;

@@ -13,20 +13,20 @@ namespace {
 constexpr int max_standing = 50;
 constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
 
-// Of a passage that is an event.
-EventKind kind_of(Passage::Change change) {
+// Of a transition that is an event.
+EventKind kind_of(Transition::Change change) {
   switch (change) {
-    case Passage::Change::spreads:
+    case Transition::Change::spreads:
       return EventKind::contact_spreads;
-    case Passage::Change::gathers:
+    case Transition::Change::gathers:
       return EventKind::contact_gathers;
-    case Passage::Change::splits:
+    case Transition::Change::splits:
       return EventKind::contact_opens;
-    case Passage::Change::joins:
+    case Transition::Change::joins:
       return EventKind::contact_closes;
-    case Passage::Change::remeshed:
-    case Passage::Change::family:
-    case Passage::Change::unsupported:
+    case Transition::Change::remeshed:
+    case Transition::Change::continuum:
+    case Transition::Change::unsupported:
       break;
   }
   assert(false);
@@ -34,22 +34,24 @@ EventKind kind_of(Passage::Change change) {
 }
 
 // Whether there is a piece behind, or only a reason to end.
-bool leads_on(Passage::Change change) {
-  return change != Passage::Change::family && change != Passage::Change::unsupported;
+bool leads_on(Transition::Change change) {
+  return change != Transition::Change::continuum && change != Transition::Change::unsupported;
 }
 
 // Behind none of these a point was found.
-BranchEnd end_before(const std::vector<Passage>& passages) {
-  if (passages.empty() || leads_on(passages.back().change))
+BranchEnd end_before(const std::vector<Transition>& transitions) {
+  if (transitions.empty() || leads_on(transitions.back().change))
     return {.reason = EndReason::singular, .detail = "behind a change of contact"};
-  const Passage& last = passages.back();
-  const bool family = last.change == Passage::Change::family;
-  return {.reason = family ? EndReason::family : EndReason::unsupported, .detail = last.detail, .family = last.family};
+  const Transition& last = transitions.back();
+  const bool continuum = last.change == Transition::Change::continuum;
+  return {.reason = continuum ? EndReason::continuum : EndReason::unsupported,
+          .detail = last.detail,
+          .continuum = last.continuum};
 }
 
 // Whether the first point on the piece ahead lies a little beyond the corner, with a new stretch of some length.
-bool begins_with_length(Passage::Change change) {
-  return change == Passage::Change::spreads || change == Passage::Change::splits;
+bool begins_with_length(Transition::Change change) {
+  return change == Transition::Change::spreads || change == Transition::Change::splits;
 }
 
 }  // namespace
@@ -62,10 +64,12 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
     return false;
   }
   const PathPoint before = at;
-  std::vector<Index> weak = weak_contacts(at.guards, at.state.piece, std::max(options_.guard_tolerance, 2.0 * slack));
-  if (landed >= 0 && std::find(weak.begin(), weak.end(), landed) == weak.end()) weak.push_back(landed);
+  std::vector<Index> degenerate =
+      degenerate_contacts(at.guards, at.state.piece, std::max(options_.guard_tolerance, 2.0 * slack));
+  if (landed >= 0 && std::find(degenerate.begin(), degenerate.end(), landed) == degenerate.end())
+    degenerate.push_back(landed);
   std::optional<Index> unstable;
-  const auto ray = choose(rays_of(system_, at.state, weak, options_.corner, corner_), at, unstable);
+  const auto ray = choose(rays_of(system_, at.state, degenerate, options_.corner, corner_), at, unstable);
   if (!ray) return false;
   const State state = system_.with_piece(at.state, ray->piece);
   const Metric metric(system_.weights(ray->piece), metric_.lambda_scale());
@@ -94,27 +98,27 @@ bool Tracer::turn_corner(PathPoint& at, Index landed, double slack, std::vector<
 // the last point of the piece behind. False, and the branch ends, where nothing can be followed.
 bool Tracer::pass_limit(PathPoint& at, Index limit, double slack, std::vector<Event>& events) {
   const double tolerance = std::max(options_.guard_tolerance, 2.0 * slack);
-  const std::vector<Passage> passages = system_.passages(at.state, at.tangent, limit, tolerance);
+  const std::vector<Transition> transitions = system_.transitions(at.state, at.tangent, limit, tolerance);
   std::optional<PathPoint> after;
-  const Passage* entered = enter_any(passages, at, after);
+  const Transition* entered = enter_any(transitions, at, after);
   if (!entered) {
-    end_ = end_before(passages);
+    end_ = end_before(transitions);
     return false;
   }
-  const Passage& passage = *entered;
+  const Transition& transition = *entered;
   Event event{.state = at.state,
               .arc = at.arc,
               .residual = at.residual,
               .unstable_before = after_.unstable,
               .unstable_after = after->count.unstable,
-              .guards = passage.contacts};
-  if (passage.change == Passage::Change::remeshed) {
+              .guards = transition.contacts};
+  if (transition.change == Transition::Change::remeshed) {
     add_turns(*after, event, events);
     at = std::move(*after);
     return pass_shifted_limit(at, events);
   }
-  event.kind = kind_of(passage.change);
-  const bool grows = begins_with_length(passage.change);
+  event.kind = kind_of(transition.change);
+  const bool grows = begins_with_length(transition.change);
   if (!grows) {
     event.state = after->state;
     event.residual = after->residual;
@@ -146,44 +150,45 @@ bool Tracer::pass_shifted_limit(PathPoint& at, std::vector<Event>& events) {
   return pass_limit(at, contacts + limit, 0.0, events);
 }
 
-// The first of the passages behind which a point is found; all are tried again with patience where none is: of a nearly
-// perfect structure hardly more than the sum of the lengths of straight contacts is determined, and corrections swing
-// before they settle.
-const Passage* Tracer::enter_any(const std::vector<Passage>& passages, const PathPoint& from,
-                                 std::optional<PathPoint>& after) {
+// The first of the transitions behind which a point is found; all are tried again with patience where none is: of a
+// nearly perfect structure hardly more than the sum of the lengths of straight contacts is determined, and corrections
+// swing before they settle.
+const Transition* Tracer::enter_any(const std::vector<Transition>& transitions, const PathPoint& from,
+                                    std::optional<PathPoint>& after) {
   for (const Effort effort : {Effort::usual, Effort::patient})
-    for (const Passage& passage : passages) {
-      if (!leads_on(passage.change)) break;
-      after = enter(passage, from, effort);
-      if (after) return &passage;
+    for (const Transition& transition : transitions) {
+      if (!leads_on(transition.change)) break;
+      after = enter(transition, from, effort);
+      if (after) return &transition;
     }
   return nullptr;
 }
 
 // The first point on the piece ahead, with its metric.
-std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& from, Effort effort) {
+std::optional<PathPoint> Tracer::enter(const Transition& transition, const PathPoint& from, Effort effort) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
   constexpr double slack = 1e-6;    // of guards that were near zero on the piece behind, too
-  const Metric metric(system_.weights(passage.guess.piece), metric_.lambda_scale());
-  const bool oriented = metric.norm(passage.forward) > 0.0;
+  const Metric metric(system_.weights(transition.guess.piece), metric_.lambda_scale());
+  const bool oriented = metric.norm(transition.forward) > 0.0;
   const Direction along =
-      oriented ? passage.forward : Direction{.dx = Vector::Zero(passage.guess.x.size()), .dlambda = 1.0};
+      oriented ? transition.forward : Direction{.dx = Vector::Zero(transition.guess.x.size()), .dlambda = 1.0};
   const auto corrected = [&](const PathConstraint& constraint) {
-    return effort == Effort::patient ? corrector_.correct_patiently(passage.guess, constraint, metric, along, distance)
-                                     : corrector_.correct(passage.guess, constraint, metric, along, distance);
+    return effort == Effort::patient
+               ? corrector_.correct_patiently(transition.guess, constraint, metric, along, distance)
+               : corrector_.correct(transition.guess, constraint, metric, along, distance);
   };
-  CorrectorResult result = passage.quantity ? corrected(ValueConstraint(*passage.quantity, passage.value))
-                                            : corrected(PlaneConstraint(metric, passage.guess, along, 0.0));
+  CorrectorResult result = transition.quantity ? corrected(ValueConstraint(*transition.quantity, transition.value))
+                                               : corrected(PlaneConstraint(metric, transition.guess, along, 0.0));
   last_failure_ = result.status;
-  if (!result.converged() || !system_.admissible(result.state, -let_pass)) return std::nullopt;
-  if (passage.change != Passage::Change::remeshed && (system_.guards(result.state).array() < -slack).any())
+  if (!result.converged() || !system_.admissible(result.state, -penetration_tolerance)) return std::nullopt;
+  if (transition.change != Transition::Change::remeshed && (system_.guards(result.state).array() < -slack).any())
     return std::nullopt;
-  if (passage.quantity && apply(passage.quantity->gradient(result.state), result.tangent) < 0.0)
+  if (transition.quantity && apply(transition.quantity->gradient(result.state), result.tangent) < 0.0)
     result.tangent = reversed(std::move(result.tangent));
-  const Direction forward = passage.quantity ? result.tangent : along;
+  const Direction forward = transition.quantity ? result.tangent : along;
   metric_ = metric;
   PathPoint to = point_of(std::move(result), forward);
-  to.arc = from.arc + (begins_with_length(passage.change)
+  to.arc = from.arc + (begins_with_length(transition.change)
                            ? std::abs(to.state.lambda - from.state.lambda) / metric_.lambda_scale()
                            : 0.0);
   decide_count(to);
@@ -193,9 +198,9 @@ std::optional<PathPoint> Tracer::enter(const Passage& passage, const PathPoint& 
 
 // The step's start in the unknowns of a piece whose guards see what the step's end violates; the step is tried again.
 void Tracer::refine(const State& violated, double margin) {
-  const auto passage = system_.refined(here_.state, here_.tangent, violated, margin);
-  if (!passage) return;
-  auto here = enter(*passage, here_);
+  const auto transition = system_.with_inserted_contact(here_.state, here_.tangent, violated, margin);
+  if (!transition) return;
+  auto here = enter(*transition, here_);
   if (!here) return;
   here->arc = here_.arc;
   go_to(std::move(*here));
@@ -211,7 +216,7 @@ Event Tracer::one_sided_branch_point(const PathPoint& before, const PathPoint& a
   point->type = BranchType::one_sided;
   point->state = after.state;
   point->along = after.tangent;
-  point->discretisation = options_.tied_contacts;
+  point->discretisation = options_.node_contacts;
   for (const Ray& ray : others_) {
     const Metric metric(system_.weights(ray.piece), metric_.lambda_scale());
     point->rays.push_back({.piece = ray.piece, .direction = unit(metric, ray.direction)});
@@ -234,7 +239,7 @@ Direction Tracer::open_direction(const Direction& direction, const Piece& piece)
 
 // The contacts that hold along a ray: those with a force, and those that get one.
 Piece Tracer::held_by(const Ray& ray, const State& corner) const {
-  Piece piece = strongly_closed(system_, corner, options_.guard_tolerance);
+  Piece piece = strictly_active(system_, corner, options_.guard_tolerance);
   for (std::size_t j = 0; j < piece.size(); ++j)
     if (ray.loading[j]) piece[j] = 1;
   return piece;
@@ -255,8 +260,8 @@ std::optional<Ray> Tracer::choose(std::vector<Ray> rays, const PathPoint& at, st
   const auto way = [&](const Ray& ray) { return open_direction(ray.direction, ray.piece); };
 
   const auto known = [&](const Visited& v) {
-    return std::abs(v.corner.lambda - here.lambda) <= same_place * metric.lambda_scale() &&
-           v.corner.piece == here.piece && metric.distance(v.corner, here) <= same_place;
+    return std::abs(v.corner.lambda - here.lambda) <= coincidence_tolerance * metric.lambda_scale() &&
+           v.corner.piece == here.piece && metric.distance(v.corner, here) <= coincidence_tolerance;
   };
   auto visited = std::find_if(visited_.begin(), visited_.end(), known);
   if (visited == visited_.end()) visited = visited_.insert(visited_.end(), {.corner = here, .ways = {}});

@@ -48,7 +48,7 @@ EventDetector turning_detector(const System& system, const Metric& metric, std::
 // of the lesser rate at the ends, below which the least rate inside must lie; a negative one is taken as it is.
 bool Tracer::hides_two_zeros(const Segment& segment, double part) const {
   // Between a point so near a corner and the corner itself nothing but round-off is seen.
-  if (segment.length() <= same_place) return false;
+  if (segment.length() <= coincidence_tolerance) return false;
   for (const EventDetector& detector : detectors_) {
     if (!detector.integral) continue;
     const double v0 = detector.integral(segment.from()), v1 = detector.integral(segment.to());
@@ -66,7 +66,7 @@ bool Tracer::hides_two_zeros(const Segment& segment, double part) const {
   return false;
 }
 
-// The first detector or landmark with a zero inside the segment, besides the one that its end lies on.
+// The first detector or target_value with a zero inside the segment, besides the one that its end lies on.
 std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std::optional<Found>& already) const {
   std::optional<Found> first;
   const auto consider = [&](Found::What what, std::size_t which, double t) {
@@ -80,17 +80,17 @@ std::optional<Tracer::Found> Tracer::earliest(const Segment& segment, const std:
     if (detectors_[i].crossing != Crossing::any && (sign > 0) != (detectors_[i].crossing == Crossing::rising)) continue;
     consider(Found::What::detector, i, signs_[i] * v0 > 0.0 ? v0 / (v0 - v1) : 0.0);
   }
-  for (std::size_t i = 0; i < options_.landmarks.size(); ++i) {
-    const Landmark& mark = options_.landmarks[i];
+  for (std::size_t i = 0; i < options_.target_values.size(); ++i) {
+    const TargetValue& mark = options_.target_values[i];
     const auto value = [&](const PathPoint& p) { return mark.quantity->value(p.state) - mark.value; };
     const auto rate = [&](const PathPoint& p) { return apply(mark.quantity->gradient(p.state), p.tangent); };
     const double v0 = value(segment.from()), v1 = value(segment.to());
     const double noise = 1e-11 * std::max({std::abs(mark.value), std::abs(v0), std::abs(v1)});
     // A step may end on the mark to the last digit but one.
     if (std::abs(v1) <= noise && std::abs(v0) > noise)
-      consider(Found::What::landmark, i, 1.0);
+      consider(Found::What::target_value, i, 1.0);
     else if (const auto t = segment.first_zero(v0, rate(segment.from()), v1, rate(segment.to()), noise))
-      consider(Found::What::landmark, i, *t);
+      consider(Found::What::target_value, i, *t);
   }
   return first;
 }
@@ -246,10 +246,10 @@ class Tracer::ZeroSearch {
   double blurred_ = 0.0;         // width within which values are round-off
 };
 
-// Lands on a landmark with its value as the constraint; a detector's zero is searched for.
+// Lands on a target_value with its value as the constraint; a detector's zero is searched for.
 std::optional<PathPoint> Tracer::locate(Found& found, const PathPoint& to) {
-  if (found.what == Found::What::landmark) {
-    const Landmark& mark = options_.landmarks[found.which];
+  if (found.what == Found::What::target_value) {
+    const TargetValue& mark = options_.target_values[found.which];
     return correct_onto(ValueConstraint(*mark.quantity, mark.value), Segment(metric_, here_, to), found.t);
   }
   if (options_.events == EventSearch::detect) {
@@ -283,8 +283,8 @@ bool Tracer::is_known(const Found& found) const {
       return true;
     case Found::What::detector:
       return found.which < detectors_.size();
-    case Found::What::landmark:
-      return found.which < options_.landmarks.size();
+    case Found::What::target_value:
+      return found.which < options_.target_values.size();
   }
   return false;
 }

@@ -182,7 +182,7 @@ bool Tracer::find_touching_limit(const Segment& segment, std::vector<Singular>& 
 
 // Whether contacts tied to nodes may make a branch point that the continuum has not.
 bool Tracer::made_by_nodes(const State& state) const {
-  return options_.tied_contacts && system_.multiplier_count(state.piece) > 0;
+  return options_.node_contacts && system_.multiplier_count(state.piece) > 0;
 }
 
 // With the interpolated tangent: its own may be any where K is singular.

@@ -72,7 +72,7 @@ void BorderedSolver::expect_pattern(Linearization& equations, Index multipliers)
   Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
   const bool same = pattern.piece && pattern == pattern_;
   ldlt_.trust_pattern(same);
-  if (!same) ldlt_.set_afloat(equations.afloat);
+  if (!same) ldlt_.set_afloat(equations.translation_free);
   pattern_ = std::move(pattern);
 }
 

@@ -34,17 +34,17 @@ struct WholeChain {
     Lanes* const numbers = chain.numbers.data();
     Seen<Lanes> seen;
     if (begin == 0) std::fill_n(chain.group(chain.length), InLanes::triangle, Lanes(0.0));
-    if (chain.afloat.empty()) {
+    if (chain.translation_free.empty()) {
       for_each_going(begin, end, chain.length,
                      [&] [[gnu::always_inline]] (const Going& j) { InLanes::eliminate(j, numbers, seen); });
     } else {
-      if (begin == 0) chain.afloat_now = chain.afloat;
-      const Afloat<B> afloat{chain};
-      if (end == chain.length) afloat.begin_at_end();
+      if (begin == 0) chain.afloat_now = chain.translation_free;
+      const Afloat<B> translation_free{chain};
+      if (end == chain.length) translation_free.begin_at_end();
       for_each_going(begin, end, chain.length, [&] [[gnu::always_inline]] (const Going& j) {
-        const auto part = afloat.before_going(j);
+        const auto part = translation_free.before_going(j);
         InLanes::eliminate(j, numbers, seen);
-        afloat.when_gone(j, part);
+        translation_free.when_gone(j, part);
       });
     }
     seen.tell(pivots);
@@ -123,7 +123,7 @@ struct WholeChain {
       if (j.distance == 1) ask_from<ahead>(j, chain);
       std::array<Lanes, B> common;
       common.fill(0.0);
-      const unsigned which = chain.afloat.empty() ? 0U : chain.went_afloat[static_cast<std::size_t>(j.group)];
+      const unsigned which = chain.translation_free.empty() ? 0U : chain.went_afloat[static_cast<std::size_t>(j.group)];
       if (which != 0)
         for (Index c = 0; c < std::min<Index>(B, 2); ++c)
           Afloat<B>::set(which, v[j.group * B + c], common[static_cast<std::size_t>(c)]);

@@ -29,9 +29,9 @@ struct ChainPivots {
 /// right ones: what is worked on stays near the processor. The first groups of the stretches are left, a chain like the
 /// first.
 ///
-/// Elements, which join a group to the next one that is left, may be afloat: their part of the forces vanishes on a
-/// parallel motion T of everything, T being the first two unknowns of each group. Their parts of those columns of D
-/// follow from their couplings, when they are made longer, too:
+/// Elements, which join a group to the next one that is left, may be translation_free: their part of the forces
+/// vanishes on a parallel motion T of everything, T being the first two unknowns of each group. Their parts of those
+/// columns of D follow from their couplings, when they are made longer, too:
 ///
 ///     D_a T = −Σ_b A_ab T                                                                                        (3)
 ///
@@ -53,12 +53,12 @@ struct ChainNumbers {
   Index width = 0, length = 0;  ///< of groups in unknowns, of stretches in groups
   std::vector<Lanes> numbers{};
   std::vector<double> last{};  ///< numbers of the chain that is left
-  /// Bits of lanes in which the element behind a group is afloat, at first; none at all where no element is.
-  std::vector<std::uint8_t> afloat{};
+  /// Bits of lanes in which the element behind a group is translation_free, at first; none at all where no element is.
+  std::vector<std::uint8_t> translation_free{};
   /// Bits of lanes in which both elements at a group were so, the one behind the stretch included: each has its own
   /// part of D T.
   std::vector<std::uint8_t> parted{};
-  /// As `afloat`, while elements become longer; and of the two elements between which a group went.
+  /// As `translation_free`, while elements become longer; and of the two elements between which a group went.
   std::vector<std::uint8_t> afloat_now{}, went_afloat{};
 };
 
@@ -83,8 +83,9 @@ void forward_groups(const ChainNumbers& chain, Index columns, Index begin, Index
 /// Then the other way, the last part first: solutions of a part are there when it is done.
 void backward_groups(const ChainNumbers& chain, Index columns, Index begin, Index end, ChainWork& work);
 
-/// |v|ᵀ |L| |D| |L|ᵀ |v| of one column v, whose place in the work is that of a right-hand side. What is afloat sees v
-/// without the motion that it has in common with the group eliminated: only the rest of v meets round-off there.
+/// |v|ᵀ |L| |D| |L|ᵀ |v| of one column v, whose place in the work is that of a right-hand side. What is
+/// translation_free sees v without the motion that it has in common with the group eliminated: only the rest of v meets
+/// round-off there.
 double weighted_by_chain(const ChainNumbers& chain, ChainWork& work);
 
 }  // namespace arcwall

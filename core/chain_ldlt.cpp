@@ -19,7 +19,7 @@ constexpr std::size_t caches = 8 << 20;
 
 }  // namespace
 
-ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std::vector<bool>& afloat)
+ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std::vector<bool>& translation_free)
     : unknown_count_(A.cols()) {
   Index greatest = 1;
   for (const auto& group : groups) greatest = std::max(greatest, static_cast<Index>(group.size()));
@@ -29,7 +29,7 @@ ChainLdlt::ChainLdlt(const SparseMatrix& A, const ChainGroups& groups, const std
   together_ = is_far_ ? 2 : 16;
   find_values(A, groups);
   find_unknowns(groups);
-  find_afloat(groups, afloat);
+  find_afloat(groups, translation_free);
   work_.entries.resize(static_cast<std::size_t>(most_columns * (chain_.length + 1) * chain_.width));
   work_.last.resize(static_cast<std::size_t>(most_columns * (stretches + 1) * chain_.width));
 }
@@ -108,8 +108,8 @@ void ChainLdlt::find_unknowns(const ChainGroups& groups) {
   unknowns_.complete();
 }
 
-// An element is afloat where the nodes at both its ends are; what is not there, behind the last node, holds nothing
-// either.
+// An element is translation_free where the nodes at both its ends are; what is not there, behind the last node, holds
+// nothing either.
 void ChainLdlt::find_afloat(const ChainGroups& groups, const std::vector<bool>& unknowns) {
   if (unknowns.empty()) return;
   const auto count = static_cast<Index>(groups.size()), length = chain_.length;
@@ -120,20 +120,20 @@ void ChainLdlt::find_afloat(const ChainGroups& groups, const std::vector<bool>& 
            std::none_of(group.begin() + 1, group.end(), is_first);
   };
   const auto holds_nothing = [&](Index g) { return g + 1 >= count || (is_afloat(g) && is_afloat(g + 1)); };
-  chain_.afloat.assign(static_cast<std::size_t>(length), 0);
+  chain_.translation_free.assign(static_cast<std::size_t>(length), 0);
   chain_.parted.assign(static_cast<std::size_t>(length) + 1, 0);
   bool any = false;
   for (Index g = 0; g < stretches * length; ++g) {
     const Index record = g % length;
     const auto bit = [&](Index stretch) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(stretch)); };
-    if (holds_nothing(g)) chain_.afloat[static_cast<std::size_t>(record)] |= bit(g / length);
+    if (holds_nothing(g)) chain_.translation_free[static_cast<std::size_t>(record)] |= bit(g / length);
     if (g >= count || !is_afloat(g) || !holds_nothing(g) || (g > 0 && !holds_nothing(g - 1))) continue;
     chain_.parted[static_cast<std::size_t>(record)] |= bit(g / length);
     if (g > 0 && record == 0) chain_.parted.back() |= bit(g / length - 1);
     any = true;
   }
-  if (!any || count == 1) chain_.afloat.clear();
-  chain_.afloat_now = chain_.went_afloat = chain_.afloat;
+  if (!any || count == 1) chain_.translation_free.clear();
+  chain_.afloat_now = chain_.went_afloat = chain_.translation_free;
 }
 
 bool ChainLdlt::factorize(const SparseMatrix& A) { return factorize_beside(A, {}); }

@@ -13,15 +13,16 @@ namespace arcwall {
 /// LDLᵀ of a block-tridiagonal matrix by cyclic reduction: every other group is eliminated, then every other one of
 /// those that are left. Four stretches of the chain have nothing to do with each other, so that they are worked on at
 /// once, and short parts of a chain are eliminated first: those are stiff, while the leading parts of a long column may
-/// be critical by themselves. No pivoting; the unknowns of a group follow each other in their order. Of nodes afloat,
-/// solutions keep the digits that the matrix has lost: see ChainNumbers.
+/// be critical by themselves. No pivoting; the unknowns of a group follow each other in their order. Of nodes
+/// translation_free, solutions keep the digits that the matrix has lost: see ChainNumbers.
 class ChainLdlt final : public SymmetricFactors {
  public:
   /// The greatest group for which this is meant.
   static constexpr Index widest = 8;
 
-  /// `afloat`: see Linearization; may be empty.
-  ChainLdlt(const SparseMatrix& lower_triangle, const ChainGroups& groups, const std::vector<bool>& afloat = {});
+  /// `translation_free`: see Linearization; may be empty.
+  ChainLdlt(const SparseMatrix& lower_triangle, const ChainGroups& groups,
+            const std::vector<bool>& translation_free = {});
 
   bool factorize(const SparseMatrix& lower_triangle) override;
   bool factorize_and_solve(const SparseMatrix& lower_triangle, std::span<const ScaledColumn> of,

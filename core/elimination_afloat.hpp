@@ -1,6 +1,6 @@
 #pragma once
 
-// What chain_elimination.cpp knows of elements afloat. Not installed.
+// What chain_elimination.cpp knows of elements translation_free. Not installed.
 #include <algorithm>
 #include <array>
 
@@ -15,10 +15,10 @@ constexpr unsigned all_lanes = (1U << lanes) - 1U;
     if ((which >> static_cast<unsigned>(lane)) & 1U) to.set(lane, value[lane]);
 }
 
-// Equation (3) where elements are afloat, in some lanes. Each of the two elements at a group has its part of D T: first
-// all that lies before the group is reduced, while D T has the part before alone; then what lies behind, while that
-// part is kept where the group's coupling with what is behind will stand at last. The first groups of the stretches
-// have no part before: it is that of the end of the stretch before.
+// Equation (3) where elements are translation_free, in some lanes. Each of the two elements at a group has its part of
+// D T: first all that lies before the group is reduced, while D T has the part before alone; then what lies behind,
+// while that part is kept where the group's coupling with what is behind will stand at last. The first groups of the
+// stretches have no part before: it is that of the end of the stretch before.
 template <Index B>
 struct Afloat {
   using InLanes = Chain<B, Lanes>;

@@ -22,12 +22,12 @@ struct Ldlt::Implementation {
   Matrix soft;
   PatternFingerprint pattern;  // that was analysed
   Index multipliers = 0, analysed_multipliers = 0;
-  std::vector<bool> afloat, analysed_afloat;
+  std::vector<bool> translation_free, analysed_afloat;
   bool trusted = false;  // the pattern
 
   std::unique_ptr<SymmetricFactors> fresh(const SparseMatrix& A) const {
     if (auto groups = chain_groups(A, multipliers, ChainLdlt::widest)) {
-      if (multipliers == 0) return std::make_unique<ChainLdlt>(A, *groups, afloat);
+      if (multipliers == 0) return std::make_unique<ChainLdlt>(A, *groups, translation_free);
       if (auto held = HeldChain::of(A, multipliers, *groups)) return held;
       if (insert_multipliers(A, multipliers, ChainLdlt::widest, *groups))
         return std::make_unique<ChainLdlt>(A, *groups);
@@ -41,13 +41,13 @@ struct Ldlt::Implementation {
     const bool any = factors != nullptr && multipliers == analysed_multipliers;
     if (any && trusted && pattern.has_sizes_of(A)) return;
     const PatternFingerprint of_A(A);
-    if (any && of_A == pattern && afloat == analysed_afloat) return;
+    if (any && of_A == pattern && translation_free == analysed_afloat) return;
     others.reset();
     if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
     factors->expect_soft(soft);
     pattern = of_A;
     analysed_multipliers = multipliers;
-    analysed_afloat = afloat;
+    analysed_afloat = translation_free;
   }
 
   // Simplicial LDLᵀ serves all matrices. `serves` factorizes by one of the ways, and may solve.
@@ -76,7 +76,7 @@ Ldlt& Ldlt::operator=(Ldlt&&) noexcept = default;
 
 void Ldlt::set_multiplier_count(Index count) { implementation_->multipliers = count; }
 
-void Ldlt::set_afloat(std::vector<bool> unknowns) { implementation_->afloat = std::move(unknowns); }
+void Ldlt::set_afloat(std::vector<bool> unknowns) { implementation_->translation_free = std::move(unknowns); }
 
 void Ldlt::expect_soft(Matrix vectors) {
   Implementation& self = *implementation_;

@@ -8,20 +8,20 @@
 
 namespace arcwall {
 
-/// A place on a run of slender members, by the arc length along its stress-free axis.
+/// A place on a strand of slender members, by the arc length along its stress-free axis.
 struct MaterialPoint {
-  Index run = 0;
+  Index strand = 0;
   double s = 0.0;
 };
 
-/// How the runs of a body are meshed: per run the number of elements of each segment. k breakpoints make k + 1
+/// How the strands of a body are meshed: per strand the number of elements of each segment. k breakpoints make k + 1
 /// segments.
-using Cut = std::vector<std::vector<int>>;
+using ElementsPerSegment = std::vector<std::vector<int>>;
 
 /// Where a point of the axis is, and the direction of the axis there.
 struct AxisPlace {
   Vec2 position{};
-  double angle = 0.0;  ///< of the tangent, continuous along the run [rad]
+  double angle = 0.0;  ///< of the tangent, continuous along the strand [rad]
 };
 
 /// Curvature and stretch of the axis on one side of a breakpoint, with their derivatives.
@@ -44,10 +44,10 @@ class SlidingMesh {
  public:
   virtual ~SlidingMesh() = default;
 
-  virtual const Cut& cut() const = 0;
+  virtual const ElementsPerSegment& elements_per_segment() const = 0;
   virtual Index unknowns() const = 0;
 
-  /// s has as many entries, run by run in ascending order.
+  /// s has as many entries, strand by strand in ascending order.
   virtual Index breakpoints() const = 0;
 
   /// Weights of the squared norm of x in the path metric.
@@ -60,12 +60,12 @@ class SlidingMesh {
 
   virtual double energy(const Vector& x, const Vector& s, double lambda) const = 0;
 
-  // --- geometry: the nodes of a run have positions 0 … n along it ------------------------------------------------
+  // --- geometry: the nodes of a strand have positions 0 … n along it ------------------------------------------------
 
-  virtual Index nodes(Index run) const = 0;
-  virtual double coordinate(Index run, Index position, const Vector& s) const = 0;
-  virtual NodeUnknowns node_unknowns(Index run, Index position) const = 0;
-  virtual AxisPlace node(Index run, Index position, const Vector& x) const = 0;
+  virtual Index nodes(Index strand) const = 0;
+  virtual double coordinate(Index strand, Index position, const Vector& s) const = 0;
+  virtual NodeUnknowns node_unknowns(Index strand, Index position) const = 0;
+  virtual AxisPlace node(Index strand, Index position, const Vector& x) const = 0;
 
   /// Run and position of breakpoint k.
   virtual std::pair<Index, Index> breakpoint(Index k) const = 0;
@@ -76,12 +76,13 @@ class SlidingMesh {
   virtual AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const = 0;
 
   /// Energy of the element behind a node, the potential of the load along it included.
-  virtual double element_energy(Index run, Index position, const Vector& x, const Vector& s, double lambda) const = 0;
+  virtual double element_energy(Index strand, Index position, const Vector& x, const Vector& s,
+                                double lambda) const = 0;
 
   /// What the nodes exert on the element behind a node: x, z and moment at its first and at its second end, the load
   /// along it included.
   using EndForces = std::array<Eigen::Vector3d, 2>;
-  virtual EndForces end_forces(Index run, Index position, const Vector& x, const Vector& s, double lambda) const = 0;
+  virtual EndForces end_forces(Index strand, Index position, const Vector& x, const Vector& s, double lambda) const = 0;
 
   /// Any place, by interpolation consistent with the elements.
   virtual AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
@@ -93,7 +94,7 @@ class SlidingMesh {
   virtual PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
 
   /// A place inside the element behind a node, at a fraction of the element.
-  virtual AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const = 0;
+  virtual AxisPlace inside(Index strand, Index position, double fraction, const Vector& x, const Vector& s) const = 0;
 
   /// The same shape on another mesh of the body.
   virtual Vector transferred(const Vector& x, const Vector& s, const SlidingMesh& to, const Vector& s_to) const = 0;
@@ -114,31 +115,31 @@ class SlidingBody {
  public:
   virtual ~SlidingBody() = default;
 
-  virtual Index runs() const = 0;
-  virtual double length(Index run) const = 0;
+  virtual Index strands() const = 0;
+  virtual double length(Index strand) const = 0;
 
   /// Half the height of the sections [length]; 0 for contact on the axis.
-  virtual double half_height(Index run) const = 0;
+  virtual double half_height(Index strand) const = 0;
 
-  /// Number of elements that a stretch of a run asks for, not rounded.
-  virtual double elements_between(Index run, double from, double to) const = 0;
+  /// Number of elements that a stretch of a strand asks for, not rounded.
+  virtual double elements_between(Index strand, double from, double to) const = 0;
 
   /// Curvature of the stress-free axis at a place [1/length].
   virtual double natural_curvature(const MaterialPoint& point) const = 0;
 
-  virtual double bending_stiffness(Index run) const = 0;  ///< EI [force·length²]
-  virtual double axial_stiffness(Index run) const = 0;    ///< EA [force]
+  virtual double bending_stiffness(Index strand) const = 0;  ///< EI [force·length²]
+  virtual double axial_stiffness(Index strand) const = 0;    ///< EA [force]
 
-  /// Load along a run [force per stress-free length].
-  virtual Vec2 load(Index run, double lambda) const = 0;
+  /// Load along a strand [force per stress-free length].
+  virtual Vec2 load(Index strand, double lambda) const = 0;
 
-  /// Whether a support holds the end of a run in z.
-  virtual bool end_is_held(Index run, bool last) const = 0;
+  /// Whether a support holds the end of a strand in z.
+  virtual bool end_is_held(Index strand, bool last) const = 0;
 
   /// Words for messages: member and fraction of its length.
   virtual std::pair<std::string, double> label(const MaterialPoint& point) const = 0;
 
-  virtual std::shared_ptr<const SlidingMesh> mesh(const Cut& cut) const = 0;
+  virtual std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const = 0;
 
   /// The unknowns of a mesh in the stress-free state.
   virtual Vector rest(const SlidingMesh& mesh, const Vector& s) const = 0;

@@ -26,7 +26,7 @@ struct Linearization {
   LongRows C{};                            ///< rows of the border, by x and s
   std::vector<Index> holding{};            ///< y_k, one a column of B
   Vector F_lambda{};                       ///< ∂F/∂λ
-  std::vector<bool> afloat{};              ///< nodes on which no force arises where everything moves parallel, by
+  std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, by
                                            ///< unknowns of K: true for the displacement in x of such a node, behind
                                            ///< which stands that in z. Solutions then know this to the last digit,
                                            ///< which K's rounded entries do not. May be empty
@@ -35,25 +35,25 @@ struct Linearization {
 };
 
 /// What the equilibria of a continuum have in common.
-struct Family {
+struct Continuum {
   double energy = 0.0;  ///< total potential [force·length]
   double length = 0.0;  ///< sum of the lengths of the body's flat parts on walls, new ones being points yet [length]
 };
 
 /// What lies behind a limit of a piece: another piece that meets it there.
-struct Passage {
+struct Transition {
   enum class Change {
     spreads,      ///< a point contact becomes a line
     gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
     splits,       ///< a part on a wall lifts off inside
     joins,        ///< the reverse; the place is known on the piece ahead alone
     remeshed,     ///< the same point in other unknowns
-    family,       ///< a continuum of equilibria with the same load and energy
+    continuum,    ///< a continuum of equilibria with the same load and energy
     unsupported,  ///< something that is not modelled
   };
   Change change = Change::remeshed;
   std::string detail{};  ///< of the last two: what and why
-  std::optional<Family> family{};
+  std::optional<Continuum> continuum{};
   std::vector<Index> contacts{};  ///< that change: in the piece behind, of `gathers` and `joins` in the piece ahead
   State guess{};                  ///< on the piece ahead, near the first point there
   Direction forward{};            ///< there, roughly
@@ -102,7 +102,7 @@ class System {
   // --- guards: side conditions that say how far a piece reaches -------------------------------------------------
 
   /// Guards of a piece: one a contact, as many as the piece has entries, then those that bound the piece otherwise
-  /// (its limits: see passage()).
+  /// (its limits: see transition()).
   virtual Index guard_count(const Piece& piece) const { return static_cast<Index>(piece.size()); }
 
   /// Scaled to order 1 and ≥ 0 on this piece: the gap of an open contact, the force of a closed one. A guard that
@@ -143,8 +143,8 @@ class System {
 
   /// What may lie behind a limit that was reached going `forward`, the likeliest first: the first that leads to a point
   /// whose guards hold is taken. Limits within `tolerance` of zero are reached together.
-  virtual std::vector<Passage> passages(const State&, const Direction& /*forward*/, Index /*limit*/,
-                                        double /*tolerance*/) const {
+  virtual std::vector<Transition> transitions(const State&, const Direction& /*forward*/, Index /*limit*/,
+                                              double /*tolerance*/) const {
     return {};
   }
 
@@ -152,18 +152,18 @@ class System {
   /// enters an obstacle between the contacts.
   virtual bool admissible(const State&, double /*margin*/) const { return true; }
 
-  /// The passage (`remeshed`) from a regular point to a piece whose guards see what is below `margin` at `to`, the end
-  /// of a step; empty if no such piece passes through `from`. Asked for where admissible(to, margin) is not so.
-  virtual std::optional<Passage> refined(const State& /*from*/, const Direction& /*forward*/, const State& /*to*/,
-                                         double /*margin*/) const {
+  /// The transition (`remeshed`) from a regular point to a piece whose guards see what is below `margin` at `to`, the
+  /// end of a step; empty if no such piece passes through `from`. Asked for where admissible(to, margin) is not so.
+  virtual std::optional<Transition> with_inserted_contact(const State& /*from*/, const Direction& /*forward*/,
+                                                          const State& /*to*/, double /*margin*/) const {
     return std::nullopt;
   }
 
   /// The piece whose guards suit a state that was reached along another branch: a flat part that has buckled, say.
-  virtual Piece settled(const State& state) const { return state.piece; }
+  virtual Piece canonical_piece(const State& state) const { return state.piece; }
 
   /// Why the equations do not hold at this state although it may solve them (a wall that ends); empty if they do.
-  virtual std::optional<std::string> obstruction(const State&) const { return std::nullopt; }
+  virtual std::optional<std::string> invalid_reason(const State&) const { return std::nullopt; }
 
   /// The same point on another piece.
   State with_piece(const State& state, const Piece& piece) const {
@@ -172,7 +172,7 @@ class System {
 };
 
 /// Contacts among the guards of a piece whose gap and force both vanish within `tolerance`.
-inline std::vector<Index> weak_contacts(const Vector& guards, const Piece& piece, double tolerance) {
+inline std::vector<Index> degenerate_contacts(const Vector& guards, const Piece& piece, double tolerance) {
   std::vector<Index> weak;
   for (Index j = 0; j < static_cast<Index>(piece.size()); ++j)
     if (std::abs(guards[j]) <= tolerance) weak.push_back(j);

@@ -76,12 +76,12 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
 
 // The spring holds its node, if it is not one of rotation.
 std::vector<bool> WholeSolver::afloat_beside_spring() const {
-  std::vector<bool> afloat = equations_->afloat;
-  if (afloat.empty()) return afloat;
+  std::vector<bool> translation_free = equations_->translation_free;
+  if (translation_free.empty()) return translation_free;
   const auto at = static_cast<std::size_t>(at_);
-  afloat[at] = false;
-  if (at > 0) afloat[at - 1] = false;
-  return afloat;
+  translation_free[at] = false;
+  if (at > 0) translation_free[at - 1] = false;
+  return translation_free;
 }
 
 // What the rows of the small system are of x: C_x x, c_xᵀ x, eᵀ x.

@@ -29,9 +29,9 @@ StretchLoad::Matrix6 spread(const Eigen::Matrix4d& Q) {
 
 }  // namespace
 
-SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, Cut cut)
+SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, ElementsPerSegment cut)
     : structure_(structure), cut_(std::move(cut)) {
-  assert(static_cast<Index>(cut_.size()) == structure.runs());
+  assert(static_cast<Index>(cut_.size()) == structure.strands());
   Index unknowns = 0, first_element = 0, first_breakpoint = 0, node_count = 0, rotations = 0;
   unknown_of_freedom_.assign(structure.freedoms_.size(), held);
   const auto number_anchor = [&](const SlidingStructure::End& end) {
@@ -42,34 +42,34 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, Cu
       freedom_of_unknown_.push_back(freedom);
     }
   };
-  for (Index r = 0; r < structure.runs(); ++r) {
-    const SlidingStructure::Run& run = structure.at(r);
+  for (Index r = 0; r < structure.strands(); ++r) {
+    const SlidingStructure::Run& strand = structure.at(r);
     const std::vector<int>& segments = cut_[static_cast<std::size_t>(r)];
     MeshedRun meshed{.first_element = first_element};
-    number_anchor(run.ends[0]);
+    number_anchor(strand.ends[0]);
     const auto last_segment = static_cast<Index>(segments.size()) - 1;
     for (Index segment = 0; segment <= last_segment; ++segment) {
       const int n = segments[static_cast<std::size_t>(segment)];
       assert(n >= 1);
       const Index a = segment == 0 ? held : first_breakpoint + segment - 1;
       const Index b = segment == last_segment ? held : first_breakpoint + segment;
-      for (int i = 0; i < n; ++i) meshed.nodes.push_back(interpolated(a, b, run.length, double(i) / n));
+      for (int i = 0; i < n; ++i) meshed.nodes.push_back(interpolated(a, b, strand.length, double(i) / n));
       meshed.elements += n;
       if (b != held) breakpoints_.emplace_back(r, meshed.elements);
     }
-    meshed.nodes.push_back({.constant = run.length});
+    meshed.nodes.push_back({.constant = strand.length});
     first_breakpoint += last_segment;
     first_element += meshed.elements;
     meshed.first_inner = unknowns;
     unknowns += 3 * (meshed.elements - 1);
     freedom_of_unknown_.resize(static_cast<std::size_t>(unknowns), held);
-    number_anchor(run.ends[1]);
+    number_anchor(strand.ends[1]);
     node_count += meshed.elements + 1;
     rotations += meshed.elements + 1;
     runs_.push_back(std::move(meshed));
   }
   IndexLists blocks;
-  for (Index r = 0; r < structure.runs(); ++r)
+  for (Index r = 0; r < structure.strands(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) {
       const NodeUnknowns first = node_unknowns(r, e), second = node_unknowns(r, e + 1);
       blocks.add({first[0], first[1], first[2], second[0], second[1], second[2]});
@@ -80,7 +80,7 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, Cu
   // Means over all nodes, held ones included: they count as zeros.
   const double L = structure.length_scale_;
   weights_ = Vector::Constant(unknowns, 1.0 / (double(node_count) * L * L));
-  for (Index r = 0; r < structure.runs(); ++r)
+  for (Index r = 0; r < structure.strands(); ++r)
     for (Index i = 0; i < nodes(r); ++i)
       if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = 1.0 / double(rotations);
 }
@@ -100,17 +100,17 @@ SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(Index a, Ind
   return place;
 }
 
-double SlidingStructureMesh::coordinate(Index run, Index position, const Vector& s) const {
-  return mesh_of(run).nodes[static_cast<std::size_t>(position)].at(s);
+double SlidingStructureMesh::coordinate(Index strand, Index position, const Vector& s) const {
+  return mesh_of(strand).nodes[static_cast<std::size_t>(position)].at(s);
 }
 
-NodeUnknowns SlidingStructureMesh::node_unknowns(Index run, Index position) const {
-  const MeshedRun& meshed = mesh_of(run);
+NodeUnknowns SlidingStructureMesh::node_unknowns(Index strand, Index position) const {
+  const MeshedRun& meshed = mesh_of(strand);
   if (position > 0 && position < meshed.elements) {
     const Index first = meshed.first_inner + 3 * (position - 1);
     return {first, first + 1, first + 2};
   }
-  const auto& freedom = structure_.at(run).ends[position == 0 ? 0 : 1].freedom;
+  const auto& freedom = structure_.at(strand).ends[position == 0 ? 0 : 1].freedom;
   return {unknown(freedom[0]), unknown(freedom[1]), unknown(freedom[2])};
 }
 
@@ -132,34 +132,34 @@ double SlidingStructureMesh::anchor(Index freedom, const Vector& x) const {
   return 0.0;
 }
 
-AxisPlace SlidingStructureMesh::node(Index run, Index position, const Vector& x) const {
-  const MeshedRun& meshed = mesh_of(run);
+AxisPlace SlidingStructureMesh::node(Index strand, Index position, const Vector& x) const {
+  const MeshedRun& meshed = mesh_of(strand);
   if (position > 0 && position < meshed.elements) {
     const Index first = meshed.first_inner + 3 * (position - 1);
     return {.position = {x[first], x[first + 1]}, .angle = x[first + 2]};
   }
-  const SlidingStructure::Run& described = structure_.at(run);
+  const SlidingStructure::Run& described = structure_.at(strand);
   const auto& end = described.ends[position == 0 ? 0 : 1];
   return {.position = {anchor(end.freedom[0], x), anchor(end.freedom[1], x)},
           .angle = end.angle + anchor(end.freedom[2], x)};
 }
 
-SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index run, Index position, const Vector& x) const {
-  const AxisPlace a = node(run, position, x), b = node(run, position + 1, x);
+SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index strand, Index position, const Vector& x) const {
+  const AxisPlace a = node(strand, position, x), b = node(strand, position + 1, x);
   return {.first = a.position, .second = b.position, .angle1 = a.angle, .angle2 = b.angle};
 }
 
-StretchReference SlidingStructureMesh::reference(Index run, Index position, const Vector& s) const {
-  const SlidingStructure::Run& described = structure_.at(run);
+StretchReference SlidingStructureMesh::reference(Index strand, Index position, const Vector& s) const {
+  const SlidingStructure::Run& described = structure_.at(strand);
   using Inside = DividedPart::Inside;
-  return stretch_reference(*described.shape, described.offset + coordinate(run, position, s),
-                           described.offset + coordinate(run, position + 1, s),
+  return stretch_reference(*described.shape, described.offset + coordinate(strand, position, s),
+                           described.offset + coordinate(strand, position + 1, s),
                            described.theory == Theory::elastica ? Inside::wanted : Inside::left_out);
 }
 
 template <typename Visit>
-void SlidingStructureMesh::with_beam(Index run, const StretchReference& stretch, const Visit& visit) const {
-  const SlidingStructure::Run& described = structure_.at(run);
+void SlidingStructureMesh::with_beam(Index strand, const StretchReference& stretch, const Visit& visit) const {
+  const SlidingStructure::Run& described = structure_.at(strand);
   const double EA = described.section.EA(), EI = described.section.EI();
   if (described.theory == Theory::elastica) {
     visit(ElasticaBeam(stretch, EA, EI, described.order == 6 ? ElasticaOrder::six : ElasticaOrder::four));
@@ -168,13 +168,13 @@ void SlidingStructureMesh::with_beam(Index run, const StretchReference& stretch,
   }
 }
 
-SlidingStructureMesh::Response SlidingStructureMesh::respond(Index run, Index position, const Vector& x,
+SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index position, const Vector& x,
                                                              const Vector& s, double lambda, bool with_rates) const {
-  const SlidingStructure::Run& described = structure_.at(run);
-  const Ends at = ends(run, position, x);
-  const StretchReference stretch = reference(run, position, s);
+  const SlidingStructure::Run& described = structure_.at(strand);
+  const Ends at = ends(strand, position, x);
+  const StretchReference stretch = reference(strand, position, s);
   BeamResponse beam_response;
-  with_beam(run, stretch, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
+  with_beam(strand, stretch, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
   Response out{.energy = beam_response.energy,
                .force = spread(beam_response.force),
                .stiffness = spread(beam_response.stiffness),
@@ -195,10 +195,10 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index run, Index po
 
 // visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
 template <typename Visit>
-void SlidingStructureMesh::for_each_rate(Index run, Index position, const Response& response,
+void SlidingStructureMesh::for_each_rate(Index strand, Index position, const Response& response,
                                          const Visit& visit) const {
   for (std::size_t end = 0; end < 2; ++end) {
-    const Coordinate& place = mesh_of(run).nodes[static_cast<std::size_t>(position) + end];
+    const Coordinate& place = mesh_of(strand).nodes[static_cast<std::size_t>(position) + end];
     for (std::size_t j = 0; j < 2; ++j)
       if (place.breakpoint[j] != held && place.weight[j] != 0.0)
         visit(place.breakpoint[j], Six(place.weight[j] * response.force_rate[end]));
@@ -251,7 +251,7 @@ void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double la
 
 double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lambda) const {
   double energy = 0.0;
-  for (Index r = 0; r < structure_.runs(); ++r)
+  for (Index r = 0; r < structure_.strands(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, x, s, lambda, false).energy;
   for (Index i = 0; i < unknowns(); ++i)
     if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
@@ -265,17 +265,19 @@ double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lam
 //
 //   curvature = κ₀ ± M/EI,   stretch = 1 ± N/EA,   N = f·t
 AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const {
-  const auto [run, position] = breakpoint(k);
+  const auto [strand, position] = breakpoint(k);
   const bool before = side == At::before;
   const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();
   const Index place = before ? 3 : 0, turn = place + 2;  // of the node among the element's freedoms
-  const SlidingStructure::Run& described = structure_.at(run);
+  const SlidingStructure::Run& described = structure_.at(strand);
   const double sign = before ? 1.0 : -1.0;
   const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
-  const Response response = respond(run, e, x, s, lambda, true);
-  const Vec2 t = tangent(node(run, position, x).angle);
-  const double S = coordinate(run, position, s), step = 1e-5 * described.length;
-  const auto natural = [&, run = run](double at) { return structure_.natural_curvature({.run = run, .s = at}); };
+  const Response response = respond(strand, e, x, s, lambda, true);
+  const Vec2 t = tangent(node(strand, position, x).angle);
+  const double S = coordinate(strand, position, s), step = 1e-5 * described.length;
+  const auto natural = [&, strand = strand](double at) {
+    return structure_.natural_curvature({.strand = strand, .s = at});
+  };
   const auto force = response.force.segment<2>(place);
   AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI, .stretch = 1.0 + force.dot(t) / EA};
 
@@ -284,13 +286,13 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   stretch_dx[turn] += force.dot(perp(t)) / EA;
   strain.curvature_dx = strain.stretch_dx = Vector::Zero(n);
   strain.curvature_ds = strain.stretch_ds = Vector::Zero(m);
-  const auto to = assembly_.unknowns(mesh_of(run).first_element + e);
+  const auto to = assembly_.unknowns(mesh_of(strand).first_element + e);
   for (std::size_t i = 0; i < 6; ++i)
     if (to[i] != held) {
       strain.curvature_dx[to[i]] += curvature_dx[static_cast<Index>(i)];
       strain.stretch_dx[to[i]] += stretch_dx[static_cast<Index>(i)];
     }
-  for_each_rate(run, e, response, [&](Index j, const Six& rate) {
+  for_each_rate(strand, e, response, [&](Index j, const Six& rate) {
     strain.curvature_ds[j] += rate[turn] / EI;
     strain.stretch_ds[j] += rate.segment<2>(place).dot(t) / EA;
   });
@@ -300,14 +302,14 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   return strain;
 }
 
-SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index run, Index position, const Vector& x, const Vector& s,
+SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index position, const Vector& x, const Vector& s,
                                                         double lambda) const {
-  const Six force = respond(run, position, x, s, lambda, false).force;
+  const Six force = respond(strand, position, x, s, lambda, false).force;
   return {force.head<3>(), force.tail<3>()};
 }
 
 Index SlidingStructureMesh::element_at(const MaterialPoint& point, const Vector& s) const {
-  const auto& places = mesh_of(point.run).nodes;
+  const auto& places = mesh_of(point.strand).nodes;
   Index low = 0, high = static_cast<Index>(places.size()) - 1;
   while (high - low > 1) {
     const Index middle = (low + high) / 2;
@@ -318,17 +320,17 @@ Index SlidingStructureMesh::element_at(const MaterialPoint& point, const Vector&
 
 AxisPlace SlidingStructureMesh::place(const MaterialPoint& point, const Vector& x, const Vector& s) const {
   const Index e = element_at(point, s);
-  const double S1 = coordinate(point.run, e, s), S2 = coordinate(point.run, e + 1, s);
-  return inside(point.run, e, (point.s - S1) / (S2 - S1), x, s);
+  const double S1 = coordinate(point.strand, e, s), S2 = coordinate(point.strand, e + 1, s);
+  return inside(point.strand, e, (point.s - S1) / (S2 - S1), x, s);
 }
 
-AxisPlace SlidingStructureMesh::inside(Index run, Index position, double fraction, const Vector& x,
+AxisPlace SlidingStructureMesh::inside(Index strand, Index position, double fraction, const Vector& x,
                                        const Vector& s) const {
-  if (fraction <= 0.0) return node(run, position, x);
-  if (fraction >= 1.0) return node(run, position + 1, x);
-  const Ends at = ends(run, position, x);
+  if (fraction <= 0.0) return node(strand, position, x);
+  if (fraction >= 1.0) return node(strand, position + 1, x);
+  const Ends at = ends(strand, position, x);
   AxisPlace place;
-  with_beam(run, reference(run, position, s), [&](const auto& beam) {
+  with_beam(strand, reference(strand, position, s), [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), fraction);
     place = {.position = at.first + local.offset, .angle = local.angle};
   });
@@ -338,13 +340,13 @@ AxisPlace SlidingStructureMesh::inside(Index run, Index position, double fractio
 SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPoint& point, const Vector& x,
                                                                 const Vector& s) const {
   const Index e = element_at(point, s), m = breakpoints();
-  const double S1 = coordinate(point.run, e, s), S2 = coordinate(point.run, e + 1, s);
+  const double S1 = coordinate(point.strand, e, s), S2 = coordinate(point.strand, e + 1, s);
   PlaceGradient gradient;
   gradient.dx.setZero(3, unknowns());
   gradient.ds.setZero(3, m);
-  const Ends at = ends(point.run, e, x);
-  const auto to = assembly_.unknowns(mesh_of(point.run).first_element + e);
-  with_beam(point.run, reference(point.run, e, s), [&](const auto& beam) {
+  const Ends at = ends(point.strand, e, x);
+  const auto to = assembly_.unknowns(mesh_of(point.strand).first_element + e);
+  with_beam(point.strand, reference(point.strand, e, s), [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
     for (int row = 0; row < 3; ++row) {
       StretchLoad::Vector6 d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
@@ -355,7 +357,7 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
   });
   // By s the mesh moves under the place: differences, as the element may be another one.
   for (Index k = 0; k < m; ++k) {
-    const double step = 1e-6 * structure_.at(point.run).length;
+    const double step = 1e-6 * structure_.at(point.strand).length;
     Vector forward = s, backward = s;
     forward[k] += step;
     backward[k] -= step;
@@ -368,7 +370,7 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
 Vector SlidingStructureMesh::transferred(const Vector& x, const Vector& s, const SlidingMesh& to,
                                          const Vector& s_to) const {
   Vector moved(to.unknowns());
-  for (Index r = 0; r < structure_.runs(); ++r)
+  for (Index r = 0; r < structure_.strands(); ++r)
     for (Index i = 0; i < to.nodes(r); ++i) {
       const NodeUnknowns unknowns = to.node_unknowns(r, i);
       const bool first = i == 0, last = i + 1 == to.nodes(r);
@@ -377,7 +379,7 @@ Vector SlidingStructureMesh::transferred(const Vector& x, const Vector& s, const
         for (std::size_t j = 0; j < 3; ++j)
           if (unknowns[j] != held) moved[unknowns[j]] = anchor(freedom[j], x);
       } else {
-        const AxisPlace at = place({.run = r, .s = to.coordinate(r, i, s_to)}, x, s);
+        const AxisPlace at = place({.strand = r, .s = to.coordinate(r, i, s_to)}, x, s);
         moved[unknowns[0]] = at.position.x();
         moved[unknowns[1]] = at.position.y();
         moved[unknowns[2]] = at.angle;
@@ -392,7 +394,7 @@ SlidingStructure::Reaction SlidingStructureMesh::reaction(const Vector& x, const
   if (unknown(freedom) != held) return reaction;
   reaction.value = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
   reaction.dlambda = -structure_.load_[freedom];
-  for (Index r = 0; r < structure_.runs(); ++r)
+  for (Index r = 0; r < structure_.strands(); ++r)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& freedoms = structure_.at(r).ends[end].freedom;
       const auto here = std::find(freedoms.begin(), freedoms.end(), freedom);

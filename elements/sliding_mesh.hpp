@@ -10,13 +10,13 @@
 
 namespace arcwall {
 
-/// The mesh of one cut. Elements are numbered along the runs; each lies between two places that are fixed or move with
-/// breakpoints.
+/// The mesh of one cut. Elements are numbered along the strands; each lies between two places that are fixed or move
+/// with breakpoints.
 class SlidingStructureMesh final : public SlidingMesh {
  public:
-  SlidingStructureMesh(const SlidingStructure& structure, Cut cut);
+  SlidingStructureMesh(const SlidingStructure& structure, ElementsPerSegment cut);
 
-  const Cut& cut() const override { return cut_; }
+  const ElementsPerSegment& elements_per_segment() const override { return cut_; }
   Index unknowns() const override { return assembly_.unknown_count(); }
   Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
   const Vector& weights() const override { return weights_; }
@@ -24,19 +24,19 @@ class SlidingStructureMesh final : public SlidingMesh {
   void linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const override;
   double energy(const Vector& x, const Vector& s, double lambda) const override;
 
-  Index nodes(Index run) const override { return mesh_of(run).elements + 1; }
-  double coordinate(Index run, Index position, const Vector& s) const override;
-  NodeUnknowns node_unknowns(Index run, Index position) const override;
-  AxisPlace node(Index run, Index position, const Vector& x) const override;
+  Index nodes(Index strand) const override { return mesh_of(strand).elements + 1; }
+  double coordinate(Index strand, Index position, const Vector& s) const override;
+  NodeUnknowns node_unknowns(Index strand, Index position) const override;
+  AxisPlace node(Index strand, Index position, const Vector& x) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
   AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const override;
-  double element_energy(Index run, Index position, const Vector& x, const Vector& s, double lambda) const override {
-    return respond(run, position, x, s, lambda, false).energy;
+  double element_energy(Index strand, Index position, const Vector& x, const Vector& s, double lambda) const override {
+    return respond(strand, position, x, s, lambda, false).energy;
   }
-  EndForces end_forces(Index run, Index position, const Vector& x, const Vector& s, double lambda) const override;
+  EndForces end_forces(Index strand, Index position, const Vector& x, const Vector& s, double lambda) const override;
   AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
   PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
-  AxisPlace inside(Index run, Index position, double fraction, const Vector& x, const Vector& s) const override;
+  AxisPlace inside(Index strand, Index position, double fraction, const Vector& x, const Vector& s) const override;
   Vector transferred(const Vector& x, const Vector& s, const SlidingMesh& to, const Vector& s_to) const override;
 
   Index unknown(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
@@ -71,11 +71,11 @@ class SlidingStructureMesh final : public SlidingMesh {
     BeamEnds between() const { return {.chord = second - first, .angle1 = angle1, .angle2 = angle2}; }
   };
 
-  const MeshedRun& mesh_of(Index run) const { return runs_[static_cast<std::size_t>(run)]; }
+  const MeshedRun& mesh_of(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
   Coordinate interpolated(Index a, Index b, double length, double r) const;
-  Ends ends(Index run, Index position, const Vector& x) const;
+  Ends ends(Index strand, Index position, const Vector& x) const;
   double anchor(Index freedom, const Vector& x) const;
-  StretchReference reference(Index run, Index position, const Vector& s) const;
+  StretchReference reference(Index strand, Index position, const Vector& s) const;
   Index element_at(const MaterialPoint& point, const Vector& s) const;
 
   using Six = StretchLoad::Vector6;
@@ -87,20 +87,21 @@ class SlidingStructureMesh final : public SlidingMesh {
     SixBySix stiffness{};
     std::array<Six, 2> force_rate{};
   };
-  Response respond(Index run, Index position, const Vector& x, const Vector& s, double lambda, bool with_rates) const;
+  Response respond(Index strand, Index position, const Vector& x, const Vector& s, double lambda,
+                   bool with_rates) const;
 
   // Up to four elements of a segment that are evaluated side by side.
   struct Four {
-    Index run, position;  // of the first
+    Index strand, position;  // of the first
     int count;
-    std::array<Index, 2> breakpoint;                  // between which they lie; held: an end of the run
+    std::array<Index, 2> breakpoint;                  // between which they lie; held: an end of the strand
     std::array<double, Lanes::count + 1> from_first;  // of their nodes: fraction of the way to the second
     bool shifted;                                     // BlockAssembly::are_shifted()
-    bool inside;                                      // there are four, and no node is an end of the run
+    bool inside;                                      // there are four, and no node is an end of the strand
   };
   using Rest = SlidingBeamLanes::Rest;
   void number_fours();
-  Rest rest_from(Index run, Index position, Index most, const Vector& s) const;
+  Rest rest_from(Index strand, Index position, Index most, const Vector& s) const;
   void add_fours(const Vector& x, const Vector& s, Eigen::Ref<Vector> F, Linearization* out) const;
   void add(const Four& four, const Rest& first, const Rest& second, const Vector& x, Eigen::Ref<Vector> F,
            Linearization* out) const;
@@ -108,19 +109,19 @@ class SlidingStructureMesh final : public SlidingMesh {
 
   // visit(beam) with the beam of a stretch, by value.
   template <typename Visit>
-  void with_beam(Index run, const StretchReference& stretch, const Visit& visit) const;
+  void with_beam(Index strand, const StretchReference& stretch, const Visit& visit) const;
   template <typename Visit>
-  void for_each_rate(Index run, Index position, const Response& response, const Visit& visit) const;
+  void for_each_rate(Index strand, Index position, const Response& response, const Visit& visit) const;
 
   const SlidingStructure& structure_;
-  Cut cut_;
+  ElementsPerSegment cut_;
   std::vector<std::pair<Index, Index>> breakpoints_;
   std::vector<MeshedRun> runs_;
   std::vector<Index> unknown_of_freedom_;  // of the anchors
   std::vector<Index> freedom_of_unknown_;  // held for inner nodes
   BlockAssembly assembly_{0, {}};
   std::vector<Four> fours_;
-  std::vector<std::pair<Index, Index>> others_;  // run and position of the elements that are evaluated one by one
+  std::vector<std::pair<Index, Index>> others_;  // strand and position of the elements that are evaluated one by one
   Vector weights_;
 };
 

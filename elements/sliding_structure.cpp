@@ -8,21 +8,21 @@
 
 namespace arcwall {
 
-double SlidingStructure::elements_between(Index run, double from, double to) const {
+double SlidingStructure::elements_between(Index strand, double from, double to) const {
   double count = 0.0;
-  for (const Part& part : at(run).parts)
+  for (const Part& part : at(strand).parts)
     count += std::max(0.0, std::min(to, part.to) - std::max(from, part.from)) * part.elements / (part.to - part.from);
   return count;
 }
 
 double SlidingStructure::natural_curvature(const MaterialPoint& point) const {
-  const Run& run = runs_[static_cast<std::size_t>(point.run)];
-  const DeviatedPoint place = run.shape->along(run.offset + std::clamp(point.s, 0.0, run.length));
+  const Run& strand = runs_[static_cast<std::size_t>(point.strand)];
+  const DeviatedPoint place = strand.shape->along(strand.offset + std::clamp(point.s, 0.0, strand.length));
   return place.turning / place.speed;
 }
 
 std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& point) const {
-  const std::vector<Part>& parts = at(point.run).parts;
+  const std::vector<Part>& parts = at(point.strand).parts;
   const auto holds = [&](const Part& part) { return point.s <= part.to; };
   auto part = std::find_if(parts.begin(), parts.end(), holds);
   if (part == parts.end()) --part;
@@ -31,21 +31,21 @@ std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& poin
 }
 
 MaterialPoint SlidingStructure::find(const std::string& member, double fraction) const {
-  for (Index r = 0; r < runs(); ++r)
+  for (Index r = 0; r < strands(); ++r)
     for (const Part& part : at(r).parts)
       if (part.member == member && fraction <= part.last_fraction && fraction >= part.first_fraction) {
         const double t = (fraction - part.first_fraction) / (part.last_fraction - part.first_fraction);
-        return {.run = r, .s = part.from + t * (part.to - part.from)};
+        return {.strand = r, .s = part.from + t * (part.to - part.from)};
       }
   throw std::out_of_range("no member " + member + " has a place at the fraction " + std::to_string(fraction));
 }
 
 std::vector<SlidingStructure::MemberPart> SlidingStructure::parts_of(const std::string& member) const {
   std::vector<MemberPart> parts;
-  for (Index r = 0; r < runs(); ++r)
+  for (Index r = 0; r < strands(); ++r)
     for (const Part& part : at(r).parts)
       if (part.member == member)
-        parts.push_back({.run = r,
+        parts.push_back({.strand = r,
                          .from = part.from,
                          .to = part.to,
                          .first_fraction = part.first_fraction,
@@ -56,22 +56,23 @@ std::vector<SlidingStructure::MemberPart> SlidingStructure::parts_of(const std::
 }
 
 AxisPlace SlidingStructure::undeformed(const MaterialPoint& point, bool imperfect) const {
-  const Run& run = at(point.run);
-  const AxisPoint place = imperfect ? run.shape->at(run.offset + point.s) : run.axis->at(run.offset + point.s);
+  const Run& strand = at(point.strand);
+  const AxisPoint place =
+      imperfect ? strand.shape->at(strand.offset + point.s) : strand.axis->at(strand.offset + point.s);
   return {.position = place.position, .angle = place.angle};
 }
 
-std::shared_ptr<const SlidingMesh> SlidingStructure::mesh(const Cut& cut) const {
+std::shared_ptr<const SlidingMesh> SlidingStructure::mesh(const ElementsPerSegment& cut) const {
   return std::make_shared<SlidingStructureMesh>(*this, cut);
 }
 
 Vector SlidingStructure::rest(const SlidingMesh& mesh, const Vector& s) const {
   Vector x = Vector::Zero(mesh.unknowns());
-  for (Index r = 0; r < runs(); ++r)
+  for (Index r = 0; r < strands(); ++r)
     for (Index i = 0; i < mesh.nodes(r); ++i) {
       const NodeUnknowns unknowns = mesh.node_unknowns(r, i);
       const bool inner = i > 0 && i + 1 < mesh.nodes(r);
-      const AxisPlace place = undeformed({.run = r, .s = mesh.coordinate(r, i, s)}, true);
+      const AxisPlace place = undeformed({.strand = r, .s = mesh.coordinate(r, i, s)}, true);
       const auto set = [&](std::size_t which, double value) {
         if (unknowns[which] >= 0) x[unknowns[which]] = value;
       };
@@ -121,7 +122,7 @@ bool StructureBuilder::can_slide() const {
   });
 }
 
-// A member is cut into runs where a load acts inside it; runs that continue each other straight are joined again.
+// A member is cut into strands where a load acts inside it; strands that continue each other straight are joined again.
 std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                                                   const SlidingStructure::Alike& alike) const {
   auto structure = std::unique_ptr<SlidingStructure>(new SlidingStructure());
@@ -148,15 +149,15 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   for (std::size_t m = 0; m < descriptions_.size(); ++m) {
     const MemberDescription& member = descriptions_[m];
     const MemberMesh& mesh = meshes_[m];
-    SlidingStructure::Run run{.axis = member.axis,
-                              .shape = std::make_shared<ImperfectAxis>(*member.axis, member.imperfection),
-                              .perfect = member.imperfection.empty(),
-                              .theory = member.theory,
-                              .order = member.order,
-                              .section = member.section};
+    SlidingStructure::Run strand{.axis = member.axis,
+                                 .shape = std::make_shared<ImperfectAxis>(*member.axis, member.imperfection),
+                                 .perfect = member.imperfection.empty(),
+                                 .theory = member.theory,
+                                 .order = member.order,
+                                 .section = member.section};
     for (const DistributedLoad& load : distributed_loads_) {
       if (load.member != static_cast<Index>(m) || !acts(load.kind)) continue;
-      (proportional(load.kind) ? run.load : run.constant_load) += load.load;
+      (proportional(load.kind) ? strand.load : strand.constant_load) += load.load;
       if (proportional(load.kind))
         structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
     }
@@ -169,7 +170,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
     std::size_t from = 0;
     for (std::size_t to = 1; to <= last; ++to) {
       if (to < last && !loaded[static_cast<std::size_t>(mesh.nodes[to])]) continue;
-      SlidingStructure::Run part = run;
+      SlidingStructure::Run part = strand;
       part.offset = member.axis->length() * mesh.fraction(from);
       part.length = member.axis->length() * mesh.fraction(to) - part.offset;
       part.parts = {{.member = member.name,
@@ -184,23 +185,24 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
     }
   }
   structure->join_straight_runs(loaded, alike);
-  for (SlidingStructure::Run& run : structure->runs_)
-    if (run.theory == Theory::classic && run.shape->is_straight() && !run.carries_load())
-      run.beams.emplace(*run.shape, run.section.EA(), run.section.EI());
+  for (SlidingStructure::Run& strand : structure->runs_)
+    if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load())
+      strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
   return structure;
 }
 
 // Runs a and b that meet at a joint where nothing else acts, both straight, perfect and of one section, become one.
 void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded, const Alike& alike) {
   const auto node_of = [&](const End& end) { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; };
-  const auto straight = [](const Run& run) {
-    const double L = run.axis->length();
-    return run.perfect && std::abs((run.axis->at(L).position - run.axis->at(0.0).position).norm() - L) <= 1e-12 * L;
+  const auto straight = [](const Run& strand) {
+    const double L = strand.axis->length();
+    return strand.perfect &&
+           std::abs((strand.axis->at(L).position - strand.axis->at(0.0).position).norm() - L) <= 1e-12 * L;
   };
   const auto ends_at = [&](Index node) {
     Index count = 0;
-    for (const Run& run : runs_)
-      for (const End& end : run.ends) count += node_of(end) == node;
+    for (const Run& strand : runs_)
+      for (const End& end : strand.ends) count += node_of(end) == node;
     return count;
   };
   const auto continues = [&](const Run& a, const Run& b) {
@@ -219,8 +221,8 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded, const
     for (std::size_t a = 0; a < runs_.size() && !joined; ++a)
       for (std::size_t b = 0; b < runs_.size() && !joined; ++b) {
         if (a == b || !continues(runs_[a], runs_[b])) continue;
-        const AxisPlace from = undeformed({.run = static_cast<Index>(a), .s = 0.0}, false);
-        const AxisPlace to = undeformed({.run = static_cast<Index>(b), .s = runs_[b].length}, false);
+        const AxisPlace from = undeformed({.strand = static_cast<Index>(a), .s = 0.0}, false);
+        const AxisPlace to = undeformed({.strand = static_cast<Index>(b), .s = runs_[b].length}, false);
         for (Part part : runs_[b].parts) {
           part.from += runs_[a].length;
           part.to += runs_[a].length;

@@ -17,26 +17,26 @@ class SlidingStructureMesh;
 /// Slender beams between joints, supports and dead loads, to be meshed with breakpoints that move. Built by
 /// StructureBuilder::build_sliding().
 ///
-/// Members that continue each other straight at a joint without support, load or hinge are one run: a breakpoint passes
-/// such a joint without notice. Loads inside a member end runs, too.
+/// Members that continue each other straight at a joint without support, load or hinge are one strand: a breakpoint
+/// passes such a joint without notice. Loads inside a member end strands, too.
 class SlidingStructure final : public SlidingBody {
  public:
-  /// Whether two members, by name, may be parts of one run.
+  /// Whether two members, by name, may be parts of one strand.
   using Alike = std::function<bool(const std::string&, const std::string&)>;
 
-  Index runs() const override { return static_cast<Index>(runs_.size()); }
-  double length(Index run) const override { return at(run).length; }
-  double half_height(Index run) const override { return 0.5 * at(run).section.height.value_or(0.0); }
-  double elements_between(Index run, double from, double to) const override;
+  Index strands() const override { return static_cast<Index>(runs_.size()); }
+  double length(Index strand) const override { return at(strand).length; }
+  double half_height(Index strand) const override { return 0.5 * at(strand).section.height.value_or(0.0); }
+  double elements_between(Index strand, double from, double to) const override;
   double natural_curvature(const MaterialPoint& point) const override;
-  double bending_stiffness(Index run) const override { return at(run).section.EI(); }
-  double axial_stiffness(Index run) const override { return at(run).section.EA(); }
-  Vec2 load(Index run, double lambda) const override { return lambda * at(run).load + at(run).constant_load; }
-  bool end_is_held(Index run, bool last) const override {
-    return held_[static_cast<std::size_t>(at(run).ends[last ? 1 : 0].freedom[1])];
+  double bending_stiffness(Index strand) const override { return at(strand).section.EI(); }
+  double axial_stiffness(Index strand) const override { return at(strand).section.EA(); }
+  Vec2 load(Index strand, double lambda) const override { return lambda * at(strand).load + at(strand).constant_load; }
+  bool end_is_held(Index strand, bool last) const override {
+    return held_[static_cast<std::size_t>(at(strand).ends[last ? 1 : 0].freedom[1])];
   }
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
-  std::shared_ptr<const SlidingMesh> mesh(const Cut& cut) const override;
+  std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;
   Vector rest(const SlidingMesh& mesh, const Vector& s) const override;
   double length_scale() const override { return length_scale_; }
   double force_scale() const override { return force_scale_; }
@@ -44,10 +44,10 @@ class SlidingStructure final : public SlidingBody {
   /// The place of a member at a fraction of its length; std::out_of_range if there is none.
   MaterialPoint find(const std::string& member, double fraction) const;
 
-  /// A member, or a part of it, as a stretch of a run.
+  /// A member, or a part of it, as a stretch of a strand.
   struct MemberPart {
-    Index run = 0;
-    double from = 0.0, to = 0.0;                       ///< arc length along the run
+    Index strand = 0;
+    double from = 0.0, to = 0.0;                       ///< arc length along the strand
     double first_fraction = 0.0, last_fraction = 1.0;  ///< of the member
   };
 
@@ -78,14 +78,14 @@ class SlidingStructure final : public SlidingBody {
   friend class StructureBuilder;
   friend class SlidingStructureMesh;
 
-  // A stretch of a run that is, or is part of, a member of the deck.
+  // A stretch of a strand that is, or is part of, a member of the deck.
   struct Part {
     std::string member;
-    double from, to;                       // arc length along the run
+    double from, to;                       // arc length along the strand
     double first_fraction, last_fraction;  // of the member
     double elements;                       // that it asks for
   };
-  // An end of a run: its freedoms x, z, rotation, and the stress-free angle.
+  // An end of a strand: its freedoms x, z, rotation, and the stress-free angle.
   struct End {
     std::array<Index, 3> freedom{};
     double angle = 0.0;
@@ -97,10 +97,10 @@ class SlidingStructure final : public SlidingBody {
     Theory theory = Theory::classic;
     int order = 2;
     Section section{};
-    double length = 0.0, offset = 0.0;  // of the run; where it begins on the axis
+    double length = 0.0, offset = 0.0;  // of the strand; where it begins on the axis
     std::vector<Part> parts{};
     std::array<End, 2> ends{};
-    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the run [force/length]
+    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the strand [force/length]
     std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
 
     bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
@@ -108,7 +108,7 @@ class SlidingStructure final : public SlidingBody {
 
   SlidingStructure() = default;
   void join_straight_runs(const std::vector<bool>& loaded, const Alike& alike);
-  const Run& at(Index run) const { return runs_[static_cast<std::size_t>(run)]; }
+  const Run& at(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
 
   std::vector<Run> runs_;
   std::vector<Vec2> positions_;       // of the builder's nodes

@@ -166,8 +166,8 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
 }
 
 // Elements know differences of displacements alone, and loads are dead: nodes that share no element with a support that
-// holds a displacement are afloat.
-std::vector<bool> Structure::afloat() const {
+// holds a displacement are translation_free.
+std::vector<bool> Structure::translation_free() const {
   std::vector<bool> held(positions_.size());
   const auto meaning_of = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; };
   const auto node_of = [&](Index freedom) { return static_cast<std::size_t>(meaning_of(freedom).node); };
@@ -193,7 +193,7 @@ void Structure::linearize(const State& state, Linearization& out) const {
   const Index n = assembly_.unknown_count();
   if (!out.pattern_of || out.K.cols() != n) {
     out.K = assembly_.pattern();
-    out.afloat = afloat();
+    out.translation_free = translation_free();
     out.pattern_of = state.piece;
   }
   out.F.setZero(n);

@@ -30,7 +30,7 @@ enum class Theory { classic, elastica, exact, essenburg, truss };
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
 
-/// A run of elements between two joints.
+/// A sequence of elements between two joints.
 struct MemberDescription {
   std::string name{};
   Index from = 0, to = 0;  ///< joints
@@ -191,8 +191,8 @@ class Structure final : public System {
 
   Structure(const Structure&) = default;
   Structure(Index unknowns, const IndexLists& blocks) : assembly_(unknowns, blocks) {}
-  void arrange();                    // what follows from the elements
-  std::vector<bool> afloat() const;  // see Linearization
+  void arrange();                              // what follows from the elements
+  std::vector<bool> translation_free() const;  // see Linearization
   void gather(Index block, const Vector& x, double* u) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
   void add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const;
@@ -246,7 +246,7 @@ class StructureBuilder {
   std::unique_ptr<Structure> build(bool ramp = false) const;
 
   /// The same for meshes with breakpoints that move. Only beams without shear: see can_slide(). Members for which
-  /// `alike(a, b)` is false are not joined to one run, however they meet: walls see runs.
+  /// `alike(a, b)` is false are not joined to one strand, however they meet: walls see strands.
   std::unique_ptr<SlidingStructure> build_sliding(
       bool ramp = false, const std::function<bool(const std::string&, const std::string&)>& alike = nullptr) const;
 

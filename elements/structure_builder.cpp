@@ -10,7 +10,7 @@
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"
 #include "elements/essenburg_beam.hpp"
-#include "elements/exact_beam.hpp"
+#include "elements/reissner_beam.hpp"
 #include "elements/structure.hpp"
 
 namespace arcwall {
@@ -103,7 +103,7 @@ std::unique_ptr<Element> make_element(const Stretch& stretch) {
       return std::make_unique<ElasticaBeam>(slender_reference(stretch), section.EA(), section.EI(),
                                             stretch.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four);
     case Theory::exact:
-      return std::make_unique<ExactBeam>(
+      return std::make_unique<ReissnerBeam>(
           exact_reference(stretch), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
     case Theory::essenburg:
       return std::make_unique<EssenburgBeam>(essenburg_reference(stretch), essenburg_stiffness(section));

@@ -67,7 +67,7 @@ Json ArchiveWriter::piece(const Piece& piece) {
     return json;
   }
   const auto& layout = dynamic_cast<const SlidingContactLayout&>(*piece.layout());
-  Cut cut = layout.mesh().cut();
+  ElementsPerSegment cut = layout.mesh().elements_per_segment();
   std::vector<SlidingContactLayout::Point> points = layout.points();
   Vector origin = layout.origin();
   ArchiveWriter inner(shared_);
@@ -108,7 +108,7 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   if (!json.is_array())
     return shared_->layouts[static_cast<std::size_t>(
         whole_number(json, 0, static_cast<std::int64_t>(shared_->layouts.size()) - 1))];
-  Cut cut;
+  ElementsPerSegment cut;
   std::vector<SlidingContactLayout::Point> points;
   Vector origin;
   ArchiveReader inner(json, shared_);

@@ -40,7 +40,7 @@ namespace archive_detail {
 
 template <typename T, typename Archive>
 concept KeepsItself = requires(T& value, Archive& archive) {
-  value.keep(archive);
+  value.serialize(archive);
 };
 
 template <typename T>

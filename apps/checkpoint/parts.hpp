@@ -79,13 +79,13 @@ void parts(Archive& archive, Event& event) {
 }
 
 template <typename Archive>
-void parts(Archive& archive, Family& family) {
+void parts(Archive& archive, Continuum& family) {
   archive(family.energy, family.length);
 }
 
 template <typename Archive>
 void parts(Archive& archive, BranchEnd& end) {
-  archive(end.reason, end.detail, end.partner, end.family);
+  archive(end.reason, end.detail, end.partner, end.continuum);
 }
 
 template <typename Archive>

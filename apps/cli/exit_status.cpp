@@ -22,7 +22,7 @@ ExitStatus exit_status(EndReason reason) {
     case EndReason::no_ray:
     case EndReason::turning_control:
     case EndReason::wall_end:
-    case EndReason::family:
+    case EndReason::continuum:
     case EndReason::unsupported:
       return ExitStatus::ended_early;
   }

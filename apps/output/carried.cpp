@@ -110,13 +110,14 @@ void add_stretches(const TiedMember& member, int k, const State& state, std::vec
   }
 }
 
-MemberStretch sliding_stretch(const SlidingStructure& body, Index run, Index position, const State& state) {
+MemberStretch sliding_stretch(const SlidingStructure& body, Index strand, Index position, const State& state) {
   const SlidingMesh& mesh = mesh_of(state);
   const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
-  const double S1 = mesh.coordinate(run, position, s), S2 = mesh.coordinate(run, position + 1, s);
-  const AxisPlace a = mesh.node(run, position, x), b = mesh.node(run, position + 1, x);
-  const AxisPlace a0 = body.undeformed({.run = run, .s = S1}, true), b0 = body.undeformed({.run = run, .s = S2}, true);
-  const SlidingMesh::EndForces forces = mesh.end_forces(run, position, x, s, state.lambda);
+  const double S1 = mesh.coordinate(strand, position, s), S2 = mesh.coordinate(strand, position + 1, s);
+  const AxisPlace a = mesh.node(strand, position, x), b = mesh.node(strand, position + 1, x);
+  const AxisPlace a0 = body.undeformed({.strand = strand, .s = S1}, true),
+                  b0 = body.undeformed({.strand = strand, .s = S2}, true);
+  const SlidingMesh::EndForces forces = mesh.end_forces(strand, position, x, s, state.lambda);
   return {.from = S1,
           .to = S2,
           .now = {a.position, b.position, a.angle, b.angle},

@@ -20,9 +20,9 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::user};
 
 constexpr std::array end_reasons{
-    EndReason::stop,     EndReason::closed_loop,     EndReason::joined,   EndReason::branched, EndReason::max_points,
-    EndReason::max_time, EndReason::interrupted,     EndReason::min_step, EndReason::singular, EndReason::not_finite,
-    EndReason::no_ray,   EndReason::turning_control, EndReason::wall_end, EndReason::family,   EndReason::unsupported};
+    EndReason::stop,     EndReason::closed_loop,     EndReason::joined,   EndReason::branched,  EndReason::max_points,
+    EndReason::max_time, EndReason::interrupted,     EndReason::min_step, EndReason::singular,  EndReason::not_finite,
+    EndReason::no_ray,   EndReason::turning_control, EndReason::wall_end, EndReason::continuum, EndReason::unsupported};
 
 template <class List>
 std::optional<typename List::value_type> with_text(const List& list, std::string_view text) {
@@ -91,7 +91,7 @@ std::string_view to_text(EndReason reason) {
       return "turning_control";
     case EndReason::wall_end:
       return "wall_end";
-    case EndReason::family:
+    case EndReason::continuum:
       return "family";
     case EndReason::unsupported:
       return "unsupported";
@@ -180,7 +180,7 @@ std::string_view explanation(EndReason reason) {
       return "the controlled quantity turns back";
     case EndReason::wall_end:
       return "a contact reached the end of its wall";
-    case EndReason::family:
+    case EndReason::continuum:
       return "a continuum of equilibria lies ahead";
     case EndReason::unsupported:
       return "something lies ahead that is not modelled";
@@ -213,7 +213,7 @@ std::string_view what_to_try(EndReason reason) {
       return "path.method = \"spherical\", which follows the path through turning points";
     case EndReason::wall_end:
       return "a longer wall, or a bound in path.stop before its end";
-    case EndReason::family:
+    case EndReason::continuum:
       return "a small imperfection, which singles one equilibrium of the continuum out; or contact.points = \"nodes\", "
              "where loads depend on the mesh: compare several numbers of elements";
     case EndReason::unsupported:

@@ -103,7 +103,8 @@ OrderedJson point_json(const Record& record, const RecordPoint& point) {
 OrderedJson end_json(const BranchEnd& end) {
   OrderedJson json{{"reason", to_text(end.reason)}, {"detail", end.detail}};
   if (end.partner) json["partner"] = *end.partner;
-  if (end.family) json["family"] = {{"energy", number(end.family->energy)}, {"length", number(end.family->length)}};
+  if (end.continuum)
+    json["family"] = {{"energy", number(end.continuum->energy)}, {"length", number(end.continuum->length)}};
   return json;
 }
 

@@ -66,7 +66,7 @@ std::vector<ShapePoint> points_on_nodes(const Study& study, const State& state, 
 
 // --- members whose mesh slides --------------------------------------------------------------------------------------
 
-// A member is one stretch of a run, or several runs of its own where loads act inside it.
+// A member is one stretch of a strand, or several strands of its own where loads act inside it.
 std::vector<ShapePoint> points_between_breakpoints(const Study& study, const State& state, std::size_t member) {
   const SlidingStructure& body = *study.sliding_structure();
   const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
@@ -79,15 +79,15 @@ std::vector<ShapePoint> points_between_breakpoints(const Study& study, const Sta
   for (const SlidingStructure::MemberPart& part : body.parts_of(name)) {
     const double rate = (part.last_fraction - part.first_fraction) / (part.to - part.from);
     const auto fraction = [&](double S) { return part.first_fraction + rate * (S - part.from); };
-    for (Index position = 0; position + 1 < mesh.nodes(part.run); ++position) {
-      MemberStretch stretch = sliding_stretch(body, part.run, position, state);
+    for (Index position = 0; position + 1 < mesh.nodes(part.strand); ++position) {
+      MemberStretch stretch = sliding_stretch(body, part.strand, position, state);
       if (stretch.to <= part.from || stretch.from >= part.to) continue;
       stretch.from = fraction(stretch.from);
       stretch.to = fraction(stretch.to);
       stretches.push_back(stretch);
     }
     for (Index k = 0; k < mesh.breakpoints(); ++k)
-      if (const double S = s[k]; mesh.breakpoint(k).first == part.run && S > part.from && S < part.to)
+      if (const double S = s[k]; mesh.breakpoint(k).first == part.strand && S > part.from && S < part.to)
         fractions.push_back(fraction(S));
   }
   std::sort(fractions.begin(), fractions.end());

@@ -74,7 +74,7 @@ std::string RunUnderWay::checkpoint(const std::optional<BranchEnd>& stopped) {
   std::optional<BranchEnd> ending = stopped;
   archive(program, description_, ending, start_);
   keep_traced(archive, *record_);
-  tracing_->keep(archive);
+  tracing_->serialize(archive);
   return to_checkpoint(archive.json());
 }
 
@@ -102,7 +102,7 @@ RunUnderWay RunUnderWay::from_content(const Json& content, const std::string& fi
     run.tracing_ = make_tracing(*run.study_, *run.record_, run.start_, run.description_.ledger);
     keep_traced(archive, *run.record_);
     archive.require(is_whole(*run.record_));
-    run.tracing_->keep(archive);
+    run.tracing_->serialize(archive);
     archive.require(archive.at_end());
     if (stopped && how == Resume::as_ended) {
       run.stop(*stopped);

@@ -25,7 +25,7 @@ struct RunDescription {
 
   /// Visits all of it.
   template <typename Archive>
-  void keep(Archive& archive) {
+  void serialize(Archive& archive) {
     bool shown = units == UnitLabels::shown;
     bool kept = ledger == StepLedger::kept;
     archive(deck, deck_text, assignments, shown, kept);

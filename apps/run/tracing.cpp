@@ -90,14 +90,14 @@ class PathTracing final : public Tracing {
 };
 
 // Whether the way between two states crosses a bound that stops.
-const Landmark* crossed(const std::vector<Landmark>& landmarks, const State& from, const State& to) {
-  const auto stops = [&](const Landmark& landmark) {
-    const double before = landmark.quantity->value(from) - landmark.value;
-    const double after = landmark.quantity->value(to) - landmark.value;
-    return landmark.stops && before != 0.0 && before * after <= 0.0;
+const TargetValue* crossed(const std::vector<TargetValue>& target_values, const State& from, const State& to) {
+  const auto stops = [&](const TargetValue& target_value) {
+    const double before = target_value.quantity->value(from) - target_value.value;
+    const double after = target_value.quantity->value(to) - target_value.value;
+    return target_value.stops && before != 0.0 && before * after <= 0.0;
   };
-  const auto found = std::find_if(landmarks.begin(), landmarks.end(), stops);
-  return found == landmarks.end() ? nullptr : &*found;
+  const auto found = std::find_if(target_values.begin(), target_values.end(), stops);
+  return found == target_values.end() ? nullptr : &*found;
 }
 
 // The deck's load increments: one branch.
@@ -160,7 +160,7 @@ class IncrementTracing final : public Tracing {
   std::optional<BranchEnd> bound_met(const State& before, const Arc& arc) const {
     const TraceOptions& options = study_.options();
     const State& after = arc.to.state;
-    if (const Landmark* bound = crossed(options.landmarks, before, after))
+    if (const TargetValue* bound = crossed(options.target_values, before, after))
       return BranchEnd{.reason = EndReason::stop, .detail = bound->label};
     for (const StopEvent& stop : options.stop_events)
       if (std::any_of(arc.events.begin(), arc.events.end(), [&](const Event& e) { return e.kind == stop.kind; }))

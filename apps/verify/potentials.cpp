@@ -106,11 +106,11 @@ std::vector<Potential> fixed_potentials(const Structure& structure, const State&
 
 // --- nodes that slide -----------------------------------------------------------------------------------------------
 
-Potential sliding_potential(const State& state, Index run, Index position) {
+Potential sliding_potential(const State& state, Index strand, Index position) {
   const SlidingMesh& mesh = sliding_mesh(state);
   const Vector s = coordinates(state);
-  const NodeUnknowns first = mesh.node_unknowns(run, position), second = mesh.node_unknowns(run, position + 1);
-  const double length = mesh.coordinate(run, position + 1, s) - mesh.coordinate(run, position, s);
+  const NodeUnknowns first = mesh.node_unknowns(strand, position), second = mesh.node_unknowns(strand, position + 1);
+  const double length = mesh.coordinate(strand, position + 1, s) - mesh.coordinate(strand, position, s);
   Potential potential{.at = Vector::Zero(6), .steps = Vector(6)};
   for (const NodeUnknowns& node : {first, second})
     for (const Index unknown : node) potential.unknowns.push_back(unknown);
@@ -127,11 +127,11 @@ Potential sliding_potential(const State& state, Index run, Index position) {
     return visit(moved);
   };
   potential.energy = [=, &mesh, lambda = state.lambda](const Vector& u) {
-    return with(u, [&](const Vector& moved) { return mesh.element_energy(run, position, moved, s, lambda); });
+    return with(u, [&](const Vector& moved) { return mesh.element_energy(strand, position, moved, s, lambda); });
   };
   potential.gradient = [=, &mesh, lambda = state.lambda](const Vector& u) {
     return with(u, [&](const Vector& moved) {
-      const SlidingMesh::EndForces ends = mesh.end_forces(run, position, moved, s, lambda);
+      const SlidingMesh::EndForces ends = mesh.end_forces(strand, position, moved, s, lambda);
       Vector gradient(6);
       gradient << ends[0], ends[1];
       return gradient;
@@ -142,9 +142,9 @@ Potential sliding_potential(const State& state, Index run, Index position) {
 
 std::vector<Potential> sliding_potentials(const Study& study, const State& state) {
   std::vector<Potential> all;
-  for (Index run = 0; run < study.sliding_structure()->runs(); ++run)
-    for (Index position = 0; position + 1 < sliding_mesh(state).nodes(run); ++position)
-      all.push_back(sliding_potential(state, run, position));
+  for (Index strand = 0; strand < study.sliding_structure()->strands(); ++strand)
+    for (Index position = 0; position + 1 < sliding_mesh(state).nodes(strand); ++position)
+      all.push_back(sliding_potential(state, strand, position));
   return all;
 }
 
@@ -230,13 +230,13 @@ std::string name_of_unknown(const Study& study, const State& state, Index unknow
     return word(freedom) + " at " + name_of_node(study.structure(), node);
   }
   const SlidingMesh& mesh = sliding_mesh(state);
-  for (Index run = 0; run < study.sliding_structure()->runs(); ++run)
-    for (Index position = 0; position < mesh.nodes(run); ++position) {
-      const NodeUnknowns unknowns = mesh.node_unknowns(run, position);
+  for (Index strand = 0; strand < study.sliding_structure()->strands(); ++strand)
+    for (Index position = 0; position < mesh.nodes(strand); ++position) {
+      const NodeUnknowns unknowns = mesh.node_unknowns(strand, position);
       const auto found = std::find(unknowns.begin(), unknowns.end(), unknown);
       if (found == unknowns.end()) continue;
-      const auto [member, fraction] =
-          study.sliding_structure()->label({.run = run, .s = mesh.coordinate(run, position, coordinates(state))});
+      const auto [member, fraction] = study.sliding_structure()->label(
+          {.strand = strand, .s = mesh.coordinate(strand, position, coordinates(state))});
       return word(kind_of(static_cast<std::size_t>(found - unknowns.begin()), 3)) + " at " + member + ":" +
              round_trip(fraction);
     }

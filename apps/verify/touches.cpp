@@ -113,7 +113,7 @@ Touches node_touches(const Study& study, const std::vector<PlainWall>& walls, co
 // --- contact that slides --------------------------------------------------------------------------------------------
 
 struct SlidingNode {
-  Index run = 0, position = 0;
+  Index strand = 0, position = 0;
 };
 
 // A sliding state with what stands in it.
@@ -130,11 +130,11 @@ struct Sliding {
     Vector moved = x;
     for (std::size_t i = 0; i < 3; ++i)
       if (function.unknowns[i] >= 0) moved[function.unknowns[i]] = u[static_cast<Index>(i)];
-    return mesh.node(node.run, node.position, moved);
+    return mesh.node(node.strand, node.position, moved);
   }
 
   NodeFunction unknowns(const SlidingNode& node) const {
-    const NodeUnknowns indices = mesh.node_unknowns(node.run, node.position);
+    const NodeUnknowns indices = mesh.node_unknowns(node.strand, node.position);
     NodeFunction function{.unknowns = {indices.begin(), indices.end()}, .at = Vector::Zero(3)};
     function.steps = Vector::Constant(3, difference_step);
     function.steps.head<2>() *= body.length_scale();
@@ -154,9 +154,9 @@ Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& pl
 
 Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const SlidingNode& node) {
   const auto [member, fraction] =
-      at->body.label({.run = node.run, .s = at->mesh.coordinate(node.run, node.position, at->s)});
+      at->body.label({.strand = node.strand, .s = at->mesh.coordinate(node.strand, node.position, at->s)});
   Touch touch{.label = {.wall = wall.deck().name, .member = member, .fraction = fraction}, .gap = at->unknowns(node)};
-  const double half = at->body.half_height(node.run);
+  const double half = at->body.half_height(node.strand);
   const auto face = [=, &wall, function = touch.gap](const Vector& u) {
     return face_towards(wall, half, at->place(node, function, u));
   };
@@ -172,13 +172,13 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   const bool before = at.on.span_before(point) == Span::free;
   const double sign = before ? 1.0 : -1.0;
   const auto ends =
-      at.mesh.end_forces(node.run, before ? node.position - 1 : node.position, at.x, at.s, at.state.lambda);
+      at.mesh.end_forces(node.strand, before ? node.position - 1 : node.position, at.x, at.s, at.state.lambda);
   const Eigen::Vector3d& end = ends[before ? 1 : 0];
-  const AxisPlace place = at.mesh.node(node.run, node.position, at.x);
-  const double s = at.mesh.coordinate(node.run, node.position, at.s), half = at.body.half_height(node.run);
-  const double curvature =
-      at.body.natural_curvature({.run = node.run, .s = s}) + sign * end[2] / at.body.bending_stiffness(node.run);
-  const double stretch = 1.0 + sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.run);
+  const AxisPlace place = at.mesh.node(node.strand, node.position, at.x);
+  const double s = at.mesh.coordinate(node.strand, node.position, at.s), half = at.body.half_height(node.strand);
+  const double curvature = at.body.natural_curvature({.strand = node.strand, .s = s}) +
+                           sign * end[2] / at.body.bending_stiffness(node.strand);
+  const double stretch = 1.0 + sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
   const double offset = wall.deck().acts_on == deck::ActsOn::face ? -wall.side() * half : 0.0;
   const double surface = wall.curvature(face_towards(wall, half, place).x());
@@ -191,7 +191,7 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
 Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
                   const SlidingNode& node, std::size_t point) {
   Tangency tangency{.label = touch.label, .tilt = at->unknowns(node)};
-  const double half = at->body.half_height(node.run);
+  const double half = at->body.half_height(node.strand);
   tangency.tilt.of = [=, &wall, function = tangency.tilt](const Vector& u) {
     const AxisPlace place = at->place(node, function, u);
     return std::remainder(place.angle - wall.slope_angle(face_towards(wall, half, place).x()), pi);
@@ -206,11 +206,11 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
 std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& at,
                                                                 const std::vector<PlainWall>& walls) {
   std::vector<std::pair<SlidingNode, const PlainWall*>> ends;
-  for (Index run = 0; run < at.body.runs(); ++run)
+  for (Index strand = 0; strand < at.body.strands(); ++strand)
     for (const PlainWall& wall : walls)
       for (const bool last : {false, true})
-        if (wall.concerns(at.body.label({.run = run, .s = 0.0}).first) && !at.body.end_is_held(run, last))
-          ends.push_back({{.run = run, .position = last ? at.mesh.nodes(run) - 1 : 0}, &wall});
+        if (wall.concerns(at.body.label({.strand = strand, .s = 0.0}).first) && !at.body.end_is_held(strand, last))
+          ends.push_back({{.strand = strand, .position = last ? at.mesh.nodes(strand) - 1 : 0}, &wall});
   return ends;
 }
 
@@ -227,8 +227,8 @@ Touches sliding_touches(const Study& study, const std::vector<PlainWall>& walls,
   const auto& points = at->on.points();
   const Index moments = state.x.size() - 2 * at->mesh.breakpoints();
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto [run, position] = at->mesh.breakpoint(static_cast<Index>(k));
-    const SlidingNode node{.run = run, .position = position};
+    const auto [strand, position] = at->mesh.breakpoint(static_cast<Index>(k));
+    const SlidingNode node{.strand = strand, .position = position};
     const PlainWall& wall = walls[points[k].obstacle];
     const Touch& touch = add(wall, node, state.piece[k] != 0);
     touches.tangencies.push_back(tangency(at, wall, touch, node, k));
@@ -238,7 +238,7 @@ Touches sliding_touches(const Study& study, const std::vector<PlainWall>& walls,
   for (std::size_t i = 0; i < ends.size(); ++i)
     add(*ends[i].second, ends[i].first, state.piece[points.size() + i] != 0);
   for (const SlidingContactLayout::Held& held : at->on.held()) {
-    add(walls[held.obstacle], {.run = held.run, .position = held.position}, true);
+    add(walls[held.obstacle], {.strand = held.strand, .position = held.position}, true);
     touches.all.back().listed = false;
   }
   return touches;
@@ -294,16 +294,16 @@ LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, cons
   LeastGap least;
   if (study.sliding() == nullptr) return least;
   const Sliding at{.study = study, .state = state};
-  for (Index run = 0; run < at.body.runs(); ++run)
-    for (Index e = 0; e + 1 < at.mesh.nodes(run); ++e)
+  for (Index strand = 0; strand < at.body.strands(); ++strand)
+    for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e)
       for (int i = 0; i <= places; ++i) {
         const double t = double(i) / places;
-        const auto place_at = [&](double fraction) { return at.mesh.inside(run, e, fraction, at.x, at.s); };
+        const auto place_at = [&](double fraction) { return at.mesh.inside(strand, e, fraction, at.x, at.s); };
         const AxisPlace place = place_at(t);
         for (const PlainWall& wall : walls) {
-          if (!wall.concerns(at.body.label({.run = run, .s = 0.0}).first)) continue;
+          if (!wall.concerns(at.body.label({.strand = strand, .s = 0.0}).first)) continue;
           const auto gap_of_place = [&](const AxisPlace& there) {
-            return gap_of(wall, face_towards(wall, at.body.half_height(run), there));
+            return gap_of(wall, face_towards(wall, at.body.half_height(strand), there));
           };
           const double gap = gap_of_place(place);
           if (gap >= least.value) continue;

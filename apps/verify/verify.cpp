@@ -66,7 +66,7 @@ double zero_eigenvalue(const Record& record, const RecordPoint& point) {
   const auto singular = [&](const RecordEvent& event) {
     if (event.branch != point.branch || event.step != point.step) return false;
     return event.kind == EventKind::limit_point || event.kind == EventKind::branch_point ||
-           (event.branch_end && event.branch_end->reason == EndReason::family);
+           (event.branch_end && event.branch_end->reason == EndReason::continuum);
   };
   return std::any_of(record.events.begin(), record.events.end(), singular) ? 1e-6 : 1e-11;
 }

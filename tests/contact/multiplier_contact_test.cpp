@@ -210,7 +210,7 @@ TEST(MultiplierContact, AContactIsWeakWhereGapAndForceVanish) {
   const MultiplierContact& system = model.system();
   const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
   State state{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
-  const auto weak = [&](const State& at) { return weak_contacts(system.guards(at), at.piece, 1e-12); };
+  const auto weak = [&](const State& at) { return degenerate_contacts(system.guards(at), at.piece, 1e-12); };
   EXPECT_EQ(static_cast<Index>(weak(state).size()), system.contact_count());
 
   // Lifted at one node, pressed at another: neither is weak.
@@ -249,7 +249,7 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
   const MultiplierContact& system = model.system();
   const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
   const State rest{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
-  EXPECT_FALSE(system.obstruction(rest).has_value()) << "open contacts may face nothing";
+  EXPECT_FALSE(system.invalid_reason(rest).has_value()) << "open contacts may face nothing";
   // The last node stands beside the wall: its guard is large and does not move.
   const Index last = system.contact_count() - 1;
   EXPECT_FALSE(system.candidate(last).faces_wall(rest.x));
@@ -258,7 +258,8 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
   for (Index j = 0; j < system.contact_count(); ++j) {
     Piece piece = open;
     piece[static_cast<std::size_t>(j)] = 1;
-    EXPECT_EQ(system.obstruction(system.with_piece(rest, piece)).has_value(), !system.candidate(j).faces_wall(rest.x));
+    EXPECT_EQ(system.invalid_reason(system.with_piece(rest, piece)).has_value(),
+              !system.candidate(j).faces_wall(rest.x));
   }
 }
 

@@ -21,7 +21,7 @@ using test::SlidingModel;
 using Point = SlidingContactLayout::Point;
 using Span = SlidingContactLayout::Span;
 
-// A mesh of one run with its points, at their places, and which of them are closed.
+// A mesh of one strand with its points, at their places, and which of them are closed.
 struct Layouts {
   std::string name;
   std::vector<int> elements;
@@ -245,7 +245,7 @@ TEST(SlidingContact, PlacesMoveWithTheMeshConsistently) {
     const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
     for (Index node = 0; node < mesh.nodes(0); ++node) {
       const AxisPlace there = mesh.node(0, node, x);
-      const AxisPlace same = mesh.place({.run = 0, .s = mesh.coordinate(0, node, s)}, x, s);
+      const AxisPlace same = mesh.place({.strand = 0, .s = mesh.coordinate(0, node, s)}, x, s);
       EXPECT_LE((there.position - same.position).norm(), 1e-13);
       EXPECT_NEAR(there.angle, same.angle, 1e-12);
     }

@@ -16,7 +16,7 @@ State at(double x, double l) { return {.x = test::scalar(x), .lambda = l}; }
 
 TraceOptions until_one() {
   TraceOptions options;
-  options.landmarks.push_back(test::stop_at_lambda(1.0));
+  options.target_values.push_back(test::stop_at_lambda(1.0));
   return options;
 }
 

@@ -21,7 +21,7 @@ EventDetector passes(double x, Crossing crossing = Crossing::any) {
 Branch traced(const System& system, State start, std::vector<EventDetector> detectors, double until) {
   TraceOptions options;
   options.detectors = std::move(detectors);
-  options.landmarks = {test::stop_at_lambda(until)};
+  options.target_values = {test::stop_at_lambda(until)};
   return test::trace(system, options, start);
 }
 
@@ -42,7 +42,7 @@ TEST(EventDetector, IsAValueThatAProgramAdds) {
   std::vector<double> found;
   // example begins
   TraceOptions options;
-  options.landmarks = {{.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true}};
+  options.target_values = {{.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true}};
   const auto past_half = [](const PathPoint& point) { return point.state.x[0] - 0.5; };
   options.detectors.push_back({.label = "halfway", .crossing = Crossing::rising, .value = past_half});
   Tracer tracer(system, start, options);

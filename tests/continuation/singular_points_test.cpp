@@ -21,7 +21,7 @@ TraceOptions until(double lambda, double step) {
   TraceOptions options;
   options.step.first *= step;
   options.step.max *= step;
-  options.landmarks = {test::stop_at_lambda(lambda), test::stop_at_lambda(-2.0)};
+  options.target_values = {test::stop_at_lambda(lambda), test::stop_at_lambda(-2.0)};
   return options;
 }
 
@@ -130,7 +130,7 @@ TEST(ClosePairs, ATrussThatSwaysJustBeforeItsLimitLoadOrJustBehindIt) {
         TraceOptions options;
         options.step.first *= step;
         options.step.max *= step;
-        options.landmarks = {test::stop_at_lambda(-1.0)};
+        options.target_values = {test::stop_at_lambda(-1.0)};
         const Branch branch = test::trace(truss, options, {.x = Vector::Zero(2), .lambda = 0.0});
         test::expect_branch_invariants(truss, branch, options);
         const Expected sway{branch_point, load(z_sway), side > 0.0 ? 0 : 1, side > 0.0 ? 1 : 2};

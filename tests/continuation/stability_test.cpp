@@ -38,8 +38,8 @@ TEST(Stability, AContactWithoutForceHoldsNothingAndLeavesTheMatterOpen) {
   const StabilityCount count = counter.count(with_force(1e-13), std::nullopt);
   EXPECT_EQ(count.unstable, 1);
   EXPECT_EQ(count.stability, Stability::undecided);  // only motions off the wall are allowed
-  EXPECT_EQ(strongly_closed(toy, with_force(1e-13), 1e-12), Piece{0});
-  EXPECT_EQ(strongly_closed(toy, with_force(0.3), 1e-12), Piece{1});
+  EXPECT_EQ(strictly_active(toy, with_force(1e-13), 1e-12), Piece{0});
+  EXPECT_EQ(strictly_active(toy, with_force(0.3), 1e-12), Piece{1});
 }
 
 TEST(Stability, WhatIsUnstableWithAllContactsHeldIsUnstable) {

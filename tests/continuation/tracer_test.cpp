@@ -29,7 +29,7 @@ std::shared_ptr<const Observable> lambda() { return std::make_shared<ParameterVa
 
 State at(double x, double l) { return {.x = test::scalar(x), .lambda = l}; }
 
-Landmark stop_at_x(double value) { return {.quantity = x(), .value = value, .stops = true, .label = "x"}; }
+TargetValue stop_at_x(double value) { return {.quantity = x(), .value = value, .stops = true, .label = "x"}; }
 
 constexpr PathMethod arc_length_methods[] = {PathMethod::riks, PathMethod::normal_plane, PathMethod::cylindrical,
                                              PathMethod::spherical, PathMethod::pseudo_arclength};
@@ -41,7 +41,7 @@ TEST(Tracer, EveryArcLengthMethodPassesAFoldAndFindsIt) {
   const test::SmoothToy system = test::fold();
   for (const PathMethod method : arc_length_methods) {
     SCOPED_TRACE(static_cast<int>(method));
-    const TraceOptions options{.method = method, .landmarks = {stop_at_x(-0.8)}};
+    const TraceOptions options{.method = method, .target_values = {stop_at_x(-0.8)}};
     const Branch branch = trace(system, options, at(1.0, -1.0));
     EXPECT_EQ(branch.end.reason, EndReason::stop);
     EXPECT_NEAR(branch.last().state.x[0], -0.8, 1e-12);
@@ -58,7 +58,7 @@ TEST(Tracer, EveryArcLengthMethodPassesAFoldAndFindsIt) {
 
 TEST(Tracer, LoadControlStopsAtAFoldAndSaysWhy) {
   const test::SmoothToy system = test::fold();
-  const TraceOptions options{.method = PathMethod::load, .landmarks = {stop_at_x(-0.8)}};
+  const TraceOptions options{.method = PathMethod::load, .target_values = {stop_at_x(-0.8)}};
   const Branch branch = trace(system, options, at(1.0, -1.0));
   EXPECT_EQ(branch.end.reason, EndReason::turning_control);
   EXPECT_LE(branch.last().state.lambda, 0.0);
@@ -67,7 +67,7 @@ TEST(Tracer, LoadControlStopsAtAFoldAndSaysWhy) {
 }
 
 TEST(Tracer, DisplacementControlPassesALimitOfLambdaButNoLimitOfItsDisplacement) {
-  const TraceOptions options{.method = PathMethod::displacement, .control = x(), .landmarks = {stop_at_x(-0.8)}};
+  const TraceOptions options{.method = PathMethod::displacement, .control = x(), .target_values = {stop_at_x(-0.8)}};
   const test::SmoothToy fold = test::fold();
   const Branch passed = trace(fold, options, at(1.0, -1.0));
   EXPECT_EQ(passed.end.reason, EndReason::stop);
@@ -86,7 +86,7 @@ TEST(Tracer, FindsBothFoldsOfACuspHoweverNearTheyAre) {
     SCOPED_TRACE(a);
     const test::SmoothToy system = test::cusp(a);
     const double x0 = 1.3;
-    const TraceOptions options{.landmarks = {stop_at_x(-1.3)}};
+    const TraceOptions options{.target_values = {stop_at_x(-1.3)}};
     const Branch branch = trace(system, options, at(x0, a * x0 - x0 * x0 * x0));
     EXPECT_EQ(branch.end.reason, EndReason::stop);
     const auto folds = events_of(branch, EventKind::limit_point);
@@ -102,7 +102,7 @@ TEST(Tracer, FindsBothFoldsOfACuspHoweverNearTheyAre) {
 
 TEST(Tracer, AnInflectionWithALevelTangentIsASuspectedLimitPointAtMost) {
   const test::SmoothToy system = test::cusp(0.0);
-  const Branch branch = trace(system, {.landmarks = {stop_at_x(-1.0)}}, at(1.0, -1.0));
+  const Branch branch = trace(system, {.target_values = {stop_at_x(-1.0)}}, at(1.0, -1.0));
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   const Event event = only_event(branch, EventKind::limit_point);
   EXPECT_TRUE(event.suspected);
@@ -111,9 +111,10 @@ TEST(Tracer, AnInflectionWithALevelTangentIsASuspectedLimitPointAtMost) {
 
 TEST(Tracer, LandmarksAreLandedOnExactly) {
   const test::SmoothToy system = test::spring(4.0);
-  const TraceOptions options{.landmarks = {{.quantity = lambda(), .value = 0.37},
-                                           {.quantity = x(), .value = 0.11},
-                                           {.quantity = lambda(), .value = 1.0, .stops = true, .label = "lambda = 1"}}};
+  const TraceOptions options{
+      .target_values = {{.quantity = lambda(), .value = 0.37},
+                        {.quantity = x(), .value = 0.11},
+                        {.quantity = lambda(), .value = 1.0, .stops = true, .label = "lambda = 1"}}};
   const Branch branch = trace(system, options);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   EXPECT_EQ(branch.end.detail, "lambda = 1");
@@ -128,19 +129,19 @@ TEST(Tracer, LandmarksAreLandedOnExactly) {
 }
 
 TEST(Tracer, ALandmarkAtTheStartCountsOnlyWhenItIsMetAgain) {
-  const TraceOptions options{.landmarks = {stop_at_lambda(-1.0)}};
+  const TraceOptions options{.target_values = {stop_at_lambda(-1.0)}};
   const Branch branch = trace(test::fold(), options, at(1.0, -1.0));
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   EXPECT_NEAR(branch.last().state.x[0], -1.0, 1e-10);
 }
 
 TEST(Tracer, TheSignOfTheFirstStepIsTheDirection) {
-  const TraceOptions options{.step = {.first = -0.02}, .landmarks = {stop_at_lambda(-1.0), stop_at_lambda(1.0)}};
+  const TraceOptions options{.step = {.first = -0.02}, .target_values = {stop_at_lambda(-1.0), stop_at_lambda(1.0)}};
   EXPECT_NEAR(trace(test::spring(4.0), options).last().state.lambda, -1.0, 1e-14);
 }
 
 TEST(Tracer, TheFirstStepChangesLambdaByAsMuchAsAsked) {
-  const TraceOptions options{.step = {.first = 0.013}, .landmarks = {stop_at_lambda(1.0)}};
+  const TraceOptions options{.step = {.first = 0.013}, .target_values = {stop_at_lambda(1.0)}};
   EXPECT_NEAR(trace(test::spring(4.0), options).arcs.at(1).to.state.lambda, 0.013, 1e-14);
 }
 
@@ -191,13 +192,14 @@ TEST(Tracer, TurningPointsOfWatchedMonitorsAreEvents) {
 
 TEST(Tracer, DetectReportsAtTheEndOfTheStepAndNoneNotAtAll) {
   const test::SmoothToy system = test::fold();
-  const Branch detected = trace(system, {.landmarks = {stop_at_x(-0.8)}, .events = EventSearch::detect}, at(1.0, -1.0));
+  const Branch detected =
+      trace(system, {.target_values = {stop_at_x(-0.8)}, .events = EventSearch::detect}, at(1.0, -1.0));
   const Event fold = only_event(detected, EventKind::limit_point);
   EXPECT_LT(fold.state.x[0], 0.0);
   EXPECT_GT(fold.state.x[0], -0.25);
   EXPECT_GT(fold.localised, 1e-6);
   EXPECT_GE(fold.localised, -fold.state.lambda) << "the fold at λ = 0 lies within";
-  const Branch silent = trace(system, {.landmarks = {stop_at_x(-0.8)}, .events = EventSearch::none}, at(1.0, -1.0));
+  const Branch silent = trace(system, {.target_values = {stop_at_x(-0.8)}, .events = EventSearch::none}, at(1.0, -1.0));
   EXPECT_TRUE(events_of(silent, EventKind::limit_point).empty());
   EXPECT_NEAR(silent.last().state.x[0], -0.8, 1e-12);
 }
@@ -234,7 +236,7 @@ TEST(Tracer, EndsAtTheStartIfNothingMovesThere) {
 
 TEST(Tracer, ClosesAContactWhereItTouchesAndGoesOn) {
   const auto system = test::stopped_springs(2.0);
-  const TraceOptions options{.landmarks = {stop_at_lambda(2.0)}};
+  const TraceOptions options{.target_values = {stop_at_lambda(2.0)}};
   const Branch branch = trace(system, options);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   const Event closes = only_event(branch, EventKind::contact_closes);
@@ -251,7 +253,7 @@ TEST(Tracer, ClosesAContactWhereItTouchesAndGoesOn) {
 TEST(Tracer, OpensAContactWhoseForceVanishes) {
   const auto system = test::stopped_springs(2.0);
   const State pressed{.x = Vector{{1.0, 2.0, 1.0}}, .lambda = 2.0, .piece = {1}};
-  const TraceOptions options{.step = {.first = -0.02}, .landmarks = {stop_at_lambda(0.5)}};
+  const TraceOptions options{.step = {.first = -0.02}, .target_values = {stop_at_lambda(0.5)}};
   const Branch branch = trace(system, options, pressed);
   const Event opens = only_event(branch, EventKind::contact_opens);
   EXPECT_NEAR(opens.state.lambda, 1.0, 1e-12);
@@ -269,7 +271,7 @@ TEST(Tracer, AStepThatEndsWithinRoundOffOfACornerIsFollowedByTheCorner) {
       SCOPED_TRACE(i);
       const double begin = 1.1 + i * std::numeric_limits<double>::epsilon();
       const State start{.x = Vector{{1.0, 1.0 + begin / k, begin - 1.0}}, .lambda = begin, .piece = Piece(1, 1)};
-      const Branch branch = trace(system, {.step = {.first = -0.1}, .landmarks = {stop_at_lambda(0.5)}}, start);
+      const Branch branch = trace(system, {.step = {.first = -0.1}, .target_values = {stop_at_lambda(0.5)}}, start);
       EXPECT_EQ(branch.end.reason, EndReason::stop);
       EXPECT_NEAR(only_event(branch, EventKind::contact_opens).state.lambda, 1.0, 1e-12);
     }
@@ -284,7 +286,7 @@ TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {
   system.f = Vector::Ones(1);
   system.G = Matrix::Identity(1, 1);
   system.gap0 = Vector::Zero(1);
-  const TraceOptions options{.landmarks = {stop_at_lambda(-2.0)}};
+  const TraceOptions options{.target_values = {stop_at_lambda(-2.0)}};
   const Branch branch = trace(system, options, {.x = test::scalar(1.0), .lambda = -1.0, .piece = {0}});
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   EXPECT_NEAR(only_event(branch, EventKind::contact_closes).state.lambda, 0.0, 1e-12);
@@ -299,7 +301,7 @@ TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {
 TEST(Tracer, StartsOnAClosedContactWithoutForce) {
   const auto system = test::stopped_springs(2.0);
   const State touching{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0}};
-  const TraceOptions options{.landmarks = {stop_at_lambda(2.0), stop_at_lambda(0.0)}};
+  const TraceOptions options{.target_values = {stop_at_lambda(2.0), stop_at_lambda(0.0)}};
   const Branch branch = trace(system, options, touching);
   EXPECT_NEAR(branch.last().state.lambda, 2.0, 1e-12);
   EXPECT_EQ(branch.last().state.piece, Piece{1});
@@ -327,7 +329,7 @@ TEST(Tracer, ANumberOfClosedContactsEndsTheBranch) {
 TEST(Tracer, AnEventOfAChosenKindEndsTheBranch) {
   const auto system = test::fold();  // λ = −x²
   const State start{.x = test::scalar(-1.0), .lambda = -1.0};
-  const TraceOptions options{.landmarks = {stop_at_lambda(-2.0)},
+  const TraceOptions options{.target_values = {stop_at_lambda(-2.0)},
                              .stop_events = {{.kind = EventKind::limit_point, .label = "event = limit-point"}}};
   const Branch branch = trace(system, options, start);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
@@ -338,12 +340,12 @@ TEST(Tracer, AnEventOfAChosenKindEndsTheBranch) {
 TEST(Tracer, AWallThatEndsEndsTheBranch) {
   struct Ending final : test::LinearContactToy {
     Ending() : LinearContactToy(test::stopped_springs(2.0)) {}
-    std::optional<std::string> obstruction(const State& s) const override {
+    std::optional<std::string> invalid_reason(const State& s) const override {
       return s.piece[0] && s.lambda > 1.5 ? std::optional<std::string>("wall_end") : std::nullopt;
     }
   };
   const Ending system;
-  const Branch branch = trace(system, {.landmarks = {stop_at_lambda(2.0)}});
+  const Branch branch = trace(system, {.target_values = {stop_at_lambda(2.0)}});
   EXPECT_EQ(branch.end.reason, EndReason::wall_end);
   EXPECT_NEAR(branch.last().state.lambda, 1.5, 1e-6);
   EXPECT_LE(branch.last().state.lambda, 1.5);
@@ -353,7 +355,7 @@ TEST(Tracer, TheSameEventsAreFoundWithAnyStep) {
   const auto system = test::stopped_springs(2.0);
   for (const double step : {0.003, 0.03, 0.3, 3.0})
     for (const PathMethod method : arc_length_methods) {
-      const TraceOptions options{.method = method, .step = {.first = step}, .landmarks = {stop_at_lambda(2.0)}};
+      const TraceOptions options{.method = method, .step = {.first = step}, .target_values = {stop_at_lambda(2.0)}};
       const Branch branch = trace(system, options);
       EXPECT_EQ(events_of(branch).size(), 2U);  // start, contact
       EXPECT_NEAR(only_event(branch, EventKind::contact_closes).state.lambda, 1.0, 1e-12);

@@ -200,7 +200,7 @@ struct Beam {
   Index elements;
   std::vector<Index> supports;
   SparseMatrix lower{};
-  std::vector<bool> afloat{};
+  std::vector<bool> translation_free{};
 
   Beam(Index of_elements, std::vector<Index> of_supports)
       : elements(of_elements), supports(std::move(of_supports)), unknown_(static_cast<std::size_t>(3 * elements + 3)) {
@@ -208,11 +208,11 @@ struct Beam {
     for (Index freedom = 0; freedom < 3 * elements + 3; ++freedom)
       unknown_[static_cast<std::size_t>(freedom)] = is_held(freedom) ? -1 : next++;
     assemble(next);
-    afloat.resize(static_cast<std::size_t>(next));
+    translation_free.resize(static_cast<std::size_t>(next));
     for (Index node = 0; node <= elements; ++node) {
       const auto is_support = [&](Index at) { return is_held(3 * at) || is_held(3 * at + 1); };
       if (!is_support(node) && !is_support(std::max(node - 1, Index{0})) && !is_support(std::min(node + 1, elements)))
-        afloat[static_cast<std::size_t>(unknown(3 * node))] = true;
+        translation_free[static_cast<std::size_t>(unknown(3 * node))] = true;
     }
   }
 
@@ -258,7 +258,7 @@ TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
   const Index middle = beam.deflection(4);
   const Vector bending = Vector::Unit(lower.cols(), middle);
 
-  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.afloat);
+  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.translation_free);
   ASSERT_TRUE(ldlt.factorize(lower));
   EXPECT_EQ(ldlt.pivots().signs.negative, 0);
   Matrix w = bending;
@@ -273,14 +273,15 @@ TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
   EXPECT_GT(std::abs(48.0 * w(middle, 0) - 1.0), 0.1);
 }
 
-// Wherever the supports are: parts between them are afloat, and what lies beside a support is not. By eight elements.
+// Wherever the supports are: parts between them are translation_free, and what lies beside a support is not. By eight
+// elements.
 TEST(ChainLdlt, KnowsBetweenSupportsToo) {
   for (const std::vector<Index>& supports : std::vector<std::vector<Index>>{{0, 3, 8}, {2, 4, 6}, {0, 1, 7}, {5, 8}}) {
     const Beam coarse(8, supports), fine(30000, supports);
     const Index from = supports[0] == 0 ? 2 : 0;
     const Matrix dense = Matrix(coarse.lower).selfadjointView<Eigen::Lower>();
     const Vector expected = dense.ldlt().solve(Vector::Unit(dense.cols(), coarse.deflection(from)));
-    ChainLdlt ldlt(fine.lower, chain_groups(fine.lower, 0, 3).value(), fine.afloat);
+    ChainLdlt ldlt(fine.lower, chain_groups(fine.lower, 0, 3).value(), fine.translation_free);
     ASSERT_TRUE(ldlt.factorize(fine.lower));
     EXPECT_EQ(ldlt.pivots().signs.negative, 0);
     Matrix w = Vector::Unit(fine.lower.cols(), fine.deflection(from));
@@ -323,7 +324,7 @@ TEST(ChainLdlt, SolvesAlongALongChainAsAfterwards) {
   const Index middle = beam.deflection(4);
   const Vector bending = Vector::Unit(lower.cols(), middle), pulling = Vector::Unit(lower.cols(), lower.cols() - 2);
   const std::array<ScaledColumn, 2> of{ScaledColumn{bending.data(), 1.0}, ScaledColumn{pulling.data(), -2.0}};
-  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.afloat);
+  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.translation_free);
   Matrix X(lower.cols(), 2), Y(lower.cols(), 2);
   Y << bending, pulling;
   ASSERT_TRUE(ldlt.factorize_and_solve(lower, of, X));

@@ -25,7 +25,7 @@ Vector linear_solution(const Structure& structure) {
 State loaded(const Structure& structure, double lambda) {
   TraceOptions options;
   options.step.first = 0.2 * lambda;
-  options.landmarks.push_back(test::stop_at_lambda(lambda));
+  options.target_values.push_back(test::stop_at_lambda(lambda));
   return test::trace(structure, options).last().state;
 }
 

@@ -76,7 +76,7 @@ void expect_order(double order, const std::vector<double>& sizes, const std::vec
 double first_limit_load(const std::unique_ptr<Structure>& structure, double first_step, double until) {
   TraceOptions options;
   options.step.first = first_step;
-  options.landmarks.push_back(test::stop_at_lambda(until));
+  options.target_values.push_back(test::stop_at_lambda(until));
   Tracer tracer(*structure, test::rest(*structure), options);
   while (const auto arc = tracer.next())
     for (const Event& event : arc->events)
@@ -223,7 +223,7 @@ TEST(BeamOrder, CantileverKeepsItsDigitsOnAFineMeshSlow) {
       test::Cantilever{.EA = EA, .EI = 1.0, .length = 1.0, .elements = 20000, .tip_force = 1.0}.structure();
   TraceOptions options;
   options.step.first = 0.5;
-  options.landmarks.push_back(test::stop_at_lambda(5.0));
+  options.target_values.push_back(test::stop_at_lambda(5.0));
   int iterations = 0;
   options.ledger = [&](const StepAttempt& attempt) { iterations += attempt.iterations; };
   Tracer tracer(*structure, test::rest(*structure), options);

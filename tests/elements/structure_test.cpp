@@ -84,7 +84,7 @@ std::vector<Index> nodes_afloat(const Structure& structure) {
   }
   std::vector<Index> nodes;
   for (Index i = 0; i < K.rows(); ++i) {
-    if (!now.afloat[static_cast<std::size_t>(i)]) continue;
+    if (!now.translation_free[static_cast<std::size_t>(i)]) continue;
     nodes.push_back(structure.meaning(i).node);
     EXPECT_EQ(structure.unknown(structure.freedom(nodes.back(), Freedom::x)), i);
     EXPECT_EQ(structure.unknown(structure.freedom(nodes.back(), Freedom::z)), i + 1);

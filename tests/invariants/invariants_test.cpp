@@ -25,7 +25,7 @@ const test::SmoothToy& fold() {
 }
 
 const TraceOptions& until_two() {
-  static const TraceOptions options{.landmarks = {test::stop_at_lambda(2.0)}};
+  static const TraceOptions options{.target_values = {test::stop_at_lambda(2.0)}};
   return options;
 }
 
@@ -74,7 +74,7 @@ TEST(Invariants, HoldInTheChannelOnSeveralMeshes) {
     const auto model = test::Channel{.elements = elements, .imperfection = test::snapping_imperfection()}.model();
     TraceOptions options;
     options.step.first = 0.05;
-    options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(9.0)};
+    options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(9.0)};
     expect_branch_invariants(model.system(), test::trace(model.system(), options), options);
   }
 }

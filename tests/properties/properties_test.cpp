@@ -160,7 +160,7 @@ WayBack way_back(const Deck& deck) {
     options.max_points = shorter * (4 * way.points + 100);
     options.step.first = std::copysign(options.step.first, -last.tangent.dlambda);
     options.step.max /= shorter;
-    options.landmarks.assign(1, {.quantity = std::make_shared<ParameterValue>(), .value = 0.0, .label = "λ = 0"});
+    options.target_values.assign(1, {.quantity = std::make_shared<ParameterValue>(), .value = 0.0, .label = "λ = 0"});
     Tracer tracer(study.system(), BranchStart{.state = last.state, .lambda_scale = there.lambda_scale()}, options);
     const Way back = follow(tracer, [&](const State& here) {
       return std::abs(here.lambda) <= tolerance * way.greatest && distance(study, here, start) <= tolerance;

@@ -23,14 +23,14 @@ using test::PathModel;
 using test::traced;
 
 PathModel path_of(std::unique_ptr<Structure> arch, double first_step, double lowest) {
-  const Landmark stop = test::stop_at(*arch, 1, Freedom::z, lowest);
-  return {.structure = std::move(arch), .first_step = first_step, .landmarks = {stop}};
+  const TargetValue stop = test::stop_at(*arch, 1, Freedom::z, lowest);
+  return {.structure = std::move(arch), .first_step = first_step, .target_values = {stop}};
 }
 
 PathModel deep(int elements, const BeamTheory& beam) {
   return {.structure = test::deep_arch(elements, beam),
           .first_step = 20.0,
-          .landmarks = {test::stop_at_lambda(1200.0)},
+          .target_values = {test::stop_at_lambda(1200.0)},
           .watch = true};
 }
 
@@ -155,7 +155,7 @@ TEST(ShallowArch, TheSecondBranchIsThatOfTheElasticaAndJoinsBothBranchPoints) {
                             {-600.0, 319.9530425641985, 4.800776337205812},
                             {-800.0, -305.643367241316, -2.4543188368638953}};
   for (const Sample& sample : samples)
-    model.landmarks.push_back({.quantity = test::displacement(*model.structure, 1, Freedom::z), .value = sample.w});
+    model.target_values.push_back({.quantity = test::displacement(*model.structure, 1, Freedom::z), .value = sample.w});
   const Graph graph = swaying(model);
   ASSERT_EQ(graph.records.size(), 2U);
   EXPECT_TRUE(graph.records[1].mirrored);

@@ -20,7 +20,7 @@ double buckling_load(int n) { return 0.5 * EA * (1.0 - std::sqrt(1.0 - 4.0 * n *
 TraceOptions until(double lambda) {
   TraceOptions trace;
   trace.step.first = 0.05;
-  trace.landmarks = {test::stop_at_lambda(lambda)};
+  trace.target_values = {test::stop_at_lambda(lambda)};
   return trace;
 }
 
@@ -69,7 +69,7 @@ TEST(PerfectChannel, IsFollowedToTheLowerWallWithoutCycling) {
     const test::ContactModel model = test::Channel{.elements = elements}.model();
     const auto middle = middle_of(model);
     TraceOptions trace = until(10.0);
-    trace.tied_contacts = true;
+    trace.node_contacts = true;
     const test::Graph graph =
         test::explore(model.system(), trace, {.policy = BranchPolicy::follow, .preference = {middle}});
 

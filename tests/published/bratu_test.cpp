@@ -71,8 +71,8 @@ Fold traced(Index n) {
   const test::Bratu problem(n);
   TraceOptions options;
   options.step.first = 0.2;
-  options.landmarks = {test::stop_at_lambda(-0.1), test::stop_at_lambda(0.5)};
-  options.landmarks[1].stops = false;
+  options.target_values = {test::stop_at_lambda(-0.1), test::stop_at_lambda(0.5)};
+  options.target_values[1].stops = false;
   options.max_points = 200;
   const test::Branch branch = test::trace(problem, options);
   const Event fold = only_event(branch, EventKind::limit_point);

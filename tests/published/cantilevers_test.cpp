@@ -32,8 +32,8 @@ std::vector<Tip> tips(const Cantilever& cantilever, const std::vector<double>& l
   TraceOptions options;
   options.step.first = 0.1;
   for (const double load : loads) {
-    options.landmarks.push_back(test::stop_at_lambda(load));
-    options.landmarks.back().stops = load == loads.back();
+    options.target_values.push_back(test::stop_at_lambda(load));
+    options.target_values.back().stops = load == loads.back();
   }
   std::vector<Tip> found;
   for (const Arc& arc : test::trace(*structure, options).arcs)
@@ -167,7 +167,7 @@ TEST(PushedCantilever, ItsDeflectionTurnsWhereThatOfTheElasticaDoes) {
   const auto model = [](int elements, const BeamTheory& beam) {
     const Cantilever cantilever{.EA = 1200.0, .elements = elements, .tip_force = 1e-3, .tip_push = 1.0, .beam = beam};
     test::PathModel path{.structure = cantilever.structure(), .first_step = 0.1, .watch = true};
-    path.landmarks = {test::stop_at_lambda(8.0)};
+    path.target_values = {test::stop_at_lambda(8.0)};
     return path;
   };
   const std::vector<test::PathEvent> expected = {

@@ -29,7 +29,7 @@ double middle(const test::ContactModel& model, const State& state) {
 TraceOptions until(double lambda, double step = 0.05) {
   TraceOptions options;
   options.step.first = step;
-  options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(lambda)};
+  options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(lambda)};
   return options;
 }
 

@@ -44,7 +44,7 @@ std::vector<Bent> bent(const Column& column, double fraction, const std::vector<
   TraceOptions trace;
   trace.step.first = 1.0;
   for (const double value : degrees)
-    trace.landmarks.push_back(
+    trace.target_values.push_back(
         {.quantity = angle, .value = value * pi / 180.0, .stops = value == degrees.back(), .label = "angle"});
   const Graph graph = test::explore(*structure, trace, {.policy = BranchPolicy::follow, .preference = {angle}});
   std::vector<Bent> found;
@@ -93,7 +93,7 @@ void expect_bent(const Bent& found, const Bent& expected, double relative) {
 std::vector<Event> branch_points(const Structure& column, double until, double first_step = 1.0) {
   TraceOptions trace;
   trace.step.first = first_step;
-  trace.landmarks = {test::stop_at_lambda(until)};
+  trace.target_values = {test::stop_at_lambda(until)};
   return events_of(test::trace(column, trace), EventKind::branch_point);
 }
 
@@ -191,7 +191,7 @@ TEST(PinnedColumn, LosesItsStabilityWhereItsEndsMeet) {
         const auto structure = Column{.EA = 1.0 / flexibility, .elements = elements, .beam = theory}.structure();
         TraceOptions trace;
         trace.step.first = 1.0;
-        trace.landmarks = {test::stop_at_lambda(24.0)};
+        trace.target_values = {test::stop_at_lambda(24.0)};
         const Graph graph = test::explore(*structure, trace, {.policy = BranchPolicy::all, .depth = 1});
         const Event event = only_event(graph.branches.at(1), EventKind::branch_point);
         EXPECT_EQ(event.unstable_before, 0);

@@ -17,7 +17,7 @@ using test::trace;
 test::Branch bent_to(double moment, const test::ContactModel& model) {
   TraceOptions options;
   options.step.first = 0.05;
-  options.landmarks.push_back(test::stop_at_lambda(moment));
+  options.target_values.push_back(test::stop_at_lambda(moment));
   const test::Branch branch = trace(model.system(), options);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   expect_branch_invariants(model.system(), branch, options, {.recount_every = 5});
@@ -36,7 +36,7 @@ test::Branch snapped(const ContactLaw& law) {
   const auto model = test::Channel{.elements = 20, .imperfection = test::snapping_imperfection(), .law = law}.model();
   TraceOptions options;
   options.step.first = 0.05;
-  options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(10.0)};
+  options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(10.0)};
   const test::Branch branch = trace(model.system(), options);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   expect_branch_invariants(model.system(), branch, options, {.recount_every = 5});

@@ -61,7 +61,8 @@ Wrapped wrapped_at(const test::ContactModel& model, const State& state) {
 std::pair<Wrapped, Wrapped> wrapped(const test::ContactModel& model, double first, double last) {
   TraceOptions options;
   options.step.first = 0.05;
-  options.landmarks = {{.quantity = std::make_shared<ParameterValue>(), .value = first}, test::stop_at_lambda(last)};
+  options.target_values = {{.quantity = std::make_shared<ParameterValue>(), .value = first},
+                           test::stop_at_lambda(last)};
   const test::Branch branch = test::trace(model.system(), options);
   EXPECT_EQ(branch.end.reason, EndReason::stop);
   expect_branch_invariants(model.system(), branch, options, {.recount_every = 20});
@@ -124,7 +125,7 @@ TEST(ClassicBeamOnAParabola, ConformsToIt) {
       0.05, {.method = ContactLaw::Method::penalty, .stiffness = 1e8});
   TraceOptions options;
   options.step.first = 0.05;
-  options.landmarks.push_back(test::stop_at_lambda(5.0));
+  options.target_values.push_back(test::stop_at_lambda(5.0));
   const test::Branch branch = test::trace(model.system(), options);
   ASSERT_EQ(branch.end.reason, EndReason::stop);
   const State& state = branch.last().state;

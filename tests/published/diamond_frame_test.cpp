@@ -34,8 +34,8 @@ std::vector<Sample> followed(const BeamTheory& beam, int elements, double sign, 
   TraceOptions options;
   options.step.first = 0.05 * sign;
   for (const Sample& sample : expected) {
-    options.landmarks.push_back(test::stop_at_lambda(sign * sample.load));
-    options.landmarks.back().stops = sample.load == expected.back().load;
+    options.target_values.push_back(test::stop_at_lambda(sign * sample.load));
+    options.target_values.back().stops = sample.load == expected.back().load;
   }
   const test::Branch branch = test::trace(*frame, options);
   std::vector<Sample> found;

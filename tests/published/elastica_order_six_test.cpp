@@ -21,8 +21,8 @@ BeamTheory order_six() {
 }
 
 PathModel path_of(std::unique_ptr<Structure> structure, Index loaded, double first_step, double lowest) {
-  const Landmark stop = test::stop_at(*structure, loaded, Freedom::z, lowest);
-  return {.structure = std::move(structure), .loaded = loaded, .first_step = first_step, .landmarks = {stop}};
+  const TargetValue stop = test::stop_at(*structure, loaded, Freedom::z, lowest);
+  return {.structure = std::move(structure), .loaded = loaded, .first_step = first_step, .target_values = {stop}};
 }
 
 // Loads of the limit and branch points, in their order.

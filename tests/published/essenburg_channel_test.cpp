@@ -48,7 +48,7 @@ Perfect perfect(const EssenburgChannel& described) {
   TraceOptions options;
   options.step.first = described.first_step;
   options.stop_contacts = 1;
-  options.tied_contacts = true;
+  options.node_contacts = true;
   const test::Graph graph = test::explore(model.system(), options, {.policy = BranchPolicy::follow});
   return {.buckles = only_event(graph.branches.at(0), EventKind::branch_point).state.lambda,
           .touches = only_event(graph.branches.at(1), EventKind::contact_closes).state.lambda};
@@ -98,7 +98,7 @@ TEST(EssenburgChannel, SnapsAtALimitPointOverThreeMeshesSlow) {
         EssenburgChannel{.elements = mesh.elements, .imperfection = third_harmonic}.model();
     TraceOptions options;
     options.step.first = 0.05;
-    options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(9.0)};
+    options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(9.0)};
     const test::Branch branch = test::trace(model.system(), options);
     EXPECT_EQ(branch.end.reason, EndReason::stop);
     EXPECT_NEAR(middle_event(model, branch, EventKind::contact_closes, "upper"), 0.42654681, mesh.touch_error);
@@ -130,8 +130,8 @@ TEST(EssenburgChannel, MiddleAtTheLoadsOfTable2Slow) {
   TraceOptions options;
   options.step.first = 0.05;
   for (const double P : {0.415, 0.5, 1.75, 5.0, 7.0, 8.0})
-    options.landmarks.push_back({.quantity = std::make_shared<ParameterValue>(), .value = P});
-  options.landmarks.push_back(test::stop_at(model.structure(), 1, Freedom::x, -0.6203));
+    options.target_values.push_back({.quantity = std::make_shared<ParameterValue>(), .value = P});
+  options.target_values.push_back(test::stop_at(model.structure(), 1, Freedom::x, -0.6203));
   const test::Branch branch = test::trace(model.system(), options);
   const auto heights = [&](double P) {
     std::vector<double> found;

@@ -28,8 +28,8 @@ class FoundationPath {
     TraceOptions options;
     options.step.first = described.first_step;
     for (const double moment : moments)
-      options.landmarks.push_back({.quantity = std::make_shared<ParameterValue>(), .value = moment});
-    options.landmarks.push_back(test::stop_at_lambda(last));
+      options.target_values.push_back({.quantity = std::make_shared<ParameterValue>(), .value = moment});
+    options.target_values.push_back(test::stop_at_lambda(last));
     branch_ = test::trace(model_.system(), options);
     EXPECT_EQ(branch_.end.reason, EndReason::stop);
   }
@@ -201,7 +201,7 @@ TEST(EssenburgFoundation, ThePathKeepsItsContract) {
     const test::ContactModel model = EssenburgFoundation{.elements = 20, .beams = {.order = order}}.model();
     TraceOptions options;
     options.step.first = 0.05;
-    options.landmarks.push_back(test::stop_at_lambda(5.0));
+    options.target_values.push_back(test::stop_at_lambda(5.0));
     const test::Branch branch = test::trace(model.system(), options);
     expect_branch_invariants(model.system(), branch, options, {.recount_every = 5});
   }
@@ -231,7 +231,7 @@ TEST(EssenburgFoundation, AThinBeamConformsToAParabolaSlow) {
       0.1);
   TraceOptions options;
   options.step.first = 0.1;
-  options.landmarks.push_back(test::stop_at_lambda(6.0));
+  options.target_values.push_back(test::stop_at_lambda(6.0));
   const test::Branch branch = test::trace(model.system(), options);
   ASSERT_EQ(branch.end.reason, EndReason::stop);
   const State& state = branch.last().state;

@@ -15,7 +15,7 @@ TEST(Foundation, FirstContactIsThatOfACircularArc) {
   const test::ContactModel model = test::foundation_beam(80);
   TraceOptions options;
   options.step.first = 0.05;
-  options.landmarks.push_back(test::stop_at_lambda(1.0));
+  options.target_values.push_back(test::stop_at_lambda(1.0));
   const test::Branch branch = trace(model.system(), options);
   const auto closes = events_of(branch, EventKind::contact_closes);
   ASSERT_FALSE(closes.empty());
@@ -31,7 +31,7 @@ TEST(Foundation, TheForceAtTheMiddleIsThatOfTheElasticaWhileOnePointTouches) {
   const test::ContactModel model = test::foundation_beam(80);
   TraceOptions options;
   options.step.first = 0.05;
-  options.landmarks.push_back(test::stop_at_lambda(1.0));
+  options.target_values.push_back(test::stop_at_lambda(1.0));
   const test::Branch branch = trace(model.system(), options);
   const State& state = branch.last().state;
   double force = 0.0;

@@ -22,7 +22,7 @@ State at(double x, double lambda) { return {.x = test::scalar(x), .lambda = lamb
 TraceOptions between(double low, double high, double first_step = 0.02) {
   TraceOptions options;
   options.step.first = first_step;
-  options.landmarks = {test::stop_at_lambda(low), test::stop_at_lambda(high)};
+  options.target_values = {test::stop_at_lambda(low), test::stop_at_lambda(high)};
   return options;
 }
 

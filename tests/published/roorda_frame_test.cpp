@@ -22,8 +22,8 @@ double load_at(const RoordaFrame& frame, double rotation) {
   TraceOptions options;
   options.step.first = 1.0;
   const auto turn = test::joint_rotation(*structure, 1);
-  options.landmarks = {{.quantity = turn, .value = rotation, .stops = true, .label = "rotation"},
-                       {.quantity = turn, .value = -rotation, .stops = true, .label = "the other side"}};
+  options.target_values = {{.quantity = turn, .value = rotation, .stops = true, .label = "rotation"},
+                           {.quantity = turn, .value = -rotation, .stops = true, .label = "the other side"}};
   const test::Branch branch = test::trace(*structure, options);
   EXPECT_NEAR(turn->value(branch.last().state), rotation, 1e-10) << branch.end.detail;
   return branch.last().state.lambda;
@@ -44,7 +44,8 @@ double limit_load(const RoordaFrame& frame) {
   const auto structure = frame.structure();
   TraceOptions options;
   options.step.first = 1.0;
-  options.landmarks = {{.quantity = test::joint_rotation(*structure, 1), .value = 0.8, .stops = true, .label = "turn"}};
+  options.target_values = {
+      {.quantity = test::joint_rotation(*structure, 1), .value = 0.8, .stops = true, .label = "turn"}};
   return only_event(test::trace(*structure, options), EventKind::limit_point).state.lambda;
 }
 

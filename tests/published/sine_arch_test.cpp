@@ -16,7 +16,7 @@ using test::Graph;
 TraceOptions to_load(double R) {
   TraceOptions options;
   options.step.first = 0.1;
-  options.landmarks = {test::stop_at_lambda(R)};
+  options.target_values = {test::stop_at_lambda(R)};
   return options;
 }
 

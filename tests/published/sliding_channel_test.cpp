@@ -28,7 +28,7 @@ constexpr double buckling = 0.432686705811, touch = 0.435739888353, spreads = 1.
 TraceOptions until(double lambda) {
   TraceOptions options;
   options.step.first = 0.05;
-  options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(lambda)};
+  options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(lambda)};
   return options;
 }
 
@@ -47,7 +47,7 @@ struct PerfectChannel {
   std::vector<ExploredBranch> branches;
 
   explicit PerfectChannel(int elements, double to = 10.0) : model(channel(elements)), options(until(to)) {
-    options.landmarks.push_back({.quantity = middle(model), .value = 0.0});
+    options.target_values.push_back({.quantity = middle(model), .value = 0.0});
     branches = test::follow(model.system(), model.system().rest(), options, {middle(model)},
                             {{.quantity = model.joint(1, Freedom::x), .label = "shortening"}});
   }
@@ -172,10 +172,10 @@ TEST(SlidingChannelEvents, EndInAFamilyOfThreeLines) {
   for (const int elements : {20, 40, 80}) {
     const PerfectChannel found(elements, 20.0);
     const BranchEnd& end = *found.branches.back().record.end;
-    EXPECT_EQ(end.reason, EndReason::family);
-    ASSERT_TRUE(end.family.has_value());
-    EXPECT_EQ(end.family->length, 0.0);  // all three are points yet
-    EXPECT_EQ(end.family->energy, found.model.system().energy(found.branches.back().arcs.back().to.state));
+    EXPECT_EQ(end.reason, EndReason::continuum);
+    ASSERT_TRUE(end.continuum.has_value());
+    EXPECT_EQ(end.continuum->length, 0.0);  // all three are points yet
+    EXPECT_EQ(end.continuum->energy, found.model.system().energy(found.branches.back().arcs.back().to.state));
     const auto events = test::events_of(found.branches);
     std::vector<EventKind> in_order;
     for (const Event& event : events) in_order.push_back(event.kind);
@@ -259,7 +259,7 @@ TEST(SlidingFoundation, FindsTheFlatPartAndItsForces) {
   for (const int elements : {10, 20, 40}) {
     const SlidingModel model = test::SlidingFoundation{.elements = elements}.model();
     TraceOptions options = until(10.0);
-    options.landmarks.push_back({.quantity = std::make_shared<ParameterValue>(), .value = 5.0});
+    options.target_values.push_back({.quantity = std::make_shared<ParameterValue>(), .value = 5.0});
     const auto branches = test::follow(model.system(), model.system().rest(), options);
     ASSERT_EQ(branches.size(), 1U);
     const auto events = test::events_of(branches);

@@ -36,7 +36,7 @@ Path path_of(SlidingModel model, double to, double step = 0.05, double scale = 1
   TraceOptions options;
   options.step.first = step * scale;
   options.step.max *= scale;
-  options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(to)};
+  options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(to)};
   const auto up = model.at("0", 0.5, Component::z);
   auto branches = test::follow(model.system(), model.system().rest(), options, {up});
   return {.model = std::move(model), .options = options, .branches = std::move(branches)};
@@ -63,7 +63,7 @@ void expect_same(const Path& found, const Path& expected, double relative) {
 void expect_invariants(const Path& path) {
   for (const ExploredBranch& branch : path.branches) {
     auto arcs = branch.arcs;
-    if (branch.record.end->reason == EndReason::family) arcs.pop_back();
+    if (branch.record.end->reason == EndReason::continuum) arcs.pop_back();
     test::expect_sliding_invariants(path.model.system(), arcs, path.options, branch.lambda_scale, {.recount_every = 3});
   }
 }
@@ -149,7 +149,7 @@ TEST(SlidingContactPath, MeetsTheNearerWallBeforeTheFartherOneIsLeftSlow) {
   EXPECT_NEAR(found[3], 7.003081493782, 1e-7 * 7.0);  // extensible elastica: the lower wall has no say yet
   EXPECT_NEAR(found[4], 4.2770537, 1e-6);
   const auto ends = [&](std::size_t mesh) {
-    EXPECT_EQ(meshes[mesh].end(), EndReason::family);
+    EXPECT_EQ(meshes[mesh].end(), EndReason::continuum);
     return meshes[mesh].branches.back().arcs.back().to.state.lambda;
   };
   EXPECT_NEAR(std::log2((ends(0) - ends(1)) / (ends(1) - ends(2))), 4.0, 0.4);
@@ -199,7 +199,7 @@ TEST(SlidingContactPath, EndsInAFamilyBetweenClampedEnds) {
   // P (1 − P/EA) = 4 π² EI/L²
   EXPECT_NEAR(found[0], 105.0 * (1.0 - std::sqrt(1.0 - 4.0 * pi * pi * 0.175 / 210.0)), 1e-8);
   const auto end = [&](std::size_t mesh) {
-    EXPECT_EQ(meshes[mesh].end(), EndReason::family);
+    EXPECT_EQ(meshes[mesh].end(), EndReason::continuum);
     return meshes[mesh].branches.back().arcs.back().to.state.lambda;
   };
   EXPECT_NEAR(std::log2((end(0) - end(1)) / (end(1) - end(2))), 4.0, 0.4);
@@ -214,7 +214,7 @@ TEST(SlidingContactPath, EndsInThatFamilyByAnyMeshAndStep) {
       std::vector<EventKind> kinds;
       for (const Event& event : path.events()) kinds.push_back(event.kind);
       EXPECT_EQ(kinds, (std::vector{branches, touches}));
-      EXPECT_EQ(path.end(), EndReason::family);
+      EXPECT_EQ(path.end(), EndReason::continuum);
     }
 }
 

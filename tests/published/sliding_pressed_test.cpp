@@ -47,7 +47,7 @@ struct Path {
 Path path_of(SlidingModel model, double to, double step = 0.05) {
   TraceOptions options;
   options.step.first = step;
-  options.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(to)};
+  options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(to)};
   auto branches = test::follow(model.system(), model.system().rest(), options);
   return {.model = std::move(model), .options = options, .branches = std::move(branches)};
 }
@@ -56,7 +56,7 @@ Path path_of(SlidingModel model, double to, double step = 0.05) {
 std::vector<ExploredBranch> unloaded(const Path& path, double to) {
   TraceOptions options = path.options;
   options.step.first *= -1.0;
-  options.landmarks = {test::stop_at_lambda(to)};
+  options.target_values = {test::stop_at_lambda(to)};
   return test::follow(path.model.system(), path.last(), options);
 }
 

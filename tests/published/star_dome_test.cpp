@@ -120,7 +120,7 @@ TEST(StarDome, HasItsSimpleAndDoublePointsInOrder) {
     TraceOptions options;
     options.step.first = 2e-5 * step;
     options.step.max *= step;
-    options.landmarks = {test::stop_at_lambda(0.01)};
+    options.target_values = {test::stop_at_lambda(0.01)};
     const test::Branch branch = test::trace(dome, options, {.x = Vector::Zero(21), .lambda = 0.0});
     EXPECT_EQ(branch.end.reason, EndReason::stop);
     auto found = test::events_of(branch);

@@ -43,11 +43,11 @@ void expect_same_with_any_step(const PathModel& model, BranchPolicy policy = Bra
 }
 
 PathModel path_of(std::unique_ptr<Structure> structure, double first_step, double lowest, Index loaded = 1) {
-  const Landmark stop = test::stop_at(*structure, loaded, Freedom::z, lowest);
+  const TargetValue stop = test::stop_at(*structure, loaded, Freedom::z, lowest);
   return {.structure = std::move(structure),
           .loaded = loaded,
           .first_step = first_step,
-          .landmarks = {stop},
+          .target_values = {stop},
           .watch = true};
 }
 
@@ -55,8 +55,8 @@ PathModel path_of(std::unique_ptr<Structure> structure, double first_step, doubl
 void expect_same_with_any_step(const ContactModel& model, double until, BranchPolicy policy) {
   TraceOptions usual;
   usual.step.first = 0.05;
-  usual.landmarks = {test::stop_at_lambda(-1.0), test::stop_at_lambda(until)};
-  usual.tied_contacts = true;
+  usual.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(until)};
+  usual.node_contacts = true;
   const MemberMesh& mesh = model.structure().members()[0];
   const auto middle = std::make_shared<MemberObservable>(model.structure(), mesh, (mesh.nodes.size() - 1) / 2,
                                                          MemberObservable::Component::z);
@@ -91,7 +91,7 @@ TEST(StepSize, DoesNotMatterToArchesThatSway) {
 // changes with the place; the turn at 8.7 is small against the 897 of the limit load.
 TEST(StepSize, DoesNotMatterToTheDeepArch) {
   PathModel model{.structure = test::deep_arch(32), .first_step = 20.0, .watch = true};
-  model.landmarks = {test::stop_at_lambda(-100.0), test::stop_at_lambda(1200.0)};
+  model.target_values = {test::stop_at_lambda(-100.0), test::stop_at_lambda(1200.0)};
   expect_same_with_any_step(model, BranchPolicy::primary, {.at_displacement_limits = 5e-7});
 }
 

@@ -51,7 +51,7 @@ const Strain strains[] = {
 
 TraceOptions down_to(const Structure& truss, double descent) {
   TraceOptions options;
-  options.landmarks.push_back(test::stop_at(truss, 1, Freedom::z, -descent));
+  options.target_values.push_back(test::stop_at(truss, 1, Freedom::z, -descent));
   return options;
 }
 

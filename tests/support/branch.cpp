@@ -64,7 +64,7 @@ void expect_same_events(const std::vector<Event>& found, const std::vector<Event
   }
 }
 
-Landmark stop_at_lambda(double value) {
+TargetValue stop_at_lambda(double value) {
   return {.quantity = std::make_shared<ParameterValue>(),
           .value = value,
           .stops = true,

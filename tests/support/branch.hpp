@@ -40,6 +40,6 @@ void expect_same_events(const std::vector<Event>& found, const std::vector<Event
                         const SameEvents& how = {});
 
 /// A bound of λ that ends the branch.
-Landmark stop_at_lambda(double value);
+TargetValue stop_at_lambda(double value);
 
 }  // namespace arcwall::test

@@ -69,9 +69,9 @@ double tilt_spring(const SlidingContact& system, const State& state, Index k) {
   const auto point = static_cast<std::size_t>(k);
   if (on.lies_beside(point)) return infinity;
   if (!state.piece[point]) return 0.0;
-  const auto [run, position] = on.mesh().breakpoint(k);
+  const auto [strand, position] = on.mesh().breakpoint(k);
   const Vector x = on.x_of(state);
-  const AxisPlace axis = on.mesh().node(run, position, x);
+  const AxisPlace axis = on.mesh().node(strand, position, x);
   const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, x, on.s_of(state), state.lambda);
   const Vec2 face = system.place(state, k);
   const Height wall = system.obstacles()[on.points()[point].obstacle].profile->at(face.x());

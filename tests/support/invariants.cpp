@@ -73,7 +73,7 @@ void expect_count(const System& system, const Arc& arc, const TraceOptions& opti
     return event.kind == EventKind::contact_closes || event.kind == EventKind::contact_opens;
   });
   if (corner) return;
-  const Piece strong = strongly_closed(system, arc.to.state, options.guard_tolerance);
+  const Piece strong = strictly_active(system, arc.to.state, options.guard_tolerance);
   const auto dense = dense_unstable_count(system, system.with_piece(arc.to.state, strong));
   if (dense) {
     EXPECT_EQ(*arc.to.count.unstable, *dense);

@@ -205,14 +205,14 @@ Vec2 displacement_of(const Structure& structure, const State& state, Index node)
   return structure.current(state.x, node) - structure.position(node);
 }
 
-Landmark stop_at(const Structure& structure, Index node, Freedom which, double value) {
+TargetValue stop_at(const Structure& structure, Index node, Freedom which, double value) {
   return {.quantity = displacement(structure, node, which), .value = value, .stops = true, .label = "displacement"};
 }
 
 TraceOptions PathModel::options() const {
   TraceOptions options;
   options.step.first = first_step;
-  options.landmarks = landmarks;
+  options.target_values = target_values;
   return options;
 }
 

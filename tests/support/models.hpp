@@ -115,7 +115,7 @@ struct PathModel {
   std::unique_ptr<Structure> structure{};
   Index loaded = 1;
   double first_step = 0.02;
-  std::vector<Landmark> landmarks{};
+  std::vector<TargetValue> target_values{};
   bool watch = false;  ///< turning points of the loaded joint's z are events
 
   TraceOptions options() const;
@@ -123,7 +123,7 @@ struct PathModel {
 };
 
 /// A bound of a joint's displacement that ends the branch.
-Landmark stop_at(const Structure& structure, Index node, Freedom which, double value);
+TargetValue stop_at(const Structure& structure, Index node, Freedom which, double value);
 
 /// A wall that all nodes of member 0 are tested against, on the face that looks at it or on the axis.
 struct TestWall {

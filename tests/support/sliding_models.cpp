@@ -18,7 +18,7 @@ SlidingModel::SlidingModel(const StructureBuilder& builder, const std::vector<Te
                          .profile = wall.profile,
                          .side = wall.side,
                          .on_face = !wall.on_axis,
-                         .runs = std::vector<std::uint8_t>(static_cast<std::size_t>(structure_->runs()), 1)});
+                         .strands = std::vector<std::uint8_t>(static_cast<std::size_t>(structure_->strands()), 1)});
   contact_ = std::make_unique<SlidingContact>(*structure_, std::move(obstacles),
                                               ContactScales{.length = tied->length_scale(), .force = force});
 }

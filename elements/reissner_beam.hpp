@@ -30,9 +30,9 @@ struct ExactBeamStiffness {
 /// the rotation of the section from its stress-free state and need not be wrapped. Shape functions of degree `order`;
 /// integrated with `order` Gauss points, so that nothing locks however thin the beam. At nodes the error falls with
 /// h^(2 order), initially curved members included.
-class ExactBeam final : public Element {
+class ReissnerBeam final : public Element {
  public:
-  ExactBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness);
+  ReissnerBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness);
 
   int unknown_count() const override { return 3 * (order_ + 1); }
   double evaluate(const double* u, double* f, double* K) const override;
@@ -60,7 +60,7 @@ class ExactBeam final : public Element {
   ExactBeamStiffness stiffness_;
 };
 
-/// Potential of a dead load per length of the undeformed axis on an ExactBeam, whose unknowns it has, or on another
+/// Potential of a dead load per length of the undeformed axis on an ReissnerBeam, whose unknowns it has, or on another
 /// beam with displacements of the same shape functions: V = −∫ q·u ds, linear in the displacements.
 class ExactDistributedLoad final : public Element {
  public:

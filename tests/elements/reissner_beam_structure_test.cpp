@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "elements/exact_beam.hpp"
+#include "elements/reissner_beam.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/models.hpp"

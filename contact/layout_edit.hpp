@@ -8,10 +8,10 @@
 namespace arcwall {
 
 /// A layout to be changed: its points, where they are and what they bear, and the elements between them.
-struct SlidingDraft {
-  Cut cut{};
+struct LayoutEdit {
+  ElementsPerSegment cut{};
   std::vector<SlidingContactLayout::Point> points{};
-  std::vector<Index> runs{};           ///< of the points, ascending
+  std::vector<Index> strands{};        ///< of the points, ascending
   std::vector<std::uint8_t> closed{};  ///< of the points
   std::vector<double> forces{};        ///< of the points; those of open ones do not matter
   Vector s{};
@@ -23,7 +23,7 @@ struct SlidingDraft {
   /// A place with a point of its own.
   struct Entry {
     SlidingContactLayout::Point point{};
-    Index run = 0;
+    Index strand = 0;
     double s = 0.0;
     bool closed = false;
     double force = 0.0;

@@ -1,4 +1,4 @@
-#include "elements/exact_beam.hpp"
+#include "elements/reissner_beam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,10 +51,10 @@ Vector rigid_motion(const ExactBeamReference& reference, double angle, const Vec
 
 }  // namespace
 
-TEST(ExactBeam, DerivativesAreConsistentStraightAndCurved) {
+TEST(ReissnerBeam, DerivativesAreConsistentStraightAndCurved) {
   Numbers numbers(30);
   for (const ExactBeamReference& reference : stretches()) {
-    const ExactBeam beam(reference, stiffness);
+    const ReissnerBeam beam(reference, stiffness);
     const Index n = beam.unknown_count();
     expect_derivatives(beam, Vector::Zero(n));
     for (int i = 0; i < 10; ++i) expect_derivatives(beam, 0.5 * numbers.vector(n));
@@ -63,9 +63,9 @@ TEST(ExactBeam, DerivativesAreConsistentStraightAndCurved) {
   }
 }
 
-TEST(ExactBeam, RigidMotionsOfAnyAngleGiveNoForce) {
+TEST(ReissnerBeam, RigidMotionsOfAnyAngleGiveNoForce) {
   for (const ExactBeamReference& reference : stretches()) {
-    const ExactBeam beam(reference, stiffness);
+    const ReissnerBeam beam(reference, stiffness);
     for (const double angle : {0.0, 0.1, 1.5, 3.0, 3.3, -4.0, 2.0 * pi, 17.0, -40.0}) {
       SCOPED_TRACE(angle);
       const auto moved = evaluated(beam, rigid_motion(reference, angle, {3.0, -2.0}));
@@ -78,19 +78,19 @@ TEST(ExactBeam, RigidMotionsOfAnyAngleGiveNoForce) {
 }
 
 // Reduced integration leaves no motion without energy but the rigid ones.
-TEST(ExactBeam, StiffnessAtRestHasTheThreeRigidMotionsAndNoOther) {
+TEST(ReissnerBeam, StiffnessAtRestHasTheThreeRigidMotionsAndNoOther) {
   for (const ExactBeamReference& reference : stretches()) {
-    const Matrix K = evaluated(ExactBeam(reference, stiffness), Vector::Zero(3 * (reference.order() + 1))).K;
+    const Matrix K = evaluated(ReissnerBeam(reference, stiffness), Vector::Zero(3 * (reference.order() + 1))).K;
     const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(K).eigenvalues();
     EXPECT_LE(values.head(3).cwiseAbs().maxCoeff(), 1e-12 * values[values.size() - 1]);
     EXPECT_GT(values[3], 1e-3 * values[values.size() - 1]);
   }
 }
 
-TEST(ExactBeam, ForcesAreIndifferentToRotationsOfTheWhole) {
+TEST(ReissnerBeam, ForcesAreIndifferentToRotationsOfTheWhole) {
   Numbers numbers(31);
   for (const ExactBeamReference& reference : stretches()) {
-    const ExactBeam beam(reference, stiffness);
+    const ReissnerBeam beam(reference, stiffness);
     const Vector u = 0.5 * numbers.vector(beam.unknown_count());
     const auto at = evaluated(beam, u);
     const double angle = 2.6;
@@ -110,7 +110,7 @@ TEST(ExactBeam, ForcesAreIndifferentToRotationsOfTheWhole) {
 
 // Stretched by e, sheared by g and bent by k, all constant: resultants are the stiffnesses times these, at any
 // rotation.
-TEST(ExactBeam, ConstantStrainsGiveTheirExactForces) {
+TEST(ReissnerBeam, ConstantStrainsGiveTheirExactForces) {
   constexpr double e = 0.1, g = -0.2, turn = 1.9;
   for (const int order : {1, 2}) {
     const ExactBeamReference reference = stretch(order, 0.0);
@@ -120,7 +120,7 @@ TEST(ExactBeam, ConstantStrainsGiveTheirExactForces) {
     Vector u(3 * (order + 1));
     for (std::size_t a = 0; a < reference.nodes.size(); ++a)
       u.segment<3>(static_cast<Index>(3 * a)) << reference.arcs[a] * ((1.0 + e) * t + g * n) - reference.nodes[a], turn;
-    const Vector f = evaluated(ExactBeam(reference, stiffness), u).f;
+    const Vector f = evaluated(ReissnerBeam(reference, stiffness), u).f;
     const Vec2 force = stiffness.EA * e * t + stiffness.GA * g * n;
     EXPECT_LE((f.segment<2>(f.size() - 3) - force).norm(), 1e-13 * stiffness.EA);
     EXPECT_LE((f.segment<2>(0) + force).norm(), 1e-13 * stiffness.EA);

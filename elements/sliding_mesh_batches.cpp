@@ -7,14 +7,14 @@ namespace arcwall {
 
 void SlidingStructureMesh::number_fours() {
   Index first_breakpoint = 0;
-  for (Index r = 0; r < structure_.runs(); ++r) {
+  for (Index r = 0; r < structure_.strands(); ++r) {
     const std::vector<int>& segments = cut_[static_cast<std::size_t>(r)];
     const auto last_segment = static_cast<Index>(segments.size()) - 1;
     Index first = 0;
     for (Index segment = 0; segment <= last_segment; ++segment) {
       const int n = segments[static_cast<std::size_t>(segment)];
       for (int i = 0; i < n; i += Lanes::count) {
-        Four four{.run = r,
+        Four four{.strand = r,
                   .position = first + i,
                   .count = std::min(Lanes::count, n - i),
                   .breakpoint = {segment == 0 ? held : first_breakpoint + segment - 1,
@@ -48,25 +48,26 @@ void SlidingStructureMesh::add_fours(const Vector& x, const Vector& s, Eigen::Re
   for (const Four& four : fours_) {
     const Index last = four.count - 1;
     if (last + 1 < Lanes::count) {  // the last stands in for those that are missing
-      const Rest first = rest_from(four.run, four.position, four.position + last, s);
-      add(four, first, rest_from(four.run, four.position + 1, four.position + 1 + last, s), x, F, out);
+      const Rest first = rest_from(four.strand, four.position, four.position + last, s);
+      add(four, first, rest_from(four.strand, four.position + 1, four.position + 1 + last, s), x, F, out);
       before = nullptr;
       continue;
     }
-    const Index most = mesh_of(four.run).elements, end = four.position + Lanes::count;
+    const Index most = mesh_of(four.strand).elements, end = four.position + Lanes::count;
     const bool goes_on =
-        before != nullptr && before->run == four.run && before->position + Lanes::count == four.position;
-    const Rest first = goes_on ? behind : rest_from(four.run, four.position, most, s);
-    behind = rest_from(four.run, end, most, s);
+        before != nullptr && before->strand == four.strand && before->position + Lanes::count == four.position;
+    const Rest first = goes_on ? behind : rest_from(four.strand, four.position, most, s);
+    behind = rest_from(four.strand, end, most, s);
     add(four, first, SlidingBeamLanes::next_of(first, behind), x, F, out);
     before = &four;
   }
 }
 
 // At four nodes from one on; at the node `most` for those beyond it.
-SlidingBeamLanes::Rest SlidingStructureMesh::rest_from(Index run, Index position, Index most, const Vector& s) const {
-  const SlidingStructure::Run& described = structure_.at(run);
-  const std::vector<Coordinate>& nodes = mesh_of(run).nodes;
+SlidingBeamLanes::Rest SlidingStructureMesh::rest_from(Index strand, Index position, Index most,
+                                                       const Vector& s) const {
+  const SlidingStructure::Run& described = structure_.at(strand);
+  const std::vector<Coordinate>& nodes = mesh_of(strand).nodes;
   const auto at = [&](Index k) {
     return described.offset + nodes[static_cast<std::size_t>(std::min(position + k, most))].at(s);
   };
@@ -79,7 +80,7 @@ void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Res
   SlidingBeamLanes::End first{.rest = at_first, .x = 0.0, .z = 0.0, .angle = 0.0}, second = first;
   second.rest = at_second;
   if (four.inside) {
-    const double* const at = x.data() + node_unknowns(four.run, four.position)[0];
+    const double* const at = x.data() + node_unknowns(four.strand, four.position)[0];
     const auto from = [at](int k) { return Lanes(at[k], at[k + 3], at[k + 6], at[k + 9]); };
     first.x = from(0);
     first.z = from(1);
@@ -91,7 +92,7 @@ void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Res
     for (int lane = 0; lane < Lanes::count; ++lane)
       for (SlidingBeamLanes::End* end : {&first, &second}) {
         const Index k = std::min(lane, four.count - 1) + (end == &second ? 1 : 0);
-        const AxisPlace place = node(four.run, four.position + k, x);
+        const AxisPlace place = node(four.strand, four.position + k, x);
         end->x.set(lane, place.position.x());
         end->z.set(lane, place.position.y());
         end->angle.set(lane, place.angle);
@@ -100,14 +101,14 @@ void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Res
   const bool between_breakpoints = four.breakpoint[0] != held || four.breakpoint[1] != held;
   const Wanted wanted = out == nullptr ? Wanted::force : between_breakpoints ? Wanted::rates : Wanted::stiffness;
   SlidingBeamLanes::Response response;
-  structure_.at(four.run).beams->respond(first, second, wanted, response);
+  structure_.at(four.strand).beams->respond(first, second, wanted, response);
 
   add_nodal(four, response.force, F.data());
   if (out == nullptr) return;
   const auto entry_of = [&](Index entry, std::size_t lane) {
     return response.stiffness[entry][static_cast<int>(lane)];
   };
-  const Index block = mesh_of(four.run).first_element + four.position;
+  const Index block = mesh_of(four.strand).first_element + four.position;
   if (four.count == Lanes::count) {
     assembly_.add_entries<6>(std::array{block, block + 1, block + 2, block + 3}, four.shifted, out->K.valuePtr(),
                              entry_of);
@@ -133,7 +134,7 @@ void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Res
 // What the elements of a four give their nodes, in x1, z1, angle1, x2, z2, angle2.
 void SlidingStructureMesh::add_nodal(const Four& four, const Lanes* of_elements, double* to) const {
   if (four.inside) {
-    double* const at = to + node_unknowns(four.run, four.position)[0];
+    double* const at = to + node_unknowns(four.strand, four.position)[0];
     for (int i = 0; i < 3; ++i) {
       const Lanes first = of_elements[i], second = of_elements[3 + i];
       at[i] += first[0];
@@ -143,7 +144,7 @@ void SlidingStructureMesh::add_nodal(const Four& four, const Lanes* of_elements,
     return;
   }
   for (int lane = 0; lane < four.count; ++lane) {
-    const auto unknowns = assembly_.unknowns(mesh_of(four.run).first_element + four.position + lane);
+    const auto unknowns = assembly_.unknowns(mesh_of(four.strand).first_element + four.position + lane);
     for (std::size_t i = 0; i < 6; ++i)
       if (unknowns[i] != held) to[unknowns[i]] += of_elements[i][lane];
   }

@@ -1,4 +1,4 @@
-#include "contact/sliding_draft.hpp"
+#include "contact/layout_edit.hpp"
 
 #include <algorithm>
 
@@ -30,41 +30,42 @@ Vector erased(const Vector& s, std::size_t at) {
   return out;
 }
 
-// How many points of a run lie before one of them.
-std::size_t points_before(const std::vector<Index>& runs, std::size_t point) {
+// How many points of a strand lie before one of them.
+std::size_t points_before(const std::vector<Index>& strands, std::size_t point) {
   return static_cast<std::size_t>(
-      std::count(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(point), runs[point]));
+      std::count(strands.begin(), strands.begin() + static_cast<std::ptrdiff_t>(point), strands[point]));
 }
 
 }  // namespace
 
-int& SlidingDraft::segment(std::size_t point, std::size_t beyond) {
-  return cut[static_cast<std::size_t>(runs[point])][points_before(runs, point) + beyond];
+int& LayoutEdit::segment(std::size_t point, std::size_t beyond) {
+  return cut[static_cast<std::size_t>(strands[point])][points_before(strands, point) + beyond];
 }
 
-std::size_t SlidingDraft::insert(const Entry& entry, int elements_before, int elements_behind) {
+std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elements_behind) {
   std::size_t k = 0;
-  while (k < points.size() && (runs[k] < entry.run || (runs[k] == entry.run && s[static_cast<Index>(k)] < entry.s)))
+  while (k < points.size() &&
+         (strands[k] < entry.strand || (strands[k] == entry.strand && s[static_cast<Index>(k)] < entry.s)))
     ++k;
   insert_at(points, k, entry.point);
-  insert_at(runs, k, entry.run);
+  insert_at(strands, k, entry.strand);
   insert_at(closed, k, static_cast<std::uint8_t>(entry.closed));
   insert_at(forces, k, entry.force);
   s = inserted(s, k, entry.s);
-  const std::size_t before = points_before(runs, k);
-  std::vector<int>& elements = cut[static_cast<std::size_t>(entry.run)];
+  const std::size_t before = points_before(strands, k);
+  std::vector<int>& elements = cut[static_cast<std::size_t>(entry.strand)];
   elements[before] = elements_before;
   insert_at(elements, before + 1, elements_behind);
   return k;
 }
 
-void SlidingDraft::erase(std::size_t point, int elements) {
-  const std::size_t before = points_before(runs, point);
-  std::vector<int>& in_run = cut[static_cast<std::size_t>(runs[point])];
+void LayoutEdit::erase(std::size_t point, int elements) {
+  const std::size_t before = points_before(strands, point);
+  std::vector<int>& in_run = cut[static_cast<std::size_t>(strands[point])];
   in_run[before] = elements;
   erase_at(in_run, before + 1);
   erase_at(points, point);
-  erase_at(runs, point);
+  erase_at(strands, point);
   erase_at(closed, point);
   erase_at(forces, point);
   s = erased(s, point);

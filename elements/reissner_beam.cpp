@@ -1,4 +1,4 @@
-#include "elements/exact_beam.hpp"
+#include "elements/reissner_beam.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -21,7 +21,7 @@ double arc_speed(const ExactBeamReference& reference, const ShapeFunctions& shap
 
 // Positions and the arc length are interpolated alike, ds/dξ = Σ N_a′ s_a: the whole length is exact, and the nodes
 // need not be equally far apart.
-ExactBeam::ExactBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness)
+ReissnerBeam::ReissnerBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness)
     : order_(reference.order()), stiffness_(stiffness) {
   assert((order_ == 1 || order_ == 2) && reference.arcs.size() == reference.nodes.size());
   // As many points as the order: one fewer than for the whole polynomial, which would lock.
@@ -54,7 +54,7 @@ ExactBeam::ExactBeam(const ExactBeamReference& reference, const ExactBeamStiffne
 //         [ EA t tᵀ + GA n nᵀ   (EA γ − Q) t + (N − GA p) n    0  ]
 //   ∂²U = [         ·           (EA γ − Q) γ − (N − GA p) p    0  ]                                       (3)
 //         [         ·                        ·                 EI ]
-double ExactBeam::evaluate(const double* u, double* f, double* K) const {
+double ReissnerBeam::evaluate(const double* u, double* f, double* K) const {
   const auto nodes = static_cast<std::size_t>(order_ + 1), n = 3 * nodes;
   const auto [EA, GA, EI] = stiffness_;
   if (f != nullptr) std::fill(f, f + n, 0.0);
@@ -97,7 +97,7 @@ double ExactBeam::evaluate(const double* u, double* f, double* K) const {
   return U;
 }
 
-void ExactBeam::add_forces(const GaussPoint& at, std::size_t nodes, const First& U, double* f) {
+void ReissnerBeam::add_forces(const GaussPoint& at, std::size_t nodes, const First& U, double* f) {
   for (std::size_t a = 0; a < nodes; ++a) {
     const double D = at.ds * at.D[a], N = at.ds * at.N[a];
     f[3 * a] += D * U.x;
@@ -106,7 +106,7 @@ void ExactBeam::add_forces(const GaussPoint& at, std::size_t nodes, const First&
   }
 }
 
-void ExactBeam::add_stiffness(const GaussPoint& at, std::size_t nodes, const Second& U, double* K) {
+void ReissnerBeam::add_stiffness(const GaussPoint& at, std::size_t nodes, const Second& U, double* K) {
   const std::size_t n = 3 * nodes;
   for (std::size_t b = 0; b < nodes; ++b)
     for (std::size_t a = b; a < nodes; ++a) {
