@@ -20,13 +20,10 @@ if [[ $# == 1 ]]; then
 fi
 
 bash cmake/install_debian_packages.sh build
-launcher=()
-if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 # Without a home ccache needs another place for its files.
 if [[ -z ${HOME:-} ]]; then export CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache}; fi
 
-cmake -S . -B build/release -G Ninja --log-level=WARNING \
-  -DCMAKE_BUILD_TYPE=Release -DARCWALL_BUILD_TESTS=OFF -DARCWALL_BUILD_BENCHMARKS=OFF "${launcher[@]}" >&2
+cmake --preset release --log-level=WARNING >&2
 cmake --build build/release >&2
 
 mkdir -p "$(dirname "$out")"
