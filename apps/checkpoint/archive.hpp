@@ -16,7 +16,7 @@
 #include "continuation/path_point.hpp"
 
 /// Values to and from JSON trees, exactly: what is kept of a run. A structure is an array of its parts in the order in
-/// which `keep(archive)`, a member of it, or `parts(archive, value)`, a function beside it, visits them; one visit
+/// which `serialize(archive)`, a member of it, or `parts(archive, value)`, a function beside it, visits them; one visit
 /// serves both ways. Objects that are shared are stored once, where they are met first, and shared again when read.
 namespace arcwall {
 
@@ -39,7 +39,7 @@ struct ArchiveModel {
 namespace archive_detail {
 
 template <typename T, typename Archive>
-concept KeepsItself = requires(T& value, Archive& archive) {
+concept SerializesItself = requires(T& value, Archive& archive) {
   value.serialize(archive);
 };
 
@@ -91,8 +91,8 @@ class ArchiveWriter {
   template <typename T>
   Json structure(T& value) {
     ArchiveWriter inner(shared_);
-    if constexpr (archive_detail::KeepsItself<T, ArchiveWriter>)
-      value.keep(inner);
+    if constexpr (archive_detail::SerializesItself<T, ArchiveWriter>)
+      value.serialize(inner);
     else
       parts(inner, value);
     return std::move(inner.json_);
@@ -173,8 +173,8 @@ class ArchiveReader {
   template <typename T>
   void structure(const Json& json, T& value) {
     ArchiveReader inner(json, shared_);
-    if constexpr (archive_detail::KeepsItself<T, ArchiveReader>)
-      value.keep(inner);
+    if constexpr (archive_detail::SerializesItself<T, ArchiveReader>)
+      value.serialize(inner);
     else
       parts(inner, value);
     require(inner.at_end());

@@ -44,8 +44,8 @@ class PathTracing final : public Tracing {
 
   void stop(const BranchEnd& end) override { explorer_.stop(end); }
 
-  void keep(ArchiveWriter& archive) override { visit(archive); }
-  void keep(ArchiveReader& archive) override {
+  void serialize(ArchiveWriter& archive) override { visit(archive); }
+  void serialize(ArchiveReader& archive) override {
     visit(archive);
     archive.require(branch_ < static_cast<int>(record_.branches.size()) &&
                     branch_ < static_cast<int>(explorer_.branches().size()) &&
@@ -144,8 +144,8 @@ class IncrementTracing final : public Tracing {
     if (!end_) end_ = end;
   }
 
-  void keep(ArchiveWriter& archive) override { visit(archive); }
-  void keep(ArchiveReader& archive) override {
+  void serialize(ArchiveWriter& archive) override { visit(archive); }
+  void serialize(ArchiveReader& archive) override {
     visit(archive);
     archive.require(taken_ <= levels_.size() && record_.branches.size() == 1);
     for (std::size_t i = 1; i < record_.points.size(); ++i) increments_.repeat(record_.points[i].state);

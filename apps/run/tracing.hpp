@@ -23,8 +23,8 @@ class Tracing {
   virtual void stop(const BranchEnd& end) = 0;
 
   /// Visits all that changes but the record, which holds what was traced so far.
-  virtual void keep(ArchiveWriter& archive) = 0;
-  virtual void keep(ArchiveReader& archive) = 0;
+  virtual void serialize(ArchiveWriter& archive) = 0;
+  virtual void serialize(ArchiveReader& archive) = 0;
 };
 
 /// Whether every attempted step is kept in the record.
