@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "continuation/branching.hpp"
-#include "continuation/corner.hpp"
-#include "continuation/corrector.hpp"
-#include "continuation/event_detector.hpp"
+#include "continuation/corners/outgoing_directions.hpp"
+#include "continuation/events/branch_point.hpp"
+#include "continuation/events/event_detector.hpp"
 #include "continuation/path_point.hpp"
 #include "continuation/segment.hpp"
 #include "continuation/stability.hpp"
-#include "continuation/step_attempt.hpp"
-#include "continuation/step_control.hpp"
+#include "continuation/step/corrector.hpp"
+#include "continuation/step/step_attempt.hpp"
+#include "continuation/step/step_control.hpp"
 
 namespace arcwall {
 

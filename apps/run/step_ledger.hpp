@@ -3,7 +3,7 @@
 #include <string>
 
 #include "apps/study.hpp"
-#include "continuation/step_attempt.hpp"
+#include "continuation/step/step_attempt.hpp"
 
 namespace arcwall {
 

@@ -1,4 +1,4 @@
-#include "continuation/corrector.hpp"
+#include "continuation/step/corrector.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "continuation/event_detector.hpp"
+#include "continuation/events/event_detector.hpp"
 
 #include <gtest/gtest.h>
 

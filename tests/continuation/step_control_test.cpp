@@ -1,4 +1,4 @@
-#include "continuation/step_control.hpp"
+#include "continuation/step/step_control.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "continuation/corrector.hpp"
+#include "continuation/events/singular_locator.hpp"
 #include "continuation/path_point.hpp"
-#include "continuation/singular_locator.hpp"
+#include "continuation/step/corrector.hpp"
 
 namespace arcwall {
 

@@ -4,7 +4,7 @@
 
 #include "continuation/factorized_equations.hpp"
 #include "continuation/metric.hpp"
-#include "continuation/path_constraint.hpp"
+#include "continuation/step/path_constraint.hpp"
 
 namespace arcwall {
 

@@ -1,4 +1,4 @@
-#include "continuation/branching.hpp"
+#include "continuation/events/branch_point.hpp"
 
 #include <algorithm>
 #include <cmath>

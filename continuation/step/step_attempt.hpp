@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "continuation/path_constraint.hpp"
 #include "continuation/path_point.hpp"
+#include "continuation/step/path_constraint.hpp"
 
 namespace arcwall {
 

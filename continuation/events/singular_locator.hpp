@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "continuation/corrector.hpp"
 #include "continuation/path_point.hpp"
 #include "continuation/segment.hpp"
 #include "continuation/stability.hpp"
+#include "continuation/step/corrector.hpp"
 
 namespace arcwall {
 

@@ -1,4 +1,4 @@
-#include "continuation/path_constraint.hpp"
+#include "continuation/step/path_constraint.hpp"
 
 #include <cassert>
 #include <cmath>

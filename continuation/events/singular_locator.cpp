@@ -1,4 +1,4 @@
-#include "continuation/singular_locator.hpp"
+#include "continuation/events/singular_locator.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

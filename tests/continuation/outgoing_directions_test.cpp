@@ -1,4 +1,4 @@
-#include "continuation/corner.hpp"
+#include "continuation/corners/outgoing_directions.hpp"
 
 #include <gtest/gtest.h>
 
