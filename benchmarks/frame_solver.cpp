@@ -10,8 +10,8 @@
 
 #include "benchmarks/figures.hpp"
 #include "benchmarks/models.hpp"
-#include "core/ldlt.hpp"
-#include "core/long_pattern.hpp"
+#include "core/algebra/ldlt.hpp"
+#include "core/algebra/solvers/long_pattern.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 #include "benchmarks/timed_solvers.hpp"
 
 #include "benchmarks/timed_system.hpp"
-#include "core/bordered_solver.hpp"
-#include "core/ldlt.hpp"
+#include "core/algebra/bordered_solver.hpp"
+#include "core/algebra/ldlt.hpp"
 
 // As GNU ld's --wrap wants it: calls of the mangled name go to __wrap_…, __real_… is the library's function. A member
 // function is called like a function with the object's address in front (Itanium C++ ABI).

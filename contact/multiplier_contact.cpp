@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/assembly.hpp"
+#include "core/algebra/assembly.hpp"
 
 namespace arcwall {
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "core/bordered_solver.hpp"
-#include "core/fingerprint.hpp"
-#include "core/near_null.hpp"
+#include "core/algebra/bordered_solver.hpp"
+#include "core/algebra/fingerprint.hpp"
+#include "core/algebra/near_null.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {

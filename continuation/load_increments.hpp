@@ -5,7 +5,7 @@
 
 #include "continuation/metric.hpp"
 #include "continuation/path_point.hpp"
-#include "core/bordered_solver.hpp"
+#include "core/algebra/bordered_solver.hpp"
 
 namespace arcwall {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "core/released_border.hpp"
-#include "core/test_function.hpp"
+#include "core/algebra/released_border.hpp"
+#include "core/algebra/test_function.hpp"
 
 namespace arcwall {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "continuation/tracer.hpp"
-#include "core/quadratic_form.hpp"
+#include "core/algebra/quadratic_form.hpp"
 #include "core/root_find.hpp"
 
 namespace arcwall {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bordered_solver.hpp"
+#include "core/algebra/bordered_solver.hpp"
 
 namespace arcwall {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/assembly.hpp"
+#include "core/algebra/assembly.hpp"
 #include "elements/classic_beam_lanes.hpp"
 #include "elements/element_list.hpp"
 

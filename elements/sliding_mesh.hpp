@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/assembly.hpp"
+#include "core/algebra/assembly.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/sliding_beam_lanes.hpp"
 #include "elements/sliding_structure.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/assembly.hpp"
+#include "core/algebra/assembly.hpp"
 #include "core/observable.hpp"
 #include "core/system.hpp"
 #include "core/tracked_point.hpp"

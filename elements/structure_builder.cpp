@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <numeric>
 
-#include "core/ldlt.hpp"
-#include "core/near_null.hpp"
+#include "core/algebra/ldlt.hpp"
+#include "core/algebra/near_null.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"

@@ -35,6 +35,11 @@ check continuation core continuation
 check elements core elements
 check contact core contact
 
+# Which factorization is taken, and how it works, is core/algebra's own matter: others see its interfaces alone.
+while IFS= read -r line; do
+  fail "$line   (only core, tests and benchmarks may include core/algebra/solvers and core/algebra/block_tridiagonal)"
+done < <(grep -rnE --include='*.[ch]pp' '^#include "core/algebra/(solvers|block_tridiagonal)/' continuation elements contact apps || true)
+
 # What an installed header includes is installed, too: the headers that a library lists, with their folders inside it.
 installed_headers() {
   sed -n '/HEADERS/,/)/p' "$1/CMakeLists.txt" | sed 's/.*HEADERS//' | grep -oE '[a-z0-9_/]+\.hpp' | sed "s|^|$1/|"

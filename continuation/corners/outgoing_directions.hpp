@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/bordered_solver.hpp"
+#include "core/algebra/bordered_solver.hpp"
 
 namespace arcwall {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "continuation/path_tolerances.hpp"
-#include "core/near_null.hpp"
+#include "core/algebra/near_null.hpp"
 
 namespace arcwall {
 

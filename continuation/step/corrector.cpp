@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "continuation/stability.hpp"
-#include "core/released_border.hpp"
-#include "core/sums.hpp"
-#include "core/test_function.hpp"
+#include "core/algebra/released_border.hpp"
+#include "core/algebra/sums.hpp"
+#include "core/algebra/test_function.hpp"
 
 namespace arcwall {
 

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/sums.hpp"
+#include "core/algebra/sums.hpp"
 
 namespace arcwall {
 

@@ -1,0 +1,262 @@
+#include "core/algebra/bordered_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/algebra/bordered_residual.hpp"
+#include "core/algebra/sums.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Relative size of the pivots below which a solution may not be trusted unseen.
+constexpr double suspicious_pivot = 1e-13;
+// By what pivots may be greater than entries, and by what what cancels may be greater than the solution.
+constexpr double suspicious_growth = 1e3, suspicious_cancellation = 1e3;
+constexpr int max_refinements = 3;
+// Part of F that a Newton correction may leave where round-off leaves no better one: the next correction takes it.
+constexpr double left_to_newton = 0.1;
+
+LineProducts products_of(const Vector& weights, const Matrix& X) {
+  const double *w = weights.data(), *p = X.col(0).data(), *t = X.col(1).data();
+  const auto [pp, pt, tt] = sums_over<3>(X.rows(), [&](const auto& at, auto& sums) {
+    const auto of_p = at(w) * at(p), of_t = at(w) * at(t);
+    sums[0] += of_p * at(p);
+    sums[1] += of_t * at(p);
+    sums[2] += of_t * at(t);
+  });
+  return {.pp = pp, .pt = pt, .tt = tt};
+}
+
+}  // namespace
+
+Matrix product(const Linearization& equations, const Matrix& X) {
+  const Index n = equations.K.cols(), m = equations.B.cols();
+  Matrix Y(n + m, X.cols());
+  Y.topRows(n).noalias() = equations.K.selfadjointView<Eigen::Lower>() * X.topRows(n);
+  if (m > 0) {
+    Y.topRows(n).noalias() += equations.B * X.bottomRows(m);
+    Y.bottomRows(m) = equations.C.lazyProduct(X);
+  }
+  return Y;
+}
+
+FactorStatus BorderedSolver::factorize(Linearization& equations, Index multipliers) {
+  expect_pattern(equations, multipliers);
+  const FactorStatus status = ldlt_.factorize(equations.K);
+  regular_ = status == FactorStatus::ok && eliminate_border();
+  return status;
+}
+
+FactorStatus BorderedSolver::factorize_for_line(Linearization& equations, Index multipliers, EquilibriumLine& line) {
+  if (equations.B.cols() > 0) return factorize(equations, multipliers);
+  expect_pattern(equations, multipliers);
+  const std::array<ScaledColumn, 2> of{ScaledColumn{equations.F.data(), -1.0},
+                                       ScaledColumn{equations.F_lambda.data(), -1.0}};
+  line.dx.resize(equations.F.size(), 2);
+  const FactorStatus status = ldlt_.factorize_and_solve(equations.K, of, line.dx);
+  regular_ = status == FactorStatus::ok;
+  if (regular_) along_ = &line;
+  return status;
+}
+
+void BorderedSolver::expect_pattern(Linearization& equations, Index multipliers) {
+  equations_ = &equations;
+  multipliers_ = multipliers;
+  along_ = nullptr;
+  ldlt_.set_multiplier_count(multipliers);
+  const SparseMatrix& K = equations.K;
+  Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
+  const bool same = pattern.piece && pattern == pattern_;
+  ldlt_.trust_pattern(same);
+  if (!same) ldlt_.set_afloat(equations.translation_free);
+  pattern_ = std::move(pattern);
+}
+
+// K⁻¹ B and the small matrix that is left for the border's unknowns.
+bool BorderedSolver::eliminate_border() {
+  const Linearization& now = *equations_;
+  const Index m = now.B.cols();
+  if (m == 0) return true;
+  border_ = now.B;
+  ldlt_.solve(border_);
+  reduced_ = now.C.leftCols(now.K.cols()).lazyProduct(border_) - now.C.rightCols(m);
+  slides_.compute(reduced_);
+  return border_.allFinite() && slides_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
+}
+
+bool BorderedSolver::solve_inner(Matrix& X) const {
+  double cancelled = 0.0;
+  return solve_inner(X, cancelled);
+}
+
+// With C = [C_x  C_s]:  y = K⁻¹ f,  (C_x K⁻¹ B − C_s) δs = C_x y − g,  δx = y − K⁻¹ B δs. `cancelled`: by what y is
+// greater than δx, multipliers aside.
+bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
+  const Linearization& now = *equations_;
+  const Index n = now.K.cols(), m = now.B.cols();
+  cancelled = 1.0;
+  if (m == 0) {
+    ldlt_.solve(X);
+    return all_finite(X);
+  }
+  ldlt_.solve(X.topRows(n));
+  const Matrix s = slides_.solve(now.C.leftCols(n).lazyProduct(X.topRows(n)) - X.bottomRows(m));
+  X.bottomRows(m) = s;
+  for (Index column = 0; column < X.cols(); ++column) {
+    auto x = X.col(column).head(n);  // first y
+    const auto size = [&] { return x.head(n - multipliers_).cwiseAbs().maxCoeff(); };
+    const double of_y = size();
+    x.noalias() -= border_.lazyProduct(s.col(column));
+    cancelled = std::max(cancelled, of_y / size());
+  }
+  return all_finite(X);
+}
+
+// Where K is nearly singular but J is not, y and K⁻¹ B are large multiples of one vector, and what they differ in is
+// small beside them. Pivots of a fine mesh are far apart anyway: the whole is soft beside an element.
+bool BorderedSolver::is_suspicious(double cancelled) const {
+  return !(cancelled < suspicious_cancellation) ||
+         (ldlt_.pivot_ratio() < suspicious_pivot && !(ldlt_.growth(equations_->K) < suspicious_growth));
+}
+
+// Where J is nearly singular, J⁻¹ F and J⁻¹ F_λ are large multiples of one vector, and the digits that they differ in
+// are lost. What is not finite shows in the products, without weight, too.
+bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X, const LineProducts& found) const {
+  if (!std::isfinite(found.pp) || !std::isfinite(found.tt)) return false;
+  if (ldlt_.pivot_ratio() >= suspicious_pivot) return true;
+  const double *b = border.dx.data(), *p = X.col(0).data(), *t = X.col(1).data();
+  const auto [bp, bt, pp, pt, tt] = sums_over<5>(X.rows(), [&](const auto& at, auto& sums) {
+    sums[0] += at(b) * at(p);
+    sums[1] += at(b) * at(t);
+    sums[2] += at(p) * at(p);
+    sums[3] += at(p) * at(t);
+    sums[4] += at(t) * at(t);
+  });
+  const double off = bp / (bt + border.dlambda), left = pp - off * (2.0 * pt - off * tt);
+  return pp < suspicious_cancellation * suspicious_cancellation * left;
+}
+
+// J⁻¹ [−F  −F_λ]; false where J is singular.
+bool BorderedSolver::solve_line(EquilibriumLine& line, double& cancelled) {
+  line.dlambda = {0.0, 1.0};
+  line.off = 0.0;
+  line.scale = 1.0;
+  cancelled = 1.0;
+  if (std::exchange(along_, nullptr) == &line) return true;
+  const Linearization& now = *equations_;
+  line.dx.resize(now.F.size(), 2);
+  line.dx.col(0) = -now.F;
+  line.dx.col(1) = -now.F_lambda;
+  return regular_ && solve_inner(line.dx, cancelled);
+}
+
+std::optional<LineProducts> BorderedSolver::line(const Row& border, const Vector& weights, EquilibriumLine& out) {
+  const Linearization& now = *equations_;
+  Matrix& X = out.dx;
+  double cancelled = 0.0;
+  if (solve_line(out, cancelled)) {
+    const LineProducts found = products_of(weights, X);
+    if (!is_suspicious(cancelled) && keeps_digits(border, X, found)) return found;
+    if (make_line_good(border, out)) return products_of(weights, X);
+  }
+  if (!factorize_whole(border, X)) return std::nullopt;
+  const auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
+  if (!particular || !tangent) return std::nullopt;
+  X << particular->dx, tangent->dx;
+  out.dlambda = {particular->dlambda, tangent->dlambda};
+  return products_of(weights, X);
+}
+
+// The particular solution becomes the one that the border asks for, which is no larger than need be. What either lacks
+// is added; of corrections of the first again what the border asks for, so that one which is good already stays. False
+// where that does not help.
+bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
+  const Linearization& now = *equations_;
+  auto particular = line.dx.col(0), tangent = line.dx.col(1);
+  double before = infinity;
+  bool tangent_is_good = false;
+  for (int round = 0;; ++round) {
+    const double along = border.dx.dot(tangent) + border.dlambda;
+    const double off = border.dx.dot(particular) + border.dlambda * line.dlambda[0];
+    particular -= off / along * tangent;
+    line.dlambda[0] -= off / along;
+    Vector tangent_lacks;
+    if (!tangent_is_good) {
+      BorderedResidual of_tangent(now, -1.0, now.F_lambda, tangent, 0.0);
+      if (!std::isfinite(of_tangent.size())) return false;
+      tangent_is_good = of_tangent.is_small();
+      if (!tangent_is_good) tangent_lacks = std::move(of_tangent).r();
+    }
+    const BorderedResidual of_particular(now, -1.0, now.F, particular, line.dlambda[0]);
+    if (!std::isfinite(of_particular.size())) return false;
+    if (tangent_is_good && of_particular.is_small()) return true;
+    const double left = of_particular.size();
+    if (tangent_is_good && left > 0.1 * before && left <= left_to_newton * now.F.norm()) return true;
+    if (round == max_refinements) return false;
+    before = left;
+    Matrix correction(now.F.size(), tangent_is_good ? 1 : 2);
+    correction.col(0) = of_particular.r();
+    if (!tangent_is_good) correction.col(1) = tangent_lacks;
+    if (!solve_inner(correction)) return false;
+    line.dx.leftCols(correction.cols()) += correction;
+  }
+}
+
+bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns) {
+  const Linearization& now = *equations_;
+  columns.col(0) = -now.F_lambda;
+  double cancelled = 0.0;
+  if (regular_ && solve_inner(columns, cancelled) && (!is_suspicious(cancelled) || make_tangent_good(columns))) {
+    out.dx = columns.col(0);
+    out.dlambda = 1.0;
+    return true;
+  }
+  const bool found = factorize_whole(border, columns);
+  columns.resize(now.F.size(), 1);
+  if (!found) return false;
+  auto solution = whole_.solve(Vector::Zero(now.F.size()), 1.0);
+  if (solution) out = std::move(*solution);
+  return solution.has_value();
+}
+
+bool BorderedSolver::make_tangent_good(Matrix& columns) {
+  const Linearization& now = *equations_;
+  for (int round = 0;; ++round) {
+    const BorderedResidual tangent(now, -1.0, now.F_lambda, columns.col(0), 0.0);
+    if (!std::isfinite(tangent.size())) return false;
+    if (tangent.is_small()) return true;
+    if (round == max_refinements) return false;
+    Matrix correction = tangent.r();
+    if (!solve_inner(correction)) return false;
+    columns.col(0) += correction;
+  }
+}
+
+std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& f, double g) {
+  const Linearization& now = *equations_;
+  Matrix X;
+  if (regular_) {
+    X.resize(f.size(), 2);
+    X << f, now.F_lambda;
+    const bool solved = solve_inner(X);
+    // δλ = (g − cᵀ J⁻¹ f) / (d − cᵀ J⁻¹ F_λ),  δx = J⁻¹ f − δλ J⁻¹ F_λ
+    const double dlambda = (g - border.dx.dot(X.col(0))) / (border.dlambda - border.dx.dot(X.col(1)));
+    Direction solution{.dx = X.col(0) - dlambda * X.col(1), .dlambda = dlambda};
+    if (solved && solution.dx.allFinite() && BorderedResidual(now, 1.0, f, solution.dx, dlambda).is_small())
+      return solution;
+  }
+  if (!factorize_whole(border, X)) return std::nullopt;
+  return whole_.solve(f, g);
+}
+
+// K's own solutions, where there are any (the last for F_λ or for what is tracked), are mostly what K hardly resists.
+bool BorderedSolver::factorize_whole(const Row& border, const Matrix& columns) {
+  const bool solved = regular_ && columns.cols() > 0 && columns.rows() == border.dx.size() && columns.allFinite();
+  return whole_.factorize(*equations_, border, multipliers_, solved ? Vector(columns.rightCols(1)) : border.dx);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <optional>
+#include <utility>
+
+#include "core/algebra/ldlt.hpp"
+#include "core/algebra/whole_solver.hpp"
+#include "core/equilibrium_line.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// ∂F/∂x times the columns of X.
+Matrix product(const Linearization& equations, const Matrix& X);
+
+/// Solves with J = ∂F/∂x and with J bordered by F_λ and a row, by block elimination with one LDLᵀ factorization of K:
+///
+///     [ J   F_λ ] [δx]   [f]            [ K  B ]
+///     [ cᵀ   d  ] [δλ] = [g],       J = [   C  ]
+///
+/// Where K is singular (limit points, branch points) the elimination loses digits: the result is checked, refined, and
+/// at worst taken from a factorization that does not need K's.
+class BorderedSolver {
+ public:
+  /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves, for which a
+  /// spring may stand in K for a moment (WholeSolver).
+  FactorStatus factorize(Linearization& equations, Index multipliers);
+
+  /// The same where line() is asked for next, for this line: without a border its solutions are found along.
+  FactorStatus factorize_for_line(Linearization& equations, Index multipliers, EquilibriumLine& line);
+
+  /// See Ldlt.
+  void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
+  bool may_use_soft() const { return ldlt_.may_use_soft(); }
+
+  /// `border` closes the system where K alone is singular; the line itself does not depend on it. Its columns are the
+  /// particular solution and the tangent, which is not normalised. `weights`: those of System; what they make of the
+  /// columns is found by the way.
+  /// Empty if the bordered matrix is singular too.
+  std::optional<LineProducts> line(const Row& border, const Vector& weights, EquilibriumLine& out);
+
+  /// The tangent of the line alone, not normalised. Column 0 of `columns` is a workspace, the others become K⁻¹ times
+  /// themselves by the way, unchecked; none of them is left where K is singular. False if the bordered matrix is
+  /// singular too.
+  bool tangent(const Row& border, Direction& out, Matrix& columns);
+
+  /// Solution of the bordered system for one right-hand side (f, g), with column F_λ; empty if it is singular.
+  std::optional<Direction> solve(const Row& border, const Vector& f, double g);
+
+  /// J⁻¹ X in place; false where J is singular to working precision.
+  bool solve_inner(Matrix& X) const;
+
+  /// The factorization of K alone.
+  const Ldlt& inner() const { return ldlt_; }
+
+  bool inner_is_regular() const { return regular_; }
+
+  /// C_x K⁻¹ B − C_s, what is left for the border's unknowns where K is regular.
+  const Matrix& reduced() const { return reduced_; }
+
+ private:
+  // As long as a linearization stays where it is and on one piece, so does the pattern of its K.
+  struct Pattern {
+    const SparseIndex* rows = nullptr;
+    Index nonzeros = 0;
+    std::optional<Piece> piece{};
+    bool operator==(const Pattern&) const = default;
+  };
+
+  void expect_pattern(Linearization& equations, Index multipliers);
+  bool eliminate_border();
+  bool solve_inner(Matrix& X, double& cancelled) const;
+  bool solve_line(EquilibriumLine& line, double& cancelled);
+  bool is_suspicious(double cancelled) const;
+  bool keeps_digits(const Row& border, const Matrix& X, const LineProducts& found) const;
+  bool make_line_good(const Row& border, EquilibriumLine& line);
+  bool make_tangent_good(Matrix& columns);
+  bool factorize_whole(const Row& border, const Matrix& columns);
+
+  Linearization* equations_ = nullptr;
+  Pattern pattern_;
+  Ldlt ldlt_;
+  WholeSolver whole_;
+  Index multipliers_ = 0;
+  bool regular_ = false;
+  const EquilibriumLine* along_ = nullptr;  // whose solutions were found with the factorization
+  Matrix border_;                           // K⁻¹ B
+  Matrix reduced_;
+  Eigen::PartialPivLU<Matrix> slides_;  // of reduced_
+};
+
+}  // namespace arcwall

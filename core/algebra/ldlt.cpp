@@ -1,0 +1,131 @@
+#include "core/algebra/ldlt.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/algebra/block_tridiagonal/chain_ldlt.hpp"
+#include "core/algebra/block_tridiagonal/held_chain.hpp"
+#include "core/algebra/fingerprint.hpp"
+#include "core/algebra/solvers/simplicial_ldlt.hpp"
+#include "core/algebra/solvers/sprung_cholesky.hpp"
+
+namespace arcwall {
+
+struct Ldlt::Implementation {
+  std::unique_ptr<SymmetricFactors> factors;  // of the pattern
+  std::unique_ptr<SymmetricFactors> others;   // of the same, for what those refuse
+  SymmetricFactors* usable = nullptr;         // which of them holds the last matrix
+  Matrix soft;
+  PatternFingerprint pattern;  // that was analysed
+  Index multipliers = 0, analysed_multipliers = 0;
+  std::vector<bool> translation_free, analysed_afloat;
+  bool trusted = false;  // the pattern
+
+  std::unique_ptr<SymmetricFactors> fresh(const SparseMatrix& A) const {
+    if (auto groups = chain_groups(A, multipliers, ChainLdlt::widest)) {
+      if (multipliers == 0) return std::make_unique<ChainLdlt>(A, *groups, translation_free);
+      if (auto held = HeldChain::of(A, multipliers, *groups)) return held;
+      if (insert_multipliers(A, multipliers, ChainLdlt::widest, *groups))
+        return std::make_unique<ChainLdlt>(A, *groups);
+    }
+    std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : sprung_cholesky(A);
+    return large ? std::move(large) : simplicial_ldlt(A, multipliers);
+  }
+
+  // Analyses the pattern unless that has been done.
+  void know(const SparseMatrix& A) {
+    const bool any = factors != nullptr && multipliers == analysed_multipliers;
+    if (any && trusted && pattern.has_sizes_of(A)) return;
+    const PatternFingerprint of_A(A);
+    if (any && of_A == pattern && translation_free == analysed_afloat) return;
+    others.reset();
+    if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
+    factors->expect_soft(soft);
+    pattern = of_A;
+    analysed_multipliers = multipliers;
+    analysed_afloat = translation_free;
+  }
+
+  // Simplicial LDLᵀ serves all matrices. `serves` factorizes by one of the ways, and may solve.
+  template <class Serves>
+  FactorStatus factorize(const SparseMatrix& A, const Serves& serves) {
+    const auto is_finite = [&] { return all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros())); };
+    usable = nullptr;
+    know(A);
+    const bool asks = !factors->sees_what_is_not_finite();
+    if (asks && !is_finite()) return FactorStatus::not_finite;
+    if (serves(*factors)) {
+      usable = factors.get();
+    } else if (factors->refused()) {
+      if (!others) others = simplicial_ldlt(A, multipliers);
+      if (serves(*others)) usable = others.get();
+    }
+    if (usable != nullptr) return FactorStatus::ok;
+    return asks || is_finite() ? FactorStatus::singular : FactorStatus::not_finite;
+  }
+};
+
+Ldlt::Ldlt() : implementation_(std::make_unique<Implementation>()) {}
+Ldlt::~Ldlt() = default;
+Ldlt::Ldlt(Ldlt&&) noexcept = default;
+Ldlt& Ldlt::operator=(Ldlt&&) noexcept = default;
+
+void Ldlt::set_multiplier_count(Index count) { implementation_->multipliers = count; }
+
+void Ldlt::set_afloat(std::vector<bool> unknowns) { implementation_->translation_free = std::move(unknowns); }
+
+void Ldlt::expect_soft(Matrix vectors) {
+  Implementation& self = *implementation_;
+  self.soft = std::move(vectors);
+  if (self.factors) self.factors->expect_soft(self.soft);
+}
+
+bool Ldlt::may_use_soft() const { return !implementation_->factors || implementation_->factors->may_use_soft(); }
+
+void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
+
+FactorStatus Ldlt::factorize(const SparseMatrix& A) {
+  assert(A.isCompressed() && A.rows() == A.cols());
+  return implementation_->factorize(A, [&](SymmetricFactors& factors) { return factors.factorize(A); });
+}
+
+FactorStatus Ldlt::factorize_and_solve(const SparseMatrix& A, std::span<const ScaledColumn> of, Eigen::Ref<Matrix> X) {
+  assert(A.isCompressed() && A.rows() == A.cols());
+  assert(X.rows() == A.cols() && X.cols() == static_cast<Index>(of.size()));
+  return implementation_->factorize(A,
+                                    [&](SymmetricFactors& factors) { return factors.factorize_and_solve(A, of, X); });
+}
+
+void Ldlt::solve(Eigen::Ref<Matrix> X) const {
+  assert(implementation_->usable);
+  implementation_->usable->solve(X);
+}
+
+std::optional<Inertia> Ldlt::inertia() const {
+  const SymmetricFactors* factors = implementation_->usable;
+  return factors ? std::optional(factors->pivots().signs) : std::nullopt;
+}
+
+double Ldlt::pivot_ratio() const {
+  const SymmetricFactors* factors = implementation_->usable;
+  if (!factors) return 0.0;
+  const Pivots pivots = factors->pivots();
+  return pivots.least / pivots.greatest;
+}
+
+double Ldlt::growth(const SparseMatrix& A) const {
+  assert(implementation_->usable);
+  return implementation_->usable->growth(A);
+}
+
+// Wilkinson: K + E = L D Lᵀ with |E| ≤ γ |L| |D| |L|ᵀ. Without pivoting L may grow; |K| alone would not show it.
+double Ldlt::roundoff(const Eigen::Ref<const Vector>& v) const {
+  assert(implementation_->usable);
+  return std::numeric_limits<double>::epsilon() * implementation_->usable->weighted(v);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,297 @@
+#include "core/algebra/near_null.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/algebra/sums.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr int max_rounds = 100;
+constexpr Index most_pairs = 2;  // that are followed
+
+// The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants), from a seed.
+// Gives that of those that follow.
+std::uint64_t fill_with_start(Eigen::Ref<Matrix> X, std::uint64_t seed) {
+  for (Index j = 0; j < X.cols(); ++j)
+    for (double *entry = &X(0, j), *end = entry + X.rows(); entry != end; ++entry) {
+      seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+      *entry = double(seed >> 11) * 0x1p-53 - 0.5;
+    }
+  return seed;
+}
+
+// Columns of unit length, without dependent ones growing: QR with respect to the ordinary product. In place, as what
+// follows: all columns together are much beside a matrix of a chain.
+void orthonormalise(Matrix& X) {
+  const Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(X);
+  Vector workspace(X.cols());
+  // Q = H_0 H_1 …, column by column from the last: H_j changes rows from j on
+  for (Index j = X.cols() - 1; j >= 0; --j) {
+    const double tau = qr.hCoeffs()[j];
+    const Index rows = X.rows() - j, behind = X.cols() - j - 1;
+    if (behind > 0)
+      X.bottomRightCorner(rows, behind).applyHouseholderOnTheLeft(X.col(j).tail(rows - 1), tau, workspace.data());
+    X.col(j).tail(rows - 1) *= -tau;
+    X(j, j) = 1.0 - tau;
+    X.col(j).head(j).setZero();
+  }
+}
+
+// X := X T
+void combine(Matrix& X, const Matrix& T) {
+  constexpr Index together = 256;
+  Matrix rows;
+  for (Index first = 0; first < X.rows(); first += together) {
+    auto some = X.middleRows(first, std::min(together, X.rows() - first));
+    rows.noalias() = some * T;
+    some.leftCols(T.cols()) = rows;
+  }
+  X.conservativeResize(X.rows(), T.cols());
+}
+
+// Below which Rayleigh quotients do not settle: the diagonal's part of the round-off of φᵀ K φ.
+double roundoff_of_quotients(const SparseMatrix& K, const Matrix& X) {
+  const Vector diagonal = K.diagonal().cwiseAbs();
+  return std::numeric_limits<double>::epsilon() * (diagonal.transpose() * X.cwiseAbs2()).maxCoeff();
+}
+
+}  // namespace
+
+Matrix NearNull::soft() const {
+  std::vector<Index> chosen;
+  for (Index j = 0; j < values.size(); ++j)
+    if (j == 0 || values[j] < 0.0) chosen.push_back(j);
+  return (*vectors)(Eigen::all, chosen);
+}
+
+Index pair_count(const Vector& weights) {
+  const Index weighted = (weights.array() > 0.0).count();
+  return std::max<Index>(0, 2 * weighted - weights.size());
+}
+
+namespace {
+
+// Inverse subspace iteration. `pairs`: how many there are.
+template <class Operator>
+NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Index count, Settled settled,
+                      const Matrix& start) {
+  count = std::min(count, pairs);
+  const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
+  if (block == 0) return {};
+  Matrix X(weights.size(), block);
+  fill_with_start(X, 1);
+  const Index known = std::min(start.cols(), block);
+  if (known > 0) X.leftCols(known) = start.leftCols(known);
+  Vector values = Vector::Constant(block, infinity);
+  for (int round = 0; round < max_rounds; ++round) {
+    for (auto column : X.colwise()) column.array() *= weights.array();
+    K.solve(X);
+    orthonormalise(X);
+    // Rayleigh-Ritz: the best eigenpairs in the span of X, on which M is positive definite: K⁻¹ M leaves no column of
+    // multipliers alone.
+    Matrix XKX(block, block), XMX(block, block);
+    for (Index j = 0; j < block; ++j) {
+      XKX.col(j).noalias() = X.transpose() * K.product(X.col(j));
+      XMX.col(j).noalias() = X.transpose() * weights.cwiseProduct(X.col(j));
+    }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(XKX, XMX);
+    if (ritz.info() != Eigen::Success || !ritz.eigenvalues().allFinite()) break;
+    std::vector<Index> order(static_cast<std::size_t>(block));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return std::abs(ritz.eigenvalues()[a]) < std::abs(ritz.eigenvalues()[b]);
+    });
+    combine(X, ritz.eigenvectors()(Eigen::all, order));
+    const Vector previous = values;
+    values = ritz.eigenvalues()(order);
+    const double scale = values.head(count).cwiseAbs().maxCoeff();
+    const double change = (values - previous).head(count).cwiseAbs().maxCoeff();
+    if (settled == Settled::fully && change <= 1e-10 * scale) break;
+    if (settled == Settled::roughly &&
+        change <= std::max(1e-6 * scale, roundoff_of_quotients(K.matrix(), X.leftCols(count))))
+      break;
+  }
+  X.conservativeResize(X.rows(), count);
+  return {.values = values.head(count), .vectors = std::move(X)};
+}
+
+// The matrix itself; a tiny shift of its factorization does not spoil the product.
+struct Factorized {
+  const Factorization& factorization;
+  const SparseMatrix& K;
+
+  void solve(Matrix& X) const { factorization.solve(X); }
+  Matrix product(const Matrix& X) const { return K.selfadjointView<Eigen::Lower>() * X; }
+  const SparseMatrix& matrix() const { return K; }
+};
+
+}  // namespace
+
+NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
+                   Settled settled, const Matrix& start) {
+  return nearest_zero(Factorized{factorization, K}, weights, pair_count(weights), count, settled, start);
+}
+
+NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count, Settled settled) {
+  const Index pairs = pair_count(weights) + static_cast<Index>(border.released().size());
+  return nearest_zero(border, weights, pairs, count, settled, {});
+}
+
+namespace {
+
+// The columns of a matrix, at the entries of `at`.
+template <class Pointer, std::size_t B, class At>
+ARCWALL_IN_PLACE auto entries_of(const std::array<Pointer, B>& columns, const At& at) {
+  std::array<decltype(at(columns[0])), B> entries;
+  for (std::size_t j = 0; j < B; ++j) entries[j] = at(columns[j]);
+  return entries;
+}
+
+template <std::size_t B, class Pointer>
+std::array<Pointer, B> columns_from(Pointer first, Index stride) {
+  std::array<Pointer, B> columns;
+  for (std::size_t j = 0; j < B; ++j) columns[j] = first + static_cast<Index>(j) * stride;
+  return columns;
+}
+
+// Those that become pairs, then the guard.
+template <std::size_t B>
+std::array<double*, B> followed_columns(Matrix& X, Vector& guard) {
+  std::array<double*, B> columns;
+  for (std::size_t j = 0; j < B; ++j)
+    columns[j] = static_cast<Index>(j) < X.cols() ? X.col(static_cast<Index>(j)).data() : guard.data();
+  return columns;
+}
+
+template <std::size_t B>
+using Small = Eigen::Matrix<double, static_cast<int>(B), static_cast<int>(B)>;
+
+// Xᵀ W Y, symmetric, in one pass.
+template <std::size_t B, class Pointer>
+Small<B> projection(const double* w, const std::array<double*, B>& X, const std::array<Pointer, B>& Y, Index n) {
+  const auto products = sums_over<B*(B + 1) / 2>(n, [&](const auto& at, auto& sums) {
+    const auto x = entries_of(X, at), y = entries_of(Y, at);
+    std::size_t k = 0;
+    for (std::size_t j = 0; j < B; ++j) {
+      const auto weighted = at(w) * y[j];
+      for (std::size_t i = 0; i <= j; ++i) sums[k++] += x[i] * weighted;
+    }
+  });
+  Small<B> A;
+  for (Index j = 0, k = 0; j < A.cols(); ++j)
+    for (Index i = 0; i <= j; ++i) A(i, j) = A(j, i) = products[static_cast<std::size_t>(k++)];
+  return A;
+}
+
+// T with (X T)ᵀ W X T = 1 for G = Xᵀ W X, by Gram and Schmidt. Columns that depend on those before them become zero.
+template <std::size_t B>
+Small<B> orthonormalising(const Small<B>& G) {
+  constexpr double dependent = 1e-14;
+  Small<B> T = Small<B>::Identity();
+  for (Index j = 0; j < T.cols(); ++j) {
+    for (Index i = 0; i < j; ++i) T.col(j) -= T.col(i).dot(G * T.col(j)) * T.col(i);
+    const double squared = T.col(j).dot(G * T.col(j));
+    T.col(j) *= squared > dependent * G(j, j) ? 1.0 / std::sqrt(squared) : 0.0;
+  }
+  return T;
+}
+
+// X := X T with T upper triangular, and W X to `WX`.
+template <std::size_t B>
+void transform(const double* w, const std::array<double*, B>& X, const Small<B>& T, const std::array<double*, B>& WX,
+               Index n) {
+  for_entries(n, [&](const auto& at) {
+    const auto x = entries_of(X, at);
+    for (std::size_t j = 0; j < B; ++j) {
+      auto sum = T(0, static_cast<Index>(j)) * x[0];
+      for (std::size_t i = 1; i <= j; ++i) sum += T(static_cast<Index>(i), static_cast<Index>(j)) * x[i];
+      at.set(X[j], sum);
+      at.set(WX[j], at(w) * sum);
+    }
+  });
+}
+
+// Calls `code` with the number of columns as a constant.
+template <class Code>
+void with_columns(Index count, const Code& code) {
+  if (count == 1) code(std::integral_constant<std::size_t, 1>{});
+  if (count == 2) code(std::integral_constant<std::size_t, 2>{});
+  if (count == 3) code(std::integral_constant<std::size_t, 3>{});
+}
+
+}  // namespace
+
+Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
+  const Index n = weights.size(), block = std::min<Index>(most_pairs + 1, pair_count(weights));
+  const Index known = std::max<Index>(0, std::min(pairs_->cols(), block - 1));
+  // Contact forces, which come and go at the end, have no weight and need no start.
+  const Index common = std::min(pairs_->rows(), n), kept = std::min(block, most_pairs);
+  X_.resize(n, kept);
+  guard_.resize(block > kept ? n : 0);
+  if (known > 0) {
+    X_.topLeftCorner(common, known) = pairs_->topLeftCorner(common, known);
+    X_.bottomLeftCorner(n - common, known).setZero();
+  }
+  std::uint64_t seed = 1;
+  if (known < kept) seed = fill_with_start(X_.rightCols(kept - known), seed);
+  if (block > kept) fill_with_start(guard_, seed);
+  Matrix columns(n, front + block);
+  with_columns(block, [&](auto constant) {
+    constexpr std::size_t B = constant.value;
+    const auto X = followed_columns<B>(X_, guard_), WX = columns_from<B>(columns.col(front).data(), n);
+    const Small<B> T = orthonormalising<B>(projection(weights.data(), X, X, n));
+    transform(weights.data(), X, T, WX, n);
+  });
+  return columns;
+}
+
+// On the span of X, W-orthonormal, K⁻¹ is A = Xᵀ W K⁻¹ W X. Its greatest eigenvalues θ in magnitude belong to pairs
+// near zero, and never to a mixture of far ones, as the least of Xᵀ K X may. y = K⁻¹ W X c has the Rayleigh quotient
+// θ/(yᵀ W y).
+NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions) {
+  const Index n = weights.size(), count = X_.cols(), block = count + (guard_.size() > 0 ? 1 : 0);
+  if (block == 0 || !all_finite(solutions)) return {};
+  Vector values(count);
+  with_columns(block, [&](auto constant) {
+    constexpr std::size_t B = constant.value;
+    const double* w = weights.data();
+    const auto X = followed_columns<B>(X_, guard_);
+    const auto Y = columns_from<B>(solutions.data(), solutions.outerStride());
+    const Eigen::SelfAdjointEigenSolver<Small<B>> ritz(projection(w, X, Y, n));
+    std::array<Index, B> order;
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]);
+    });
+    for (Index j = 0; j < count; ++j) {
+      const auto c = ritz.eigenvectors().col(order[static_cast<std::size_t>(j)]);
+      double* const x = X[static_cast<std::size_t>(j)];
+      const auto [squared] = sums_over<1>(n, [&](const auto& at, auto& sums) {
+        const auto y = entries_of(Y, at);
+        auto sum = c[0] * y[0];
+        for (std::size_t i = 1; i < B; ++i) sum += c[static_cast<Index>(i)] * y[i];
+        at.set(x, sum);
+        sums[0] += at(w) * sum * sum;
+      });
+      values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
+      X_.col(j) /= std::sqrt(squared);
+    }
+  });
+  guard_.resize(0);
+  pairs_ = std::exchange(X_, Matrix());
+  return {.values = std::move(values), .vectors = pairs_};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "core/algebra/bordered_solver.hpp"
+
+namespace arcwall {
+
+/// What a body resists motions by that the y_k of a border hold, where it may slide instead.
+struct SlidingResistance {
+  std::vector<Index> released{};  ///< the y_k that are let go
+  Matrix T{};                     ///< moments at them, less the forces' own, by the motions there; symmetric
+
+  /// How many more directions have negative energy than with all y_k holding; empty where T is not finite.
+  std::optional<Index> negative() const;
+};
+
+/// Of the equations that `solver` has factorized, K being regular. `rates`: System::border_rates.
+SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations, const Vector& rates);
+
+/// K with the y_k that a resistance names let go against it: singular where K is regular and ∂F/∂x is not.
+class ReleasedBorder {
+ public:
+  /// `solver` has factorized `equations`, K being regular. Both must outlive this.
+  ReleasedBorder(const BorderedSolver& solver, const Linearization& equations, SlidingResistance resistance);
+
+  /// False where K is singular to working precision; then nothing else may be asked.
+  bool is_finite() const;
+
+  /// The lower triangle of K.
+  const SparseMatrix& matrix() const { return K_; }
+
+  /// The y_k that are let go.
+  const std::vector<Index>& released() const { return released_; }
+
+  /// Solutions in place.
+  void solve(Eigen::Ref<Matrix> X) const;
+
+  /// Of columns that solve() gave, or combinations of them.
+  Matrix product(const Matrix& X) const;
+
+ private:
+  const Factorization& inner_;
+  const SparseMatrix& K_;
+  std::vector<Index> released_;
+  Matrix moved_;                            // K⁻¹ E, E the unit columns of what is let go
+  Eigen::PartialPivLU<Matrix> resistance_;  // of T
+};
+
+}  // namespace arcwall

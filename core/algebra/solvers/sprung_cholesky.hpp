@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "core/algebra/solvers/symmetric_factors.hpp"
+
+namespace arcwall {
+
+/// CHOLMOD's supernodal LLᵀ, which works by dense blocks and is much faster where many unknowns couple, made to serve
+/// matrices with a few negative eigenvalues, too: springs k on single unknowns, with unit vectors for the columns of E,
+/// make K̂ = K + E k Eᵀ definite. Then
+///
+///     K⁻¹ f = x + Y S⁻¹ Eᵀ x,    x = K̂⁻¹ f,    Y = K̂⁻¹ E,    S = k⁻¹ − Eᵀ Y                                   (1)
+///
+/// and K has as many negative eigenvalues as S (Haynsworth 1968). Springs stand where a soft vector that is expected
+/// has most of its energy, and where one has that shows by a pivot that fails: what this vector lacks is only K's own
+/// stiffness. A spring holds a point alone, so that some more may be needed than there are negative eigenvalues.
+///
+/// Where the pivot that fails belongs to the last dense block, the separator that joins two halves of a structure, all
+/// unknowns r of that block are held by springs k_r, and K + E k Eᵀ is solved with its indefinite rest instead:
+///
+///     K + E k Eᵀ = L [1  0; 0  L_r⁻¹ S_r L_r⁻ᵀ] Lᵀ,    S_r = L_r L_rᵀ − k_r                                   (2)
+///
+/// L of the matrix with all springs. Its negative eigenvalues are those of S_r, which has a pivoted L D Lᵀ of its own.
+/// All this stands until other soft vectors are expected.
+///
+/// Null where this way does not pay: few unknowns, or such that couple with few others. Matrices that need too many
+/// springs are refused.
+std::unique_ptr<SymmetricFactors> sprung_cholesky(const SparseMatrix& lower_triangle);
+
+/// The same, whether it pays or not.
+std::unique_ptr<SymmetricFactors> any_sprung_cholesky(const SparseMatrix& lower_triangle);
+
+}  // namespace arcwall
