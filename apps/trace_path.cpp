@@ -4,11 +4,9 @@
 
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/program.hpp"
-#include "apps/kept_memory.hpp"
 
 int main(int argc, char** argv) {
   arcwall::let_writes_fail();
-  arcwall::keep_freed_memory();
   try {
     return static_cast<int>(arcwall::run_program(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc)));
   } catch (const std::exception& problem) {

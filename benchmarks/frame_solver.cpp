@@ -11,7 +11,7 @@
 #include "benchmarks/figures.hpp"
 #include "benchmarks/models.hpp"
 #include "core/algebra/ldlt.hpp"
-#include "core/algebra/solvers/long_pattern.hpp"
+#include "core/algebra/solvers/pattern.hpp"
 
 namespace {
 

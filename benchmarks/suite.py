@@ -65,19 +65,16 @@ class Process:
     size: int
     command: list
     rounds: int | None = None  # fewer than the others': for what takes long
-    wall: bool = False  # also the time on the clock: for several threads
 
     def run(self, launcher: str, sheet: Sheet) -> None:
         done = subprocess.run([launcher, *self.command], capture_output=True, text=True,
-                              env={**os.environ, **({} if self.wall else ONE_THREAD)})
+                              env={**os.environ, **ONE_THREAD})
         if done.returncode not in RUN_IS_USABLE:
             raise RuntimeError(f"{' '.join(self.command)} failed: {done.stderr.strip()[-500:]}")
         printed, _, last = done.stdout.strip().rpartition("whole process,")
-        cpu, elapsed, kilobytes = map(float, last.split(","))
+        cpu, _, kilobytes = map(float, last.split(","))
         self.add(sheet, "process", "s", cpu)
         self.add(sheet, "peak memory of the process", "kB", kilobytes)
-        if self.wall:
-            self.add(sheet, "process on the clock", "s", elapsed)
         self.read(printed, sheet)
 
     def read(self, printed: str, sheet: Sheet) -> None:
@@ -141,14 +138,11 @@ class Suite:
     def program(self, name: str) -> str:
         return str(self.build / ("apps" if name == "trace-path" else "benchmarks") / name)
 
-    def traced(self, case: str, size: int, deck: str, values: list, threads: int | None = None,
-               options: tuple = (), **more) -> TracePath:
-        out = self.scratch / f"{case}-{size}-{threads or 1}"
+    def traced(self, case: str, size: int, deck: str, values: list, options: tuple = (), **more) -> TracePath:
+        out = self.scratch / f"{case}-{size}"
         command = [self.program("trace-path"), "run", str(SOURCE / deck), "--quiet", *options]
         for value in values:
             command += ["--set", value]
-        if threads:
-            command += ["--threads", str(threads)]
         command += ["--out", str(out)]  # last: see TracePath
         return TracePath("trace-path", case, size, command, out=out, **more)
 
@@ -201,16 +195,6 @@ class Suite:
             yield self.split("frame", unknowns, rounds=few)
             yield Process("frame_solver", "frame", unknowns, [self.program("frame_solver"), str(unknowns)], rounds=few)
 
-    def threads(self) -> Iterator[Process]:
-        help_text = subprocess.run([self.program("trace-path"), "run", "--help"], capture_output=True, text=True).stdout
-        if "--threads" not in help_text:
-            return
-        for n in self.wanted([], [2000], [20000]):
-            values = [f"member.column.elements={n // 2}", f"member.short.elements={n // 10}",
-                      f"member.long.elements={n - n // 2 - n // 10}"]
-            for threads in (1, 2):
-                yield self.traced(f"lee by {threads} threads", n, "examples/lee.toml", values, threads, wall=True, rounds=2)
-
     def machine(self) -> Iterator[Process]:
         elements = "|".join(map(str, self.wanted([20], [200, 2000], [20000, 100000])))
         parts = rf"--benchmark_filter=(corrector|linearize|factorize|line_solve)/({elements})$"
@@ -218,7 +202,7 @@ class Suite:
             yield GoogleBenchmark(name, "all", 0, [self.program(name), "--benchmark_format=json", *options], rounds=1)
 
     def processes(self) -> list:
-        return [*self.lee(), *self.decks(), *self.large(), *self.threads(), *self.machine()]
+        return [*self.lee(), *self.decks(), *self.large(), *self.machine()]
 
 
 def peers(suite: Suite) -> Iterator[Process | str]:

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "apps/deck/reader.hpp"
-#include "apps/kept_memory.hpp"
 #include "apps/study.hpp"
 #include "benchmarks/figures.hpp"
 #include "benchmarks/models.hpp"
@@ -103,7 +102,6 @@ Measured traced(const Task& task, State start_at) {
     while (measured.tally.points_past_limit < task.most_past_limit) {
       const auto step = explorer.next();
       if (!step) break;
-      if (measured.tally.points == 0) give_back_freed_memory();  // as trace-path does
       const double now = cpu_seconds();
       const Index used = system.times().linearizations - linearizations;
       const State& to = step->arc.to.state;
@@ -251,7 +249,6 @@ int run(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  arcwall::keep_freed_memory();  // as trace-path does
   try {
     return run({arguments + 1, arguments + count});
   } catch (const std::exception& problem) {

@@ -21,9 +21,6 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME arcwall)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-if(ARCWALL_STATIC)  # what is loaded when it is first called
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libblas3 | libblas.so.3, liblapack3 | liblapack.so.3, libmetis5")
-endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "bash-completion, libarcwall-dev, parallel")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "The program trace-path reads a structure from one text file, follows its

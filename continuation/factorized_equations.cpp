@@ -22,7 +22,7 @@ bool FactorizedEquations::evaluate(const State& state) {
 
 FactorStatus FactorizedEquations::arrive(const State& state) {
   const FactorStatus status = look(state);
-  here_ = StateFingerprint(state);
+  here_ = state;
   arrived_ = status != FactorStatus::not_finite;
   return status;
 }

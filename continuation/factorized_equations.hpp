@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "core/algebra/bordered_solver.hpp"
-#include "core/algebra/fingerprint.hpp"
 #include "core/algebra/near_null.hpp"
 #include "core/system.hpp"
 
@@ -29,7 +28,7 @@ class FactorizedEquations {
   bool has_arrived() const { return arrived_; }
 
   /// And whether that is this one.
-  bool is_at(const State& state) const { return arrived_ && here_ == StateFingerprint(state); }
+  bool is_at(const State& state) const { return arrived_ && here_ == state; }
 
   /// Whether the matrix at hand has the pattern of this piece, so that its analysis serves again.
   bool is_on(const Piece& piece) const { return piece_ == piece; }
@@ -55,7 +54,7 @@ class FactorizedEquations {
   BorderedSolver solver_;
   NearNullTracker tracker_;
   std::optional<Piece> piece_;  // of the matrix
-  StateFingerprint here_;
+  State here_;
   bool arrived_ = false;
 };
 

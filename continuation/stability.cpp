@@ -33,7 +33,7 @@ Piece strictly_active(const System& system, const State& state, double force_tol
 
 void StabilityCounter::track_from(const NearNull& nearest) {
   start_ = &nearest;
-  last_ = {};
+  last_.reset();
 }
 
 // With degenerate contacts W the motions allowed are the cone {v : G_S v = 0, G_W v ≥ 0}. It lies inside {G_S v = 0},
@@ -50,12 +50,11 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
-  const StateFingerprint here(state);
-  if (last_ != here) remember(here, counted_on(state));
+  if (last_ != state) remember(state, counted_on(state));
   return last_negative_;
 }
 
-void StabilityCounter::remember(const StateFingerprint& state, std::optional<Index> negative) {
+void StabilityCounter::remember(const State& state, std::optional<Index> negative) {
   last_ = state;
   last_negative_ = negative;
 }

@@ -38,7 +38,7 @@ class StabilityCounter {
   std::optional<Index> negative_on(const State& state);
 
   /// What was counted elsewhere: negative_on() need not count again there.
-  void remember(const State& state, std::optional<Index> negative) { remember(StateFingerprint(state), negative); }
+  void remember(const State& state, std::optional<Index> negative);
 
   /// From where the eigenpairs nearest zero are followed, instead of the state counted last. Not copied before its
   /// own equations need it: `nearest` must outlive the counts to come.
@@ -46,14 +46,13 @@ class StabilityCounter {
 
  private:
   std::optional<Index> counted_on(const State& state);
-  void remember(const StateFingerprint& state, std::optional<Index> negative);
 
   const System& system_;
   double force_tolerance_;
   FactorizedEquations& shared_;
   FactorizedEquations own_;
   const NearNull* start_ = nullptr;     // of what its own equations follow, until they are used
-  StateFingerprint last_;               // of the state counted last: what pivots leave undecided takes long
+  std::optional<State> last_;           // the state counted last: what pivots leave undecided takes long
   std::optional<Index> last_negative_;  // on it
 };
 

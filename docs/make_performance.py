@@ -323,15 +323,6 @@ def processes(f: Figures) -> str:
         "in the program, which keeps all points of the path for its files." if None not in per_node else "")
 
 
-def threads(f: Figures) -> str:
-    rows = []
-    for n in f.sizes("trace-path", "lee by 2 threads"):
-        ratio = f.ratio(("trace-path", "lee by 2 threads", n, "process on the clock"),
-                        ("trace-path", "lee by 1 threads", n, "process on the clock"))
-        rows.append([f"Lee's frame, {n} elements", ratio])
-    return "## Two threads\n\nTime on the clock, two threads over one.\n\n" + table(["case", "ratio"], rows) if rows else ""
-
-
 def frames(f: Figures) -> str:
     rows = []
     by = ["arcwall", *CHOLMODS]
@@ -394,7 +385,7 @@ def main() -> None:
     if len(sys.argv) != 2:
         sys.exit("usage: python3 docs/make_performance.py PERFORMANCE_CSV")
     figures = Figures(sys.argv[1])
-    sections = [section(figures) for section in (goals, lee, parts, peers, split, processes, threads, frames, machine)]
+    sections = [section(figures) for section in (goals, lee, parts, peers, split, processes, frames, machine)]
     greatest = {case: max(figures.sizes("time_split", case), default=0) for case in ("lee", "star")}
     missing = [QUICK] if greatest["lee"] <= 2000 else [SKIPPED] if greatest["star"] < 1000000 else []
     print("\n\n".join([HEAD.rstrip(), *missing, *(section for section in sections if section)]))

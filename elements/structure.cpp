@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
-#include <future>
 #include <limits>
 
 namespace arcwall {
 
 namespace {
-
-std::atomic<int> evaluation_threads = 1;
 
 // Local unknowns, forces and stiffness of one element, on the stack.
 struct Local {
@@ -31,8 +27,6 @@ void scatter(const ShiftedIndices& unknowns, const double* f, double factor, dou
 }
 
 }  // namespace
-
-void set_evaluation_threads(int count) { evaluation_threads = count; }
 
 EssenburgNode MemberSection::kinematics() const {
   return {.D = axis_normal(shape.angle), .n = axis_normal(axis.angle), .quadratic = quadratic};
@@ -76,15 +70,7 @@ void Structure::gather(Index block, const Vector& x, double* u) const {
   for (std::size_t i = 0; i < unknowns.size(); ++i) u[i] = unknowns[i] >= 0 ? x[unknowns[i]] : 0.0;
 }
 
-void Structure::arrange() {
-  std::vector<Vec2> middles;
-  for (Index e = 0; e < element_count(); ++e) {
-    const auto freedoms = element_freedoms(e);
-    const auto node = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)].node; };
-    middles.push_back(0.5 * (position(node(freedoms.front())) + position(node(freedoms.back()))));
-  }
-  order_ = element_order(elements_, assembly_, middles);
-}
+void Structure::arrange() { order_ = element_order(elements_, assembly_); }
 
 // Entry by entry: what goes to one place from one beam and from the next is far apart.
 void Structure::add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F,
@@ -121,28 +107,15 @@ void Structure::add(const ElementOrder::Four& four, const ClassicBeamLanes& beam
                            [&](Index entry, std::size_t lane) { return k[entry][static_cast<int>(lane)]; });
 }
 
-void Structure::add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const {
-  for (const ElementOrder::Four& four : part.fours) add(four, part.beams[four.beams], x, F, K);
+void Structure::add_elements(const Vector& x, double* F, double* K) const {
+  for (const ElementOrder::Four& four : order_.fours) add(four, order_.beams[four.beams], x, F, K);
   Local local;
-  for (const Index e : part.others) {
+  for (const Index e : order_.others) {
     gather(e, x, local.u);
     elements_[e].evaluate(local.u, local.f, K != nullptr ? local.K : nullptr);
     scatter(assembly_.unknowns(e), local.f, 1.0, F);
     if (K != nullptr) assembly_.add(e, local.K, 1.0, K);
   }
-}
-
-// The second part shares no entry with the first.
-void Structure::add_elements(const Vector& x, double* F, double* K) const {
-  if (evaluation_threads > 1 && !order_.second.empty()) {
-    auto beside = std::async([&] { add(order_.second, x, F, K); });
-    add(order_.first, x, F, K);
-    beside.get();
-  } else {
-    add(order_.first, x, F, K);
-    add(order_.second, x, F, K);
-  }
-  add(order_.last, x, F, K);
 }
 
 // From the forces on the unknowns.

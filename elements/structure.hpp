@@ -93,15 +93,9 @@ struct MemberMesh {
 class SlidingStructure;
 class StructureBuilder;
 
-/// How many threads evaluate a large structure, of all that the program has: 1, if nothing is said, or more, of which
-/// two have work. Results do not depend on it.
-void set_evaluation_threads(int count);
-
 /// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
 /// rotations from the stress-free state as unknowns. Freedoms count every x, z, rotation and change of thickness;
 /// unknowns those that no support holds.
-///
-/// Of 2000 elements or more two halves may be evaluated side by side: see set_evaluation_threads().
 class Structure final : public System {
  public:
   Index size(const Piece&) const override { return assembly_.unknown_count(); }
@@ -195,7 +189,6 @@ class Structure final : public System {
   std::vector<bool> translation_free() const;  // see Linearization
   void gather(Index block, const Vector& x, double* u) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
-  void add(const ElementOrder::Part& part, const Vector& x, double* F, double* K) const;
   void add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F, double* K) const;
   void add_elements(const Vector& x, double* F, double* K) const;
   using PointLoads = Eigen::SparseVector<double, Eigen::ColMajor, Index>;  // per freedom

@@ -17,7 +17,6 @@
 #include "apps/output/result_json.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "elements/structure.hpp"
 
 namespace arcwall {
 
@@ -184,7 +183,6 @@ void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Record& rec
 std::vector<OptionDescription> session_options() {
   return {{"max-points", "N", "end after N points (status 6)"},
           {"max-time", "SECONDS", "end after that time (status 6)"},
-          {"threads", "N", "1 or 2, for structures of 2000 elements or more (default: 1); the files are the same"},
           {"checkpoint-pause", "SECONDS", "time between two checkpoints, 0 for one at each point (default: 5)"},
           {"json", "", "points, events and end on standard output, one JSON object a line"},
           {"no-pictures", "", "write neither report.html nor the shapes (trace-path report writes the one later)"},
@@ -193,7 +191,6 @@ std::vector<OptionDescription> session_options() {
 
 SessionOptions session_options(const Options& options) {
   SessionOptions session{.max_points = options.count("max-points"), .max_seconds = options.seconds("max-time")};
-  session.threads = options.count("threads").value_or(1);
   if (const auto pause = options.pause("checkpoint-pause"))
     session.checkpoint_pause = std::chrono::duration<double>(*pause);
   if (options.has("no-pictures")) session.pictures = SessionOptions::Pictures::left_out;
@@ -207,7 +204,6 @@ ExitStatus trace_and_write(RunUnderWay& run, const OutputFolder& folder, const S
                            const Stopwatch& since_begin) {
   const InterruptGuard interrupts;
   const Stopwatch since_start;
-  set_evaluation_threads(options.threads);
   CheckpointKeeper checkpoints(run, folder, options.checkpoint_pause);
   const std::optional<BranchEnd> stopped = trace(run, checkpoints, options, interrupts);
   const Record& record = run.record();

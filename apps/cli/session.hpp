@@ -16,7 +16,6 @@ namespace arcwall {
 struct SessionOptions {
   std::optional<int> max_points{};                    ///< of this call
   std::optional<double> max_seconds{};                ///< of this call
-  int threads = 1;                                    ///< that evaluate large structures
   std::chrono::duration<double> checkpoint_pause{5};  ///< at least, between two checkpoints
   enum class Report { table, json_lines, none } report = Report::table;
   Progress progress = Progress::hidden;

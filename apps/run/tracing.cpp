@@ -7,7 +7,6 @@
 
 #include "apps/build_path.hpp"
 #include "apps/checkpoint/parts.hpp"
-#include "apps/kept_memory.hpp"
 #include "apps/output/recorder.hpp"
 #include "apps/run/step_ledger.hpp"
 #include "core/text.hpp"
@@ -26,7 +25,6 @@ class PathTracing final : public Tracing {
 
   bool advance() override {
     const std::optional<Explorer::Step> step = explorer_.next();
-    if (!std::exchange(has_analysed_, true)) give_back_freed_memory();
     if (!step) {
       finish();
       return false;
@@ -86,7 +84,6 @@ class PathTracing final : public Tracing {
   std::optional<Recorder> recorder_;
   int branch_ = -1;
   bool finished_ = false;
-  bool has_analysed_ = false;  // since this was made
 };
 
 // Whether the way between two states crosses a bound that stops.

@@ -9,7 +9,7 @@
 
 #include "core/algebra/block_tridiagonal/chain_ldlt.hpp"
 #include "core/algebra/block_tridiagonal/held_chain.hpp"
-#include "core/algebra/fingerprint.hpp"
+#include "core/algebra/solvers/pattern.hpp"
 #include "core/algebra/solvers/simplicial_ldlt.hpp"
 #include "core/algebra/solvers/sprung_cholesky.hpp"
 
@@ -20,7 +20,7 @@ struct Ldlt::Implementation {
   std::unique_ptr<SymmetricFactors> others;   // of the same, for what those refuse
   SymmetricFactors* usable = nullptr;         // which of them holds the last matrix
   Matrix soft;
-  PatternFingerprint pattern;  // that was analysed
+  Pattern pattern;  // that was analysed
   Index multipliers = 0, analysed_multipliers = 0;
   std::vector<bool> translation_free, analysed_afloat;
   bool trusted = false;  // the pattern
@@ -40,12 +40,12 @@ struct Ldlt::Implementation {
   void know(const SparseMatrix& A) {
     const bool any = factors != nullptr && multipliers == analysed_multipliers;
     if (any && trusted && pattern.has_sizes_of(A)) return;
-    const PatternFingerprint of_A(A);
-    if (any && of_A == pattern && translation_free == analysed_afloat) return;
+    const bool same = pattern.is_of(A);
+    if (any && same && translation_free == analysed_afloat) return;
     others.reset();
     if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
     factors->expect_soft(soft);
-    pattern = of_A;
+    if (!same) pattern = Pattern(A);
     analysed_multipliers = multipliers;
     analysed_afloat = translation_free;
   }

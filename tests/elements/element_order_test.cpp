@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <set>
 
 #include "elements/truss.hpp"
 #include "tests/elements/element_checks.hpp"
@@ -28,7 +27,6 @@ ClassicBeam beam_of(Numbers& numbers) {
 struct Row {
   ElementList elements{};
   IndexLists blocks{};
-  std::vector<Vec2> middles{};
 
   explicit Row(Index count) {
     for (Index e = 0; e < count; ++e) {
@@ -43,20 +41,12 @@ struct Row {
         blocks.add({x, z, i + 3, i + 4});
       else
         blocks.add({x, z, i + 2, i + 3, i + 4, i + 5});
-      // They are numbered from the right.
-      middles.emplace_back(-double(e), 0.3 * double(e % 7));
     }
   }
 
   BlockAssembly assembly() const { return {3 * static_cast<Index>(elements.size()) + 3, blocks}; }
-  ElementOrder order() const { return element_order(elements, assembly(), middles); }
+  ElementOrder order() const { return element_order(elements, assembly()); }
 };
-
-std::vector<Index> elements_of(const ElementOrder::Part& part) {
-  std::vector<Index> all = part.others;
-  for (const ElementOrder::Four& four : part.fours) all.insert(all.end(), four.elements.begin(), four.elements.end());
-  return all;
-}
 
 }  // namespace
 
@@ -86,34 +76,13 @@ TEST(ClassicBeamLanes, HaveTheNumbersOfTheirBeamsToTheLastBit) {
 
 TEST(ElementOrder, BeamsStandInFoursAndTheRestAlone) {
   const ElementOrder order = Row(23).order();
-  EXPECT_EQ(order.first.fours.size(), 4u);   // of 19 beams
-  EXPECT_EQ(order.first.others.size(), 7u);  // 3 beams, 4 bars
-  EXPECT_TRUE(order.second.empty());
-  EXPECT_TRUE(order.last.empty());
-  std::vector<Index> all = elements_of(order.first), expected(23);
+  EXPECT_EQ(order.fours.size(), 4u);   // of 19 beams
+  EXPECT_EQ(order.others.size(), 7u);  // 3 beams, 4 bars
+  std::vector<Index> all = order.others, expected(23);
+  for (const ElementOrder::Four& four : order.fours) all.insert(all.end(), four.elements.begin(), four.elements.end());
   std::iota(expected.begin(), expected.end(), Index{0});
   std::sort(all.begin(), all.end());
   EXPECT_EQ(all, expected);
-}
-
-TEST(ElementOrder, HalvesOfManyElementsShareNoUnknown) {
-  const Row row(3001);
-  const ElementOrder order = row.order();
-  const auto unknowns = [&](const ElementOrder::Part& part) {
-    std::set<Index> touched;
-    for (const Index e : elements_of(part))
-      for (const Index i : row.blocks[static_cast<std::size_t>(e)])
-        if (i >= 0) touched.insert(i);
-    return touched;
-  };
-  const std::set<Index> first = unknowns(order.first), second = unknowns(order.second);
-  for (const Index i : second) EXPECT_FALSE(first.contains(i)) << i;
-  EXPECT_EQ(elements_of(order.first).size(), 1500u);
-  EXPECT_EQ(elements_of(order.last).size(), 1u);
-  std::set<Index> all;
-  for (const ElementOrder::Part* part : {&order.first, &order.second, &order.last})
-    for (const Index e : elements_of(*part)) EXPECT_TRUE(all.insert(e).second) << e;
-  EXPECT_EQ(all.size(), row.elements.size());
 }
 
 }  // namespace arcwall::element_order_test

@@ -4,7 +4,7 @@
 // libraries needs no header of CHOLMOD.
 #include <cholmod.h>
 
-#include "core/algebra/solvers/long_pattern.hpp"
+#include "core/algebra/solvers/pattern.hpp"
 
 namespace arcwall {
 

@@ -4,7 +4,7 @@
 
 #include <cassert>
 
-#include "core/algebra/solvers/long_pattern.hpp"
+#include "core/algebra/solvers/pattern.hpp"
 
 namespace arcwall {
 

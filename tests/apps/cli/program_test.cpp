@@ -97,19 +97,6 @@ TEST_F(ProgramTest, QuietPrintsNothingOnStandardOutput) {
   EXPECT_EQ(outcome.out, "");
 }
 
-// A column is divided in so many elements that threads share them.
-TEST_F(ProgramTest, FilesAreTheSameWithAnyNumberOfThreads) {
-  ASSERT_EQ(run("examples lee --out lee.toml").status, 0);
-  const std::string large = "run lee.toml --set member.column.elements=3000 --max-points 4 --no-pictures --quiet";
-  ASSERT_EQ(run(large + " --out one --threads 1").status, 6);
-  ASSERT_EQ(run(large + " --out two --threads 2").status, 6);
-  ASSERT_EQ(run(large + " --out many --threads 1000000").status, 6);
-  for (const char* file : {"path.csv", "events.json", "checkpoint"})
-    for (const char* other : {"two", "many"})
-      EXPECT_EQ(content(work() / "one" / file), content(work() / other / file)) << file << " of " << other;
-  EXPECT_EQ(run("run lee.toml --threads 0").status, 2);
-}
-
 TEST_F(ProgramTest, NoUnitsLeavesTheBracketsOut) {
   ASSERT_EQ(run("truss.toml --no-units").status, 0);
   EXPECT_EQ(content(work() / "truss" / "path.csv").substr(0, 28), "branch,step,arc,lambda,w,uns");
