@@ -19,7 +19,7 @@ namespace arcwall {
 namespace {
 
 constexpr int max_rounds = 100;
-constexpr Index most_pairs = 2;  // that are followed
+constexpr Index most_followed = 2;  // that are followed
 
 // The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants), from a seed.
 // Gives that of those that follow.
@@ -234,10 +234,10 @@ void with_columns(Index count, const Code& code) {
 }  // namespace
 
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
-  const Index n = weights.size(), block = std::min<Index>(most_pairs + 1, pair_count(weights));
+  const Index n = weights.size(), block = std::min<Index>(most_followed + 1, pair_count(weights));
   const Index known = std::max<Index>(0, std::min(pairs_->cols(), block - 1));
   // Contact forces, which come and go at the end, have no weight and need no start.
-  const Index common = std::min(pairs_->rows(), n), kept = std::min(block, most_pairs);
+  const Index common = std::min(pairs_->rows(), n), kept = std::min(block, most_followed);
   X_.resize(n, kept);
   guard_.resize(block > kept ? n : 0);
   if (known > 0) {
