@@ -67,16 +67,16 @@ State SlidingContact::redrawn(const State& state, const LayoutEdit& by,
 
 Transition SlidingContact::remeshed(const State& state, const Direction& forward, const Edit& edit) const {
   constexpr double step = 1e-6;  // [path metric]
-  const auto edit = [&](const State& from) {
+  const auto edited = [&](const State& from) {
     LayoutEdit changed = draft_of(from);
     edit(changed);
     return changed;
   };
-  const LayoutEdit here = edit(state);
+  const LayoutEdit here = edited(state);
   const auto on = layout_of(here);
   Transition transition{.change = Transition::Change::remeshed, .guess = redrawn(state, here, on)};
   const State ahead = moved(state, forward, step);
-  transition.forward = difference(redrawn(ahead, edit(ahead), on), transition.guess);
+  transition.forward = difference(redrawn(ahead, edited(ahead), on), transition.guess);
   transition.forward.dx /= step;
   transition.forward.dlambda /= step;
   return transition;
