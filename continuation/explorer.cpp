@@ -21,7 +21,7 @@ bool nearly_equal(double a, double b, double scale) {
 Explorer::Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched,
                    ExploreOptions options)
     : system_(system), trace_(std::move(trace)), watched_(std::move(watched)), options_(std::move(options)) {
-  trace_.every_ray = trace_.every_ray || options_.policy == BranchPolicy::all;
+  trace_.every_direction = trace_.every_direction || options_.policy == BranchPolicy::all;
   queue_.push_back({.start = {.state = std::move(start)}, .record = {}});
 }
 
@@ -63,12 +63,12 @@ void Explorer::look_at(const Event& event) {
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
-  if (point.rays.empty() && point.mode.dx.size() == 0) return;
+  if (point.ways.empty() && point.mode.dx.size() == 0) return;
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
-  if (!point.rays.empty()) {
+  if (!point.ways.empty()) {
     if (options_.policy == BranchPolicy::all)
-      for (const BranchPoint::Way& ray : point.rays) enqueue_ray(event, ray);
-    return;  // the tracer has taken the ray that `follow` wants
+      for (const BranchPoint::Way& way : point.ways) enqueue_one_sided(event, way);
+    return;  // the tracer has taken the one that `follow` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0};
   if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
@@ -127,10 +127,10 @@ int Explorer::preferred_sign(const BranchPoint& point, const std::vector<Way>& w
   return ways.front().sign;  // along the mode, whose largest component is positive
 }
 
-void Explorer::enqueue_ray(const Event& event, const BranchPoint::Way& ray) {
+void Explorer::enqueue_one_sided(const Event& event, const BranchPoint::Way& way) {
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
-  BranchStart start{.state = system_.with_piece(event.branching->state, ray.piece), .lambda_scale = lambda_scale_};
-  start.forward = start.mode = ray.direction;
+  BranchStart start{.state = system_.with_piece(event.branching->state, way.piece), .lambda_scale = lambda_scale_};
+  start.forward = start.mode = way.direction;
   start.distance = options_.distance;
   start.unstable = event.unstable_before;
   queue_.push_back(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "continuation/events/branch_point.hpp"
 #include "continuation/tracer.hpp"
 
 namespace arcwall {
@@ -95,7 +96,7 @@ class Explorer {
   bool mirror_images(const std::vector<Way>& ways) const;
   int preferred_sign(const BranchPoint& point, const std::vector<Way>& ways) const;
   void enqueue(const Event& event, const Way& way, bool mirrored);
-  void enqueue_ray(const Event& event, const BranchPoint::Way& ray);
+  void enqueue_one_sided(const Event& event, const BranchPoint::Way& way);
   bool known(const BranchPoint& point) const;
   void drop_arrived_at(int other);
 

@@ -93,7 +93,7 @@ PathPoint LoadIncrements::point(const Increment& increment, double lambda) {
   point.state.lambda = lambda;
   const Metric metric(system_.weights(point.state.piece), lambda_scale_);
   point.arc = last_.arc + metric.norm(step);
-  point.held = increment.negative;
+  point.negative_eigenvalues = increment.negative;
   point.count = {.unstable = increment.negative,
                  .stability = increment.negative > 0 ? Stability::unstable : Stability::stable};
   advance_(point.state);

@@ -14,10 +14,9 @@ namespace arcwall {
 /// A converged point of a path.
 struct PathPoint {
   State state{};
-  Direction tangent{};  ///< of unit length, forward along the path
-  double arc = 0.0;     ///< arc length from the branch's first point [path metric]
-  std::optional<Index>
-      held{};  ///< negative eigenvalues with all closed contacts held; empty: one is zero within round-off
+  Direction tangent{};                          ///< of unit length, forward along the path
+  double arc = 0.0;                             ///< arc length from the branch's first point [path metric]
+  std::optional<Index> negative_eigenvalues{};  ///< with all closed contacts held; empty: one is zero within round-off
   StabilityCount count{};
   NearNull nearest{};     ///< estimates of the eigenpairs nearest zero, at most two; none at singular points
   int iterations = 0;     ///< of the step that led here
@@ -44,7 +43,7 @@ enum class EventKind {
 enum class BranchType {
   symmetric,     ///< a pitchfork: the other branch leaves along the mode, both sides alike at first order
   asymmetric,    ///< transcritical
-  one_sided,     ///< several rays leave a change of contact
+  one_sided,     ///< several directions leave a change of contacts
   undetermined,  ///< several modes at one place, or none that is known
 };
 
@@ -62,7 +61,7 @@ struct BranchPoint {
   Direction mode{};                ///< critical mode, of unit length, largest component positive; no λ
   std::vector<Direction> modes{};  ///< all critical modes, `mode` the first
   Direction other{};               ///< unit tangent of the other branch
-  std::vector<Way> rays{};         ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
+  std::vector<Way> ways{};         ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
   Index multiplicity = 1;          ///< of the zero eigenvalue
   Index change = 0;                ///< of the number of negative eigenvalues across it
   double localised = 0.0;          ///< half-width in λ of what is left uncertain
@@ -95,7 +94,7 @@ enum class EndReason {
   min_step,  ///< no step above the least length succeeds
   singular,  ///< the equations are singular where they should not be
   not_finite,
-  no_ray,           ///< no equilibrium leaves a corner
+  no_ray,           ///< no equilibrium leaves a change of contacts
   turning_control,  ///< the controlled quantity turns
   wall_end,         ///< a contact reached the end of its wall
   continuum,        ///< a continuum of equilibria with one load and energy lies ahead

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr std::string_view first_line = "arcwall checkpoint 3\n";
+constexpr std::string_view any_version = "arcwall checkpoint ", first_line = "arcwall checkpoint 4\n";
 constexpr std::size_t length_bytes = 8, crc_bytes = 4, head_bytes = first_line.size() + length_bytes + crc_bytes;
 
 // Little-endian whatever the machine.
@@ -96,7 +96,8 @@ Json from_checkpoint(std::string_view bytes, const std::string& file) {
   const auto refuse = [&](const std::string& what) -> Json {
     throw OutputError(file + ": " + what + "; run the deck again");
   };
-  if (!bytes.starts_with(first_line)) return refuse("is no checkpoint of this program's format");
+  if (!bytes.starts_with(any_version)) return refuse("is no checkpoint of this program");
+  if (!bytes.starts_with(first_line)) return refuse("is a checkpoint of another version of this program");
   if (bytes.size() < head_bytes) return refuse("is damaged: it is not whole");
   const std::string_view length = bytes.substr(first_line.size(), length_bytes), payload = bytes.substr(head_bytes);
   const std::string_view crc = bytes.substr(first_line.size() + length_bytes, crc_bytes);

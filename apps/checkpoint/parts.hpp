@@ -8,7 +8,6 @@
 namespace arcwall {
 
 /// The last value of an enumeration.
-constexpr std::int64_t greatest(CorrectorStatus) { return static_cast<std::int64_t>(CorrectorStatus::not_finite); }
 constexpr std::int64_t greatest(Stability) { return static_cast<std::int64_t>(Stability::undecided); }
 constexpr std::int64_t greatest(EventKind) { return static_cast<std::int64_t>(EventKind::user); }
 constexpr std::int64_t greatest(BranchType) { return static_cast<std::int64_t>(BranchType::undetermined); }
@@ -49,8 +48,8 @@ void parts(Archive& archive, StabilityCount& count) {
 
 template <typename Archive>
 void parts(Archive& archive, PathPoint& point) {
-  archive(point.state, point.tangent, point.arc, point.held, point.count, point.nearest, point.iterations,
-          point.residual, point.guards, point.guard_rates);
+  archive(point.state, point.tangent, point.arc, point.negative_eigenvalues, point.count, point.nearest,
+          point.iterations, point.residual, point.guards, point.guard_rates);
   archive.require(point.guards.size() == point.guard_rates.size() || point.guard_rates.size() == 0);
   archive.require(point.tangent.dx.size() == point.state.x.size() || point.tangent.dx.size() == 0);
 }
@@ -64,7 +63,7 @@ void parts(Archive& archive, BranchPoint::Way& way) {
 
 template <typename Archive>
 void parts(Archive& archive, BranchPoint& point) {
-  archive(point.type, point.state, point.along, point.mode, point.modes, point.other, point.rays, point.multiplicity,
+  archive(point.type, point.state, point.along, point.mode, point.modes, point.other, point.ways, point.multiplicity,
           point.change, point.localised, point.discretisation);
   const auto fits = [&](const Direction& direction) {
     return direction.dx.size() == 0 || direction.dx.size() == point.state.x.size();
@@ -91,13 +90,6 @@ void parts(Archive& archive, BranchEnd& end) {
 template <typename Archive>
 void parts(Archive& archive, Arc& arc) {
   archive(arc.to, arc.events);
-}
-
-template <typename Archive>
-void parts(Archive& archive, Ray& ray) {
-  archive(ray.piece, ray.direction, ray.loading);
-  if constexpr (Archive::reads)
-    archive.require(archive.model().owns(State{.x = ray.direction.dx, .lambda = 0.0, .piece = ray.piece}));
 }
 
 template <typename Archive>

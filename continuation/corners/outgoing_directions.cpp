@@ -145,9 +145,10 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
   return found;
 }
 
-// The ray of a solution in the unknowns of its own piece; none if a rate has the wrong sign.
-std::vector<Ray> ray_of(const System& system, const State& corner, const std::vector<Index>& degenerate,
-                        const RateProblem& problem, const Solution& solution, const CornerOptions& options) {
+// The direction of a solution in the unknowns of its own piece; none if a rate has the wrong sign.
+std::vector<OutgoingDirection> direction_of(const System& system, const State& corner,
+                                            const std::vector<Index>& degenerate, const RateProblem& problem,
+                                            const Solution& solution, const CornerOptions& options) {
   Direction motion{.dx = solution.lambda * problem.free_rate + problem.response * solution.p,
                    .dlambda = solution.lambda};
   Vector gap_rate = solution.lambda * problem.a + problem.M * solution.p;
@@ -161,27 +162,27 @@ std::vector<Ray> ray_of(const System& system, const State& corner, const std::ve
   const double p_zero = options.rate_tolerance * std::max(p.cwiseAbs().maxCoeff(), 1e-300);
   if ((p.array() < -p_zero).any() || (gap_rate.array() < -g_zero).any()) return {};
 
-  Ray ray;
-  ray.piece = corner.piece;
-  ray.loading = Piece(corner.piece.size(), 0);
+  OutgoingDirection way;
+  way.piece = corner.piece;
+  way.loading = Piece(corner.piece.size(), 0);
   for (Index i = 0; i < p.size(); ++i) {
     const auto j = static_cast<std::size_t>(degenerate[static_cast<std::size_t>(i)]);
-    if (p[i] > p_zero) ray.piece[j] = ray.loading[j] = 1;
-    if (p[i] <= p_zero && gap_rate[i] > g_zero) ray.piece[j] = 0;
+    if (p[i] > p_zero) way.piece[j] = way.loading[j] = 1;
+    if (p[i] <= p_zero && gap_rate[i] > g_zero) way.piece[j] = 0;
   }
-  ray.direction.dlambda = motion.dlambda;
-  ray.direction.dx = system.transfer(motion.dx, problem.open.piece, ray.piece);
+  way.direction.dlambda = motion.dlambda;
+  way.direction.dx = system.transfer(motion.dx, problem.open.piece, way.piece);
   for (Index i = 0; i < p.size(); ++i)
-    if (const auto k = system.multiplier_index(ray.piece, degenerate[static_cast<std::size_t>(i)]))
-      ray.direction.dx[*k] = p[i] * system.multiplier_scale();
-  return {std::move(ray)};
+    if (const auto k = system.multiplier_index(way.piece, degenerate[static_cast<std::size_t>(i)]))
+      way.direction.dx[*k] = p[i] * system.multiplier_scale();
+  return {std::move(way)};
 }
 
-// Whether two rays move the structure alike; contact forces follow from that.
-bool same(const System& system, const Ray& a, const Ray& b, double tolerance) {
+// Whether two directions move the structure alike; contact forces follow from that.
+bool same(const System& system, const OutgoingDirection& a, const OutgoingDirection& b, double tolerance) {
   const Vector weights = system.weights(a.piece);
   const Index n = a.direction.dx.size() - system.multiplier_count(a.piece) - system.border_width(a.piece);
-  const auto x = [n](const Ray& ray) { return ray.direction.dx.head(n).array(); };
+  const auto x = [n](const OutgoingDirection& way) { return way.direction.dx.head(n).array(); };
   const auto w = weights.head(n).array();
   const double aa = (w * x(a).square()).sum(), bb = (w * x(b).square()).sum(), ab = (w * x(a) * x(b)).sum();
   const double lambda = a.direction.dlambda * b.direction.dlambda;
@@ -190,18 +191,21 @@ bool same(const System& system, const Ray& a, const Ray& b, double tolerance) {
 
 }  // namespace
 
-std::vector<Ray> rays_of(const System& system, const State& corner, const std::vector<Index>& degenerate,
-                         const CornerOptions& options, CornerWorkspace& workspace) {
+std::vector<OutgoingDirection> outgoing_directions(const System& system, const State& corner,
+                                                   const std::vector<Index>& degenerate, const CornerOptions& options,
+                                                   CornerWorkspace& workspace) {
   const auto problem = reduce(system, corner, degenerate, workspace);
   if (!problem) return {};
   const bool small = static_cast<int>(degenerate.size()) <= options.max_enumerated;
-  std::vector<Ray> rays;
+  std::vector<OutgoingDirection> found;
   for (const Solution& solution : small ? enumerate(*problem) : pivoted(*problem))
-    for (Ray& ray : ray_of(system, corner, degenerate, *problem, solution, options)) {
-      const auto known = [&](const Ray& other) { return same(system, ray, other, options.same_direction); };
-      if (std::none_of(rays.begin(), rays.end(), known)) rays.push_back(std::move(ray));
+    for (OutgoingDirection& way : direction_of(system, corner, degenerate, *problem, solution, options)) {
+      const auto known = [&](const OutgoingDirection& other) {
+        return same(system, way, other, options.same_direction);
+      };
+      if (std::none_of(found.begin(), found.end(), known)) found.push_back(std::move(way));
     }
-  return rays;
+  return found;
 }
 
 }  // namespace arcwall

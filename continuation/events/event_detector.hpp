@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 
+#include "continuation/metric.hpp"
 #include "continuation/path_point.hpp"
+#include "core/observable.hpp"
 
 namespace arcwall {
 
@@ -18,9 +21,16 @@ struct EventDetector {
   std::string label{};
   Crossing crossing = Crossing::any;
   std::function<double(const PathPoint&)> value{};  ///< of order 1; its sign is what counts
-  std::function<double(const PathPoint&)>
-      integral{};  ///< its integral over the arc length, where known: zeros come in pairs
+  /// Its integral over the arc length, where known: it shows zeros that come in pairs inside a step.
+  std::function<double(const PathPoint&)> integral{};
 };
+
+/// λ′ of the unit tangent, scaled to [−1, 1]: its zeros are limit points.
+EventDetector limit_point_detector(const Metric& metric);
+
+/// The rate of a quantity along the unit tangent, scaled likewise: its zeros are turning points of the quantity.
+EventDetector turning_detector(const System& system, const Metric& metric, std::shared_ptr<const Observable> quantity,
+                               std::string label);
 
 /// Signs below this are round-off.
 constexpr double detector_noise = 1e-7;

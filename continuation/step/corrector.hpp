@@ -4,19 +4,10 @@
 
 #include "continuation/factorized_equations.hpp"
 #include "continuation/metric.hpp"
+#include "continuation/step/corrector_options.hpp"
 #include "continuation/step/path_constraint.hpp"
 
 namespace arcwall {
-
-/// When Newton's method has arrived. All lengths in the path metric.
-struct CorrectorOptions {
-  double tolerance = 1e-12;  ///< of the distance that is left, estimated from the last two corrections
-  double straight = 1e-4;    ///< part of a first correction that may be left
-  double stagnation = 1e-9;  ///< corrections below this that no longer shrink are round-off
-  double divergence = 3.0;   ///< a correction longer than this times the one before ends the attempt
-  int max_iterations = 10;
-  int patient_iterations = 40;  ///< of correct_patiently()
-};
 
 enum class CorrectorStatus { converged, too_many_iterations, diverged, complex_roots, singular, not_finite };
 

@@ -35,7 +35,8 @@ LinearContactToy rate_problem(const Matrix& M, const Vector& a) {
 }
 
 // Equilibrium of the rates, and 0 ≤ ṗ ⊥ ġ ≥ 0 for the weak contacts.
-void expect_ray(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak, const Ray& ray) {
+void expect_ray(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak,
+                const OutgoingDirection& ray) {
   Linearization now;
   const State there = toy.with_piece(corner, ray.piece);
   toy.linearize(there, now);
@@ -55,16 +56,17 @@ void expect_ray(const LinearContactToy& toy, const State& corner, const std::vec
   }
 }
 
-std::vector<Ray> rays(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak,
-                      const CornerOptions& options = {}) {
+std::vector<OutgoingDirection> rays(const LinearContactToy& toy, const State& corner, const std::vector<Index>& weak,
+                                    const CornerOptions& options = {}) {
   CornerWorkspace workspace;
-  std::vector<Ray> found = rays_of(toy, corner, weak, options, workspace);
-  for (const Ray& ray : found) expect_ray(toy, corner, weak, ray);
+  std::vector<OutgoingDirection> found = outgoing_directions(toy, corner, weak, options, workspace);
+  for (const OutgoingDirection& ray : found) expect_ray(toy, corner, weak, ray);
   return found;
 }
 
-Index with_rising_lambda(const std::vector<Ray>& found) {
-  return std::count_if(found.begin(), found.end(), [](const Ray& ray) { return ray.direction.dlambda > 0.0; });
+Index with_rising_lambda(const std::vector<OutgoingDirection>& found) {
+  return std::count_if(found.begin(), found.end(),
+                       [](const OutgoingDirection& ray) { return ray.direction.dlambda > 0.0; });
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ TEST(Corner, AStopIsLeftForwardsClosedAndBackwardsOpen) {
   const State corner{.x = Vector{{1.0, 1.5}}, .lambda = 1.0, .piece = {0}};
   const auto found = rays(toy, corner, {0});
   ASSERT_EQ(found.size(), 2U);
-  for (const Ray& ray : found) {
+  for (const OutgoingDirection& ray : found) {
     const bool forward = ray.direction.dlambda > 0.0;
     EXPECT_EQ(ray.piece, forward ? Piece{1} : Piece{0});
     // Behind the stop ẋ = (0, 1/k), ṗ = 1; before it ẋ = (1, 1 + 1/k).
@@ -111,7 +113,7 @@ TEST(Corner, SeveralRaysAreAllFound) {
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(with_rising_lambda(found), 0);
   std::vector<Piece> pieces;
-  for (const Ray& ray : found) pieces.push_back(ray.piece);
+  for (const OutgoingDirection& ray : found) pieces.push_back(ray.piece);
   const std::vector<Piece> expected{{0, 0}, {0, 1}, {1, 0}, {1, 1}};
   EXPECT_TRUE(std::is_permutation(pieces.begin(), pieces.end(), expected.begin(), expected.end()));
 }
@@ -128,7 +130,8 @@ TEST(Corner, OneOfOppositeContactsThatAreSymmetricOpensAsTheOtherCloses) {
   LinearContactToy toy = rate_problem(Matrix::Identity(2, 2), -Vector::Ones(2));
   const auto found = rays(toy, origin(toy), all(toy));
   ASSERT_EQ(found.size(), 2U);
-  for (const Ray& ray : found) EXPECT_EQ(ray.piece, ray.direction.dlambda > 0.0 ? (Piece{1, 1}) : (Piece{0, 0}));
+  for (const OutgoingDirection& ray : found)
+    EXPECT_EQ(ray.piece, ray.direction.dlambda > 0.0 ? (Piece{1, 1}) : (Piece{0, 0}));
 }
 
 // One stop named twice: the force may be shared in any way, the motion is one.
@@ -150,7 +153,7 @@ TEST(Corner, StronglyClosedContactsHoldMeanwhile) {
   const State corner{.x = Vector{{1.0, 3.0, 1.0}}, .lambda = 2.0, .piece = {1, 0}};
   const auto found = rays(toy, corner, {1});
   ASSERT_EQ(found.size(), 2U);
-  for (const Ray& ray : found) {
+  for (const OutgoingDirection& ray : found) {
     EXPECT_EQ(ray.piece[0], 1);
     EXPECT_EQ(ray.piece[1], ray.direction.dlambda > 0.0 ? 1 : 0);
   }
@@ -171,8 +174,8 @@ TEST(Corner, PivotingFindsTheRaysOfEnumerationForManyContacts) {
     const auto pivoted = rays(toy, origin(toy), all(toy), {.max_enumerated = 0});
     ASSERT_EQ(enumerated.size(), 2U);
     ASSERT_EQ(pivoted.size(), 2U);
-    for (const Ray& a : pivoted) {
-      const auto same = [&](const Ray& b) {
+    for (const OutgoingDirection& a : pivoted) {
+      const auto same = [&](const OutgoingDirection& b) {
         if (a.piece != b.piece || a.direction.dlambda * b.direction.dlambda <= 0.0) return false;
         const Vector u = a.direction.dx / a.direction.dlambda, v = b.direction.dx / b.direction.dlambda;
         return (u - v).norm() <= 1e-9 * u.norm();
@@ -190,7 +193,7 @@ TEST(Corner, MoreThanTwelveWeakContactsAreSolvedByPivotingByDefault) {
   const LinearContactToy toy = rate_problem(Matrix::Identity(w, w), a);
   const auto found = rays(toy, origin(toy), all(toy));
   ASSERT_EQ(found.size(), 2U);
-  for (const Ray& ray : found)
+  for (const OutgoingDirection& ray : found)
     for (Index i = 0; i < w; ++i)
       EXPECT_EQ(ray.piece[static_cast<std::size_t>(i)] != 0, a[i] * ray.direction.dlambda < 0.0);
 }
@@ -202,7 +205,7 @@ TEST(Corner, ASingularStiffnessGivesNoRays) {
   toy.G = Matrix::Ones(1, 1);
   toy.gap0 = Vector::Zero(1);
   CornerWorkspace workspace;
-  EXPECT_TRUE(rays_of(toy, origin(toy), {0}, {}, workspace).empty());
+  EXPECT_TRUE(outgoing_directions(toy, origin(toy), {0}, {}, workspace).empty());
 }
 
 }  // namespace arcwall::corner_test

@@ -131,6 +131,21 @@ TEST(Checkpoint, IsRefusedWithAnyBitChangedAndWhenCut) {
   EXPECT_THROW(from_checkpoint(bytes + '\0', "checkpoint"), OutputError);
 }
 
+// What varies while a branch is traced differs from version to version: an old run is not taken for one of today.
+TEST(Checkpoint, OfAnotherVersionIsRefusedWithASentence) {
+  std::string bytes = begun("truss").checkpoint();
+  const std::string now = "arcwall checkpoint 4\n";
+  ASSERT_TRUE(bytes.starts_with(now));
+  bytes.replace(0, now.size(), "arcwall checkpoint 3\n");
+  try {
+    from_checkpoint(bytes, "out/checkpoint");
+    FAIL() << "taken";
+  } catch (const OutputError& refusal) {
+    EXPECT_STREQ(refusal.what(),
+                 "out/checkpoint: is a checkpoint of another version of this program; run the deck again");
+  }
+}
+
 // Bytes with a right sum that no run can have written.
 TEST(Checkpoint, IsRefusedWhoseContentIsNotThatOfARun) {
   RunUnderWay run = begun("channel", {"member.column.elements=8"});

@@ -1,0 +1,177 @@
+#include "continuation/arc_step.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "continuation/corners/corner.hpp"
+#include "continuation/events/eigenvalue_touch.hpp"
+#include "continuation/events/step_events.hpp"
+#include "continuation/known_places.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// A step to the first of the singular points that were located with the last one.
+StepTried step_to_pending(const StepOrigin& origin) {
+  return {.result = StepEnd{.point = origin.from.pending_singular.front().at}};
+}
+
+// The count at an arc's end.
+StabilityCount count_at(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end) {
+  if (!end.singular.empty()) return {};  // an eigenvalue is zero there
+  if (end.at_continuum()) return {.unstable = origin.from.count_after.unstable};
+  return tools.counter.count(end.point.state, end.point.negative_eigenvalues);
+}
+
+// A pitchfork met along its own branch, where λ turns and an eigenvalue touches zero, was reported on the other.
+std::optional<BranchEnd> end_at_crossed_pitchfork(TraceTools& tools, const StepOrigin& origin, ArcEnd& end) {
+  const bool crosses = !end.singular.empty() && end.singular.front().branching && end.singular.front().change % 2 == 0;
+  if (!crosses) return std::nullopt;
+  auto known = passed_known_place(tools, origin, end.point);
+  if (!known) return std::nullopt;
+  end.point.state = std::move(known->state);
+  end.singular.clear();
+  end.event.reset();
+  return std::move(known->end);
+}
+
+// The bound that is met at a target value which was landed on: this one, or another of the same quantity and value.
+std::optional<BranchEnd> bound_at(const std::vector<TargetValue>& targets, const ArcEnd& end) {
+  std::optional<BranchEnd> met;
+  if (!end.event || end.event->what != EventPlace::What::target_value) return met;
+  const TargetValue& landed = targets[end.event->which];
+  const State& state = end.point.state;
+  for (const TargetValue& target : targets)
+    if (target.stops && target.value == landed.value && target.quantity->value(state) == landed.quantity->value(state))
+      met = {.reason = EndReason::stop, .detail = target.label};
+  return met;
+}
+
+std::optional<BranchEnd> stop_at_events(const std::vector<StopEvent>& stops, const std::vector<Event>& events) {
+  std::optional<BranchEnd> met;
+  for (const StopEvent& stop : stops)
+    if (std::any_of(events.begin(), events.end(), [&](const Event& event) { return event.kind == stop.kind; }))
+      met = {.reason = EndReason::stop, .detail = stop.label};
+  return met;
+}
+
+// What is known just behind an arc's end if contacts do not change there.
+Departure leave_smoothly(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                         const StabilityCount& behind) {
+  const Departure& from = origin.from;
+  Departure leave{.negative_eigenvalues = from.negative_eigenvalues, .count_after = behind};
+  if (!end.singular.empty()) {
+    const SingularPoint& first = end.singular.front();
+    leave.pending_singular.assign(std::next(end.singular.begin()), end.singular.end());
+    leave.negative_eigenvalues = *from.negative_eigenvalues + first.change;
+    leave.zero_eigenvalues = first.branching ? first.branching->multiplicity : 1;
+  } else {
+    const bool has_count = end.point.negative_eigenvalues.has_value();
+    if (has_count || end.at_continuum()) leave.negative_eigenvalues = end.point.negative_eigenvalues;
+    leave.zero_eigenvalues = has_count ? 0 : 1;
+  }
+  leave.signs = signs_behind(tools, origin, end);
+  return leave;
+}
+
+// The change of contacts at an arc's end.
+CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcEnd& end,
+                         const std::vector<int>& signs) {
+  const bool stands = end.length <= tools.options.guard_tolerance;
+  Corner corner{.at = end.point,
+                .slack = end.landing->slack,
+                .signs = signs,
+                .before = state.from.count_after,
+                .lambda_scale = state.lambda_scale,
+                .without_progress = stands ? state.corners_without_progress + 1 : 0};
+  const bool at_bound = end.landing->guard >= static_cast<Index>(end.point.state.piece.size());
+  return at_bound ? pass_bound(tools, std::move(corner), end.landing->guard)
+                  : turn_corner(tools, std::move(corner), end.landing->guard, state.visited);
+}
+
+// What is known just behind a change of contacts.
+void leave_corner(const TraceTools& tools, const CornerPassed& passed, Departure& leave) {
+  if (passed.end) return;
+  const PathPoint& next = passed.ahead ? *passed.ahead : passed.at;
+  const std::vector<int> signs = signs_at(tools.detectors, next);
+  for (std::size_t i = 0; i < signs.size(); ++i)
+    if (signs[i] != 0 || passed.ahead) leave.signs[i] = signs[i];
+  leave.negative_eigenvalues = next.negative_eigenvalues;
+  leave.count_after = next.count;
+}
+
+// The next step's start: the point itself, and those of before as far as they serve.
+void begin_next(const StepOrigin& origin, const PathPoint& next, bool smooth, Departure& leave) {
+  leave.point = next;
+  if (next.nearest.values.size() == 0) leave.last_pairs = origin.from.nearest();
+  if (!smooth) return;
+  leave.eigenvalues_before = eigenvalues_of_modes(next, origin.point(), origin.metric);
+  leave.before = origin.point();
+  leave.before->nearest = {};
+}
+
+Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& origin, ArcEnd end, double s) {
+  Accepted accepted{.corners_without_progress = state.corners_without_progress};
+  end.point.count = count_at(tools, origin, end);
+  accepted.end = end_at_crossed_pitchfork(tools, origin, end);
+  const StabilityCount behind = count_behind(tools, origin, end);
+  accepted.arc.events = events_at(tools, origin, end, behind);
+  accepted.leave = leave_smoothly(tools, origin, end, behind);
+  if (auto bound = bound_at(tools.options.target_values, end)) accepted.end = std::move(bound);
+  if (!end.landing && !accepted.end)
+    if (auto known = passed_known_place(tools, origin, end.point)) accepted.end = std::move(known->end);
+  accepted.progress = {
+      .iterations = end.point.iterations, .turn = end.turn, .taken = end.landing || end.event ? end.length : s};
+
+  bool smooth = !end.landing && end.length > 0.0;
+  if (end.landing) accepted.leave.count_after = origin.from.count_after;
+  if (end.landing && !accepted.end) {
+    CornerPassed passed = pass_corner(tools, state, end, accepted.leave.signs);
+    leave_corner(tools, passed, accepted.leave);
+    accepted.corners_without_progress = passed.without_progress;
+    for (Event& event : passed.events) accepted.arc.events.push_back(std::move(event));
+    accepted.visit = std::move(passed.visit);
+    accepted.end = std::move(passed.end);
+    end.point = std::move(passed.at);
+    if (passed.ahead) accepted.pending = Arc{.to = std::move(*passed.ahead)};
+    const Index closed = end.point.state.piece.closed_count();
+    if (!accepted.end && tools.options.stop_contacts && closed >= *tools.options.stop_contacts)
+      accepted.end = {.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
+  }
+  if (!accepted.end) accepted.end = stop_at_events(tools.options.stop_events, accepted.arc.events);
+  begin_next(origin, accepted.pending ? accepted.pending->to : end.point, smooth, accepted.leave);
+  accepted.arc.to = std::move(end.point);
+  return accepted;
+}
+
+}  // namespace
+
+ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s) {
+  const StepOrigin origin{.from = state.from,
+                          .start = state.start,
+                          .metric = tools.metric_on(state.from.point.state.piece, state.lambda_scale),
+                          .leaves_branch_point = state.points == 1 && state.start.forward};
+  StepTried step =
+      state.from.pending_singular.empty() ? try_step_clear_of_singular(tools, origin, s) : step_to_pending(origin);
+  ArcAttempt attempt{.ledger = std::move(step.attempt)};
+  attempt.ledger.arc = state.from.point.arc;
+  attempt.ledger.radius = s;
+  const auto rejected = [&](Rejected why) {
+    attempt.ledger.outcome = why.outcome;
+    attempt.result = why;
+    return std::move(attempt);
+  };
+  if (auto* const retry = std::get_if<Retry>(&step.result)) {
+    attempt.result = std::move(*retry);
+    return attempt;
+  }
+  if (const auto* const why = std::get_if<Rejected>(&step.result)) return rejected(*why);
+  ArcEndSearch located = locate_events(tools, origin, std::get<StepEnd>(std::move(step.result)));
+  if (!located.end) return rejected({.outcome = StepOutcome::events_unclear, .failure = located.failure});
+  attempt.result = accept(tools, state, origin, std::move(*located.end), s);
+  return attempt;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,103 @@
+#include "continuation/branch_start.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "continuation/corners/corner.hpp"
+#include "continuation/step/point_on_path.hpp"
+
+namespace arcwall {
+
+namespace {
+
+Arc first_arc(const PathPoint& at, std::vector<Event> corner_events) {
+  Arc arc{.to = at, .events = std::move(corner_events)};
+  arc.events.insert(arc.events.begin(), Event{.kind = EventKind::start,
+                                              .state = at.state,
+                                              .residual = at.residual,
+                                              .unstable_before = at.count.unstable,
+                                              .unstable_after = at.count.unstable});
+  return arc;
+}
+
+// The start on the path at its own λ, or as it is if that cannot be corrected.
+CorrectorResult correct_start(TraceTools& tools, const Metric& metric, const State& start, const Direction& forward) {
+  constexpr double distance = 1e-6;  // of the start from the path [path metric]
+  const ParameterValue parameter;
+  CorrectorResult result =
+      tools.corrector.correct(start, ValueConstraint(parameter, start.lambda), metric, forward, distance);
+  return result.converged() ? result : tools.corrector.inspect(start, metric, forward);
+}
+
+// Its forward tangent, and the contacts that already touch.
+BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
+  const double first = tools.options.step.first;
+  const State& start = state.start.state;
+  const Metric metric = tools.metric_on(start.piece, state.lambda_scale);
+  const Direction forward{.dx = Vector::Zero(start.x.size()), .dlambda = first > 0.0 ? 1.0 : -1.0};
+  CorrectorResult result = correct_start(tools, metric, start, forward);
+  BranchBegun begun;
+  if (!result.converged()) {
+    const bool finite = result.status != CorrectorStatus::not_finite;
+    begun.end = {.reason = finite ? EndReason::singular : EndReason::not_finite, .detail = "at the start"};
+    return begun;
+  }
+  PathPoint at = path_point(tools.system, metric, std::move(result), forward);
+  decide_count(tools, at);
+  std::vector<Event> events;
+  const Piece& piece = at.state.piece;
+  if (tools.system.guard_count(piece) > 0 &&
+      !degenerate_contacts(at.guards, piece, tools.options.guard_tolerance).empty()) {
+    CornerPassed passed =
+        turn_corner(tools, {.at = at, .lambda_scale = state.lambda_scale, .begins_branch = true}, std::nullopt, {});
+    begun.end = std::move(passed.end);
+    if (begun.end) return begun;
+    begun.visit = std::move(passed.visit);
+    events = std::move(passed.events);
+    at = std::move(passed.at);
+  }
+  at.count = tools.counter.count(at.state, at.negative_eigenvalues);
+  begun.step_length = std::abs(first / at.tangent.dlambda);
+  begun.from.signs = signs_at(tools.detectors, at);
+  begun.from.negative_eigenvalues = at.negative_eigenvalues;
+  begun.from.count_after = at.count;
+  begun.arc = first_arc(at, std::move(events));
+  begun.from.point = std::move(at);
+  return begun;
+}
+
+// At a branch point K is singular: signs and counts are taken up behind the first step.
+BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
+  const BranchStart& start = state.start;
+  const Direction& forward = *start.forward;
+  const Metric metric = tools.metric_on(start.state.piece, state.lambda_scale);
+  CorrectorResult result = tools.corrector.inspect(start.state, metric, forward);
+  result.state = start.state;
+  result.tangent = forward;
+  PathPoint at = path_point(tools.system, metric, std::move(result), forward);
+  at.negative_eigenvalues = std::nullopt;
+  at.count = {.unstable = start.unstable, .stability = Stability::undecided};
+  BranchBegun begun{.arc = first_arc(at, {}), .step_length = start.distance};
+  begun.from.signs = signs_at(tools.detectors, at);
+  begun.from.point = std::move(at);
+  return begun;
+}
+
+}  // namespace
+
+double natural_lambda_scale(TraceTools& tools, const State& start) {
+  const double first = std::abs(tools.options.step.first);
+  const Metric metric = tools.metric_on(start.piece, 1.0);
+  const Direction up{.dx = Vector::Zero(start.x.size()), .dlambda = 1.0};
+  const CorrectorResult at = tools.corrector.inspect(start, metric, up);
+  tools.corrector.track_from({});
+  if (!at.converged()) return first;
+  const double scale = std::abs(at.tangent.dlambda) / std::sqrt(metric.inner_x(at.tangent, at.tangent));
+  return std::isfinite(scale) && scale > 0.0 ? scale : first;
+}
+
+BranchBegun begin_branch(TraceTools& tools, const TracerState& state) {
+  return state.start.forward ? begin_at_branch_point(tools, state) : begin_at_state(tools, state);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,120 @@
+#include "continuation/corners/choice.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "continuation/path_tolerances.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double same_way = 1.0 - 1e-6;  // cosine above which two directions are one
+
+// A direction with all contacts open, of unit length: how the structure moves.
+Direction open_direction(const TraceTools& tools, const Metric& open_metric, const Direction& direction,
+                         const Piece& piece) {
+  return unit(open_metric,
+              {.dx = tools.system.transfer(direction.dx, piece, piece.all_open()), .dlambda = direction.dlambda});
+}
+
+// How good it is to go on along a direction; the least is best.
+struct Rank {
+  bool unstable, continues;  // a continuation of the old piece only where nothing else leaves
+  Index count;
+  double backward;
+  auto operator<=>(const Rank&) const = default;
+};
+
+// Of several directions, `incoming` being the one by which the place was reached.
+ChosenDirection best_of(TraceTools& tools, std::vector<OutgoingDirection> ways, const PathPoint& at,
+                        const Metric& open_metric, const Direction& incoming) {
+  ChosenDirection chosen;
+  Rank best_rank{};
+  int stable = 0;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const std::optional<Index> count = count_along(tools, ways[i], at.state);
+    const Index negative = count.value_or(std::numeric_limits<Index>::max());
+    const bool continues = ways[i].piece == at.state.piece;
+    stable += negative == 0;
+    const Direction way = open_direction(tools, open_metric, ways[i].direction, ways[i].piece);
+    const Rank rank{.unstable = negative > 0,
+                    .continues = negative > 0 && continues != tools.options.stay,
+                    .count = negative,
+                    .backward = -open_metric.inner(way, incoming)};
+    if (best && !(rank < best_rank)) continue;
+    best_rank = rank;
+    best = i;
+    chosen.unstable = count;
+  }
+  chosen.taken = std::move(ways[*best]);
+  ways.erase(ways.begin() + static_cast<std::ptrdiff_t>(*best));
+  const bool path_had_choice = stable != 1 || tools.options.every_direction;
+  if (path_had_choice) chosen.untaken = std::move(ways);
+  return chosen;
+}
+
+}  // namespace
+
+void remember(std::vector<VisitedCorner>& visited, CornerVisit visit) {
+  if (visit.which == visited.size()) {
+    visited.push_back(std::move(visit.corner));
+    return;
+  }
+  std::vector<Direction>& ways = visited[visit.which].ways;
+  for (Direction& way : visit.corner.ways) ways.push_back(std::move(way));
+}
+
+Piece holding_along(const TraceTools& tools, const OutgoingDirection& way, const State& corner) {
+  Piece piece = strictly_active(tools.system, corner, tools.options.guard_tolerance);
+  for (std::size_t j = 0; j < piece.size(); ++j)
+    if (way.loading[j]) piece[j] = 1;
+  return piece;
+}
+
+std::optional<Index> count_along(TraceTools& tools, const OutgoingDirection& way, const State& corner) {
+  return tools.counter.negative_on(tools.system.with_piece(corner, holding_along(tools, way, corner)));
+}
+
+Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std::vector<OutgoingDirection> ways,
+              const PathPoint& at, double lambda_scale) {
+  const Piece open = at.state.piece.all_open();
+  const Metric metric = tools.metric_on(open, lambda_scale);
+  const State here = tools.system.with_piece(at.state, open);
+  const Direction incoming = open_direction(tools, metric, at.tangent, at.state.piece);
+  const auto opened = [&](const OutgoingDirection& way) {
+    return open_direction(tools, metric, way.direction, way.piece);
+  };
+
+  const auto is_here = [&](const VisitedCorner& v) {
+    return std::abs(v.corner.lambda - here.lambda) <= coincidence_tolerance * metric.lambda_scale() &&
+           v.corner.piece == here.piece && metric.distance(v.corner, here) <= coincidence_tolerance;
+  };
+  const auto place = std::find_if(visited.begin(), visited.end(), is_here);
+  std::vector<Direction> known = place == visited.end() ? std::vector<Direction>{} : place->ways;
+  const bool again = !known.empty();
+  known.push_back(reversed(incoming));
+  Choice choice{.visit = {.which = static_cast<std::size_t>(place - visited.begin()),
+                          .corner = {.corner = here, .ways = {known.back()}}}};
+
+  std::erase_if(ways, [&](const OutgoingDirection& way) {
+    const Direction direction = opened(way);
+    return std::any_of(known.begin(), known.end(),
+                       [&](const Direction& d) { return metric.inner(d, direction) > same_way; });
+  });
+  if (ways.empty()) {
+    choice.result =
+        again ? BranchEnd{.reason = EndReason::closed_loop, .detail = "the branch came back to a change of contact"}
+              : BranchEnd{.reason = EndReason::no_ray, .detail = "no equilibrium leaves the change of contact"};
+    return choice;
+  }
+  ChosenDirection chosen = ways.size() == 1 ? ChosenDirection{.taken = std::move(ways.front())}
+                                            : best_of(tools, std::move(ways), at, metric, incoming);
+  choice.visit.corner.ways.push_back(opened(chosen.taken));
+  choice.result = std::move(chosen);
+  return choice;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "continuation/corners/choice.hpp"
+#include "continuation/trace_tools.hpp"
+
+namespace arcwall {
+
+/// A point at which guards are zero, and what is known of the path just before it.
+struct Corner {
+  PathPoint at{};
+  double slack = 0.0;          ///< by how much other guards are violated: those within it belong to the change
+  std::vector<int> signs{};    ///< of the detectors, before
+  StabilityCount before{};     ///< the count, before
+  double lambda_scale = 1.0;   ///< of the path metric
+  int without_progress = 0;    ///< changes of contacts in a row at this place
+  bool begins_branch = false;  ///< the branch begins here: nothing has turned before
+};
+
+/// Where a corner leads.
+struct CornerPassed {
+  PathPoint at{};                      ///< the same place on the piece ahead; where that begins elsewhere, still behind
+  std::optional<PathPoint> ahead{};    ///< the first point of the piece ahead where that is another place
+  std::vector<Event> events{};         ///< at `at`
+  std::optional<BranchEnd> end{};      ///< why nothing can be followed, where that is so
+  std::optional<CornerVisit> visit{};  ///< to be remembered
+  int without_progress = 0;
+};
+
+/// Leaves a corner where contacts close or open, by one of its outgoing directions. `landed`: the guard that was landed
+/// on, if one was.
+CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
+                         const std::vector<VisitedCorner>& visited);
+
+/// Passes a validity bound of a piece (spreading, gathering, …), `bound` among its guards.
+CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound);
+
+/// λ or a monitor turns between the signs before a corner and a point behind it: an event each, like `event`.
+void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, const PathPoint& behind, Event event,
+               std::vector<Event>& events);
+
+}  // namespace arcwall

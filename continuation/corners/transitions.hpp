@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "continuation/trace_tools.hpp"
+
+namespace arcwall {
+
+/// How long a correction onto the piece ahead may take: of a nearly perfect structure hardly more than the sum of the
+/// lengths of straight contacts is determined, and corrections swing before they settle.
+enum class Effort { usual, patient };
+
+/// The first point of the piece behind a transition, with its count. Empty if none is found.
+std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
+                               double lambda_scale, Effort effort = Effort::usual);
+
+/// The start of a step in the unknowns of a piece whose guards see what is below `margin` at `violated`, where the step
+/// led. Empty if no such piece passes through the start.
+std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,
+                                          double margin);
+
+}  // namespace arcwall

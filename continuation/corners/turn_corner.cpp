@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <utility>
+
+#include "continuation/corners/corner.hpp"
+#include "continuation/step/point_on_path.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr int most_changes_at_one_place = 50;
+
+// The contacts that are degenerate at a corner, the one that was landed on among them.
+std::vector<Index> degenerate_at(const TraceTools& tools, const Corner& corner, std::optional<Index> landed) {
+  const double tolerance = std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
+  std::vector<Index> degenerate = degenerate_contacts(corner.at.guards, corner.at.state.piece, tolerance);
+  if (landed && std::find(degenerate.begin(), degenerate.end(), *landed) == degenerate.end())
+    degenerate.push_back(*landed);
+  return degenerate;
+}
+
+// Each direction that is not taken begins a branch of its own.
+Event one_sided_branch_point(const TraceTools& tools, const Corner& corner, const PathPoint& behind,
+                             const std::vector<OutgoingDirection>& untaken) {
+  auto point = std::make_shared<BranchPoint>();
+  point->type = BranchType::one_sided;
+  point->state = behind.state;
+  point->along = behind.tangent;
+  point->discretisation = tools.options.node_contacts;
+  for (const OutgoingDirection& way : untaken) {
+    const Metric metric = tools.metric_on(way.piece, corner.lambda_scale);
+    point->ways.push_back({.piece = way.piece, .direction = unit(metric, way.direction)});
+  }
+  return {.kind = EventKind::branch_point,
+          .state = behind.state,
+          .arc = behind.arc,
+          .residual = corner.at.residual,
+          .unstable_before = corner.before.unstable,
+          .unstable_after = behind.count.unstable,
+          .branching = std::move(point)};
+}
+
+std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, const PathPoint& behind,
+                             const std::vector<OutgoingDirection>& untaken) {
+  std::vector<Event> events;
+  Event event{.state = behind.state,
+              .arc = behind.arc,
+              .residual = corner.at.residual,
+              .localised = 0.0,
+              .unstable_before = corner.before.unstable,
+              .unstable_after = behind.count.unstable};
+  const Piece &old = corner.at.state.piece, &now = behind.state.piece;
+  for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_opens}) {
+    event.kind = kind;
+    event.guards.clear();
+    for (std::size_t j = 0; j < now.size(); ++j)
+      if (old[j] != now[j] && (now[j] != 0) == (kind == EventKind::contact_closes))
+        event.guards.push_back(static_cast<Index>(j));
+    if (!event.guards.empty()) events.push_back(event);
+  }
+  if (corner.begins_branch) return events;
+  add_turns(tools, corner.signs, behind, event, events);
+  if (!untaken.empty()) events.push_back(one_sided_branch_point(tools, corner, behind, untaken));
+  return events;
+}
+
+// The corner as a point of the piece along a direction, with the count along it.
+std::optional<PathPoint> point_along(TraceTools& tools, const Corner& corner, const ChosenDirection& chosen) {
+  const PathPoint& before = corner.at;
+  const OutgoingDirection& way = chosen.taken;
+  const State state = tools.system.with_piece(before.state, way.piece);
+  const Metric metric = tools.metric_on(way.piece, corner.lambda_scale);
+  CorrectorResult result = tools.corrector.inspect(state, metric, way.direction);
+  if (!result.converged()) return std::nullopt;
+  PathPoint at = path_point(tools.system, metric, std::move(result), way.direction);
+  decide_count(tools, at);
+  at.arc = before.arc;
+  at.iterations = before.iterations;
+  std::optional<Index> unstable = chosen.unstable;
+  if (!unstable)
+    unstable = holding_along(tools, way, before.state) == way.piece ? at.negative_eigenvalues
+                                                                    : count_along(tools, way, before.state);
+  // Often the strongly closed contacts are those of before.
+  if (before.negative_eigenvalues) tools.counter.remember(before.state, before.negative_eigenvalues);
+  at.count = tools.counter.count(at.state, at.negative_eigenvalues);
+  if (unstable) at.count.unstable = unstable;
+  return at;
+}
+
+}  // namespace
+
+CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
+                         const std::vector<VisitedCorner>& visited) {
+  CornerPassed passed{.at = corner.at, .without_progress = corner.without_progress};
+  if (corner.without_progress > most_changes_at_one_place) {
+    passed.end = {.reason = EndReason::no_ray, .detail = "the contacts keep changing at one point; try a finer mesh"};
+    return passed;
+  }
+  auto ways = outgoing_directions(tools.system, corner.at.state, degenerate_at(tools, corner, landed),
+                                  tools.options.corner, tools.corner_workspace);
+  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.lambda_scale);
+  passed.visit = std::move(choice.visit);
+  if (const auto* const end = std::get_if<BranchEnd>(&choice.result)) {
+    passed.end = *end;
+    return passed;
+  }
+  const ChosenDirection& chosen = std::get<ChosenDirection>(choice.result);
+  auto at = point_along(tools, corner, chosen);
+  if (!at) {
+    passed.end = {.reason = EndReason::singular, .detail = "behind a change of contact"};
+    return passed;
+  }
+  passed.events = events_at(tools, corner, *at, chosen.untaken);
+  passed.at = std::move(*at);
+  return passed;
+}
+
+void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, const PathPoint& behind, Event event,
+               std::vector<Event>& events) {
+  const std::vector<int> now = signs_at(tools.detectors, behind);
+  for (std::size_t i = 0; i < tools.detectors.size(); ++i) {
+    if (now[i] * signs_before[i] >= 0) continue;
+    const EventDetector& detector = tools.detectors[i];
+    event.kind = detector.kind == EventKind::limit_point ? EventKind::contact_limit_point : detector.kind;
+    event.label = detector.label;
+    events.push_back(event);
+  }
+}
+
+}  // namespace arcwall

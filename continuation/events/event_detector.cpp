@@ -1,0 +1,26 @@
+#include "continuation/events/event_detector.hpp"
+
+#include <utility>
+
+namespace arcwall {
+
+EventDetector limit_point_detector(const Metric& metric) {
+  const double scale = metric.lambda_scale();
+  return {.kind = EventKind::limit_point,
+          .label = "lambda",
+          .value = [scale](const PathPoint& point) { return point.tangent.dlambda / scale; },
+          .integral = [scale](const PathPoint& point) { return point.state.lambda / scale; }};
+}
+
+EventDetector turning_detector(const System& system, const Metric& metric, std::shared_ptr<const Observable> quantity,
+                               std::string label) {
+  const double lambda_scale = metric.lambda_scale();
+  const auto rate = [&system, lambda_scale, quantity](const PathPoint& point) {
+    const Row row = quantity->gradient(point.state);
+    const double norm = Metric(system.weights(point.state.piece), lambda_scale).dual_norm(row);
+    return norm > 0.0 ? apply(row, point.tangent) / norm : 0.0;
+  };
+  return {.kind = EventKind::displacement_limit, .label = std::move(label), .value = rate, .integral = nullptr};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,169 @@
+#include "continuation/events/limit_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "continuation/events/branch_point.hpp"
+#include "continuation/events/branch_point_search.hpp"
+#include "continuation/events/zero_search.hpp"
+#include "continuation/path_tolerances.hpp"
+#include "continuation/step/point_on_path.hpp"
+#include "core/root_find.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double deep_turn = 0.1;  // what falls below this part of its values at both ends is looked at
+
+// The tangent between two; of a point where K is twice singular its own may be any.
+Direction mean(const Metric& metric, const Direction& a, const Direction& b) {
+  return unit(metric, {.dx = a.dx + b.dx, .dlambda = a.dlambda + b.dlambda});
+}
+
+// Where λ turns between two points beside a place where K is singular: there λ′ is blurred by what K's inverse makes of
+// round-off, and its zero with it. Beside it the path is exact, and smooth.
+State turning_between(const Metric& metric, const PathPoint& before, const PathPoint& after, const State& otherwise) {
+  const Segment segment(metric, before, after);
+  const double L = segment.length();
+  const auto t =
+      cubic_turn(before.state.lambda, before.tangent.dlambda * L, after.state.lambda, after.tangent.dlambda * L);
+  return t ? segment.at(*t) : otherwise;
+}
+
+// How a limit point alone changes the number of negative eigenvalues: with K t_x = −t_λ F_λ,
+//
+//   t_xᵀ K t_x = −t_λ F_λᵀ t_x,
+//
+// which passes zero with t_λ. Zero where F_λᵀ t_x vanishes nearly, as at a branch point.
+int change_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint& at) {
+  constexpr double nearly = 1e-6;
+  if (!tools.corrector.is_at(at.state)) tools.system.linearize(at.state, tools.workspace(at.state.piece));
+  const Vector& F_lambda = tools.corrector.factorized().equations().F_lambda;
+  const double work = F_lambda.dot(at.tangent.dx);
+  if (std::abs(work) <= nearly * origin.metric.dual_norm(F_lambda)) return 0;
+  return origin.from.signs.front() * work > 0.0 ? -1 : 1;
+}
+
+// A point of the path beside a limit point, with a count.
+std::optional<PathPoint> beside(TraceTools& tools, const StepOrigin& origin, const Segment& segment, double t) {
+  const ChordPlaneConstraint plane(origin.metric, segment.from().state, segment.to().state, t);
+  auto point = correct_onto(tools, origin, plane, segment, t).point;
+  if (!point) return std::nullopt;
+  decide_count(tools, *point);
+  return point->negative_eigenvalues ? point : std::nullopt;
+}
+
+// Points on both sides of a limit point inside a step, so near that no other singular point lies between.
+struct Sides {
+  std::optional<PathPoint> before{}, after{};  // empty where the step's end is nearer
+  Index change = 0;                            // of the number of negative eigenvalues
+  double distance = 0.0;
+};
+
+Sides sides_of(TraceTools& tools, const StepOrigin& origin, const Segment& segment, double t) {
+  const auto count_at = [](const std::optional<PathPoint>& point, Index otherwise) {
+    return point ? *point->negative_eigenvalues : otherwise;
+  };
+  const double L = segment.length();
+  Sides sides;
+  for (const double distance : {1e-4, 1e-3, 3e-5}) {
+    sides.distance = distance;
+    const double t0 = t - distance / L, t1 = t + distance / L;
+    sides.before = t0 > 0.0 ? beside(tools, origin, segment, t0) : std::nullopt;
+    sides.after = t1 < 1.0 ? beside(tools, origin, segment, t1) : std::nullopt;
+    if ((t0 > 0.0 && !sides.before) || (t1 < 1.0 && !sides.after)) continue;
+    sides.change = count_at(sides.after, *segment.to().negative_eigenvalues) -
+                   count_at(sides.before, *origin.from.negative_eigenvalues);
+    if (sides.change % 2 != 0) break;  // else there is a branch point, too
+  }
+  return sides;
+}
+
+// λ turns and the count does not change by one: two eigenvalues pass zero, or one touches it as the branch of a
+// pitchfork goes through it from one side to the other.
+void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint& before,
+                               const PathPoint& after, double half_width, SingularPoint& limit) {
+  const Metric& metric = origin.metric;
+  limit.at.state = turning_between(metric, before, after, limit.at.state);
+  limit.at.tangent = mean(metric, before.tangent, after.tangent);
+  limit.at.residual = tools.corrector.inspect(limit.at.state, metric, limit.at.tangent).residual;
+  const auto pairs = tools.corrector.near_null(limit.at.state, metric.weights(), 2);
+  const auto second = [](const NearNull& nearest) { return std::abs(nearest.values[1]); };
+  SingularPlace place{.point = limit.at, .t = limit.place.t, .half_width = half_width, .change = limit.change};
+  place.at_limit = pairs && pairs->values.size() > 1 && after.nearest.values.size() > 1 &&
+                   second(*pairs) < 0.1 * second(after.nearest);
+  place.touches = !place.at_limit;
+  auto branching = std::make_shared<BranchPoint>(branch_point_at(tools.system, tools.corrector, metric, place));
+  branching->localised = half_width * std::abs(limit.at.tangent.dlambda);
+  branching->discretisation = made_by_nodes(tools, limit.at.state);
+  limit.branching = std::move(branching);
+  limit.suspected = place.touches;
+}
+
+}  // namespace
+
+// A limit point changes the count by one, right there; what else changes it are branch points: those before it come
+// first, those behind it are left to the next step, and those at the same place are reported with it. How near to it
+// the count is sure depends on the mesh.
+SingularSearch find_limit_point(TraceTools& tools, const StepOrigin& origin, const PathPoint& to) {
+  const Segment segment(origin.metric, origin.point(), to);
+  const Index count_before = *origin.from.negative_eigenvalues, count_after = *to.negative_eigenvalues;
+  LocatedEvent limit =
+      locate(tools, origin, {.what = EventPlace::What::detector, .which = 0, .t = 0.5, .half_width = 0.0}, to);
+  if (!limit.point) return {.clear = false, .failure = limit.failure};
+  const double L = segment.length();
+  if (const Index whole = count_after - count_before; std::abs(whole) == 1) {
+    const int expected = change_at_limit(tools, origin, *limit.point);
+    if (expected == -whole && L > shortest_telling_step) return {.clear = false};
+    return {.points = {{.place = limit.place, .at = std::move(*limit.point), .change = whole}}};
+  }
+  const Sides sides = sides_of(tools, origin, segment, limit.place.t);
+  if (sides.before && *sides.before->negative_eigenvalues != count_before)
+    return find_branch_points(tools, origin, *sides.before);
+  SingularPoint point{.place = limit.place, .at = std::move(*limit.point), .change = sides.change};
+  if (std::abs(sides.change) == 1) return {.points = {std::move(point)}};
+  if (!sides.before || !sides.after) {
+    point.change = count_after - count_before;
+    return {.points = {std::move(point)}, .clear = L <= shortest_telling_step};
+  }
+  add_branch_point_at_limit(tools, origin, *sides.before, *sides.after, sides.distance / L, point);
+  return {.points = {std::move(point)}};
+}
+
+SingularSearch find_touching_limit(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
+  if (!hides_two_zeros(tools.detectors, segment, deep_turn)) return {};
+  SingularLocator locator(tools.system, tools.corrector);
+  const auto places = locator.touches(segment, origin.metric, SingularLocator::What::turning,
+                                      origin.from.zero_eigenvalues > 0, detector_noise);
+  if (!places || places->size() == 2) return {.clear = segment.length() <= shortest_telling_step};
+  if (places->empty()) return {};
+  const SingularPlace& place = places->front();
+  return {.points = {{.place = {.what = EventPlace::What::detector, .which = 0, .t = place.t, .half_width = 0.0},
+                      .at = point_at(tools, origin, place),
+                      .change = place.change,
+                      .suspected = place.touches}}};
+}
+
+bool hides_two_zeros(const std::vector<EventDetector>& detectors, const Segment& segment, double part) {
+  // Between a point so near a corner and the corner itself nothing but round-off is seen.
+  if (segment.length() <= coincidence_tolerance) return false;
+  for (const EventDetector& detector : detectors) {
+    if (!detector.integral) continue;
+    const double v0 = detector.integral(segment.from()), v1 = detector.integral(segment.to());
+    const double r0 = detector.value(segment.from()), r1 = detector.value(segment.to());
+    if (sign_of(r0) == 0 || sign_of(r0) != sign_of(r1)) continue;
+    const double sign = r0 > 0.0 ? 1.0 : -1.0, L = segment.length();
+    // The steepest fall of the cubic against the sign of both ends: v′ is a parabola with end values r0, r1 and mean
+    // (v1 − v0)/L, so its least value inside is below both when the mean is small enough.
+    const double mean_rate = sign * (v1 - v0) / L, a = sign * r0, b = sign * r1;
+    const double curvature = 3.0 * (a + b - 2.0 * mean_rate), slope = 2.0 * (3.0 * mean_rate - 2.0 * a - b);
+    if (curvature <= 0.0) continue;
+    const double t = -slope / (2.0 * curvature), bound = part > 0.0 ? part * std::min(a, b) : part;
+    if (t > 0.0 && t < 1.0 && a + t * (slope + t * curvature) < bound) return true;
+  }
+  return false;
+}
+
+}  // namespace arcwall

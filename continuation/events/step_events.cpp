@@ -1,0 +1,156 @@
+#include "continuation/events/step_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "continuation/events/singular_search.hpp"
+#include "continuation/events/zero_search.hpp"
+#include "continuation/segment.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// The first detector or target value with a zero inside the segment, besides the one that its end lies on.
+std::optional<EventPlace> earliest(const TraceTools& tools, const std::vector<int>& signs, const Segment& segment,
+                                   const std::optional<EventPlace>& already) {
+  std::optional<EventPlace> first;
+  const auto consider = [&](EventPlace::What what, std::size_t which, double t) {
+    const bool done = already && already->what == what && already->which == which;
+    if (!done && (!first || t < first->t)) first = EventPlace{.what = what, .which = which, .t = t};
+  };
+  for (std::size_t i = 0; i < tools.detectors.size(); ++i) {
+    const EventDetector& detector = tools.detectors[i];
+    const double v0 = detector.value(segment.from()), v1 = detector.value(segment.to());
+    const int sign = sign_of(v1);
+    if (signs[i] * sign >= 0) continue;
+    if (detector.crossing != Crossing::any && (sign > 0) != (detector.crossing == Crossing::rising)) continue;
+    consider(EventPlace::What::detector, i, signs[i] * v0 > 0.0 ? v0 / (v0 - v1) : 0.0);
+  }
+  for (std::size_t i = 0; i < tools.options.target_values.size(); ++i) {
+    const TargetValue& target = tools.options.target_values[i];
+    const auto value = [&](const PathPoint& p) { return target.quantity->value(p.state) - target.value; };
+    const auto rate = [&](const PathPoint& p) { return apply(target.quantity->gradient(p.state), p.tangent); };
+    const double v0 = value(segment.from()), v1 = value(segment.to());
+    const double noise = 1e-11 * std::max({std::abs(target.value), std::abs(v0), std::abs(v1)});
+    // A step may end on the value to the last digit but one.
+    if (std::abs(v1) <= noise && std::abs(v0) > noise)
+      consider(EventPlace::What::target_value, i, 1.0);
+    else if (const auto t = segment.first_zero(v0, rate(segment.from()), v1, rate(segment.to()), noise))
+      consider(EventPlace::What::target_value, i, *t);
+  }
+  return first;
+}
+
+// The end of the arc becomes an event inside the step.
+void end_at(ArcEnd& end, const EventPlace& event, PathPoint at) {
+  if (!end.event) end.beyond = std::move(end.point);
+  end.event = event;
+  end.point = std::move(at);
+  end.landing.reset();
+}
+
+Event detector_event(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                     const StabilityCount& behind) {
+  const EventDetector& detector = tools.detectors[end.event->which];
+  const PathPoint& at = end.point;
+  // λ changes by λ′ δ + ½ λ″ δ² over the bracket that is left.
+  const double width = end.event->half_width * end.length / std::max(end.event->t, 1e-3);
+  const double roundoff = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda);
+  const double bend =
+      std::abs(end.beyond.tangent.dlambda - origin.point().tangent.dlambda) / std::max(end.length, 1e-300);
+  return {.kind = detector.kind,
+          .label = detector.label,
+          .state = at.state,
+          .arc = at.arc,
+          .residual = at.residual,
+          .localised = std::max(std::abs(at.tangent.dlambda) * width + 0.5 * bend * width * width, roundoff),
+          .unstable_before = origin.from.count_after.unstable,
+          .unstable_after = behind.unstable};
+}
+
+Event branch_point_event(const StepOrigin& origin, const SingularPoint& singular, const PathPoint& at,
+                         const StabilityCount& behind) {
+  const double roundoff = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(at.state.lambda);
+  return {.kind = EventKind::branch_point,
+          .state = at.state,
+          .arc = at.arc,
+          .residual = at.residual,
+          .localised = std::max(singular.branching->localised, roundoff),
+          .suspected = singular.suspected,
+          .unstable_before = origin.from.count_after.unstable,
+          .unstable_after = behind.unstable,
+          .branching = singular.branching};
+}
+
+}  // namespace
+
+ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd step) {
+  constexpr double same = 1e-9;  // what was located lies at the end itself
+  ArcEnd end{.point = std::move(step.point), .landing = step.landing, .turn = step.turn};
+  end.singular = origin.from.pending_singular;
+  if (end.singular.empty() && tools.options.events != EventSearch::none) {
+    SingularSearch search = find_singular(tools, origin, end.point);
+    if (!search.clear) return {.end = std::nullopt, .failure = search.failure};
+    end.singular = std::move(search.points);
+  }
+  if (!end.singular.empty()) end_at(end, end.singular.front().place, end.singular.front().at);
+  const bool looks = tools.options.events != EventSearch::none || !tools.options.target_values.empty();
+  for (;;) {
+    const Segment segment(origin.metric, origin.point(), end.point);
+    end.length = segment.length();
+    const auto next = looks ? earliest(tools, origin.from.signs, segment, end.event) : std::nullopt;
+    if (!next || (end.event && next->t >= 1.0 - same)) break;
+    LocatedEvent located = locate(tools, origin, *next, end.point);
+    if (!located.point) return {.end = std::nullopt, .failure = located.failure};
+    end.singular.clear();
+    end_at(end, located.place, std::move(*located.point));
+  }
+  end.point.arc = origin.point().arc + end.length;
+  return {.end = std::move(end)};
+}
+
+std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                             const StabilityCount& behind) {
+  std::vector<Event> events;
+  if (!end.singular.empty()) {
+    const SingularPoint& first = end.singular.front();
+    if (first.branching) events.push_back(branch_point_event(origin, first, end.point, behind));
+    if (first.place.what == EventPlace::What::detector) {
+      events.push_back(detector_event(tools, origin, end, behind));
+      events.back().suspected = first.suspected && !first.branching;
+    }
+  } else if (end.event && end.event->what != EventPlace::What::target_value) {
+    events.push_back(detector_event(tools, origin, end, behind));
+  }
+  return events;
+}
+
+// Behind a singular point others may follow before the step's end.
+StabilityCount count_behind(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end) {
+  if (end.singular.empty()) return end.point.count;
+  const Index change = end.singular.front().change;
+  const std::optional<Index>& beyond = end.beyond.negative_eigenvalues;
+  if (beyond && *beyond == *origin.from.negative_eigenvalues + change)
+    return tools.counter.count(end.beyond.state, beyond);
+  if (!origin.from.count_after.unstable) return {};
+  const Index unstable = *origin.from.count_after.unstable + change;
+  return {.unstable = unstable, .stability = unstable > 0 ? Stability::unstable : Stability::stable};
+}
+
+std::vector<int> signs_behind(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end) {
+  const std::vector<int>& before = origin.from.signs;
+  const bool touched = !end.singular.empty() && end.singular.front().suspected && !end.singular.front().branching;
+  std::vector<int> signs = signs_at(tools.detectors, end.point);
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    if (signs[i] == 0) signs[i] = before[i];
+    const bool crossed =
+        end.event && end.event->what == EventPlace::What::detector && end.event->which == i && !touched;
+    if (crossed) signs[i] = -before[i];
+  }
+  return signs;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace arcwall {
+
+/// When Newton's method has arrived. All lengths in the path metric.
+struct CorrectorOptions {
+  double tolerance = 1e-12;  ///< of the distance that is left, estimated from the last two corrections
+  double straight = 1e-4;    ///< part of a first correction that may be left
+  double stagnation = 1e-9;  ///< corrections below this that no longer shrink are round-off
+  double divergence = 3.0;   ///< a correction longer than this times the one before ends the attempt
+  int max_iterations = 10;
+  int patient_iterations = 40;  ///< of correct_patiently()
+};
+
+}  // namespace arcwall

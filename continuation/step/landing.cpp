@@ -1,0 +1,108 @@
+#include "continuation/step/landing.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "continuation/path_tolerances.hpp"
+#include "continuation/step/point_on_path.hpp"
+#include "core/root_find.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr int max_landings = 100;  // guards that turn out to come before the one landed on
+constexpr double together = 1e3;   // guard tolerances within which guards that are landed on in turn are one change
+
+struct GuardCrossing {
+  Index guard;
+  double t;
+};
+
+std::optional<GuardCrossing> first_crossing(const StepOrigin& origin, double tolerance, const Segment& segment) {
+  const PathPoint &from = segment.from(), &to = segment.to();
+  const double L = segment.length();
+  // Branch points are interpolated: guards that are zero there (a flat part buckles off its wall) are known no better.
+  const double unsure = origin.leaves_branch_point ? singular_point_accuracy : tolerance;
+  std::optional<GuardCrossing> first;
+  for (Index j = 0; j < to.guards.size(); ++j) {
+    const double v0 = from.guards[j], r0 = from.guard_rates[j], v1 = to.guards[j], r1 = to.guard_rates[j];
+    const bool touches = v0 <= tolerance && v0 >= -unsure;
+    if (v1 >= -tolerance && least_cubic_value(touches ? 0.0 : v0, r0 * L, v1, r1 * L) >= -tolerance) continue;
+    const double t = segment.first_zero(v0, r0, v1, r1, tolerance).value_or(0.0);
+    if (!first || t < first->t) first = GuardCrossing{.guard = j, .t = t};
+  }
+  return first;
+}
+
+// At the end of a parabola that begins at a point with its tangent.
+Direction tangent_from(const Metric& metric, const PathPoint& from, const PathPoint& to) {
+  const Direction chord = difference(to.state, from.state);
+  const double L = metric.norm(chord);
+  return unit(metric,
+              {.dx = 2.0 / L * chord.dx - from.tangent.dx, .dlambda = 2.0 / L * chord.dlambda - from.tangent.dlambda});
+}
+
+// A guard that has just left zero, and in a long step seems to come back: its zero that is found is the old one.
+bool lands_where_it_began(const StepOrigin& origin, double tolerance, const PathPoint& at, Index guard) {
+  const PathPoint& from = origin.point();
+  return from.guards[guard] <= tolerance && from.guard_rates[guard] > 0.0 &&
+         origin.metric.distance(at.state, from.state) <= coincidence_tolerance;
+}
+
+// Where a continuum of equilibria lies ahead, the equations are singular at the change: guards that should vanish
+// together miss each other by more than elsewhere, eigenvalues that should be zero have no sure sign, and the tangent
+// is any.
+bool leads_to_continuum(const TraceTools& tools, const PathPoint& at, const Landing& landing) {
+  constexpr double singular = 1e-6;  // in the scale of guards
+  if (landing.guard < static_cast<Index>(at.state.piece.size()) || landing.slack > singular) return false;
+  const double tolerance = std::max(tools.options.guard_tolerance, 2.0 * landing.slack);
+  const auto ahead = tools.system.transitions(at.state, at.tangent, landing.guard, tolerance);
+  return !ahead.empty() && ahead.front().change == Transition::Change::continuum;
+}
+
+// Onto the zero of one guard, with what the other guards say there.
+LandedStep land_on(TraceTools& tools, const StepOrigin& origin, const StepEnd& end, const GuardCrossing& crossing) {
+  const double tolerance = tools.options.guard_tolerance;
+  const Segment segment(origin.metric, origin.point(), end.point);
+  CorrectedPoint at = correct_onto(tools, origin, GuardConstraint(tools.system, crossing.guard), segment, crossing.t);
+  if (!at.point || lands_where_it_began(origin, tolerance, *at.point, crossing.guard))
+    return {.end = std::nullopt, .failure = at.status};
+  Landing landing{.guard = crossing.guard, .slack = std::max(0.0, -at.point->guards.minCoeff())};
+  landing.continuum = leads_to_continuum(tools, *at.point, landing);
+  if (landing.continuum && segment.length() > coincidence_tolerance)
+    at.point->tangent = tangent_from(origin.metric, origin.point(), *at.point);
+  return {.end = StepEnd{.point = std::move(*at.point), .turn = end.turn, .landing = landing}};
+}
+
+}  // namespace
+
+// Solves for the guard's zero, and for that of any guard that turns out to come before.
+LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, StepEnd end) {
+  const double tolerance = tools.options.guard_tolerance;
+  const auto crossing_before = [&](const StepEnd& last) {
+    return last.point.guards.size() > 0
+               ? first_crossing(origin, tolerance, Segment(origin.metric, origin.point(), last.point))
+               : std::nullopt;
+  };
+  auto crossing = crossing_before(end);
+  if (!crossing) return {.end = std::move(end)};
+  // Contacts that should vanish together miss each other by round-off, more so where a mode is almost neutral: then
+  // none of the landings leaves all guards fulfilled to the last digit, and the best of them is the change.
+  std::optional<StepEnd> nearly;
+  CorrectorStatus failure = CorrectorStatus::converged;
+  for (int round = 0; round < max_landings && crossing; ++round) {
+    LandedStep landed = land_on(tools, origin, end, *crossing);
+    failure = landed.failure;
+    if (!landed.end) break;
+    end = std::move(*landed.end);
+    const double slack = end.landing->slack;
+    if (slack <= tolerance || end.landing->continuum) return {.end = std::move(end)};
+    if (slack <= together * tolerance && (!nearly || slack < nearly->landing->slack)) nearly = end;
+    crossing = crossing_before(end);
+    if (nearly && round >= 3) break;
+  }
+  return {.end = std::move(nearly), .failure = failure};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "continuation/trace_tools.hpp"
+
+namespace arcwall {
+
+/// Where a step ends because a guard is zero there: the active set changes.
+struct Landing {
+  Index guard = 0;
+  double slack = 0.0;      ///< by how much other guards are violated there: those within it belong to the change
+  bool continuum = false;  ///< whether a continuum of equilibria lies behind
+};
+
+/// The end of a step.
+struct StepEnd {
+  PathPoint point{};
+  double turn = 0.0;  ///< of the tangent over the step that was tried [rad]
+  std::optional<Landing> landing{};
+};
+
+/// What landing on the first guard made of a step's end.
+struct LandedStep {
+  std::optional<StepEnd> end{};  ///< empty: no point of the path was found where contacts change
+  CorrectorStatus failure = CorrectorStatus::converged;  ///< of the correction that found none
+};
+
+/// Ends a step where a guard first vanishes inside it; a step whose guards hold stays as it is.
+LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, StepEnd end);
+
+}  // namespace arcwall

@@ -1,0 +1,56 @@
+#include "continuation/step/point_on_path.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace arcwall {
+
+PathPoint path_point(const System& system, const Metric& metric, CorrectorResult result, const Direction& forward) {
+  PathPoint point;
+  point.tangent =
+      metric.inner(result.tangent, forward) >= 0.0 ? std::move(result.tangent) : reversed(std::move(result.tangent));
+  point.state = std::move(result.state);
+  point.negative_eigenvalues = point.count.unstable = result.negative;
+  point.iterations = result.iterations;
+  point.residual = result.residual;
+  point.nearest = std::move(result.nearest);
+  point.guards = system.guards(point.state);
+  point.guard_rates = system.guard_rates(point.state, point.tangent);
+  return point;
+}
+
+CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
+                            const Segment& segment, double t) {
+  return correct_onto(tools, origin, constraint, segment, segment.at(t), segment.length() * std::min(t, 1.0 - t),
+                      Wanted::pairs);
+}
+
+CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
+                            const Segment& segment, State guess, double distance, Wanted wanted) {
+  const PathPoint& from = origin.point();
+  distance = std::max(distance, 1e-3 * segment.length());
+  CorrectorResult result =
+      tools.corrector.correct(std::move(guess), constraint, origin.metric, from.tangent, distance, wanted);
+  CorrectedPoint corrected{.point = std::nullopt, .status = result.status};
+  if (!result.converged()) return corrected;
+  // The place must lie inside the step, up to the curvature of the arc.
+  const double along = origin.metric.inner(difference(result.state, from.state), segment.chord()) / segment.length();
+  if (along < -1e-6 * segment.length() || along > 1.2 * segment.length()) return corrected;
+  corrected.point = path_point(tools.system, origin.metric, std::move(result), from.tangent);
+  return corrected;
+}
+
+void find_pairs(TraceTools& tools, const Metric& metric, PathPoint& at) {
+  CorrectorResult seen = tools.corrector.find_pairs(at.state, metric);
+  at.nearest = std::move(seen.nearest);
+  at.negative_eigenvalues = at.count.unstable = seen.negative;
+}
+
+void decide_count(TraceTools& tools, PathPoint& point) {
+  if (point.negative_eigenvalues) return;
+  if (tools.corrector.is_at(point.state))
+    tools.counter.remember(point.state, tools.corrector.count_here(point.state, point.nearest));
+  point.negative_eigenvalues = point.count.unstable = tools.counter.negative_on(point.state);
+}
+
+}  // namespace arcwall

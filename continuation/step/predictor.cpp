@@ -1,0 +1,20 @@
+#include "continuation/step/predictor.hpp"
+
+#include "continuation/segment.hpp"
+
+namespace arcwall {
+
+State predicted(const System& system, PathMethod method, const StepOrigin& origin, double s) {
+  constexpr double reach = 2.5;  // of the last step, to which a cubic is extrapolated
+  const PathPoint& here = origin.point();
+  const std::optional<PathPoint>& before = origin.from.before;
+  const bool controlled = method == PathMethod::load || method == PathMethod::displacement;
+  const bool guarded = system.guard_count(here.state.piece) > 0;
+  if (before && !controlled && !guarded && before->state.piece == here.state.piece) {
+    const Segment last(origin.metric, *before, here);
+    if (s <= reach * last.length()) return last.at(1.0 + s / last.length());
+  }
+  return moved(here.state, here.tangent, s);
+}
+
+}  // namespace arcwall

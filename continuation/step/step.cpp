@@ -1,0 +1,129 @@
+#include "continuation/step/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "continuation/corners/transitions.hpp"
+#include "continuation/path_tolerances.hpp"
+#include "continuation/step/point_on_path.hpp"
+#include "continuation/step/predictor.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double near_change = 1e-4;  // gaps between contacts that are let pass before a change of contacts is left
+
+StepOutcome outcome_of(CorrectorStatus failure) {
+  switch (failure) {
+    case CorrectorStatus::converged:
+      return StepOutcome::accepted;
+    case CorrectorStatus::too_many_iterations:
+      return StepOutcome::too_many_iterations;
+    case CorrectorStatus::diverged:
+      return StepOutcome::diverged;
+    case CorrectorStatus::complex_roots:
+      return StepOutcome::complex_roots;
+    case CorrectorStatus::singular:
+      return StepOutcome::singular;
+    case CorrectorStatus::not_finite:
+      return StepOutcome::not_finite;
+  }
+  return StepOutcome::accepted;
+}
+
+double angle_between(const Metric& metric, const Direction& a, const Direction& b) {
+  const double cosine = metric.inner(a, b) / (metric.norm(a) * metric.norm(b));
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+// What closes the step. Off a branch point the component along the mode is prescribed, so that the step cannot fall
+// back.
+std::unique_ptr<PathConstraint> constraint_of(const TraceOptions& options, const StepOrigin& origin, double s) {
+  const PathPoint& from = origin.point();
+  if (origin.leaves_branch_point)
+    return std::make_unique<PlaneConstraint>(origin.metric, from.state, origin.start.mode,
+                                             s * origin.metric.inner(from.tangent, origin.start.mode));
+  return step_constraint(options.method, origin.metric, from.state, from.tangent, s, options.control.get());
+}
+
+// From the best guess, and where that fails from the one along the tangent.
+CorrectorResult corrected(TraceTools& tools, const StepOrigin& origin, double s) {
+  const PathPoint& from = origin.point();
+  const auto constraint = constraint_of(tools.options, origin, s);
+  CorrectorResult result = tools.corrector.correct(predicted(tools.system, tools.options.method, origin, s),
+                                                   *constraint, origin.metric, from.tangent, s);
+  if (!result.converged() && origin.from.before)
+    result = tools.corrector.correct(moved(from.state, from.tangent, s), *constraint, origin.metric, from.tangent, s);
+  return result;
+}
+
+// Why the end of a step is not the continuation of its start: it is far off the predictor, or has turned too much.
+std::optional<StepOutcome> strayed(const StepOrigin& origin, const StepEnd& end, double s, double max_turn) {
+  if (end.turn > max_turn) return StepOutcome::turned;
+  const Direction chord = difference(end.point.state, origin.point().state);
+  const bool near = end.turn <= max_turn && origin.metric.norm(chord) <= 2.0 * s &&
+                    angle_between(origin.metric, origin.point().tangent, chord) <= max_turn;
+  return near ? std::nullopt : std::optional(StepOutcome::strayed);
+}
+
+}  // namespace
+
+StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
+  const PathPoint& from = origin.point();
+  StepTried tried{.attempt = {.arc = from.arc, .radius = s}};
+  const auto rejected = [&](StepOutcome outcome, CorrectorStatus failure = CorrectorStatus::converged) {
+    tried.attempt.outcome = outcome;
+    tried.result = Rejected{.outcome = outcome, .failure = failure};
+    return std::move(tried);
+  };
+
+  CorrectorResult result = corrected(tools, origin, s);
+  tried.attempt.iterations = result.iterations;
+  tried.attempt.residual = result.residual;
+  tried.attempt.roots = result.roots;
+  if (!result.converged()) return rejected(outcome_of(result.status), result.status);
+  if (tools.system.invalid_reason(result.state)) return rejected(StepOutcome::obstructed);
+
+  StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), from.tangent)};
+  tried.attempt.turn = end.turn = angle_between(origin.metric, from.tangent, end.point.tangent);
+  if (const auto outcome = strayed(origin, end, s, tools.options.step.max_turn)) return rejected(*outcome);
+
+  LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
+  if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure);
+  end = std::move(*landed.end);
+
+  // What vanishes with the guard that was landed on belongs to the change.
+  const double margin = end.landing ? near_change : -penetration_tolerance;
+  if (!tools.system.admissible(end.point.state, margin)) {
+    if (auto finer = with_new_contact(tools, origin, end.point.state, margin)) {
+      tried.attempt.outcome = StepOutcome::refined;
+      tried.result = Retry{.finer = std::move(*finer)};
+      return tried;
+    }
+    if (!end.landing || !tools.system.admissible(end.point.state, -penetration_tolerance))
+      return rejected(StepOutcome::penetrates);
+  }
+  decide_count(tools, end.point);
+  // Eigenvalues that vanish along a continuum of equilibria have no sure sign where it begins.
+  if (end.landing && end.landing->continuum) end.point.negative_eigenvalues.reset();
+  tried.result = std::move(end);
+  return tried;
+}
+
+StepTried try_step_clear_of_singular(TraceTools& tools, const StepOrigin& origin, double s) {
+  constexpr double beside_singular = 0.93;
+  StepTried tried = try_step(tools, origin, s);
+  const StepEnd* const end = std::get_if<StepEnd>(&tried.result);
+  const bool ends_on_singular = end && !end->landing && !end->point.negative_eigenvalues;
+  if (!ends_on_singular || !origin.from.negative_eigenvalues || tools.options.events != EventSearch::locate)
+    return tried;
+  tools.corrector.track_from(origin.from.nearest());
+  StepTried shorter = try_step(tools, origin, beside_singular * s);
+  const StepEnd* const other = std::get_if<StepEnd>(&shorter.result);
+  return other && other->point.negative_eigenvalues ? std::move(shorter) : std::move(tried);
+}
+
+}  // namespace arcwall

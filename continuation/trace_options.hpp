@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "continuation/corners/corner_options.hpp"
+#include "continuation/events/event_detector.hpp"
+#include "continuation/path_point.hpp"
+#include "continuation/step/corrector_options.hpp"
+#include "continuation/step/path_constraint.hpp"
+#include "continuation/step/step_attempt.hpp"
+#include "continuation/step/step_control.hpp"
+
+namespace arcwall {
+
+/// A bound that ends the branch, or a value to land on and go on.
+struct TargetValue {
+  std::shared_ptr<const Observable> quantity{};
+  double value = 0.0;
+  bool stops = false;
+  std::string label{};  ///< for messages: `mid = -0.16`
+};
+
+/// A kind of event that ends the branch.
+struct StopEvent {
+  EventKind kind = EventKind::limit_point;
+  std::string label{};  ///< for messages: `event = limit-point`
+};
+
+/// What is done about zeros of the detectors inside a step.
+enum class EventSearch {
+  locate,  ///< each becomes a point of the path
+  detect,  ///< reported at the end of the step, with the interval
+  none,
+};
+
+/// What to trace and how. The defaults need no tuning.
+struct TraceOptions {
+  PathMethod method = PathMethod::spherical;
+  std::shared_ptr<const Observable> control{};  ///< of `displacement`
+  StepOptions step{};
+  CorrectorOptions corrector{};
+  CornerOptions corner{};
+  std::vector<TargetValue> target_values{};
+  std::optional<Index> stop_contacts{};  ///< number of closed contacts that ends the branch
+  std::vector<StopEvent> stop_events{};  ///< the first of any of these ends the branch
+  EventSearch events = EventSearch::locate;
+  std::vector<EventDetector> detectors{};  ///< besides limit points and watched monitors
+  bool node_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
+  double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it degenerate
+  double localisation = 1e-12;     ///< bracket of an event as a part of its step
+  int max_points = 5000;
+  bool every_direction = false;  ///< report a change of contacts that several directions leave as a branch point also
+                                 ///< where one of them alone is stable
+  std::function<void(const StepAttempt&)> ledger{};  ///< is told of every attempted step
+  bool stay = false;  ///< where only unstable directions leave a change of contacts: keep the old contacts if one does
+};
+
+/// A monitor whose turning points are events.
+struct Watch {
+  std::shared_ptr<const Observable> quantity{};
+  std::string label{};
+};
+
+/// A branch point that another branch passes through.
+struct KnownPoint {
+  State state{};
+  int branch = 0;
+};
+
+/// Where a branch begins: at a state alone, forward with λ; or at a branch point, along one of its tangents.
+struct BranchStart {
+  State state{};
+  std::optional<Direction> forward{};    ///< unit tangent at a branch point
+  Direction mode{};                      ///< the first step keeps its component along this
+  double distance = 0.02;                ///< of the first step off a branch point [path metric]
+  std::optional<Index> unstable{};       ///< of the branch point
+  std::optional<double> lambda_scale{};  ///< of the metric, as on the branches before
+  std::vector<KnownPoint> known{};       ///< branch points where this branch would join another
+};
+
+}  // namespace arcwall

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "continuation/corners/outgoing_directions.hpp"
+#include "continuation/metric.hpp"
+#include "continuation/stability.hpp"
+#include "continuation/step/corrector.hpp"
+#include "continuation/tracer_state.hpp"
+
+namespace arcwall {
+
+/// What a branch is traced with: its equations and options, which stay, and workspaces, which leave no trace in
+/// results.
+struct TraceTools {
+  const System& system;
+  TraceOptions options;
+  Corrector corrector;
+  StabilityCounter counter;
+  CornerWorkspace corner_workspace{};
+  std::vector<EventDetector> detectors{};  ///< limit points, turning points of watched monitors, the program's own
+
+  /// `from_system` must outlive this.
+  TraceTools(const System& from_system, TraceOptions from_options);
+  TraceTools(const TraceTools&) = delete;  // the counter shares the corrector's equations
+
+  /// The equations of a piece, to be evaluated where the corrector is not.
+  Linearization& workspace(const Piece& piece) { return corrector.factorized().workspace(piece); }
+
+  Metric metric_on(const Piece& piece, double lambda_scale) const { return {system.weights(piece), lambda_scale}; }
+};
+
+/// Where a step begins, and what is known there.
+struct StepOrigin {
+  const Departure& from;
+  const BranchStart& start;          ///< of the branch
+  Metric metric;                     ///< of the piece of `from`
+  bool leaves_branch_point = false;  ///< the step is the first one off a branch point
+
+  const PathPoint& point() const { return from.point; }
+};
+
+/// Signs of the detectors at a point: −1, 0 within the noise, or 1.
+std::vector<int> signs_at(const std::vector<EventDetector>& detectors, const PathPoint& point);
+
+}  // namespace arcwall

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "continuation/corners/visited_corner.hpp"
+#include "continuation/events/singular_point.hpp"
+#include "continuation/trace_options.hpp"
+
+namespace arcwall {
+
+/// A point that the next step leaves, and what is known just behind it.
+struct Departure {
+  PathPoint point{};
+  std::optional<PathPoint> before{};              ///< the last point on the same smooth arc, without its eigenpairs
+  Vector eigenvalues_before{};                    ///< there, of the modes of `point`; NaN where a mode was not known
+  NearNull last_pairs{};                          ///< where `point` has no eigenpairs: those that were known last
+  std::vector<int> signs{};                       ///< of each detector just behind `point`
+  std::optional<Index> negative_eigenvalues{};    ///< just behind `point`, with all closed contacts held
+  StabilityCount count_after{};                   ///< just behind `point`
+  Index zero_eigenvalues = 0;                     ///< at `point`
+  std::vector<SingularPoint> pending_singular{};  ///< located with `point` and just behind it: the next points
+
+  /// The eigenpairs nearest zero that were known last.
+  const NearNull& nearest() const { return point.nearest.values.size() > 0 ? point.nearest : last_pairs; }
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(point, before, eigenvalues_before, last_pairs, signs, negative_eigenvalues, count_after, zero_eigenvalues,
+            pending_singular);
+    archive.require(!before || eigenvalues_before.size() == point.nearest.values.size());
+  }
+};
+
+/// Everything that varies while a branch is traced. Written and read by an archive this is the checkpoint: a tracer of
+/// the same system and options into which it is read goes on to the same last bit.
+struct TracerState {
+  double lambda_scale = 1.0;  ///< λ₀ of the path metric
+  BranchStart start{};
+  StepControl step{StepOptions{}, StepOptions{}.max};
+  Departure from{};
+  std::optional<Arc> pending_arc{};  ///< the first point of a piece, behind a transition that was just passed
+  std::vector<VisitedCorner> visited{};
+  std::optional<BranchEnd> end{};
+  int points = 0;                    ///< accepted, those that are pending included
+  int corners_without_progress = 0;  ///< changes of contacts in a row at one place
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(lambda_scale, start, step, from, pending_arc, visited, end, points, corners_without_progress);
+  }
+};
+
+}  // namespace arcwall
