@@ -28,7 +28,7 @@ class TimedSystem final : public System {
  public:
   struct Times {
     double assembly = 0.0;         ///< F, K, F_λ and weights [s]
-    double side_conditions = 0.0;  ///< gaps, contact forces, what lies behind limits [s]
+    double side_conditions = 0.0;  ///< gaps, contact forces, what lies behind validity bounds [s]
     Index linearizations = 0;
   };
 
@@ -54,8 +54,6 @@ class TimedSystem final : public System {
   }
   Piece open_piece() const override { return inner_.open_piece(); }
   Index multiplier_count(const Piece& piece) const override { return inner_.multiplier_count(piece); }
-  Index border_width(const Piece& piece) const override { return inner_.border_width(piece); }
-  Vector border_rates(const State& state) const override { return inner_.border_rates(state); }
 
   Index guard_count(const Piece& piece) const override { return inner_.guard_count(piece); }
   Vector guards(const State& state) const override {
@@ -83,10 +81,10 @@ class TimedSystem final : public System {
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
     return inner_.transfer(x, from, to);
   }
-  std::vector<Transition> transitions(const State& state, const Direction& forward, Index limit,
+  std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.transitions(state, forward, limit, tolerance);
+    return inner_.transitions(state, forward, bound, tolerance);
   }
   bool admissible(const State& state, double margin) const override {
     const ScopedTimer timer(times_.side_conditions);

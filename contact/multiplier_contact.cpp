@@ -32,7 +32,7 @@ double& entry(SparseMatrix& A, Index row, Index column) {
 
 }  // namespace
 
-MultiplierContact::MultiplierContact(const System& inner, std::vector<Candidate> candidates,
+MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candidate> candidates,
                                      const ContactScales& scales, const ContactLaw& law)
     : inner_(inner), candidates_(std::move(candidates)), scales_(scales) {
   for (const Candidate& candidate : candidates_) {

@@ -34,9 +34,9 @@ struct ContactLaw {
 /// with t = p − r g; c = 0 but for the method `penalty`, r = 0 but for `augmented`.
 class MultiplierContact final : public System {
  public:
-  /// `inner` must have no guards of its own and outlive this. Methods other than `rigid` need candidates with tributary
+  /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary
   /// lengths.
-  MultiplierContact(const System& inner, std::vector<Candidate> candidates, const ContactScales& scales,
+  MultiplierContact(const Equations& inner, std::vector<Candidate> candidates, const ContactScales& scales,
                     const ContactLaw& law = {});
 
   Index size(const Piece& piece) const override { return inner_.size({}) + multiplier_count(piece); }
@@ -83,7 +83,7 @@ class MultiplierContact final : public System {
   double open_guard(Index j, const Vector& x) const;
   void lay_out(const State& state, Linearization& out) const;
 
-  const System& inner_;
+  const Equations& inner_;
   std::vector<Candidate> candidates_;
   ContactScales scales_;
   std::vector<Springs> springs_;

@@ -145,6 +145,7 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
   out.B.setZero(size - m, m);
   out.B.topRows(n) = inner.B;
   copy_values(inner.K, out.K);
+  out.border_rates = border_rates(state);
   const auto add_row = [&](const Touch& at, const Eigen::Vector3d& gradient, Index row) {
     const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
     for (std::size_t i = 0; i < 3; ++i)

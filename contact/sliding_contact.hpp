@@ -47,8 +47,6 @@ class SlidingContact final : public System {
   Vector weights(const Piece& piece) const override;
   Piece open_piece() const override { return open_; }
   Index multiplier_count(const Piece& piece) const override;
-  Index border_width(const Piece& piece) const override;
-  Vector border_rates(const State& state) const override;
 
   Index guard_count(const Piece& piece) const override;
   Vector guards(const State& state) const override;
@@ -58,13 +56,16 @@ class SlidingContact final : public System {
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
-  std::vector<Transition> transitions(const State& state, const Direction& forward, Index limit,
+  std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override;
   bool admissible(const State& state, double margin) const override;
   std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
                                                   double margin) const override;
   Piece canonical_piece(const State& state) const override;
   std::optional<std::string> invalid_reason(const State& state) const override;
+
+  /// How many points are tracked on a piece: unknowns behind those of K.
+  Index border_width(const Piece& piece) const;
 
   /// The stress-free state, all contacts open.
   State rest() const;
@@ -139,6 +140,7 @@ class SlidingContact final : public System {
   double face_gap(const Touch& touch, const AxisPlace& place) const;
   NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
   CurvatureGap curvature_gap(const State& state, std::size_t k) const;
+  Vector border_rates(const State& state) const;
   double bending_gap(const State& state, std::size_t k) const;
   double pressure(const State& state, std::size_t k) const;
   double wall_curvature(const State& state, std::size_t k) const;

@@ -114,11 +114,11 @@ Index SlidingContact::straightened_ends(const State& state, std::size_t k) const
   return count;
 }
 
-std::vector<Transition> SlidingContact::transitions(const State& state, const Direction& forward, Index limit,
+std::vector<Transition> SlidingContact::transitions(const State& state, const Direction& forward, Index bound_number,
                                                     double tolerance) const {
   const Layout_& on = layout(state.piece);
   const auto contacts = static_cast<Index>(state.piece.size());
-  const auto [bound, which] = on.limits()[static_cast<std::size_t>(limit - contacts)];
+  const auto [bound, which] = on.limits()[static_cast<std::size_t>(bound_number - contacts)];
   switch (bound) {
     case Bound::curvature:
       if (!state.piece[which]) return {without(state, forward, which)};

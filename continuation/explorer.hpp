@@ -7,6 +7,7 @@
 
 #include "continuation/events/branch_point.hpp"
 #include "continuation/tracer.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 

@@ -4,19 +4,19 @@ namespace arcwall {
 
 FactorStatus FactorizedEquations::look(const State& state) {
   if (!evaluate(state)) return FactorStatus::not_finite;
-  return solver_.factorize(now_, system_.multiplier_count(state.piece));
+  return solver_.factorize(now_, of_.multiplier_count(state.piece));
 }
 
 FactorStatus FactorizedEquations::look_for_line(const State& state, EquilibriumLine& line) {
   if (!evaluate(state)) return FactorStatus::not_finite;
-  return solver_.factorize_for_line(now_, system_.multiplier_count(state.piece), line);
+  return solver_.factorize_for_line(now_, of_.multiplier_count(state.piece), line);
 }
 
 // False where F is not finite.
 bool FactorizedEquations::evaluate(const State& state) {
   arrived_ = false;
   if (!is_on(state.piece)) piece_ = state.piece;
-  system_.linearize(state, now_);
+  of_.linearize(state, now_);
   return all_finite(now_.F);
 }
 

@@ -4,7 +4,7 @@
 
 #include "core/algebra/bordered_solver.hpp"
 #include "core/algebra/near_null.hpp"
-#include "core/system.hpp"
+#include "core/equations.hpp"
 
 namespace arcwall {
 
@@ -12,8 +12,8 @@ namespace arcwall {
 /// followed along. Of large structures this is most of the memory: who looks at states of one piece shares it.
 class FactorizedEquations {
  public:
-  /// `system` must outlive this.
-  explicit FactorizedEquations(const System& system) : system_(system) {}
+  /// `equations` must outlive this.
+  explicit FactorizedEquations(const Equations& equations) : of_(equations) {}
 
   /// Evaluates and factorizes; `not_finite` also where F is not.
   FactorStatus look(const State& state);
@@ -49,7 +49,7 @@ class FactorizedEquations {
  private:
   bool evaluate(const State& state);
 
-  const System& system_;
+  const Equations& of_;
   Linearization now_;
   BorderedSolver solver_;
   NearNullTracker tracker_;

@@ -14,7 +14,7 @@ constexpr int most_rounds = 100;
 
 }  // namespace
 
-LoadIncrements::LoadIncrements(const System& system, State start, double lambda_scale,
+LoadIncrements::LoadIncrements(const UnilateralSystem& system, State start, double lambda_scale,
                                std::function<void(const State&)> advance)
     : system_(system), advance_(std::move(advance)), lambda_scale_(lambda_scale) {
   last_.state = std::move(start);

@@ -6,6 +6,7 @@
 #include "continuation/metric.hpp"
 #include "continuation/path_point.hpp"
 #include "core/algebra/bordered_solver.hpp"
+#include "core/unilateral_system.hpp"
 
 namespace arcwall {
 
@@ -20,7 +21,8 @@ class LoadIncrements {
  public:
   /// `system` must outlive this; `advance` tells it that an increment has led to a state, whose configuration is the
   /// reference of the next. `lambda_scale` as in Metric.
-  LoadIncrements(const System& system, State start, double lambda_scale, std::function<void(const State&)> advance);
+  LoadIncrements(const UnilateralSystem& system, State start, double lambda_scale,
+                 std::function<void(const State&)> advance);
 
   /// The state at the start, with its event.
   Arc start();
@@ -54,7 +56,7 @@ class LoadIncrements {
   PathPoint point(const Increment& increment, double lambda);
   std::vector<Event> changes(const Piece& before, const PathPoint& after, double lambda_before) const;
 
-  const System& system_;
+  const UnilateralSystem& system_;
   std::function<void(const State&)> advance_;
   double lambda_scale_;
   PathPoint last_{};

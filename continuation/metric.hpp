@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/system.hpp"
+#include "core/linearization.hpp"
 
 namespace arcwall {
 

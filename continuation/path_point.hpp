@@ -7,7 +7,7 @@
 
 #include "continuation/stability.hpp"
 #include "core/state.hpp"
-#include "core/system.hpp"
+#include "core/transition.hpp"
 
 namespace arcwall {
 

@@ -8,21 +8,21 @@
 namespace arcwall {
 
 // n₋ = n₋(K) + n₋(T) with what a border holds (Haynsworth 1968).
-std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
-                                          const Linearization& equations, const NearNull& nearest) {
+std::optional<Index> negative_eigenvalues(const Equations& system, const State& state, const BorderedSolver& solver,
+                                          const Linearization& now, const NearNull& nearest) {
   const Index multipliers = system.multiplier_count(state.piece);
-  if (equations.B.cols() == 0) {
+  if (now.B.cols() == 0) {
     const Vector weights = system.weights(state.piece);
-    const auto negative = negative_count(solver.inner(), equations.K, weights, multipliers, nearest);
+    const auto negative = negative_count(solver.inner(), now.K, weights, multipliers, nearest);
     return negative ? std::optional(*negative - multipliers) : std::nullopt;
   }
   const auto inertia = solver.inner().inertia();
   if (!inertia || !solver.inner_is_regular()) return std::nullopt;
-  const auto let_go = sliding_resistance(solver, equations, system.border_rates(state)).negative();
+  const auto let_go = sliding_resistance(solver, now).negative();
   return let_go ? std::optional(inertia->negative - multipliers + *let_go) : std::nullopt;
 }
 
-Piece strictly_active(const System& system, const State& state, double force_tolerance) {
+Piece strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance) {
   Piece piece = state.piece;
   for (std::size_t j = 0; j < piece.size(); ++j) {
     const auto force = system.multiplier_index(state.piece, static_cast<Index>(j));

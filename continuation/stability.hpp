@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "continuation/factorized_equations.hpp"
-#include "core/system.hpp"
+#include "core/unilateral_system.hpp"
 
 namespace arcwall {
 
@@ -20,15 +20,15 @@ struct StabilityCount {
 /// Negative eigenvalues of K with all contacts of the state's piece held; what a border holds gives way. Empty where K
 /// is singular. Without a border also where the pivots do not tell: `nearest` are the eigenpairs nearest zero that were
 /// found there.
-std::optional<Index> negative_eigenvalues(const System& system, const State& state, const BorderedSolver& solver,
-                                          const Linearization& equations, const NearNull& nearest);
+std::optional<Index> negative_eigenvalues(const Equations& system, const State& state, const BorderedSolver& solver,
+                                          const Linearization& now, const NearNull& nearest);
 
 /// Counts. With the equations that it shares where they are on the same piece, with its own elsewhere; keeps
 /// workspaces from call to call.
 class StabilityCounter {
  public:
   /// `system` and `shared` must outlive this. `force_tolerance` in the scale of the guards.
-  StabilityCounter(const System& system, FactorizedEquations& shared, double force_tolerance)
+  StabilityCounter(const UnilateralSystem& system, FactorizedEquations& shared, double force_tolerance)
       : system_(system), force_tolerance_(force_tolerance), shared_(shared), own_(system) {}
 
   /// `negative_held`: the count with all closed contacts held, if it is known already.
@@ -47,7 +47,7 @@ class StabilityCounter {
  private:
   std::optional<Index> counted_on(const State& state);
 
-  const System& system_;
+  const UnilateralSystem& system_;
   double force_tolerance_;
   FactorizedEquations& shared_;
   FactorizedEquations own_;
@@ -57,6 +57,6 @@ class StabilityCounter {
 };
 
 /// The piece on which only the contacts that carry more than the tolerance are closed.
-Piece strictly_active(const System& system, const State& state, double force_tolerance);
+Piece strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance);
 
 }  // namespace arcwall

@@ -7,6 +7,7 @@
 #include "continuation/stability.hpp"
 #include "continuation/step/corrector.hpp"
 #include "continuation/tracer_state.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 

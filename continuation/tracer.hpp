@@ -7,6 +7,7 @@
 
 #include "continuation/trace_options.hpp"
 #include "continuation/tracer_state.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 

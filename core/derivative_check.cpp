@@ -31,7 +31,7 @@ auto central_difference(const Function& value, State state, Index i, double step
 
 double DerivativeReport::worst() const { return std::max({K, F_lambda, consistency, energy, guard_gradient}); }
 
-DerivativeReport check_derivatives(const System& system, const State& state, double step) {
+DerivativeReport check_derivatives(const UnilateralSystem& system, const State& state, double step) {
   Linearization now;
   system.linearize(state, now);
   const auto residual = [&](const State& s) {

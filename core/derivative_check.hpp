@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/observable.hpp"
-#include "core/system.hpp"
+#include "core/unilateral_system.hpp"
 
 namespace arcwall {
 
@@ -20,7 +20,7 @@ struct DerivativeReport {
 
 /// Compares K, F_λ and all guard gradients with central differences of fourth order and step `step` (times 1 + |x|).
 /// The energy is compared only on pieces without multipliers, where F is its gradient.
-DerivativeReport check_derivatives(const System& system, const State& state, double step = 1e-4);
+DerivativeReport check_derivatives(const UnilateralSystem& system, const State& state, double step = 1e-4);
 
 /// Largest difference between the gradient and central differences, relative to the gradient's greatest entry.
 double check_gradient(const Observable& observable, const State& state, double step = 1e-4);

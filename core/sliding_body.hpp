@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/system.hpp"
+#include "core/linearization.hpp"
 
 namespace arcwall {
 

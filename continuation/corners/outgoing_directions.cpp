@@ -24,8 +24,8 @@ struct Solution {
   Vector p;
 };
 
-std::optional<RateProblem> reduce(const System& system, const State& corner, const std::vector<Index>& degenerate,
-                                  CornerWorkspace& workspace) {
+std::optional<RateProblem> reduce(const UnilateralSystem& system, const State& corner,
+                                  const std::vector<Index>& degenerate, CornerWorkspace& workspace) {
   RateProblem problem;
   Piece piece = corner.piece;
   for (const Index j : degenerate) piece[static_cast<std::size_t>(j)] = 0;
@@ -146,7 +146,7 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
 }
 
 // The direction of a solution in the unknowns of its own piece; none if a rate has the wrong sign.
-std::vector<OutgoingDirection> direction_of(const System& system, const State& corner,
+std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, const State& corner,
                                             const std::vector<Index>& degenerate, const RateProblem& problem,
                                             const Solution& solution, const CornerOptions& options) {
   Direction motion{.dx = solution.lambda * problem.free_rate + problem.response * solution.p,
@@ -178,10 +178,10 @@ std::vector<OutgoingDirection> direction_of(const System& system, const State& c
   return {std::move(way)};
 }
 
-// Whether two directions move the structure alike; contact forces follow from that.
-bool same(const System& system, const OutgoingDirection& a, const OutgoingDirection& b, double tolerance) {
+// Whether two directions move the structure, whose unknowns are the first n, alike; contact forces follow from that.
+bool same(const UnilateralSystem& system, Index n, const OutgoingDirection& a, const OutgoingDirection& b,
+          double tolerance) {
   const Vector weights = system.weights(a.piece);
-  const Index n = a.direction.dx.size() - system.multiplier_count(a.piece) - system.border_width(a.piece);
   const auto x = [n](const OutgoingDirection& way) { return way.direction.dx.head(n).array(); };
   const auto w = weights.head(n).array();
   const double aa = (w * x(a).square()).sum(), bb = (w * x(b).square()).sum(), ab = (w * x(a) * x(b)).sum();
@@ -191,17 +191,18 @@ bool same(const System& system, const OutgoingDirection& a, const OutgoingDirect
 
 }  // namespace
 
-std::vector<OutgoingDirection> outgoing_directions(const System& system, const State& corner,
+std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& system, const State& corner,
                                                    const std::vector<Index>& degenerate, const CornerOptions& options,
                                                    CornerWorkspace& workspace) {
   const auto problem = reduce(system, corner, degenerate, workspace);
   if (!problem) return {};
   const bool small = static_cast<int>(degenerate.size()) <= options.max_enumerated;
+  const Index n = workspace.equations.K.cols() - system.multiplier_count(problem->open.piece);
   std::vector<OutgoingDirection> found;
   for (const Solution& solution : small ? enumerate(*problem) : pivoted(*problem))
     for (OutgoingDirection& way : direction_of(system, corner, degenerate, *problem, solution, options)) {
       const auto known = [&](const OutgoingDirection& other) {
-        return same(system, way, other, options.same_direction);
+        return same(system, n, way, other, options.same_direction);
       };
       if (std::none_of(found.begin(), found.end(), known)) found.push_back(std::move(way));
     }

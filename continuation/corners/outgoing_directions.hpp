@@ -4,6 +4,7 @@
 
 #include "continuation/corners/corner_options.hpp"
 #include "core/algebra/bordered_solver.hpp"
+#include "core/unilateral_system.hpp"
 
 namespace arcwall {
 
@@ -28,7 +29,7 @@ struct CornerWorkspace {
 /// `degenerate` are the contacts whose gap and force are both zero there. The direction by which the place was reached
 /// (backwards) is among them. Empty where K with all degenerate contacts open is singular. `workspace` leaves no trace
 /// in the result.
-std::vector<OutgoingDirection> outgoing_directions(const System& system, const State& corner,
+std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& system, const State& corner,
                                                    const std::vector<Index>& degenerate, const CornerOptions& options,
                                                    CornerWorkspace& workspace);
 

@@ -16,7 +16,7 @@ constexpr double rate_step = 1e-3;   // h of differences for a rate [path metric
 
 // Algebraic branching equation a α² + 2 b α β = 0 for tangents α φ + β t, t the tangent we came along:
 //   α = 0 (the old branch) or α : β = −2 b : a.
-void find_other_tangent(const System& system, const Metric& metric, const Vector& left, BranchPoint& point) {
+void find_other_tangent(const Equations& system, const Metric& metric, const Vector& left, BranchPoint& point) {
   Linearization beside;
   const double b = eigenvalue_rate(system, point.state, point.along, left, point.mode.dx, beside);
   const double a = eigenvalue_rate(system, point.state, point.mode, left, point.mode.dx, beside);
@@ -40,7 +40,7 @@ Matrix across(const Matrix& vectors, const Metric& metric, const Direction& alon
 }  // namespace
 
 // ψᵀ (J(x + h d) − J(x − h d)) φ / 2h, ψ and φ the left and right null vectors of J = ∂F/∂x.
-double eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
+double eigenvalue_rate(const Equations& system, const State& state, const Direction& d, const Vector& left,
                        const Vector& mode, Linearization& workspace) {
   double rate = 0.0;
   for (const double sign : {1.0, -1.0}) {
@@ -56,7 +56,7 @@ double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspa
          size.dot(workspace.K.cwiseAbs().selfadjointView<Eigen::Lower>() * size) / rate_step;
 }
 
-BranchPoint branch_point_at(const System& system, Corrector& corrector, const Metric& metric,
+BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const Metric& metric,
                             const SingularPlace& place) {
   BranchPoint point{.type = BranchType::undetermined,
                     .state = place.point.state,

@@ -5,12 +5,13 @@
 #include "continuation/events/singular_locator.hpp"
 #include "continuation/path_point.hpp"
 #include "continuation/step/corrector.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 
 /// φᵀ (∂K·d) φ by central differences: how fast an eigenvalue changes along a direction. The first φ is the left null
 /// vector of ∂F/∂x, the second the right one.
-double eigenvalue_rate(const System& system, const State& state, const Direction& d, const Vector& left,
+double eigenvalue_rate(const Equations& system, const State& state, const Direction& d, const Vector& left,
                        const Vector& mode, Linearization& workspace);
 
 /// What round-off may make of that; `workspace` as the rate left it.
@@ -18,7 +19,7 @@ double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspa
 
 /// What a singular place is: its modes, its type and the tangents of the branches that cross there. Where no mode can
 /// be computed, `mode` stays empty.
-BranchPoint branch_point_at(const System& system, Corrector& corrector, const Metric& metric,
+BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const Metric& metric,
                             const SingularPlace& place);
 
 /// A first point on a bifurcated branch.

@@ -42,7 +42,7 @@ SingularPoint singular_at(TraceTools& tools, const StepOrigin& origin, const Sin
 SingularSearch find_branch_points(TraceTools& tools, const StepOrigin& origin, const PathPoint& to) {
   const Segment segment(origin.metric, origin.point(), to);
   const Index before = *origin.from.negative_eigenvalues, after = *to.negative_eigenvalues;
-  SingularLocator locator(tools.system, tools.corrector);
+  SingularLocator locator(tools.corrector);
   std::vector<SingularPlace> places;
   if (after != before) {
     places = locator.changes(segment, origin.metric, before, after);

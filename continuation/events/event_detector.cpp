@@ -12,8 +12,8 @@ EventDetector limit_point_detector(const Metric& metric) {
           .integral = [scale](const PathPoint& point) { return point.state.lambda / scale; }};
 }
 
-EventDetector turning_detector(const System& system, const Metric& metric, std::shared_ptr<const Observable> quantity,
-                               std::string label) {
+EventDetector turning_detector(const Equations& system, const Metric& metric,
+                               std::shared_ptr<const Observable> quantity, std::string label) {
   const double lambda_scale = metric.lambda_scale();
   const auto rate = [&system, lambda_scale, quantity](const PathPoint& point) {
     const Row row = quantity->gradient(point.state);

@@ -29,8 +29,8 @@ struct EventDetector {
 EventDetector limit_point_detector(const Metric& metric);
 
 /// The rate of a quantity along the unit tangent, scaled likewise: its zeros are turning points of the quantity.
-EventDetector turning_detector(const System& system, const Metric& metric, std::shared_ptr<const Observable> quantity,
-                               std::string label);
+EventDetector turning_detector(const Equations& system, const Metric& metric,
+                               std::shared_ptr<const Observable> quantity, std::string label);
 
 /// Signs below this are round-off.
 constexpr double detector_noise = 1e-7;

@@ -134,7 +134,7 @@ SingularSearch find_limit_point(TraceTools& tools, const StepOrigin& origin, con
 
 SingularSearch find_touching_limit(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
   if (!hides_two_zeros(tools.detectors, segment, deep_turn)) return {};
-  SingularLocator locator(tools.system, tools.corrector);
+  SingularLocator locator(tools.corrector);
   const auto places = locator.touches(segment, origin.metric, SingularLocator::What::turning,
                                       origin.from.zero_eigenvalues > 0, detector_noise);
   if (!places || places->size() == 2) return {.clear = segment.length() <= shortest_telling_step};

@@ -329,7 +329,7 @@ std::optional<SingularLocator::Level> SingularLocator::level_at(const Segment& s
 std::optional<Matrix> SingularLocator::test_matrix(const Sample& sample, const Metric& metric, What what, Index order,
                                                    Matrix& modes) {
   if (what == What::turning) return Matrix::Constant(1, 1, sample.tangent.dlambda / metric.lambda_scale());
-  if (system_.border_width(sample.state.piece) > 0) {
+  if (corrector_.factorized().equations().B.cols() > 0) {
     // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least
     // positive.
     constexpr Index nearest = 4;

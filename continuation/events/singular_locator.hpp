@@ -28,8 +28,8 @@ class SingularLocator {
   /// What vanishes: an eigenvalue whose mode is no motion along the path, or λ′.
   enum class What { eigenvalue, turning };
 
-  /// Both must outlive this.
-  SingularLocator(const System& system, Corrector& corrector) : system_(system), corrector_(corrector) {}
+  /// `corrector` must outlive this.
+  explicit SingularLocator(Corrector& corrector) : corrector_(corrector) {}
 
   /// The first places, in their order, where the number of negative eigenvalues changes: `before` and `after` at the
   /// segment's ends, not equal, λ not turning. Empty if the ends do not seem to belong to one arc; shorter steps will
@@ -66,7 +66,6 @@ class SingularLocator {
   std::vector<SingularPlace> nearest_sample(const Bracket& bracket) const;
   bool lies_on_path(const PathPoint& point, const Metric& metric);
 
-  const System& system_;
   Corrector& corrector_;
   std::vector<Sample> seen_;  // on the segment under way
 };

@@ -66,7 +66,7 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
   return arrived({.state = state}, metric, metric.row(along), Wanted::pairs);
 }
 
-std::optional<NearNull> Corrector::near_null(const State& here, const Vector& weights, Index count,
+std::optional<NearNull> Corrector::near_null([[maybe_unused]] const State& here, const Vector& weights, Index count,
                                              Settled settled) const {
   assert(!here_.has_arrived() || here_.is_at(here));
   const Linearization& now = here_.equations();
@@ -74,7 +74,7 @@ std::optional<NearNull> Corrector::near_null(const State& here, const Vector& we
   if (!here_.has_arrived() || !solver.inner_is_regular()) return std::nullopt;
   const Vector weighted = weights.head(now.K.cols());
   if (now.B.cols() > 0) {
-    const ReleasedBorder border(solver, now, sliding_resistance(solver, now, system_.border_rates(here)));
+    const ReleasedBorder border(solver, now, sliding_resistance(solver, now));
     return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, settled)) : std::nullopt;
   }
   const Matrix none, &known = here_.tracker().vectors();

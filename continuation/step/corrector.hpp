@@ -33,7 +33,7 @@ enum class Wanted { tangent, pairs };
 class Corrector {
  public:
   /// `system` must outlive this. `load_floor`: |λ| below which loads count as this large in the relative residual.
-  Corrector(const System& system, const CorrectorOptions& options, double load_floor)
+  Corrector(const Equations& system, const CorrectorOptions& options, double load_floor)
       : system_(system), options_(options), load_floor_(load_floor), here_(system) {}
 
   /// From `guess` to F = 0, c = 0. `length` is the distance from the guess to the last point known, `along` the tangent
@@ -89,7 +89,7 @@ class Corrector {
                  CorrectorResult& result);
   CorrectorResult arrived(CorrectorResult result, const Metric& metric, const Row& border, Wanted wanted);
 
-  const System& system_;
+  const Equations& system_;
   CorrectorOptions options_;
   double load_floor_;
   FactorizedEquations here_;

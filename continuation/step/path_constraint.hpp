@@ -6,7 +6,7 @@
 #include "continuation/metric.hpp"
 #include "core/equilibrium_line.hpp"
 #include "core/observable.hpp"
-#include "core/system.hpp"
+#include "core/unilateral_system.hpp"
 
 namespace arcwall {
 
@@ -44,12 +44,12 @@ class ValueConstraint final : public PathConstraint {
 class GuardConstraint final : public PathConstraint {
  public:
   /// `system` must outlive this.
-  GuardConstraint(const System& system, Index j) : system_(system), j_(j) {}
+  GuardConstraint(const UnilateralSystem& system, Index j) : system_(system), j_(j) {}
   double value(const State& state) const override { return system_.guard(state, j_); }
   Row gradient(const State& state) const override { return system_.guard_gradient(state, j_); }
 
  private:
-  const System& system_;
+  const UnilateralSystem& system_;
   Index j_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "continuation/segment.hpp"
 #include "continuation/trace_tools.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 

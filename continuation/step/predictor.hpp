@@ -1,6 +1,7 @@
 #pragma once
 
 #include "continuation/trace_tools.hpp"
+#include "core/system.hpp"
 
 namespace arcwall {
 

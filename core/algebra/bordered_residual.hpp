@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/system.hpp"
+#include "core/linearization.hpp"
 
 namespace arcwall {
 

@@ -7,7 +7,7 @@
 #include "core/algebra/ldlt.hpp"
 #include "core/algebra/whole_solver.hpp"
 #include "core/equilibrium_line.hpp"
-#include "core/system.hpp"
+#include "core/linearization.hpp"
 
 namespace arcwall {
 

@@ -14,8 +14,8 @@ std::optional<Index> SlidingResistance::negative() const {
 
 // T = −(D_ff − D_fh D_hh⁻¹ D_hf) diag(1/w), f free to slide and h held, with D = C_x K⁻¹ B − C_s: singular where ∂F/∂x
 // is, since det ∂F/∂x = ± det K det D. The continuum's T is symmetric, a mesh's but for discretisation error.
-SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations,
-                                     const Vector& rates) {
+SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations) {
+  const Vector& rates = equations.border_rates;
   std::vector<Index> sliding, held;
   for (Index k = 0; k < rates.size(); ++k) (rates[k] != 0.0 ? sliding : held).push_back(k);
   const Matrix& D = solver.reduced();

@@ -15,8 +15,8 @@ struct SlidingResistance {
   std::optional<Index> negative() const;
 };
 
-/// Of the equations that `solver` has factorized, K being regular. `rates`: System::border_rates.
-SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations, const Vector& rates);
+/// Of the equations that `solver` has factorized, K being regular; their border_rates tell what is let go.
+SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations);
 
 /// K with the y_k that a resistance names let go against it: singular where K is regular and ∂F/∂x is not.
 class ReleasedBorder {

@@ -6,7 +6,7 @@
 
 #include "core/algebra/ldlt.hpp"
 #include "core/algebra/solvers/lu.hpp"
-#include "core/system.hpp"
+#include "core/linearization.hpp"
 
 namespace arcwall {
 

@@ -48,11 +48,12 @@ struct Held {
         rates[k] = 0.0;
       }
     }
+    now.border_rates = rates;
     now.F = Vector::Zero(n + 2 * m);
     EXPECT_EQ(solver.factorize(now, m), FactorStatus::ok);
   }
 
-  SlidingResistance resistance() const { return sliding_resistance(solver, now, rates); }
+  SlidingResistance resistance() const { return sliding_resistance(solver, now); }
 
   // A + Σ c_k h_k h_kᵀ on the motions that infinite c_k leave free.
   Matrix sprung() const {
@@ -124,7 +125,9 @@ TEST(ReleasedBorder, IsSingularWhereTheEquationsAre) {
     now.F = Vector::Zero(n + 2);
     BorderedSolver solver;
     ASSERT_EQ(solver.factorize(now, 0), FactorStatus::ok);
-    const double w = -0.3, T = sliding_resistance(solver, now, Vector{{w, 0.0}}).T.value();
+    const double w = -0.3;
+    now.border_rates = Vector{{w, 0.0}};
+    const double T = sliding_resistance(solver, now).T.value();
     Matrix J(n + 2, n + 2);
     J << symmetric, now.B, now.C;
     const double expected = J.determinant(), found = -symmetric.determinant() * solver.reduced()(1, 1) * w * T;

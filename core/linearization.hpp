@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/state.hpp"
+
+namespace arcwall {
+
+/// The equations F(x, λ) = 0 at one state, with their derivatives. Reused from state to state: while the piece stays
+/// the same, the pattern of K does, and only values are written.
+///
+/// ∂F/∂x is symmetric but for a border of a few unknowns s that stand last in x, with as many last equations. Each s_k
+/// belongs to an unknown y_k of K (a moment that holds the body where it slides), which its equation may ask to vanish:
+///
+///     ∂F/∂x = [ K  B ]
+///             [   C  ]
+struct Linearization {
+  Vector F{};                              ///< residual, internal minus external
+  SparseMatrix K{};                        ///< the symmetric part: its lower triangle alone is stored
+  Matrix B{};                              ///< columns of the border; none for most systems
+  LongRows C{};                            ///< rows of the border, by x and s
+  std::vector<Index> holding{};            ///< y_k, one a column of B
+  Vector border_rates{};                   ///< one a column of B: the rate by s_k of the equation that y_k enforces, if
+                                           ///< the body slid and y_k did not hold it; 0 where it is truly held.
+                                           ///< Stability is counted with the others let go (ReleasedBorder)
+  Vector F_lambda{};                       ///< ∂F/∂λ
+  std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, by
+                                           ///< unknowns of K: true for the displacement in x of such a node, behind
+                                           ///< which stands that in z. Solutions then know this to the last digit,
+                                           ///< which K's rounded entries do not. May be empty
+  std::optional<Piece> pattern_of{};       ///< the piece whose pattern K has; empty: not laid out yet
+  std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
+};
+
+}  // namespace arcwall

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/observable.hpp"
+#include "core/state.hpp"
+
+namespace arcwall {
+
+/// What the equilibria of a continuum have in common.
+struct Continuum {
+  double energy = 0.0;  ///< total potential [force·length]
+  double length = 0.0;  ///< sum of the lengths of the body's flat parts on walls, new ones being points yet [length]
+};
+
+/// What lies behind a validity bound of a piece: another piece that meets it there.
+struct Transition {
+  enum class Change {
+    spreads,      ///< a point contact becomes a line
+    gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
+    splits,       ///< a part on a wall lifts off inside
+    joins,        ///< the reverse; the place is known on the piece ahead alone
+    remeshed,     ///< the same point in other unknowns
+    continuum,    ///< a continuum of equilibria with the same load and energy
+    unsupported,  ///< something that is not modelled
+  };
+  Change change = Change::remeshed;
+  std::string detail{};  ///< of the last two: what and why
+  std::optional<Continuum> continuum{};
+  std::vector<Index> contacts{};  ///< that change: in the piece behind, of `gathers` and `joins` in the piece ahead
+  State guess{};                  ///< on the piece ahead, near the first point there
+  Direction forward{};            ///< there, roughly
+  /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
+  /// through the guess across `forward`.
+  std::shared_ptr<const Observable> quantity{};
+  double value = 0.0;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/equations.hpp"
+
+namespace arcwall {
+
+/// The second of three levels of a system: equations with unilateral side conditions.
+///
+/// There are as many contacts as a piece has entries. Contact j is open (its gap g_j ≥ 0, its force 0) or closed (its
+/// gap 0, its force p_j ≥ 0, an unknown). What must not become negative is its *guard*: the gap of an open contact, the
+/// force of a closed one, each over a scale of the implementation's choice, so that guards are of order 1. Where a
+/// guard vanishes the path has come to the end of the piece.
+///
+/// Must be overridden by a system with contacts: open_piece, guards, guard_gradient, unit_force, multiplier_index and
+/// transfer, and of the equations multiplier_count. Must hold: guard_gradient() is the derivative of guards(), and
+/// guard() and guard_rates() agree with both; a force enters the equations by the gradient of its gap, so that K stays
+/// symmetric; transfer() from a piece to another and back gives the same x where the forces that are left out are zero.
+class UnilateralSystem : public Equations {
+ public:
+  /// No contact closed, unknowns as a path from rest begins with.
+  virtual Piece open_piece() const { return {}; }
+
+  /// Number of guards of a piece: those of its contacts and, behind them, of its validity bounds (see System).
+  virtual Index guard_count(const Piece& piece) const { return static_cast<Index>(piece.size()); }
+
+  /// All guards, dimensionless. One that cannot be reached is large.
+  virtual Vector guards(const State&) const { return {}; }
+
+  /// Guard j alone.
+  virtual double guard(const State& state, Index j) const { return guards(state)[j]; }
+
+  /// Derivative of guard j.
+  virtual Row guard_gradient(const State& state, Index) const {
+    return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  }
+
+  /// Derivatives of all guards along a direction.
+  virtual Vector guard_rates(const State& state, const Direction& direction) const {
+    Vector rates(guard_count(state.piece));
+    for (Index j = 0; j < rates.size(); ++j) rates[j] = apply(guard_gradient(state, j), direction);
+    return rates;
+  }
+
+  /// −∂F/∂p_j for a state on a piece where contact j is open: what its force would do to the equations, scaled so that
+  /// it belongs to a change of 1 of the guard that the force is on the piece where j is closed.
+  virtual Vector unit_force(const State& state, Index) const { return Vector::Zero(state.x.size()); }
+
+  /// How far a closed contact gives way for its force, both in the scale of the guards: its gap is −compliance times
+  /// its force. Zero for rigid obstacles.
+  virtual double compliance(Index) const { return 0.0; }
+
+  /// Where the force of a closed contact stands in x; empty for an open one.
+  virtual std::optional<Index> multiplier_index(const Piece&, Index) const { return std::nullopt; }
+
+  /// The value in x of a contact force whose guard is 1 [force].
+  virtual double multiplier_scale() const { return 1.0; }
+
+  /// The same point with the unknowns of a piece of the same layout where other contacts are closed: forces that are
+  /// new are zero. Directions are transferred likewise.
+  virtual Vector transfer(const Vector& x, const Piece& /*from*/, const Piece& /*to*/) const { return x; }
+
+  /// Why the equations do not hold at this state although it may solve them (a wall that ends); empty if they do.
+  virtual std::optional<std::string> invalid_reason(const State&) const { return std::nullopt; }
+
+  /// The same point on another piece of the same layout.
+  State with_piece(const State& state, const Piece& piece) const {
+    return {.x = transfer(state.x, state.piece, piece), .lambda = state.lambda, .piece = piece};
+  }
+};
+
+/// Contacts among the guards of a piece whose gap and force both vanish within `tolerance`.
+inline std::vector<Index> degenerate_contacts(const Vector& guards, const Piece& piece, double tolerance) {
+  std::vector<Index> weak;
+  for (Index j = 0; j < static_cast<Index>(piece.size()); ++j)
+    if (std::abs(guards[j]) <= tolerance) weak.push_back(j);
+  return weak;
+}
+
+}  // namespace arcwall
