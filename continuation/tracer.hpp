@@ -55,7 +55,6 @@ class Tracer {
 
  private:
   bool is_of_this_branch(const TracerState& state) const;
-  void end_with(BranchEnd end);
   std::optional<Arc> begin();
 
   std::unique_ptr<TraceTools> tools_;
