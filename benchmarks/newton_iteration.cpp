@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/models.hpp"
+#include "continuation/step/corrector.hpp"
 #include "continuation/tracer.hpp"
 
 namespace arcwall::bench {
