@@ -57,7 +57,7 @@ look_at_packages() {
       $6 !~ "^./usr/" || $6 ~ "^./usr/local" { print; wrong = 1 } END { exit wrong }' || fail "wrong owner, mode or place"
   done
   depends arcwall libc6
-  for library in libblas.so.3 liblapack.so.3 libmetis5; do  # loaded when first called: nothing else would tell
+  for library in libcholmod3 libumfpack5 liblapack.so.3; do  # SuiteSparse brings BLAS and METIS
     depends arcwall "$library"
   done
   depends libarcwall-dev libsuitesparse-dev
