@@ -63,7 +63,7 @@ bool concerns(const deck::Wall& wall, const std::string& member) {
 
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
   std::vector<Candidate> candidates;
-  const Vector rest = Vector::Zero(structure.size({}));
+  const State rest{.x = Vector::Zero(structure.size({}))};
   for (const deck::Wall& wall : deck.walls) {
     const Side side = side_of(wall);
     const std::shared_ptr<const Profile> profile = profile_of(wall);

@@ -155,8 +155,9 @@ const System& Study::system() const {
 LoadIncrements Study::increments(State start) {
   const double scale = Tracer(system(), start, options_).lambda_scale();
   const Index n = structure_->size({});
-  return {system(), std::move(start), scale,
-          [this, n](const State& state) { incremental_structure_->advance(state.x.head(n)); }};
+  return {system(), std::move(start), scale, [this, n](const State& state) {
+            incremental_structure_->advance({.x = state.x.head(n), .lambda = state.lambda});
+          }};
 }
 
 std::optional<State> Study::start(std::string& reason) const {
@@ -192,7 +193,7 @@ std::optional<State> Study::start(std::string& reason) const {
 Study::ContactPlace Study::contact_place(const State& state, Index j) const {
   if (sliding_) return {.label = sliding_->label(state, j), .x = sliding_->place(state, j).x()};
   const Candidate& candidate = contact_->candidate(j);
-  return {.label = candidate.label(), .x = candidate.point().position(state.x).x()};
+  return {.label = candidate.label(), .x = candidate.point().position(state).x()};
 }
 
 std::vector<Study::ContactForce> Study::contact_forces(const State& state) const {

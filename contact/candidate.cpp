@@ -2,14 +2,14 @@
 
 namespace arcwall {
 
-double Candidate::gap(const Vector& x) const {
-  const Vec2 at = point_->position(x);
+double Candidate::gap(const State& state) const {
+  const Vec2 at = point_->position(state);
   return wall_->covers(at.x()) ? surface_slope(*wall_, side_, at).value : infinity;
 }
 
-void Candidate::gap(const Vector& x, Gap& out) const {
+void Candidate::gap(const State& state, Gap& out) const {
   PointKinematics at;
-  point_->kinematics(x, at);
+  point_->kinematics(state, at);
   const SurfaceGap g = surface_gap(*wall_, side_, at.position);
   out.value = g.value;
   out.gradient = g.x * at.jacobian.row(0).transpose() + g.z * at.jacobian.row(1).transpose();
@@ -19,8 +19,8 @@ void Candidate::gap(const Vector& x, Gap& out) const {
   out.hessian.noalias() += g.xz * at.jacobian.row(1).transpose() * at.jacobian.row(0);
 }
 
-double Candidate::gap_rate(const Vector& x, const Vector& dx) const {
-  const PointMotion at = point_->motion(x, dx);
+double Candidate::gap_rate(const State& state, const Direction& direction) const {
+  const PointMotion at = point_->motion(state, direction);
   if (!wall_->covers(at.position.x())) return 0.0;
   const SurfaceSlope g = surface_slope(*wall_, side_, at.position);
   return g.x * at.velocity.x() + g.z * at.velocity.y();

@@ -39,16 +39,16 @@ class Candidate {
   const ContactLabel& label() const { return label_; }
 
   /// Whether there is a surface at the point's x.
-  bool faces_wall(const Vector& x) const { return wall_->covers(point_->position(x).x()); }
+  bool faces_wall(const State& state) const { return wall_->covers(point_->position(state).x()); }
 
   /// The gap [length]; infinite where there is no surface.
-  double gap(const Vector& x) const;
+  double gap(const State& state) const;
 
   /// Gap, gradient and Hessian; only where faces_wall().
-  void gap(const Vector& x, Gap& out) const;
+  void gap(const State& state, Gap& out) const;
 
   /// Rate of the gap along a direction; 0 where there is no surface.
-  double gap_rate(const Vector& x, const Vector& dx) const;
+  double gap_rate(const State& state, const Direction& direction) const;
 
  private:
   std::unique_ptr<TrackedPoint> point_;

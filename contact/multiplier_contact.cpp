@@ -54,7 +54,7 @@ void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const
   for_each_closed(state.piece, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
     const double p = state.x[n + k];
-    candidates_[j].gap(inner.x, gap);
+    candidates_[j].gap(state, gap);
     const double t = p - springs_[j].r * gap.value;
     for (std::size_t i = 0; i < unknowns.size(); ++i) F[unknowns[i]] -= t * gap.gradient[static_cast<Index>(i)];
     F[n + k] = -gap.value - springs_[j].c * p;
@@ -79,7 +79,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
     const auto& unknowns = candidates_[j].point().unknowns();
     const double p = state.x[n + k];
     const auto [c, r] = springs_[j];
-    candidates_[j].gap(inner_at.x, gap);
+    candidates_[j].gap(state, gap);
     const double t = p - r * gap.value;
     out.F[n + k] = -gap.value - c * p;
     entry(out.K, n + k, n + k) = -c;
@@ -126,17 +126,17 @@ Vector MultiplierContact::guards(const State& state) const {
   Vector guards(contact_count());
   Index k = inner_.size({});
   for (Index j = 0; j < guards.size(); ++j)
-    guards[j] = state.piece[static_cast<std::size_t>(j)] ? state.x[k++] / scales_.force : open_guard(j, state.x);
+    guards[j] = state.piece[static_cast<std::size_t>(j)] ? state.x[k++] / scales_.force : open_guard(j, state);
   return guards;
 }
 
 double MultiplierContact::guard(const State& state, Index j) const {
   const auto k = multiplier_index(state.piece, j);
-  return k ? state.x[*k] / scales_.force : open_guard(j, state.x);
+  return k ? state.x[*k] / scales_.force : open_guard(j, state);
 }
 
-double MultiplierContact::open_guard(Index j, const Vector& x) const {
-  const double gap = candidate(j).gap(x);
+double MultiplierContact::open_guard(Index j, const State& state) const {
+  const double gap = candidate(j).gap(state);
   return std::isfinite(gap) ? gap / scales_.length : out_of_reach;
 }
 
@@ -144,9 +144,9 @@ Row MultiplierContact::guard_gradient(const State& state, Index j) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (const auto k = multiplier_index(state.piece, j)) {
     row.dx[*k] = 1.0 / scales_.force;
-  } else if (candidate(j).faces_wall(state.x)) {
+  } else if (candidate(j).faces_wall(state)) {
     Gap gap;
-    candidate(j).gap(state.x, gap);
+    candidate(j).gap(state, gap);
     const auto& unknowns = candidate(j).point().unknowns();
     for (std::size_t i = 0; i < unknowns.size(); ++i)
       row.dx[unknowns[i]] = gap.gradient[static_cast<Index>(i)] / scales_.length;
@@ -159,7 +159,7 @@ Vector MultiplierContact::guard_rates(const State& state, const Direction& direc
   Index k = inner_.size({});
   for (Index j = 0; j < rates.size(); ++j)
     rates[j] = state.piece[static_cast<std::size_t>(j)] ? direction.dx[k++] / scales_.force
-                                                        : candidate(j).gap_rate(state.x, direction.dx) / scales_.length;
+                                                        : candidate(j).gap_rate(state, direction) / scales_.length;
   return rates;
 }
 
@@ -189,7 +189,7 @@ Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Pie
 
 std::optional<std::string> MultiplierContact::invalid_reason(const State& state) const {
   for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (state.piece[j] && !candidates_[j].faces_wall(state.x)) return "wall_end";
+    if (state.piece[j] && !candidates_[j].faces_wall(state)) return "wall_end";
   return std::nullopt;
 }
 

@@ -80,7 +80,7 @@ class MultiplierContact final : public System {
     double c = 0.0, r = 0.0;
   };
   const Springs& springs_at(Index j) const { return springs_[static_cast<std::size_t>(j)]; }
-  double open_guard(Index j, const Vector& x) const;
+  double open_guard(Index j, const State& state) const;
   void lay_out(const State& state, Linearization& out) const;
 
   const Equations& inner_;

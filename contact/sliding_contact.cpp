@@ -23,7 +23,8 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<Obstacle> ob
   }
   const auto layout = std::make_shared<SlidingContactLayout>(body, body.mesh(cut),
                                                              std::vector<SlidingContactLayout::Point>{}, Vector());
-  const Vector rest = body.rest(layout->mesh(), Vector());
+  const Vector x = body.rest(layout->mesh(), Vector()), s;
+  const MeshState rest{.x = x, .s = s, .lambda = 0.0};
   for (Tied& end : tied_) {
     constexpr double vertical = 1e-6;
     const double along =
@@ -96,7 +97,7 @@ void SlidingContact::for_each_force(const State& state, const Visit& visit) cons
 
 void SlidingContact::residual(const State& state, Eigen::Ref<Vector> F) const {
   const SlidingContactLayout& on = layout(state.piece);
-  on.mesh().residual(on.x_of(state), on.s_of(state), state.lambda, F.head(on.mesh().unknowns()));
+  on.mesh().residual(mesh_state_of(state), F.head(on.mesh().unknowns()));
   add_contact(state, F);
 }
 
@@ -104,21 +105,21 @@ void SlidingContact::residual(const State& state, Eigen::Ref<Vector> F) const {
 void SlidingContact::add_contact(const State& state, Eigen::Ref<Vector> F) const {
   const SlidingContactLayout& on = layout(state.piece);
   const Index m = border_width(state.piece);
-  const Vector x = on.x_of(state);
+  const MeshState now = mesh_state_of(state);
   const auto add = [&](const Touch& at, const Eigen::Vector3d& gradient, double force) {
     const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
     for (std::size_t i = 0; i < 3; ++i)
       if (unknowns[i] >= 0) F[unknowns[i]] -= force * gradient[static_cast<Index>(i)];
   };
   for_each_force(state, [&](const Touch& at, Index p) {
-    const NodeGap gap = node_gap(at, x, on);
+    const NodeGap gap = node_gap(at, now, on);
     add(at, gap.gap_gradient, state.x[p]);
     F[p] = -gap.gap;
   });
   const Index moments = F.size() - 2 * m;
   for (Index k = 0; k < m; ++k) {
     const Touch at = touch(on, static_cast<std::size_t>(k));
-    const NodeGap gap = node_gap(at, x, on);
+    const NodeGap gap = node_gap(at, now, on);
     add(at, gap.tilt_gradient, state.x[moments + k]);
     F[moments + k] = -gap.tilt;
     F[moments + m + k] = on.lies_pressed(static_cast<std::size_t>(k)) ? bending_gap(state, static_cast<std::size_t>(k))
@@ -132,8 +133,8 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
   if (!out.inner) out.inner = std::make_unique<Linearization>();
   Linearization& inner = *out.inner;
   if (!out.pattern_of || out.pattern_of->layout() != state.piece.layout()) inner.pattern_of.reset();
-  const Vector x = on.x_of(state);
-  on.mesh().linearize(x, on.s_of(state), state.lambda, inner);
+  const MeshState now = mesh_state_of(state);
+  on.mesh().linearize(now, inner);
   inner.pattern_of = state.piece;
   if (!out.pattern_of || *out.pattern_of != state.piece) lay_out(state, out);
 
@@ -162,7 +163,7 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
       }
   };
   for_each_force(state, [&](const Touch& at, Index p) {
-    const NodeGap gap = node_gap(at, x, on);
+    const NodeGap gap = node_gap(at, now, on);
     add_row(at, gap.gap_gradient, p);
     add_hessian(at, gap.gap_hessian, state.x[p]);
   });
@@ -170,7 +171,7 @@ void SlidingContact::linearize(const State& state, Linearization& out) const {
   out.C.setZero(m, size);
   for (Index k = 0; k < m; ++k) {
     const Touch at = touch(on, static_cast<std::size_t>(k));
-    const NodeGap gap = node_gap(at, x, on);
+    const NodeGap gap = node_gap(at, now, on);
     add_row(at, gap.tilt_gradient, moments + k);
     add_hessian(at, gap.tilt_hessian, state.x[moments + k]);
     if (on.lies_pressed(static_cast<std::size_t>(k))) {
@@ -203,7 +204,7 @@ void SlidingContact::lay_out(const State& state, Linearization& out) const {
 
 double SlidingContact::energy(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
-  return on.mesh().energy(on.x_of(state), on.s_of(state), state.lambda);
+  return on.mesh().energy(mesh_state_of(state));
 }
 
 // --- guards ---------------------------------------------------------------------------------------------------------
@@ -224,7 +225,7 @@ double SlidingContact::guard(const State& state, Index j) const {
   if (const auto p = multiplier_index(state.piece, j)) return state.x[*p] / scales_.force;
   const SlidingContactLayout& on = layout(state.piece);
   const Touch at = touch(on, static_cast<std::size_t>(j));
-  const double gap = face_gap(at, on.mesh().node(at.strand, at.position, on.x_of(state)));
+  const double gap = face_gap(at, on.mesh().node(at.strand, at.position, mesh_state_of(state)));
   return std::isfinite(gap) ? gap / scales_.length : 1.0;
 }
 
@@ -238,9 +239,9 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
   }
   const SlidingContactLayout& on = layout(state.piece);
   const Touch at = touch(on, static_cast<std::size_t>(j));
-  const Vector x = on.x_of(state);
-  if (!std::isfinite(face_gap(at, on.mesh().node(at.strand, at.position, x)))) return row;
-  const NodeGap gap = node_gap(at, x, on);
+  const MeshState now = mesh_state_of(state);
+  if (!std::isfinite(face_gap(at, on.mesh().node(at.strand, at.position, now)))) return row;
+  const NodeGap gap = node_gap(at, now, on);
   const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
   for (std::size_t i = 0; i < 3; ++i)
     if (unknowns[i] >= 0) row.dx[unknowns[i]] = gap.gap_gradient[static_cast<Index>(i)] / scales_.length;
@@ -268,10 +269,10 @@ Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece&
 
 std::optional<std::string> SlidingContact::invalid_reason(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Vector x = on.x_of(state);
+  const MeshState now = mesh_state_of(state);
   for (std::size_t j = 0; j < state.piece.size(); ++j) {
     const Touch at = touch(on, j);
-    if (state.piece[j] && !std::isfinite(face_gap(at, on.mesh().node(at.strand, at.position, x)))) return "wall_end";
+    if (state.piece[j] && !std::isfinite(face_gap(at, on.mesh().node(at.strand, at.position, now)))) return "wall_end";
   }
   return std::nullopt;
 }
@@ -301,10 +302,9 @@ ContactLabel SlidingContact::label(const State& state, Index j) const {
 Vec2 SlidingContact::place(const State& state, Index j) const {
   const SlidingContactLayout& on = layout(state.piece);
   if (const auto least = lifting(state, j))
-    return face(normal_offset(least->obstacle, least->at.strand),
-                on.mesh().place(least->at, on.x_of(state), on.s_of(state)));
+    return face(normal_offset(least->obstacle, least->at.strand), on.mesh().place(least->at, mesh_state_of(state)));
   const Touch at = touch(on, static_cast<std::size_t>(j));
-  return face(at.offset, on.mesh().node(at.strand, at.position, on.x_of(state)));
+  return face(at.offset, on.mesh().node(at.strand, at.position, mesh_state_of(state)));
 }
 
 double SlidingContact::force(const State& state, Index j) const {
@@ -314,18 +314,18 @@ double SlidingContact::force(const State& state, Index j) const {
 
 std::vector<SlidingContact::HeldNode> SlidingContact::held_nodes(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const MeshState now = mesh_state_of(state);
   std::vector<HeldNode> nodes;
   Index force = on.mesh().unknowns() + state.piece.closed_count();
   for (const SlidingContactLayout::Held& held : on.held()) {
-    const auto coordinate = [&](Index position) { return on.mesh().coordinate(held.strand, position, s); };
+    const auto coordinate = [&](Index position) { return on.mesh().coordinate(held.strand, position, now.s); };
     const auto [member, fraction] = body_.label({.strand = held.strand, .s = coordinate(held.position)});
     nodes.push_back(
         {.label = {.wall = obstacles_[held.obstacle].name,
                    .member = member,
                    .fraction = fraction,
                    .tributary = 0.5 * (coordinate(held.position + 1) - coordinate(held.position - 1))},
-         .place = face(normal_offset(held.obstacle, held.strand), on.mesh().node(held.strand, held.position, x)),
+         .place = face(normal_offset(held.obstacle, held.strand), on.mesh().node(held.strand, held.position, now)),
          .force = state.x[force++]});
   }
   return nodes;

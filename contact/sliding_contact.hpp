@@ -138,7 +138,7 @@ class SlidingContact final : public System {
   double normal_offset(std::size_t obstacle, Index strand) const;
   static Vec2 face(double offset, const AxisPlace& place);
   double face_gap(const Touch& touch, const AxisPlace& place) const;
-  NodeGap node_gap(const Touch& touch, const Vector& x, const SlidingContactLayout& on) const;
+  NodeGap node_gap(const Touch& touch, const MeshState& now, const SlidingContactLayout& on) const;
   CurvatureGap curvature_gap(const State& state, std::size_t k) const;
   Vector border_rates(const State& state) const;
   double bending_gap(const State& state, std::size_t k) const;

@@ -43,14 +43,14 @@ struct Placed {
   Vec2 position, tangent;
 };
 
-std::vector<Placed> placed_nodes(const SlidingMesh& mesh, Index strand, const Vector& x) {
+std::vector<Placed> placed_nodes(const SlidingMesh& mesh, Index strand, const MeshState& now) {
   const auto count = static_cast<std::size_t>(mesh.nodes(strand));
   std::vector<Placed> nodes(count);
   for (std::size_t first = 0; first < count; first += Lanes::count) {
     const std::size_t end = std::min<std::size_t>(first + Lanes::count, count);
     Lanes angle = 0.0;
     for (std::size_t i = first; i < end; ++i) {
-      const AxisPlace place = mesh.node(strand, static_cast<Index>(i), x);
+      const AxisPlace place = mesh.node(strand, static_cast<Index>(i), now);
       nodes[i].position = place.position;
       angle.set(static_cast<int>(i - first), place.angle);
     }
@@ -71,13 +71,13 @@ template <typename Visit>
 void SlidingContact::for_each_minimum(const State& state, bool everywhere, const Visit& visit) const {
   const Layout_& on = layout(state.piece);
   const SlidingMesh& mesh = on.mesh();
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const MeshState now = mesh_state_of(state);
   for (Index strand = 0; strand < body_.strands(); ++strand) {
     const auto concerns = [strand](const Obstacle& obstacle) {
       return obstacle.strands[static_cast<std::size_t>(strand)] != 0;
     };
     if (std::none_of(obstacles_.begin(), obstacles_.end(), concerns)) continue;
-    const std::vector<Placed> nodes = placed_nodes(mesh, strand, x);
+    const std::vector<Placed> nodes = placed_nodes(mesh, strand, now);
     for (std::size_t w = 0; w < obstacles_.size(); ++w) {
       if (!concerns(obstacles_[w])) continue;
       std::vector<std::uint8_t> skip(static_cast<std::size_t>(mesh.nodes(strand)), 0);  // element behind the node
@@ -115,7 +115,7 @@ void SlidingContact::for_each_minimum(const State& state, bool everywhere, const
         if (!skip[static_cast<std::size_t>(e)] && std::isfinite(before.gap) && std::isfinite(after.gap) &&
             (!far || everywhere))
           if (const auto least = least_inside(before.gap, r0, after.gap, r1)) {
-            const double S1 = mesh.coordinate(strand, e, s), S2 = mesh.coordinate(strand, e + 1, s);
+            const double S1 = mesh.coordinate(strand, e, now.s), S2 = mesh.coordinate(strand, e + 1, now.s);
             visit(
                 Minimum{.obstacle = w, .at = {.strand = strand, .s = S1 + least->at * (S2 - S1)}, .gap = least->value});
           }
@@ -195,7 +195,7 @@ std::optional<Transition> SlidingContact::with_inserted_contact(const State& fro
 
 double SlidingContact::least_gap(const State& state, int places) const {
   const Layout_& on = layout(state.piece);
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const MeshState now = mesh_state_of(state);
   double least = infinity;
   for (std::size_t w = 0; w < obstacles_.size(); ++w)
     for (Index strand = 0; strand < body_.strands(); ++strand) {
@@ -203,7 +203,7 @@ double SlidingContact::least_gap(const State& state, int places) const {
       const Touch surface{.strand = strand, .position = 0, .obstacle = w, .offset = normal_offset(w, strand)};
       for (Index e = 0; e + 1 < on.mesh().nodes(strand); ++e)
         for (int i = 0; i <= places; ++i)
-          least = std::min(least, face_gap(surface, on.mesh().inside(strand, e, double(i) / places, x, s)));
+          least = std::min(least, face_gap(surface, on.mesh().inside(strand, e, double(i) / places, now)));
     }
   return least;
 }

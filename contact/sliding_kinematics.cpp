@@ -67,9 +67,9 @@ double SlidingContact::face_gap(const Touch& touch, const AxisPlace& place) cons
 }
 
 // The face r + o n(θ) with ∂n/∂θ = −t; the tilt is θ − φ(x of the face), φ the wall's slope.
-SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const Vector& x,
+SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const MeshState& now,
                                                  const SlidingContactLayout& on) const {
-  const AxisPlace place = on.mesh().node(touch.strand, touch.position, x);
+  const AxisPlace place = on.mesh().node(touch.strand, touch.position, now);
   const Obstacle& obstacle = obstacles_[touch.obstacle];
   const Vec2 n = normal(place.angle), t = tangent(place.angle);
   const double o = t.x() >= 0.0 ? touch.offset : -touch.offset;
@@ -101,12 +101,12 @@ SlidingContact::NodeGap SlidingContact::node_gap(const Touch& touch, const Vecto
 // face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
 SlidingContact::CurvatureGap SlidingContact::curvature_gap(const State& state, std::size_t k) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const MeshState now = mesh_state_of(state);
   const Touch at = touch(on, k);
-  const AxisPlace place = on.mesh().node(at.strand, at.position, x);
+  const AxisPlace place = on.mesh().node(at.strand, at.position, now);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0, offset = travel * at.offset;
   const double side = sign_of(obstacles_[at.obstacle].side);
-  const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), free_side(on, k), x, s, state.lambda);
+  const AxisStrain strain = on.mesh().strain(static_cast<Index>(k), free_side(on, k), now);
   const Bend wall = bend(*obstacles_[at.obstacle].profile, (place.position + offset * normal(place.angle)).x());
   const double shrink = 1.0 / (1.0 + at.offset * wall.curvature);
   const double parallel = wall.curvature * shrink, parallel_x = wall.curvature_x * shrink * shrink;
@@ -131,11 +131,11 @@ double SlidingContact::bending_gap(const State& state, std::size_t k) const {
 // the body. Its sign says whether the body lies on the wall there, its vanishing that it does so by itself.
 double SlidingContact::pressure(const State& state, std::size_t k) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const MeshState now = mesh_state_of(state);
   const Touch at = touch(on, k);
-  const AxisPlace place = on.mesh().node(at.strand, at.position, x);
+  const AxisPlace place = on.mesh().node(at.strand, at.position, now);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
-  const double L = body_.length(at.strand), step = 0.01 * L, S = s[static_cast<Index>(k)];
+  const double L = body_.length(at.strand), step = 0.01 * L, S = now.s[static_cast<Index>(k)];
   const Profile& profile = *obstacles_[at.obstacle].profile;
   const auto second = [step](const auto& f) { return (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (step * step); };
   const double natural =
@@ -145,8 +145,7 @@ double SlidingContact::pressure(const State& state, std::size_t k) const {
     return profile.covers(x_there) ? bend(profile, x_there).curvature : 0.0;
   };
   const double EI = body_.bending_stiffness(at.strand), EA = body_.axial_stiffness(at.strand);
-  const double thrust =
-      -EA * (on.mesh().strain(static_cast<Index>(k), free_side(on, k), x, s, state.lambda).stretch - 1.0);
+  const double thrust = -EA * (on.mesh().strain(static_cast<Index>(k), free_side(on, k), now).stretch - 1.0);
   const Vec2 up = travel * normal(place.angle);
   const double q =
       sign_of(obstacles_[at.obstacle].side) *
@@ -158,7 +157,7 @@ double SlidingContact::pressure(const State& state, std::size_t k) const {
 double SlidingContact::wall_curvature(const State& state, std::size_t k) const {
   const SlidingContactLayout& on = layout(state.piece);
   const Touch at = touch(on, k);
-  const AxisPlace place = on.mesh().node(at.strand, at.position, on.x_of(state));
+  const AxisPlace place = on.mesh().node(at.strand, at.position, mesh_state_of(state));
   return bend(*obstacles_[at.obstacle].profile, place.position.x()).curvature;
 }
 
@@ -171,16 +170,18 @@ bool SlidingContact::lies_by_itself(const State& state, std::size_t k) const {
 // wall, and where it is about to, the tilt is held.
 Vector SlidingContact::border_rates(const State& state) const {
   const SlidingContactLayout& on = layout(state.piece);
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const MeshState now = mesh_state_of(state);
   Vector rates = Vector::Zero(border_width(state.piece));
   for (Index k = 0; k < rates.size(); ++k) {
     const auto point = static_cast<std::size_t>(k);
     if (on.lies_beside(point)) continue;
     const Touch at = touch(on, point);
-    const AxisStrain strain = on.mesh().strain(k, free_side(on, point), x, s, state.lambda);
-    const double angle = on.mesh().node(at.strand, at.position, x).angle, travel = std::cos(angle) >= 0.0 ? 1.0 : -1.0;
+    const AxisStrain strain = on.mesh().strain(k, free_side(on, point), now);
+    const double angle = on.mesh().node(at.strand, at.position, now).angle,
+                 travel = std::cos(angle) >= 0.0 ? 1.0 : -1.0;
     const Vec2 along = strain.stretch * tangent(angle);
-    const double rate = node_gap(at, x, on).tilt_gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
+    const double rate =
+        node_gap(at, now, on).tilt_gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
     constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
     if (sign_of(obstacles_[at.obstacle].side) * travel * rate * scales_.length > touching) rates[k] = -rate;
   }

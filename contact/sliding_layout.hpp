@@ -72,7 +72,6 @@ class SlidingContactLayout final : public SlidingLayout {
   /// A free end as a limit's `which`: 2 strand + 1 for the last.
   static std::pair<Index, bool> end_of(std::size_t which) { return {static_cast<Index>(which / 2), which % 2 == 1}; }
 
-  Vector x_of(const State& state) const { return state.x.head(mesh_->unknowns()); }
   Vector s_of(const State& state) const { return state.x.tail(mesh_->breakpoints()); }
 
   /// How the body runs up to a point.

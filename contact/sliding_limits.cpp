@@ -146,7 +146,8 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       const double bend = curvature_gap(state, which).value * scales_.length;
       if (state.piece[which]) return bend;
       const Touch at = touch(on, which);
-      return bend - flatness * face_gap(at, on.mesh().node(at.strand, at.position, on.x_of(state))) / scales_.length;
+      return bend -
+             flatness * face_gap(at, on.mesh().node(at.strand, at.position, mesh_state_of(state))) / scales_.length;
     }
     case Bound::length: {
       const auto k = static_cast<Index>(which);
@@ -162,7 +163,7 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       const Layout_::Segment& segment = on.segments()[which];
       const Index k = segment.last_point;
       const double d = s[k] - s[k - 1],
-                   stretch = on.mesh().strain(k, SlidingMesh::At::before, on.x_of(state), s, state.lambda).stretch;
+                   stretch = on.mesh().strain(k, SlidingMesh::At::before, mesh_state_of(state)).stretch;
       const double EA = body_.axial_stiffness(segment.strand), EI = body_.bending_stiffness(segment.strand);
       const double waves = EA * (1.0 - stretch) * stretch / EI * d * d / (pi * pi);
       return bound == Bound::half_wave ? 1.0 - waves : waves - shortest_flat * shortest_flat;
@@ -177,14 +178,14 @@ double SlidingContact::limit_value(const State& state, std::size_t limit) const 
       if (!j) break;
       const Tied& end = tied_[*j - on.points().size()];
       return outward(obstacles_[end.obstacle].side, end.last) *
-             std::sin(node_gap(touch(on, *j), on.x_of(state), on).angle);
+             std::sin(node_gap(touch(on, *j), mesh_state_of(state), on).angle);
     }
     case Bound::upright: {
       const auto j = touching_end(state, which);
       const Touch at = j ? touch(on, *j) : Touch{};
       if (!j || at.offset == 0.0 || tied_[*j - on.points().size()].travel == 0.0) break;
       return tied_[*j - on.points().size()].travel *
-                 std::cos(on.mesh().node(at.strand, at.position, on.x_of(state)).angle) -
+                 std::cos(on.mesh().node(at.strand, at.position, mesh_state_of(state)).angle) -
              nearly_upright;
     }
   }
@@ -215,7 +216,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       row.dlambda = scales_.length * gap.dlambda;
       if (state.piece[which]) break;
       const Touch at = touch(on, which);
-      const Eigen::Vector3d by_gap = flatness / scales_.length * node_gap(at, on.x_of(state), on).gap_gradient;
+      const Eigen::Vector3d by_gap = flatness / scales_.length * node_gap(at, mesh_state_of(state), on).gap_gradient;
       const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
       for (std::size_t i = 0; i < 3; ++i)
         if (unknowns[i] >= 0) row.dx[unknowns[i]] -= by_gap[static_cast<Index>(i)];
@@ -235,7 +236,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
     case Bound::straight: {
       const Layout_::Segment& segment = on.segments()[which];
       const Index k = segment.last_point;
-      const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, on.x_of(state), s, state.lambda);
+      const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, mesh_state_of(state));
       const double EA = body_.axial_stiffness(segment.strand), EI = body_.bending_stiffness(segment.strand);
       const double sign = bound == Bound::half_wave ? -1.0 : 1.0, d = s[k] - s[k - 1];
       const double factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
@@ -268,7 +269,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       if (!j) break;
       const Tied& end = tied_[*j - on.points().size()];
       const Touch at = touch(on, *j);
-      const NodeGap gap = node_gap(at, on.x_of(state), on);
+      const NodeGap gap = node_gap(at, mesh_state_of(state), on);
       const Eigen::Vector3d gradient =
           outward(obstacles_[end.obstacle].side, end.last) * std::cos(gap.angle) * gap.tilt_gradient;
       const NodeUnknowns unknowns = on.mesh().node_unknowns(at.strand, at.position);
@@ -283,7 +284,7 @@ Row SlidingContact::limit_gradient(const State& state, std::size_t limit) const 
       const Index turn = on.mesh().node_unknowns(at.strand, at.position)[2];
       if (turn >= 0)
         row.dx[turn] = -tied_[*j - on.points().size()].travel *
-                       std::sin(on.mesh().node(at.strand, at.position, on.x_of(state)).angle);
+                       std::sin(on.mesh().node(at.strand, at.position, mesh_state_of(state)).angle);
       break;
     }
   }

@@ -57,7 +57,7 @@ State SlidingContact::redrawn(const State& state, const LayoutEdit& by,
   for (std::size_t j = 0; j < tied_.size(); ++j) piece[points + j] = state.piece[before + j];
   State out{.x = Vector::Zero(size(piece)), .lambda = state.lambda, .piece = piece};
   const Index n = on->mesh().unknowns();
-  out.x.head(n) = from.mesh().transferred(from.x_of(state), from.s_of(state), on->mesh(), by.s);
+  out.x.head(n) = from.mesh().transferred(mesh_state_of(state), on->mesh(), by.s);
   Index p = n;
   for (std::size_t j = 0; j < piece.size(); ++j)
     if (piece[j]) out.x[p++] = j < points ? by.forces[j] : force(state, static_cast<Index>(before + j - points));

@@ -90,24 +90,24 @@ Index SlidingContact::straightened_ends(const State& state, std::size_t k) const
   constexpr double parallel = 1e-9, straight = 0.1;  // [rad]; of the greatest curvature in the strand
   const Layout_& on = layout(state.piece);
   const SlidingMesh& mesh = on.mesh();
-  const Vector x = on.x_of(state), s = on.s_of(state);
+  const MeshState now = mesh_state_of(state);
   const Touch at = touch(on, k);
-  const AxisPlace place = mesh.node(at.strand, at.position, x);
+  const AxisPlace place = mesh.node(at.strand, at.position, now);
   const Index last = mesh.nodes(at.strand) - 1;
   double greatest = 0.0;
   for (Index e = 0; e < last; ++e) {
-    const double h = mesh.coordinate(at.strand, e + 1, s) - mesh.coordinate(at.strand, e, s);
+    const double h = mesh.coordinate(at.strand, e + 1, now.s) - mesh.coordinate(at.strand, e, now.s);
     greatest =
-        std::max(greatest, std::abs(mesh.node(at.strand, e + 1, x).angle - mesh.node(at.strand, e, x).angle) / h);
+        std::max(greatest, std::abs(mesh.node(at.strand, e + 1, now).angle - mesh.node(at.strand, e, now).angle) / h);
   }
   Index count = 0;
   for (const bool end : {false, true}) {
     const Index node = end ? last : 0, e = end ? last - 1 : 0;
     const NodeUnknowns unknowns = mesh.node_unknowns(at.strand, node);
     if (unknowns[1] >= 0 || unknowns[2] >= 0) continue;
-    const auto angle = [&](double t) { return mesh.inside(at.strand, e, end ? 1.0 - t : t, x, s).angle; };
+    const auto angle = [&](double t) { return mesh.inside(at.strand, e, end ? 1.0 - t : t, now).angle; };
     if (std::abs(angle(0.0) - place.angle) > parallel) continue;
-    const double h = mesh.coordinate(at.strand, e + 1, s) - mesh.coordinate(at.strand, e, s);
+    const double h = mesh.coordinate(at.strand, e + 1, now.s) - mesh.coordinate(at.strand, e, now.s);
     const double curvature = (4.0 * angle(0.5) - 3.0 * angle(0.0) - angle(1.0)) / h;
     if (std::abs(curvature) <= straight * greatest) ++count;
   }

@@ -33,6 +33,14 @@ struct AxisStrain {
   double curvature_dlambda = 0.0, stretch_dlambda = 0.0;  ///< of loads along the element
 };
 
+/// Where the nodes of a sliding mesh and its breakpoints are, and the parameter: all that its equations depend on. A
+/// view, whose vectors must outlive it.
+struct MeshState {
+  Eigen::Ref<const Vector> x;  ///< unknowns of the mesh
+  Eigen::Ref<const Vector> s;  ///< material coordinates of the breakpoints [length]
+  double lambda;
+};
+
 /// Unknowns of a node in x: x and z of its position, and its rotation; −1 where a support holds it.
 using NodeUnknowns = std::array<Index, 3>;
 
@@ -53,19 +61,19 @@ class SlidingMesh {
   /// Weights of the squared norm of x in the path metric.
   virtual const Vector& weights() const = 0;
 
-  virtual void residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const = 0;
+  virtual void residual(const MeshState& now, Eigen::Ref<Vector> F) const = 0;
 
   /// F, K, F_λ and, as columns of B, ∂F/∂s; `pattern_of` is left alone.
-  virtual void linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const = 0;
+  virtual void linearize(const MeshState& now, Linearization& out) const = 0;
 
-  virtual double energy(const Vector& x, const Vector& s, double lambda) const = 0;
+  virtual double energy(const MeshState& now) const = 0;
 
   // --- geometry: the nodes of a strand have positions 0 … n along it ------------------------------------------------
 
   virtual Index nodes(Index strand) const = 0;
-  virtual double coordinate(Index strand, Index position, const Vector& s) const = 0;
+  virtual double coordinate(Index strand, Index position, const Eigen::Ref<const Vector>& s) const = 0;
   virtual NodeUnknowns node_unknowns(Index strand, Index position) const = 0;
-  virtual AxisPlace node(Index strand, Index position, const Vector& x) const = 0;
+  virtual AxisPlace node(Index strand, Index position, const MeshState& now) const = 0;
 
   /// Run and position of breakpoint k.
   virtual std::pair<Index, Index> breakpoint(Index k) const = 0;
@@ -73,31 +81,30 @@ class SlidingMesh {
   enum class At { before, behind };
 
   /// Just before or behind breakpoint k.
-  virtual AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const = 0;
+  virtual AxisStrain strain(Index k, At side, const MeshState& now) const = 0;
 
   /// Energy of the element behind a node, the potential of the load along it included.
-  virtual double element_energy(Index strand, Index position, const Vector& x, const Vector& s,
-                                double lambda) const = 0;
+  virtual double element_energy(Index strand, Index position, const MeshState& now) const = 0;
 
   /// What the nodes exert on the element behind a node: x, z and moment at its first and at its second end, the load
   /// along it included.
   using EndForces = std::array<Eigen::Vector3d, 2>;
-  virtual EndForces end_forces(Index strand, Index position, const Vector& x, const Vector& s, double lambda) const = 0;
+  virtual EndForces end_forces(Index strand, Index position, const MeshState& now) const = 0;
 
   /// Any place, by interpolation consistent with the elements.
-  virtual AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
+  virtual AxisPlace place(const MaterialPoint& point, const MeshState& now) const = 0;
 
   /// Derivatives of x, z and angle of a place: rows by x, rows by s.
   struct PlaceGradient {
     Eigen::Matrix<double, 3, Eigen::Dynamic> dx{}, ds{};
   };
-  virtual PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const = 0;
+  virtual PlaceGradient place_gradient(const MaterialPoint& point, const MeshState& now) const = 0;
 
   /// A place inside the element behind a node, at a fraction of the element.
-  virtual AxisPlace inside(Index strand, Index position, double fraction, const Vector& x, const Vector& s) const = 0;
+  virtual AxisPlace inside(Index strand, Index position, double fraction, const MeshState& now) const = 0;
 
   /// The same shape on another mesh of the body.
-  virtual Vector transferred(const Vector& x, const Vector& s, const SlidingMesh& to, const Vector& s_to) const = 0;
+  virtual Vector transferred(const MeshState& now, const SlidingMesh& to, const Vector& s_to) const = 0;
 };
 
 /// The layout of a state on such a mesh: x of the mesh stands first in State::x, s last.
@@ -108,6 +115,12 @@ class SlidingLayout : public Layout {
 
 inline const SlidingMesh& mesh_of(const State& state) {
   return static_cast<const SlidingLayout&>(*state.piece.layout()).mesh();
+}
+
+/// `state` must outlive the view.
+inline MeshState mesh_state_of(const State& state) {
+  const SlidingMesh& mesh = mesh_of(state);
+  return {.x = state.x.head(mesh.unknowns()), .s = state.x.tail(mesh.breakpoints()), .lambda = state.lambda};
 }
 
 /// A structure of slender members that can be meshed in many ways.

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/state.hpp"
 
 namespace arcwall {
 
@@ -33,13 +33,13 @@ class TrackedPoint {
   /// Indices in x of the unknowns the position depends on; at most PointKinematics::max_unknowns, none negative.
   virtual const std::vector<Index>& unknowns() const = 0;
 
-  virtual Vec2 position(const Vector& x) const = 0;
+  virtual Vec2 position(const State& state) const = 0;
 
-  /// The velocity is that along dx.
-  virtual PointMotion motion(const Vector& x, const Vector& dx) const = 0;
+  /// The velocity is that along the direction.
+  virtual PointMotion motion(const State& state, const Direction& direction) const = 0;
 
   /// Sizes follow unknowns().
-  virtual void kinematics(const Vector& x, PointKinematics& out) const = 0;
+  virtual void kinematics(const State& state, PointKinematics& out) const = 0;
 };
 
 }  // namespace arcwall

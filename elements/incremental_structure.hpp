@@ -13,7 +13,7 @@ class IncrementalStructure final : public System {
  public:
   /// Stress-free, as `structure` is; every element must have an updated form: see can_be_updated().
   explicit IncrementalStructure(const Structure& structure)
-      : present_(structure.updated(Vector::Zero(structure.size({})))) {}
+      : present_(structure.updated({.x = Vector::Zero(structure.size({}))})) {}
 
   Index size(const Piece& piece) const override { return present_->size(piece); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override { present_->residual(state, F); }
@@ -21,8 +21,8 @@ class IncrementalStructure final : public System {
   double energy(const State& state) const override { return present_->energy(state); }
   Vector weights(const Piece& piece) const override { return present_->weights(piece); }
 
-  /// The end of an increment: the configuration at x becomes the reference.
-  void advance(const Vector& x) { present_ = present_->updated(x); }
+  /// The end of an increment: its configuration becomes the reference.
+  void advance(const State& state) { present_ = present_->updated(state); }
 
   const Structure& present() const { return *present_; }
 

@@ -42,8 +42,8 @@ MemberPoint::MemberPoint(const Structure& structure, const MemberSection& sectio
   xi_ = column(thickness_->xi);
 }
 
-EssenburgNode::Vectors MemberPoint::vectors(const Vector& x) const {
-  const auto value = [&](Index freedom) { return structure_.value(x, freedom); };
+EssenburgNode::Vectors MemberPoint::vectors(const State& state) const {
+  const auto value = [&](Index freedom) { return structure_.value(state, freedom); };
   return section_.vectors(value(*rotation_), thickness_ ? value(thickness_->e) : 0.0,
                           thickness_ ? value(thickness_->xi) : 0.0);
 }
@@ -53,33 +53,33 @@ Vec2 MemberPoint::arm(const EssenburgNode::Vectors& v) const {
   return offset_ * (section_.D + v.d_change) + offset_ * offset_ * v.q;
 }
 
-Vec2 MemberPoint::position(const Vector& x) const {
-  const Vec2 axis = structure_.current(x, node_);
-  return rotation_ ? Vec2(axis + arm(vectors(x))) : axis;
+Vec2 MemberPoint::position(const State& state) const {
+  const Vec2 axis = structure_.current(state, node_);
+  return rotation_ ? Vec2(axis + arm(vectors(state))) : axis;
 }
 
-PointMotion MemberPoint::motion(const Vector& x, const Vector& dx) const {
+PointMotion MemberPoint::motion(const State& state, const Direction& direction) const {
   const auto rate = [&](std::optional<Index> column) {
-    return column ? dx[unknowns_[static_cast<std::size_t>(*column)]] : 0.0;
+    return column ? direction.dx[unknowns_[static_cast<std::size_t>(*column)]] : 0.0;
   };
-  PointMotion at{.position = structure_.current(x, node_), .velocity = Vec2(rate(x_), rate(z_))};
+  PointMotion at{.position = structure_.current(state, node_), .velocity = Vec2(rate(x_), rate(z_))};
   if (!rotation_) return at;
-  const EssenburgNode::Vectors v = vectors(x);
+  const EssenburgNode::Vectors v = vectors(state);
   const double o = offset_, o2 = offset_ * offset_;
   at.position += arm(v);
   at.velocity += rate(turn_) * (o * v.d_phi + o2 * v.q_phi) + rate(e_) * o * v.d_e + rate(xi_) * o2 * v.q_xi;
   return at;
 }
 
-void MemberPoint::kinematics(const Vector& x, PointKinematics& out) const {
+void MemberPoint::kinematics(const State& state, PointKinematics& out) const {
   const auto n = static_cast<Index>(unknowns_.size());
   out.jacobian.setZero(2, n);
   for (auto& second : out.curvature) second.setZero(n, n);
-  out.position = structure_.current(x, node_);
+  out.position = structure_.current(state, node_);
   if (x_) out.jacobian(0, *x_) = 1.0;
   if (z_) out.jacobian(1, *z_) = 1.0;
   if (!rotation_) return;
-  const EssenburgNode::Vectors v = vectors(x);
+  const EssenburgNode::Vectors v = vectors(state);
   const double o = offset_, o2 = offset_ * offset_;
   out.position += arm(v);
   const auto second = [&](std::optional<Index> i, std::optional<Index> j, const Vec2& value) {
@@ -122,15 +122,15 @@ MemberObservable::MemberObservable(const Structure& structure, const MemberMesh&
 }
 
 double MemberObservable::value(const State& state) const {
-  if (component_ == Component::rotation) return structure_.value(state.x, rotation_.value()) - origin_;
-  return point_.position(state.x)[component_ == Component::x ? 0 : 1] - origin_;
+  if (component_ == Component::rotation) return structure_.value(state, rotation_.value()) - origin_;
+  return point_.position(state)[component_ == Component::x ? 0 : 1] - origin_;
 }
 
 Row MemberObservable::gradient(const State& state) const {
   if (component_ == Component::rotation) return FreedomObservable(structure_, rotation_.value()).gradient(state);
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   PointKinematics kinematics;
-  point_.kinematics(state.x, kinematics);
+  point_.kinematics(state, kinematics);
   const int coordinate = component_ == Component::x ? 0 : 1;
   for (std::size_t i = 0; i < point_.unknowns().size(); ++i)
     row.dx[point_.unknowns()[i]] = kinematics.jacobian(coordinate, static_cast<Index>(i));

@@ -16,12 +16,12 @@ class MemberPoint final : public TrackedPoint {
       : MemberPoint(structure, mesh.section(node), offset) {}
 
   const std::vector<Index>& unknowns() const override { return unknowns_; }
-  Vec2 position(const Vector& x) const override;
-  PointMotion motion(const Vector& x, const Vector& dx) const override;
-  void kinematics(const Vector& x, PointKinematics& out) const override;
+  Vec2 position(const State& state) const override;
+  PointMotion motion(const State& state, const Direction& direction) const override;
+  void kinematics(const State& state, PointKinematics& out) const override;
 
  private:
-  EssenburgNode::Vectors vectors(const Vector& x) const;
+  EssenburgNode::Vectors vectors(const State& state) const;
   Vec2 arm(const EssenburgNode::Vectors& v) const;
 
   const Structure& structure_;
@@ -58,7 +58,7 @@ class MemberObservable final : public Observable {
 class FreedomObservable final : public Observable {
  public:
   FreedomObservable(const Structure& structure, Index freedom) : structure_(structure), freedom_(freedom) {}
-  double value(const State& state) const override { return structure_.value(state.x, freedom_); }
+  double value(const State& state) const override { return structure_.value(state, freedom_); }
   Row gradient(const State& state) const override;
 
  private:

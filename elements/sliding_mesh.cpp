@@ -100,7 +100,7 @@ SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(Index a, Ind
   return place;
 }
 
-double SlidingStructureMesh::coordinate(Index strand, Index position, const Vector& s) const {
+double SlidingStructureMesh::coordinate(Index strand, Index position, const Eigen::Ref<const Vector>& s) const {
   return mesh_of(strand).nodes[static_cast<std::size_t>(position)].at(s);
 }
 
@@ -115,8 +115,8 @@ NodeUnknowns SlidingStructureMesh::node_unknowns(Index strand, Index position) c
 }
 
 // Position or rotation of a joint's freedom.
-double SlidingStructureMesh::anchor(Index freedom, const Vector& x) const {
-  if (const Index i = unknown(freedom); i != held) return x[i];
+double SlidingStructureMesh::anchor(Index freedom, const MeshState& now) const {
+  if (const Index i = unknown(freedom); i != held) return now.x[i];
   const Structure::Meaning& meaning = structure_.freedoms_[static_cast<std::size_t>(freedom)];
   const Vec2& position = structure_.positions_[static_cast<std::size_t>(meaning.node)];
   switch (meaning.freedom) {
@@ -132,28 +132,28 @@ double SlidingStructureMesh::anchor(Index freedom, const Vector& x) const {
   return 0.0;
 }
 
-AxisPlace SlidingStructureMesh::node(Index strand, Index position, const Vector& x) const {
+AxisPlace SlidingStructureMesh::node(Index strand, Index position, const MeshState& now) const {
   const MeshedRun& meshed = mesh_of(strand);
   if (position > 0 && position < meshed.elements) {
     const Index first = meshed.first_inner + 3 * (position - 1);
-    return {.position = {x[first], x[first + 1]}, .angle = x[first + 2]};
+    return {.position = {now.x[first], now.x[first + 1]}, .angle = now.x[first + 2]};
   }
   const SlidingStructure::Run& described = structure_.at(strand);
   const auto& end = described.ends[position == 0 ? 0 : 1];
-  return {.position = {anchor(end.freedom[0], x), anchor(end.freedom[1], x)},
-          .angle = end.angle + anchor(end.freedom[2], x)};
+  return {.position = {anchor(end.freedom[0], now), anchor(end.freedom[1], now)},
+          .angle = end.angle + anchor(end.freedom[2], now)};
 }
 
-SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index strand, Index position, const Vector& x) const {
-  const AxisPlace a = node(strand, position, x), b = node(strand, position + 1, x);
+SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index strand, Index position, const MeshState& now) const {
+  const AxisPlace a = node(strand, position, now), b = node(strand, position + 1, now);
   return {.first = a.position, .second = b.position, .angle1 = a.angle, .angle2 = b.angle};
 }
 
-StretchReference SlidingStructureMesh::reference(Index strand, Index position, const Vector& s) const {
+StretchReference SlidingStructureMesh::reference(Index strand, Index position, const MeshState& now) const {
   const SlidingStructure::Run& described = structure_.at(strand);
   using Inside = DividedPart::Inside;
-  return stretch_reference(*described.shape, described.offset + coordinate(strand, position, s),
-                           described.offset + coordinate(strand, position + 1, s),
+  return stretch_reference(*described.shape, described.offset + coordinate(strand, position, now.s),
+                           described.offset + coordinate(strand, position + 1, now.s),
                            described.theory == Theory::elastica ? Inside::wanted : Inside::left_out);
 }
 
@@ -168,11 +168,11 @@ void SlidingStructureMesh::with_beam(Index strand, const StretchReference& stret
   }
 }
 
-SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index position, const Vector& x,
-                                                             const Vector& s, double lambda, bool with_rates) const {
+SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index position, const MeshState& now,
+                                                             bool with_rates) const {
   const SlidingStructure::Run& described = structure_.at(strand);
-  const Ends at = ends(strand, position, x);
-  const StretchReference stretch = reference(strand, position, s);
+  const Ends at = ends(strand, position, now);
+  const StretchReference stretch = reference(strand, position, now);
   BeamResponse beam_response;
   with_beam(strand, stretch, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
   Response out{.energy = beam_response.energy,
@@ -188,7 +188,7 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index
     for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
     return response.force;
   };
-  out.force_lambda = add(described.load, lambda);
+  out.force_lambda = add(described.load, now.lambda);
   add(described.constant_load, 1.0);
   return out;
 }
@@ -205,21 +205,21 @@ void SlidingStructureMesh::for_each_rate(Index strand, Index position, const Res
   }
 }
 
-void SlidingStructureMesh::residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const {
+void SlidingStructureMesh::residual(const MeshState& now, Eigen::Ref<Vector> F) const {
   F.setZero();
   for (Index i = 0; i < F.size(); ++i)
     if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
-      F[i] = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
-  add_fours(x, s, F, nullptr);
+      F[i] = -now.lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
+  add_fours(now, F, nullptr);
   for (const auto& [r, e] : others_) {
-    const Six f = respond(r, e, x, s, lambda, false).force;
+    const Six f = respond(r, e, now, false).force;
     const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
     for (std::size_t i = 0; i < 6; ++i)
       if (to[i] != held) F[to[i]] += f[static_cast<Index>(i)];
   }
 }
 
-void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const {
+void SlidingStructureMesh::linearize(const MeshState& now, Linearization& out) const {
   const Index n = unknowns(), m = breakpoints();
   if (out.K.cols() != n || !out.pattern_of) out.K = assembly_.pattern();
   std::fill(out.K.valuePtr(), out.K.valuePtr() + out.K.nonZeros(), 0.0);
@@ -229,11 +229,11 @@ void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double la
   for (Index i = 0; i < n; ++i)
     if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held) {
       out.F_lambda[i] = -structure_.load_[freedom];
-      out.F[i] = lambda * out.F_lambda[i] - structure_.constant_load_[freedom];
+      out.F[i] = now.lambda * out.F_lambda[i] - structure_.constant_load_[freedom];
     }
-  add_fours(x, s, out.F, &out);
+  add_fours(now, out.F, &out);
   for (const auto& [r, e] : others_) {
-    const Response response = respond(r, e, x, s, lambda, m > 0);
+    const Response response = respond(r, e, now, m > 0);
     const Index block = mesh_of(r).first_element + e;
     const auto to = assembly_.unknowns(block);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -249,14 +249,14 @@ void SlidingStructureMesh::linearize(const Vector& x, const Vector& s, double la
   }
 }
 
-double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lambda) const {
+double SlidingStructureMesh::energy(const MeshState& now) const {
   double energy = 0.0;
   for (Index r = 0; r < structure_.strands(); ++r)
-    for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, x, s, lambda, false).energy;
+    for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, now, false).energy;
   for (Index i = 0; i < unknowns(); ++i)
     if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
-      energy -= (lambda * structure_.load_[freedom] + structure_.constant_load_[freedom]) *
-                structure_.value(*this, x, freedom);
+      energy -= (now.lambda * structure_.load_[freedom] + structure_.constant_load_[freedom]) *
+                structure_.value(*this, now, freedom);
   return energy;
 }
 
@@ -264,7 +264,7 @@ double SlidingStructureMesh::energy(const Vector& x, const Vector& s, double lam
 // of what the element does to the node before or behind it.
 //
 //   curvature = κ₀ ± M/EI,   stretch = 1 ± N/EA,   N = f·t
-AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const {
+AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) const {
   const auto [strand, position] = breakpoint(k);
   const bool before = side == At::before;
   const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();
@@ -272,9 +272,9 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   const SlidingStructure::Run& described = structure_.at(strand);
   const double sign = before ? 1.0 : -1.0;
   const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
-  const Response response = respond(strand, e, x, s, lambda, true);
-  const Vec2 t = tangent(node(strand, position, x).angle);
-  const double S = coordinate(strand, position, s), step = 1e-5 * described.length;
+  const Response response = respond(strand, e, now, true);
+  const Vec2 t = tangent(node(strand, position, now).angle);
+  const double S = coordinate(strand, position, now.s), step = 1e-5 * described.length;
   const auto natural = [&, strand = strand](double at) {
     return structure_.natural_curvature({.strand = strand, .s = at});
   };
@@ -302,51 +302,49 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const Vector& x, const
   return strain;
 }
 
-SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index position, const Vector& x, const Vector& s,
-                                                        double lambda) const {
-  const Six force = respond(strand, position, x, s, lambda, false).force;
+SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index position, const MeshState& now) const {
+  const Six force = respond(strand, position, now, false).force;
   return {force.head<3>(), force.tail<3>()};
 }
 
-Index SlidingStructureMesh::element_at(const MaterialPoint& point, const Vector& s) const {
+Index SlidingStructureMesh::element_at(const MaterialPoint& point, const MeshState& now) const {
   const auto& places = mesh_of(point.strand).nodes;
   Index low = 0, high = static_cast<Index>(places.size()) - 1;
   while (high - low > 1) {
     const Index middle = (low + high) / 2;
-    (places[static_cast<std::size_t>(middle)].at(s) <= point.s ? low : high) = middle;
+    (places[static_cast<std::size_t>(middle)].at(now.s) <= point.s ? low : high) = middle;
   }
   return low;
 }
 
-AxisPlace SlidingStructureMesh::place(const MaterialPoint& point, const Vector& x, const Vector& s) const {
-  const Index e = element_at(point, s);
-  const double S1 = coordinate(point.strand, e, s), S2 = coordinate(point.strand, e + 1, s);
-  return inside(point.strand, e, (point.s - S1) / (S2 - S1), x, s);
+AxisPlace SlidingStructureMesh::place(const MaterialPoint& point, const MeshState& now) const {
+  const Index e = element_at(point, now);
+  const double S1 = coordinate(point.strand, e, now.s), S2 = coordinate(point.strand, e + 1, now.s);
+  return inside(point.strand, e, (point.s - S1) / (S2 - S1), now);
 }
 
-AxisPlace SlidingStructureMesh::inside(Index strand, Index position, double fraction, const Vector& x,
-                                       const Vector& s) const {
-  if (fraction <= 0.0) return node(strand, position, x);
-  if (fraction >= 1.0) return node(strand, position + 1, x);
-  const Ends at = ends(strand, position, x);
+AxisPlace SlidingStructureMesh::inside(Index strand, Index position, double fraction, const MeshState& now) const {
+  if (fraction <= 0.0) return node(strand, position, now);
+  if (fraction >= 1.0) return node(strand, position + 1, now);
+  const Ends at = ends(strand, position, now);
   AxisPlace place;
-  with_beam(strand, reference(strand, position, s), [&](const auto& beam) {
+  with_beam(strand, reference(strand, position, now), [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), fraction);
     place = {.position = at.first + local.offset, .angle = local.angle};
   });
   return place;
 }
 
-SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPoint& point, const Vector& x,
-                                                                const Vector& s) const {
-  const Index e = element_at(point, s), m = breakpoints();
-  const double S1 = coordinate(point.strand, e, s), S2 = coordinate(point.strand, e + 1, s);
+SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPoint& point,
+                                                                const MeshState& now) const {
+  const Index e = element_at(point, now), m = breakpoints();
+  const double S1 = coordinate(point.strand, e, now.s), S2 = coordinate(point.strand, e + 1, now.s);
   PlaceGradient gradient;
   gradient.dx.setZero(3, unknowns());
   gradient.ds.setZero(3, m);
-  const Ends at = ends(point.strand, e, x);
+  const Ends at = ends(point.strand, e, now);
   const auto to = assembly_.unknowns(mesh_of(point.strand).first_element + e);
-  with_beam(point.strand, reference(point.strand, e, s), [&](const auto& beam) {
+  with_beam(point.strand, reference(point.strand, e, now), [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
     for (int row = 0; row < 3; ++row) {
       StretchLoad::Vector6 d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
@@ -358,17 +356,16 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
   // By s the mesh moves under the place: differences, as the element may be another one.
   for (Index k = 0; k < m; ++k) {
     const double step = 1e-6 * structure_.at(point.strand).length;
-    Vector forward = s, backward = s;
+    Vector forward = now.s, backward = now.s;
     forward[k] += step;
     backward[k] -= step;
-    const AxisPlace a = place(point, x, forward), b = place(point, x, backward);
+    const AxisPlace a = place(point, {now.x, forward, now.lambda}), b = place(point, {now.x, backward, now.lambda});
     gradient.ds.col(k) << (a.position - b.position) / (2.0 * step), (a.angle - b.angle) / (2.0 * step);
   }
   return gradient;
 }
 
-Vector SlidingStructureMesh::transferred(const Vector& x, const Vector& s, const SlidingMesh& to,
-                                         const Vector& s_to) const {
+Vector SlidingStructureMesh::transferred(const MeshState& now, const SlidingMesh& to, const Vector& s_to) const {
   Vector moved(to.unknowns());
   for (Index r = 0; r < structure_.strands(); ++r)
     for (Index i = 0; i < to.nodes(r); ++i) {
@@ -377,9 +374,9 @@ Vector SlidingStructureMesh::transferred(const Vector& x, const Vector& s, const
       if (first || last) {
         const auto& freedom = structure_.at(r).ends[first ? 0 : 1].freedom;
         for (std::size_t j = 0; j < 3; ++j)
-          if (unknowns[j] != held) moved[unknowns[j]] = anchor(freedom[j], x);
+          if (unknowns[j] != held) moved[unknowns[j]] = anchor(freedom[j], now);
       } else {
-        const AxisPlace at = place({.strand = r, .s = to.coordinate(r, i, s_to)}, x, s);
+        const AxisPlace at = place({.strand = r, .s = to.coordinate(r, i, s_to)}, now);
         moved[unknowns[0]] = at.position.x();
         moved[unknowns[1]] = at.position.y();
         moved[unknowns[2]] = at.angle;
@@ -388,11 +385,10 @@ Vector SlidingStructureMesh::transferred(const Vector& x, const Vector& s, const
   return moved;
 }
 
-SlidingStructure::Reaction SlidingStructureMesh::reaction(const Vector& x, const Vector& s, double lambda,
-                                                          Index freedom) const {
+SlidingStructure::Reaction SlidingStructureMesh::reaction(const MeshState& now, Index freedom) const {
   SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
   if (unknown(freedom) != held) return reaction;
-  reaction.value = -lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
+  reaction.value = -now.lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
   reaction.dlambda = -structure_.load_[freedom];
   for (Index r = 0; r < structure_.strands(); ++r)
     for (std::size_t end = 0; end < 2; ++end) {
@@ -401,7 +397,7 @@ SlidingStructure::Reaction SlidingStructureMesh::reaction(const Vector& x, const
       if (here == freedoms.end()) continue;
       const Index row = (end == 0 ? 0 : 3) + static_cast<Index>(here - freedoms.begin());
       const Index e = end == 0 ? 0 : mesh_of(r).elements - 1;
-      const Response response = respond(r, e, x, s, lambda, true);
+      const Response response = respond(r, e, now, true);
       reaction.value += response.force[row];
       reaction.dlambda += response.force_lambda[row];
       const auto to = assembly_.unknowns(mesh_of(r).first_element + e);

@@ -20,28 +20,28 @@ class SlidingStructureMesh final : public SlidingMesh {
   Index unknowns() const override { return assembly_.unknown_count(); }
   Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
   const Vector& weights() const override { return weights_; }
-  void residual(const Vector& x, const Vector& s, double lambda, Eigen::Ref<Vector> F) const override;
-  void linearize(const Vector& x, const Vector& s, double lambda, Linearization& out) const override;
-  double energy(const Vector& x, const Vector& s, double lambda) const override;
+  void residual(const MeshState& now, Eigen::Ref<Vector> F) const override;
+  void linearize(const MeshState& now, Linearization& out) const override;
+  double energy(const MeshState& now) const override;
 
   Index nodes(Index strand) const override { return mesh_of(strand).elements + 1; }
-  double coordinate(Index strand, Index position, const Vector& s) const override;
+  double coordinate(Index strand, Index position, const Eigen::Ref<const Vector>& s) const override;
   NodeUnknowns node_unknowns(Index strand, Index position) const override;
-  AxisPlace node(Index strand, Index position, const Vector& x) const override;
+  AxisPlace node(Index strand, Index position, const MeshState& now) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
-  AxisStrain strain(Index k, At side, const Vector& x, const Vector& s, double lambda) const override;
-  double element_energy(Index strand, Index position, const Vector& x, const Vector& s, double lambda) const override {
-    return respond(strand, position, x, s, lambda, false).energy;
+  AxisStrain strain(Index k, At side, const MeshState& now) const override;
+  double element_energy(Index strand, Index position, const MeshState& now) const override {
+    return respond(strand, position, now, false).energy;
   }
-  EndForces end_forces(Index strand, Index position, const Vector& x, const Vector& s, double lambda) const override;
-  AxisPlace place(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
-  PlaceGradient place_gradient(const MaterialPoint& point, const Vector& x, const Vector& s) const override;
-  AxisPlace inside(Index strand, Index position, double fraction, const Vector& x, const Vector& s) const override;
-  Vector transferred(const Vector& x, const Vector& s, const SlidingMesh& to, const Vector& s_to) const override;
+  EndForces end_forces(Index strand, Index position, const MeshState& now) const override;
+  AxisPlace place(const MaterialPoint& point, const MeshState& now) const override;
+  PlaceGradient place_gradient(const MaterialPoint& point, const MeshState& now) const override;
+  AxisPlace inside(Index strand, Index position, double fraction, const MeshState& now) const override;
+  Vector transferred(const MeshState& now, const SlidingMesh& to, const Vector& s_to) const override;
 
   Index unknown(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
 
-  SlidingStructure::Reaction reaction(const Vector& x, const Vector& s, double lambda, Index freedom) const;
+  SlidingStructure::Reaction reaction(const MeshState& now, Index freedom) const;
 
  private:
   static constexpr Index held = -1;  // in place of an unknown, or of a breakpoint
@@ -52,7 +52,7 @@ class SlidingStructureMesh final : public SlidingMesh {
     std::array<Index, 2> breakpoint{held, held};
     std::array<double, 2> weight{};
 
-    double at(const Vector& s) const {
+    double at(const Eigen::Ref<const Vector>& s) const {
       double S = constant;
       for (std::size_t j = 0; j < 2; ++j)
         if (breakpoint[j] != held) S += weight[j] * s[breakpoint[j]];
@@ -73,10 +73,10 @@ class SlidingStructureMesh final : public SlidingMesh {
 
   const MeshedRun& mesh_of(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
   Coordinate interpolated(Index a, Index b, double length, double r) const;
-  Ends ends(Index strand, Index position, const Vector& x) const;
-  double anchor(Index freedom, const Vector& x) const;
-  StretchReference reference(Index strand, Index position, const Vector& s) const;
-  Index element_at(const MaterialPoint& point, const Vector& s) const;
+  Ends ends(Index strand, Index position, const MeshState& now) const;
+  double anchor(Index freedom, const MeshState& now) const;
+  StretchReference reference(Index strand, Index position, const MeshState& now) const;
+  Index element_at(const MaterialPoint& point, const MeshState& now) const;
 
   using Six = StretchLoad::Vector6;
   using SixBySix = StretchLoad::Matrix6;
@@ -87,8 +87,7 @@ class SlidingStructureMesh final : public SlidingMesh {
     SixBySix stiffness{};
     std::array<Six, 2> force_rate{};
   };
-  Response respond(Index strand, Index position, const Vector& x, const Vector& s, double lambda,
-                   bool with_rates) const;
+  Response respond(Index strand, Index position, const MeshState& now, bool with_rates) const;
 
   // Up to four elements of a segment that are evaluated side by side.
   struct Four {
@@ -101,9 +100,9 @@ class SlidingStructureMesh final : public SlidingMesh {
   };
   using Rest = SlidingBeamLanes::Rest;
   void number_fours();
-  Rest rest_from(Index strand, Index position, Index most, const Vector& s) const;
-  void add_fours(const Vector& x, const Vector& s, Eigen::Ref<Vector> F, Linearization* out) const;
-  void add(const Four& four, const Rest& first, const Rest& second, const Vector& x, Eigen::Ref<Vector> F,
+  Rest rest_from(Index strand, Index position, Index most, const MeshState& now) const;
+  void add_fours(const MeshState& now, Eigen::Ref<Vector> F, Linearization* out) const;
+  void add(const Four& four, const Rest& first, const Rest& second, const MeshState& now, Eigen::Ref<Vector> F,
            Linearization* out) const;
   void add_nodal(const Four& four, const Lanes* of_elements, double* to) const;
 

@@ -42,45 +42,45 @@ void SlidingStructureMesh::number_fours() {
 
 // The forces of fours, and where `out` is not null the derivatives of these. What they are at rest is found once at
 // each node.
-void SlidingStructureMesh::add_fours(const Vector& x, const Vector& s, Eigen::Ref<Vector> F, Linearization* out) const {
+void SlidingStructureMesh::add_fours(const MeshState& now, Eigen::Ref<Vector> F, Linearization* out) const {
   const Four* before = nullptr;
   Rest behind;  // from where that one ends
   for (const Four& four : fours_) {
     const Index last = four.count - 1;
     if (last + 1 < Lanes::count) {  // the last stands in for those that are missing
-      const Rest first = rest_from(four.strand, four.position, four.position + last, s);
-      add(four, first, rest_from(four.strand, four.position + 1, four.position + 1 + last, s), x, F, out);
+      const Rest first = rest_from(four.strand, four.position, four.position + last, now);
+      add(four, first, rest_from(four.strand, four.position + 1, four.position + 1 + last, now), now, F, out);
       before = nullptr;
       continue;
     }
     const Index most = mesh_of(four.strand).elements, end = four.position + Lanes::count;
     const bool goes_on =
         before != nullptr && before->strand == four.strand && before->position + Lanes::count == four.position;
-    const Rest first = goes_on ? behind : rest_from(four.strand, four.position, most, s);
-    behind = rest_from(four.strand, end, most, s);
-    add(four, first, SlidingBeamLanes::next_of(first, behind), x, F, out);
+    const Rest first = goes_on ? behind : rest_from(four.strand, four.position, most, now);
+    behind = rest_from(four.strand, end, most, now);
+    add(four, first, SlidingBeamLanes::next_of(first, behind), now, F, out);
     before = &four;
   }
 }
 
 // At four nodes from one on; at the node `most` for those beyond it.
 SlidingBeamLanes::Rest SlidingStructureMesh::rest_from(Index strand, Index position, Index most,
-                                                       const Vector& s) const {
+                                                       const MeshState& now) const {
   const SlidingStructure::Run& described = structure_.at(strand);
   const std::vector<Coordinate>& nodes = mesh_of(strand).nodes;
   const auto at = [&](Index k) {
-    return described.offset + nodes[static_cast<std::size_t>(std::min(position + k, most))].at(s);
+    return described.offset + nodes[static_cast<std::size_t>(std::min(position + k, most))].at(now.s);
   };
   return described.beams->rest_at(Lanes(at(0), at(1), at(2), at(3)));
 }
 
-void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Rest& at_second, const Vector& x,
+void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Rest& at_second, const MeshState& now,
                                Eigen::Ref<Vector> F, Linearization* out) const {
   using Wanted = SlidingBeamLanes::Wanted;
   SlidingBeamLanes::End first{.rest = at_first, .x = 0.0, .z = 0.0, .angle = 0.0}, second = first;
   second.rest = at_second;
   if (four.inside) {
-    const double* const at = x.data() + node_unknowns(four.strand, four.position)[0];
+    const double* const at = now.x.data() + node_unknowns(four.strand, four.position)[0];
     const auto from = [at](int k) { return Lanes(at[k], at[k + 3], at[k + 6], at[k + 9]); };
     first.x = from(0);
     first.z = from(1);
@@ -92,7 +92,7 @@ void SlidingStructureMesh::add(const Four& four, const Rest& at_first, const Res
     for (int lane = 0; lane < Lanes::count; ++lane)
       for (SlidingBeamLanes::End* end : {&first, &second}) {
         const Index k = std::min(lane, four.count - 1) + (end == &second ? 1 : 0);
-        const AxisPlace place = node(four.strand, four.position + k, x);
+        const AxisPlace place = node(four.strand, four.position + k, now);
         end->x.set(lane, place.position.x());
         end->z.set(lane, place.position.y());
         end->angle.set(lane, place.angle);

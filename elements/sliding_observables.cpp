@@ -29,7 +29,7 @@ PlaceObservable::PlaceObservable(const SlidingStructure& structure, const Materi
 
 double PlaceObservable::value(const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
-  const AxisPlace at = mesh.place(point_, state.x.head(mesh.unknowns()), state.x.tail(mesh.breakpoints()));
+  const AxisPlace at = mesh.place(point_, mesh_state_of(state));
   switch (component_) {
     case MemberObservable::Component::x:
       return at.position.x() - origin_;
@@ -45,8 +45,8 @@ double PlaceObservable::value(const State& state) const {
 
 Row PlaceObservable::gradient(const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
-  const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
-  const auto gradient = mesh.place_gradient(point_, x, s);
+  const MeshState now = mesh_state_of(state);
+  const auto gradient = mesh.place_gradient(point_, now);
   Eigen::RowVector3d row = Eigen::RowVector3d::Zero();
   switch (component_) {
     case MemberObservable::Component::x:
@@ -56,23 +56,22 @@ Row PlaceObservable::gradient(const State& state) const {
     case MemberObservable::Component::face_above_z:
     case MemberObservable::Component::face_below_z:
       row[1] = 1.0;
-      row[2] = -offset_ * std::sin(mesh.place(point_, x, s).angle);
+      row[2] = -offset_ * std::sin(mesh.place(point_, now).angle);
       break;
     case MemberObservable::Component::rotation:
       row[2] = 1.0;
       break;
   }
   Row result{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  result.dx.head(x.size()) = (row * gradient.dx).transpose();
-  result.dx.tail(s.size()) = (row * gradient.ds).transpose();
+  result.dx.head(now.x.size()) = (row * gradient.dx).transpose();
+  result.dx.tail(now.s.size()) = (row * gradient.ds).transpose();
   return result;
 }
 
 double JointObservable::value(const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
-  const Vector x = state.x.head(mesh.unknowns());
-  if (what_ == What::motion) return structure_.value(mesh, x, freedom_);
-  return structure_.reaction(mesh, x, state.x.tail(mesh.breakpoints()), state.lambda, freedom_).value;
+  if (what_ == What::motion) return structure_.value(mesh, mesh_state_of(state), freedom_);
+  return structure_.reaction(mesh, mesh_state_of(state), freedom_).value;
 }
 
 Row JointObservable::gradient(const State& state) const {
@@ -82,8 +81,7 @@ Row JointObservable::gradient(const State& state) const {
     if (const auto i = structure_.unknown(mesh, freedom_)) row.dx[*i] = 1.0;
     return row;
   }
-  const auto reaction = structure_.reaction(mesh, state.x.head(mesh.unknowns()), state.x.tail(mesh.breakpoints()),
-                                            state.lambda, freedom_);
+  const auto reaction = structure_.reaction(mesh, mesh_state_of(state), freedom_);
   row.dx.head(mesh.unknowns()) = reaction.dx;
   row.dx.tail(mesh.breakpoints()) = reaction.ds;
   row.dlambda = reaction.dlambda;

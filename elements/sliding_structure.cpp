@@ -93,27 +93,27 @@ std::optional<Index> SlidingStructure::unknown(const SlidingMesh& mesh, Index fr
   return i < 0 ? std::nullopt : std::optional(i);
 }
 
-double SlidingStructure::value(const SlidingMesh& mesh, const Vector& x, Index freedom) const {
+double SlidingStructure::value(const SlidingMesh& mesh, const MeshState& now, Index freedom) const {
   const auto i = unknown(mesh, freedom);
   if (!i) return 0.0;
   const Structure::Meaning& meaning = freedoms_[static_cast<std::size_t>(freedom)];
   const Vec2& position = positions_[static_cast<std::size_t>(meaning.node)];
   switch (meaning.freedom) {
     case Freedom::x:
-      return x[*i] - position.x();
+      return now.x[*i] - position.x();
     case Freedom::z:
-      return x[*i] - position.y();
+      return now.x[*i] - position.y();
     case Freedom::rotation:
     case Freedom::thickness:
     case Freedom::thickness2:
-      return x[*i];
+      return now.x[*i];
   }
   return 0.0;
 }
 
-SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, const Vector& x, const Vector& s,
-                                                      double lambda, Index freedom) const {
-  return static_cast<const SlidingStructureMesh&>(mesh).reaction(x, s, lambda, freedom);
+SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, const MeshState& now,
+                                                      Index freedom) const {
+  return static_cast<const SlidingStructureMesh&>(mesh).reaction(now, freedom);
 }
 
 bool StructureBuilder::can_slide() const {

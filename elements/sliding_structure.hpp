@@ -63,7 +63,7 @@ class SlidingStructure final : public SlidingBody {
   }
 
   /// Displacement or rotation of a joint's freedom.
-  double value(const SlidingMesh& mesh, const Vector& x, Index freedom) const;
+  double value(const SlidingMesh& mesh, const MeshState& now, Index freedom) const;
   std::optional<Index> unknown(const SlidingMesh& mesh, Index freedom) const;
 
   /// Force that a support exerts through a freedom it holds, with its derivatives in x, s and λ; 0 in one that is free.
@@ -72,7 +72,7 @@ class SlidingStructure final : public SlidingBody {
     Vector dx{}, ds{};
     double dlambda = 0.0;
   };
-  Reaction reaction(const SlidingMesh& mesh, const Vector& x, const Vector& s, double lambda, Index freedom) const;
+  Reaction reaction(const SlidingMesh& mesh, const MeshState& now, Index freedom) const;
 
  private:
   friend class StructureBuilder;

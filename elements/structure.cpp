@@ -203,7 +203,7 @@ double Structure::energy(const State& state) const {
   }
   const auto subtract_work = [&](const PointLoads& loads, double factor) {
     for (PointLoads::InnerIterator load(loads); load; ++load)
-      energy -= factor * load.value() * value(state.x, load.index());
+      energy -= factor * load.value() * value(state, load.index());
   };
   subtract_work(load_, state.lambda);
   subtract_work(constant_load_, 1.0);
@@ -236,25 +236,25 @@ std::optional<Index> Structure::unknown(Index freedom) const {
   return i < 0 ? std::nullopt : std::optional(i);
 }
 
-double Structure::value(const Vector& x, Index freedom) const {
+double Structure::value(const State& state, Index freedom) const {
   const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
-  return i < 0 ? 0.0 : x[i];
+  return i < 0 ? 0.0 : state.x[i];
 }
 
-Vec2 Structure::current(const Vector& x, Index node) const {
-  return position(node) + Vec2(value(x, freedom(node, Freedom::x)), value(x, freedom(node, Freedom::z)));
+Vec2 Structure::current(const State& state, Index node) const {
+  return position(node) + Vec2(value(state, freedom(node, Freedom::x)), value(state, freedom(node, Freedom::z)));
 }
 
 Structure::Meaning Structure::meaning(Index unknown) const {
   return meaning_of_freedom_[static_cast<std::size_t>(freedom_of_unknown_[static_cast<std::size_t>(unknown)])];
 }
 
-std::unique_ptr<Structure> Structure::updated(const Vector& x) const {
+std::unique_ptr<Structure> Structure::updated(const State& state) const {
   auto moved = std::unique_ptr<Structure>(new Structure(*this));
   Local local;
   moved->elements_ = {};
   for (Index e = 0; e < element_count(); ++e) {
-    gather(e, x, local.u);
+    gather(e, state.x, local.u);
     moved->elements_.add(elements_[e].updated(local.u));
   }
   moved->arrange();

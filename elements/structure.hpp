@@ -127,10 +127,10 @@ class Structure final : public System {
   std::optional<Index> unknown(Index freedom) const;
 
   /// Displacement or rotation, 0 where held.
-  double value(const Vector& x, Index freedom) const;
+  double value(const State& state, Index freedom) const;
 
   /// Current position of a node.
-  Vec2 current(const Vector& x, Index node) const;
+  Vec2 current(const State& state, Index node) const;
 
   /// The node and freedom that an unknown stands for.
   struct Meaning {
@@ -174,8 +174,9 @@ class Structure final : public System {
     return (kind == LoadKind::proportional ? load_ : constant_load_).coeff(freedom);
   }
 
-  /// The structure with the updated form of its elements after an increment that led to x: see IncrementalStructure.
-  std::unique_ptr<Structure> updated(const Vector& x) const;
+  /// The structure with the updated form of its elements after an increment that led to a state: see
+  /// IncrementalStructure.
+  std::unique_ptr<Structure> updated(const State& state) const;
 
   /// Whether all elements have that form.
   bool can_be_updated() const;

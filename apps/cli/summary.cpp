@@ -29,7 +29,7 @@ class Lines {
 std::string first_gap(const Study& study, const deck::Wall& wall) {
   if (study.contact() == nullptr) return "no candidates";
   const MultiplierContact& contact = *study.contact();
-  const Vector at_rest = Vector::Zero(study.structure().size({}));
+  const State at_rest{.x = Vector::Zero(study.structure().size({}))};
   Index count = 0;
   const Candidate* nearest_one = nullptr;
   double least = infinity;

@@ -39,7 +39,7 @@ std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNod
 Vector element_forces(const Structure& structure, Index e, const State& state, bool loads) {
   const auto freedoms = structure.element_freedoms(e);
   Vector u(static_cast<Index>(freedoms.size())), f(u.size());
-  for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state.x, freedoms[i]);
+  for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
   structure.element(e).evaluate(u.data(), f.data(), nullptr);
   if (!loads) return f;
   Vector part(u.size());
@@ -56,12 +56,12 @@ struct ElementNodes {
   std::vector<ElementNode> now{}, rest{};
 };
 
-ElementNodes element_nodes(const Structure& structure, const MemberMesh& mesh, std::size_t k, const Vector& x) {
+ElementNodes element_nodes(const Structure& structure, const MemberMesh& mesh, std::size_t k, const State& state) {
   ElementNodes nodes;
   const auto add = [&](Index node, std::optional<Index> rotation, double rest_angle) {
     nodes.rest.push_back({.position = structure.position(node), .angle = rest_angle});
-    nodes.now.push_back({.position = structure.current(x, node),
-                         .angle = rest_angle + (rotation ? structure.value(x, *rotation) : 0.0)});
+    nodes.now.push_back({.position = structure.current(state, node),
+                         .angle = rest_angle + (rotation ? structure.value(state, *rotation) : 0.0)});
   };
   add(mesh.nodes[k], mesh.rotations[k], mesh.shape[k].angle);
   if (!mesh.middle_nodes.empty())
@@ -83,7 +83,7 @@ void add_stretches(const TiedMember& member, int k, const State& state, std::vec
   const Structure& structure = member.structure;
   const MemberMesh& mesh = structure.members()[member.member];
   const deck::Theory theory = member.theory;
-  const ElementNodes nodes = element_nodes(structure, mesh, static_cast<std::size_t>(k), state.x);
+  const ElementNodes nodes = element_nodes(structure, mesh, static_cast<std::size_t>(k), state);
   const Index e = first_element(structure, member.member) + k;
   const Vector f = element_forces(structure, e, state, theory != deck::Theory::truss);
   const std::size_t stretches = nodes.now.size() - 1;
@@ -112,12 +112,12 @@ void add_stretches(const TiedMember& member, int k, const State& state, std::vec
 
 MemberStretch sliding_stretch(const SlidingStructure& body, Index strand, Index position, const State& state) {
   const SlidingMesh& mesh = mesh_of(state);
-  const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
-  const double S1 = mesh.coordinate(strand, position, s), S2 = mesh.coordinate(strand, position + 1, s);
-  const AxisPlace a = mesh.node(strand, position, x), b = mesh.node(strand, position + 1, x);
+  const MeshState now = mesh_state_of(state);
+  const double S1 = mesh.coordinate(strand, position, now.s), S2 = mesh.coordinate(strand, position + 1, now.s);
+  const AxisPlace a = mesh.node(strand, position, now), b = mesh.node(strand, position + 1, now);
   const AxisPlace a0 = body.undeformed({.strand = strand, .s = S1}, true),
                   b0 = body.undeformed({.strand = strand, .s = S2}, true);
-  const SlidingMesh::EndForces forces = mesh.end_forces(strand, position, x, s, state.lambda);
+  const SlidingMesh::EndForces forces = mesh.end_forces(strand, position, now);
   return {.from = S1,
           .to = S2,
           .now = {a.position, b.position, a.angle, b.angle},

@@ -121,7 +121,7 @@ std::vector<ContactMark> node_contacts(const Study& study, const State& state) {
   for (Index j = 0; j < contact.contact_count(); ++j) {
     if (!state.piece[static_cast<std::size_t>(j)]) continue;
     const Candidate& candidate = contact.candidate(j);
-    const Vec2 at = candidate.point().position(state.x);
+    const Vec2 at = candidate.point().position(state);
     marks.push_back({.label = candidate.label(),
                      .position = at,
                      .force = surfaces.force(candidate.label().wall, at, contact.force(state, j)),

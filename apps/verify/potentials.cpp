@@ -85,7 +85,7 @@ Potential fixed_potential(const Structure& structure, Index e, const State& stat
   Potential potential{.at = Vector(n), .steps = Vector(n)};
   for (std::size_t i = 0; i < freedoms.size(); ++i) {
     potential.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
-    potential.at[static_cast<Index>(i)] = structure.value(state.x, freedoms[i]);
+    potential.at[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
     potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, stride), length);
   }
   potential.energy = [loaded](const Vector& u) { return loaded.energy(u); };
@@ -127,11 +127,11 @@ Potential sliding_potential(const State& state, Index strand, Index position) {
     return visit(moved);
   };
   potential.energy = [=, &mesh, lambda = state.lambda](const Vector& u) {
-    return with(u, [&](const Vector& moved) { return mesh.element_energy(strand, position, moved, s, lambda); });
+    return with(u, [&](const Vector& moved) { return mesh.element_energy(strand, position, {moved, s, lambda}); });
   };
   potential.gradient = [=, &mesh, lambda = state.lambda](const Vector& u) {
     return with(u, [&](const Vector& moved) {
-      const SlidingMesh::EndForces ends = mesh.end_forces(strand, position, moved, s, lambda);
+      const SlidingMesh::EndForces ends = mesh.end_forces(strand, position, {moved, s, lambda});
       Vector gradient(6);
       gradient << ends[0], ends[1];
       return gradient;
@@ -162,9 +162,9 @@ void for_each_point_load(const Study& study, const State& state, const Visit& vi
                         structure.point_load(freedom, LoadKind::constant);
     if (load == 0.0) continue;
     if (study.sliding() == nullptr) {
-      if (const auto i = structure.unknown(freedom)) visit(*i, load, structure.value(state.x, freedom));
+      if (const auto i = structure.unknown(freedom)) visit(*i, load, structure.value(state, freedom));
     } else if (const auto i = study.sliding_structure()->unknown(sliding_mesh(state), freedom)) {
-      visit(*i, load, study.sliding_structure()->value(sliding_mesh(state), state.x, freedom));
+      visit(*i, load, study.sliding_structure()->value(sliding_mesh(state), mesh_state_of(state), freedom));
     }
   }
 }

@@ -57,7 +57,7 @@ NodeFunction node_unknowns(const Structure& structure, const MemberSection& sect
   function.steps.head<2>() *= structure.length_scale();
   for (std::size_t i = 0; i < freedoms.size(); ++i) {
     function.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
-    function.at[static_cast<Index>(i)] = structure.value(state.x, freedoms[i]);
+    function.at[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
   }
   if (section.thickness) function.steps[4] /= structure.length_scale();
   return function;
@@ -70,7 +70,7 @@ double offset_of(const Study& study, const PlainWall& wall, Index j, SectionPoin
   const std::string& name = candidate.label().member;
   const auto& members = study.structure().members();
   const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == name; });
-  const Vec2 meant = candidate.point().position(Vector::Zero(study.structure().size({})));
+  const Vec2 meant = candidate.point().position({.x = Vector::Zero(study.structure().size({}))});
   const double half = 0.5 * mesh->height.value();
   const auto distance = [&](double offset) {
     point.offset = offset;
@@ -123,14 +123,14 @@ struct Sliding {
   const SlidingStructure& body = *study.sliding_structure();
   const SlidingContactLayout& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
   const SlidingMesh& mesh = on.mesh();
-  Vector x = on.x_of(state), s = on.s_of(state);
+  MeshState now = mesh_state_of(state);
 
   // Where the node's unknowns are held its place is still known.
   AxisPlace place(const SlidingNode& node, const NodeFunction& function, const Vector& u) const {
-    Vector moved = x;
+    Vector moved = now.x;
     for (std::size_t i = 0; i < 3; ++i)
       if (function.unknowns[i] >= 0) moved[function.unknowns[i]] = u[static_cast<Index>(i)];
-    return mesh.node(node.strand, node.position, moved);
+    return mesh.node(node.strand, node.position, {moved, now.s, now.lambda});
   }
 
   NodeFunction unknowns(const SlidingNode& node) const {
@@ -139,7 +139,7 @@ struct Sliding {
     function.steps = Vector::Constant(3, difference_step);
     function.steps.head<2>() *= body.length_scale();
     for (std::size_t i = 0; i < 3; ++i)
-      if (indices[i] >= 0) function.at[static_cast<Index>(i)] = x[indices[i]];
+      if (indices[i] >= 0) function.at[static_cast<Index>(i)] = now.x[indices[i]];
     return function;
   }
 };
@@ -154,7 +154,7 @@ Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& pl
 
 Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const SlidingNode& node) {
   const auto [member, fraction] =
-      at->body.label({.strand = node.strand, .s = at->mesh.coordinate(node.strand, node.position, at->s)});
+      at->body.label({.strand = node.strand, .s = at->mesh.coordinate(node.strand, node.position, at->now.s)});
   Touch touch{.label = {.wall = wall.deck().name, .member = member, .fraction = fraction}, .gap = at->unknowns(node)};
   const double half = at->body.half_height(node.strand);
   const auto face = [=, &wall, function = touch.gap](const Vector& u) {
@@ -171,11 +171,10 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
                                      std::size_t point, double force) {
   const bool before = at.on.span_before(point) == Span::free;
   const double sign = before ? 1.0 : -1.0;
-  const auto ends =
-      at.mesh.end_forces(node.strand, before ? node.position - 1 : node.position, at.x, at.s, at.state.lambda);
+  const auto ends = at.mesh.end_forces(node.strand, before ? node.position - 1 : node.position, at.now);
   const Eigen::Vector3d& end = ends[before ? 1 : 0];
-  const AxisPlace place = at.mesh.node(node.strand, node.position, at.x);
-  const double s = at.mesh.coordinate(node.strand, node.position, at.s), half = at.body.half_height(node.strand);
+  const AxisPlace place = at.mesh.node(node.strand, node.position, at.now);
+  const double s = at.mesh.coordinate(node.strand, node.position, at.now.s), half = at.body.half_height(node.strand);
   const double curvature = at.body.natural_curvature({.strand = node.strand, .s = s}) +
                            sign * end[2] / at.body.bending_stiffness(node.strand);
   const double stretch = 1.0 + sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
@@ -298,7 +297,7 @@ LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, cons
     for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e)
       for (int i = 0; i <= places; ++i) {
         const double t = double(i) / places;
-        const auto place_at = [&](double fraction) { return at.mesh.inside(strand, e, fraction, at.x, at.s); };
+        const auto place_at = [&](double fraction) { return at.mesh.inside(strand, e, fraction, at.now); };
         const AxisPlace place = place_at(t);
         for (const PlainWall& wall : walls) {
           if (!wall.concerns(at.body.label({.strand = strand, .s = 0.0}).first)) continue;

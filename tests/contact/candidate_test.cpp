@@ -15,12 +15,12 @@ namespace {
 class FreePoint final : public TrackedPoint {
  public:
   const std::vector<Index>& unknowns() const override { return unknowns_; }
-  Vec2 position(const Vector& x) const override { return x.head<2>(); }
-  PointMotion motion(const Vector& x, const Vector& dx) const override {
-    return {.position = position(x), .velocity = dx.head<2>()};
+  Vec2 position(const State& state) const override { return state.x.head<2>(); }
+  PointMotion motion(const State& state, const Direction& direction) const override {
+    return {.position = position(state), .velocity = direction.dx.head<2>()};
   }
-  void kinematics(const Vector& x, PointKinematics& out) const override {
-    out.position = position(x);
+  void kinematics(const State& state, PointKinematics& out) const override {
+    out.position = position(state);
     out.jacobian.setIdentity(2, 2);
     for (auto& second : out.curvature) second.setZero(2, 2);
   }
@@ -33,7 +33,7 @@ Candidate at_wall(std::unique_ptr<Profile> profile, Side side) {
   return {std::make_unique<FreePoint>(), std::move(profile), side, {.wall = "w", .member = "m", .fraction = 0.5}};
 }
 
-Vector place(double x, double z) { return Vec2(x, z); }
+State place(double x, double z) { return {.x = Vec2(x, z)}; }
 
 }  // namespace
 
@@ -58,19 +58,19 @@ TEST(Candidate, GradientAndHessianAreThoseOfTheGap) {
   for (const bool on_axis : {false, true}) {
     const test::ContactModel model(test::contact_beam(), test::all_walls(on_axis), 0.1);
     ASSERT_GE(model.system().contact_count(), 40);
-    const Vector x = 0.2 * numbers.vector(model.structure().size({}));
+    const State state{.x = 0.2 * numbers.vector(model.structure().size({}))};
     for (Index j = 0; j < model.system().contact_count(); ++j) {
       const Candidate& candidate = model.system().candidate(j);
-      ASSERT_TRUE(candidate.faces_wall(x));
+      ASSERT_TRUE(candidate.faces_wall(state));
       Gap at;
-      candidate.gap(x, at);
-      EXPECT_NEAR(at.value, candidate.gap(x), 1e-15);
+      candidate.gap(state, at);
+      EXPECT_NEAR(at.value, candidate.gap(state), 1e-15);
       const auto& unknowns = candidate.point().unknowns();
       for (std::size_t i = 0; i < unknowns.size(); ++i) {
         const auto column = static_cast<Index>(i);
-        Vector above = x, below = x;
-        above[unknowns[i]] += step;
-        below[unknowns[i]] -= step;
+        State above = state, below = state;
+        above.x[unknowns[i]] += step;
+        below.x[unknowns[i]] -= step;
         Gap a, b;
         candidate.gap(above, a);
         candidate.gap(below, b);
@@ -78,9 +78,9 @@ TEST(Candidate, GradientAndHessianAreThoseOfTheGap) {
         EXPECT_LE(((a.gradient - b.gradient) / (2.0 * step) - at.hessian.col(column)).norm(), tolerance);
       }
       EXPECT_LE((at.hessian - at.hessian.transpose()).norm(), 1e-15);
-      const Vector direction = numbers.vector(x.size());
-      const double rate = (candidate.gap(x + step * direction) - candidate.gap(x - step * direction)) / (2.0 * step);
-      EXPECT_NEAR(candidate.gap_rate(x, direction), rate, tolerance);
+      const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = 0.0};
+      const auto gap_at = [&](double s) { return candidate.gap(moved(state, direction, s)); };
+      EXPECT_NEAR(candidate.gap_rate(state, direction), (gap_at(step) - gap_at(-step)) / (2.0 * step), tolerance);
     }
   }
 }
@@ -90,7 +90,7 @@ TEST(Candidate, BeyondTheEndOfAWallThereIsNoSurface) {
   EXPECT_TRUE(candidate.faces_wall(place(0.5, 3.0)));
   EXPECT_FALSE(candidate.faces_wall(place(1.5, 3.0)));
   EXPECT_EQ(candidate.gap(place(1.5, -3.0)), infinity);
-  EXPECT_EQ(candidate.gap_rate(place(1.5, 3.0), place(0.0, 1.0)), 0.0);
+  EXPECT_EQ(candidate.gap_rate(place(1.5, 3.0), {.dx = Vec2(0.0, 1.0)}), 0.0);
 }
 
 TEST(Candidate, KeepsItsLabel) {

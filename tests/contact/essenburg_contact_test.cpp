@@ -31,7 +31,7 @@ State random_state(const MultiplierContact& system, test::Numbers& numbers) {
 // Whether a step stays on one cubic of the spline, whose third derivative jumps at its middle knot, x = 1.5.
 bool is_smooth(const MultiplierContact& system, const State& state) {
   for (Index j = 0; j < system.contact_count(); ++j)
-    if (std::abs(system.candidate(j).point().position(state.x).x() - 1.5) < 0.01) return false;
+    if (std::abs(system.candidate(j).point().position(state).x() - 1.5) < 0.01) return false;
   return true;
 }
 

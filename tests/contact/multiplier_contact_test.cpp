@@ -68,7 +68,7 @@ TEST(MultiplierContact, APenaltySpringHasItsTributaryLength) {
     EXPECT_NEAR(length, (j + 1 < system.contact_count() ? 2.0 : 1.0) * system.candidate(1).label().tributary / 2.0,
                 1e-12);
     const Index k = *system.multiplier_index(piece, j);
-    state.x[k] = -50.0 * length * system.candidate(j).gap(state.x);
+    state.x[k] = -50.0 * length * system.candidate(j).gap(state);
     system.residual(state, F);
     EXPECT_NEAR(F[k], 0.0, 1e-13);
     EXPECT_DOUBLE_EQ(system.compliance(j), system.scales().force / system.scales().length / (50.0 * length));
@@ -89,7 +89,7 @@ TEST(MultiplierContact, TheEnergyOfPenaltySpringsIsTheirWork) {
     state.x[2] += s;
     for (Index j = 0; j < system.contact_count(); ++j)
       if (const auto k = system.multiplier_index(piece, j))
-        state.x[*k] = -50.0 * system.candidate(j).label().tributary * system.candidate(j).gap(state.x);
+        state.x[*k] = -50.0 * system.candidate(j).label().tributary * system.candidate(j).gap(state);
     return state;
   };
   Vector F(at.x.size());
@@ -130,7 +130,7 @@ TEST(MultiplierContact, AClosedContactPushesAgainstItsGapsGradient) {
   system.residual(state, F);
   model.structure().residual({.x = state.x.head(free.size()), .lambda = state.lambda}, free);
   Gap gap;
-  system.candidate(2).gap(state.x, gap);
+  system.candidate(2).gap(state, gap);
   Vector expected = free;
   const auto& unknowns = system.candidate(2).point().unknowns();
   for (std::size_t i = 0; i < unknowns.size(); ++i) expected[unknowns[i]] -= 5.0 * gap.gradient[static_cast<Index>(i)];
@@ -150,7 +150,7 @@ TEST(MultiplierContact, GuardsAreGapsAndForcesInTheirScales) {
   for (Index j = 0; j < guards.size(); ++j)
     EXPECT_DOUBLE_EQ(guards[j], piece[static_cast<std::size_t>(j)]
                                     ? system.force(state, j) / 3.0
-                                    : system.candidate(j).gap(state.x) / system.scales().length);
+                                    : system.candidate(j).gap(state) / system.scales().length);
 }
 
 TEST(MultiplierContact, GuardRatesAreGradientsAppliedToADirection) {
@@ -252,14 +252,13 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
   EXPECT_FALSE(system.invalid_reason(rest).has_value()) << "open contacts may face nothing";
   // The last node stands beside the wall: its guard is large and does not move.
   const Index last = system.contact_count() - 1;
-  EXPECT_FALSE(system.candidate(last).faces_wall(rest.x));
+  EXPECT_FALSE(system.candidate(last).faces_wall(rest));
   EXPECT_GE(system.guards(rest)[last], 0.5);
   EXPECT_EQ(system.guard_gradient(rest, last).dx.norm(), 0.0);
   for (Index j = 0; j < system.contact_count(); ++j) {
     Piece piece = open;
     piece[static_cast<std::size_t>(j)] = 1;
-    EXPECT_EQ(system.invalid_reason(system.with_piece(rest, piece)).has_value(),
-              !system.candidate(j).faces_wall(rest.x));
+    EXPECT_EQ(system.invalid_reason(system.with_piece(rest, piece)).has_value(), !system.candidate(j).faces_wall(rest));
   }
 }
 

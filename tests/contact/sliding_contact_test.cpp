@@ -202,7 +202,7 @@ TEST(SlidingContact, GuardsAreGapsAndForcesInTheirScales) {
   const Vector guards = system.guards(state);
   ASSERT_EQ(guards.size(), system.guard_count(state.piece));
   // Point 0 is open below the column, point 1 closed above it: gaps of faces 0.05 off the axis to walls at ±0.2.
-  const AxisPlace at = mesh_of(state).node(0, mesh_of(state).breakpoint(0).second, state.x);
+  const AxisPlace at = mesh_of(state).node(0, mesh_of(state).breakpoint(0).second, mesh_state_of(state));
   EXPECT_NEAR(guards[0], (at.position.y() - 0.05 * std::cos(at.angle) + 0.2) / system.scales().length, 1e-14);
   EXPECT_DOUBLE_EQ(guards[1], system.force(state, 1) / system.scales().force);
 }
@@ -242,10 +242,10 @@ TEST(SlidingContact, PlacesMoveWithTheMeshConsistently) {
         EXPECT_LE(check_gradient(*model.at("beam", fraction, component), state, 1e-6), 1e-8)
             << fraction << ", component " << static_cast<int>(component);
     const SlidingMesh& mesh = mesh_of(state);
-    const Vector x = state.x.head(mesh.unknowns()), s = state.x.tail(mesh.breakpoints());
+    const MeshState now = mesh_state_of(state);
     for (Index node = 0; node < mesh.nodes(0); ++node) {
-      const AxisPlace there = mesh.node(0, node, x);
-      const AxisPlace same = mesh.place({.strand = 0, .s = mesh.coordinate(0, node, s)}, x, s);
+      const AxisPlace there = mesh.node(0, node, now);
+      const AxisPlace same = mesh.place({.strand = 0, .s = mesh.coordinate(0, node, now.s)}, now);
       EXPECT_LE((there.position - same.position).norm(), 1e-13);
       EXPECT_NEAR(there.angle, same.angle, 1e-12);
     }

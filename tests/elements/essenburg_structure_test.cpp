@@ -94,7 +94,7 @@ TEST(EssenburgStructure, LinearBendingIsExactAtTheNodesOfAnyMesh) {
       const Vector x = linear_solution(*structure);
       for (const MemberSection& at : structure->members()[0].contact_sections()) {
         const double s = 2.0 * at.fraction;
-        const auto value = [&](Index freedom) { return structure->value(x, freedom); };
+        const auto value = [&](Index freedom) { return structure->value({.x = x}, freedom); };
         EXPECT_NEAR(value(structure->freedom(at.node, Freedom::z)), -0.5 * kappa * s * (2.0 - s), 1e-11 * kappa);
         EXPECT_NEAR(value(*at.rotation), kappa * (s - 1.0), 1e-11 * kappa);
         EXPECT_NEAR(value(at.thickness->e), 0.0, 1e-11 * kappa);
@@ -108,8 +108,9 @@ TEST(EssenburgStructure, LinearBendingMovesTheLowerFaceLessThanTheAxis) {
   const auto structure = bent_beam(2, {.order = 1});
   const Vector x = 0.4 * linear_solution(*structure);
   const MemberSection middle = structure->members()[0].section(1);
-  const double w = structure->value(x, structure->freedom(middle.node, Freedom::z));
-  const double xi = structure->value(x, middle.thickness->xi), e = structure->value(x, middle.thickness->e);
+  const double w = structure->value({.x = x}, structure->freedom(middle.node, Freedom::z));
+  const double xi = structure->value({.x = x}, middle.thickness->xi),
+               e = structure->value({.x = x}, middle.thickness->e);
   EXPECT_NEAR(w, -0.07142857142857, 1e-12);
   EXPECT_NEAR(w - 0.5 * h * e + 0.25 * h * h * xi, -0.07122142857143, 1e-12);
 }
@@ -122,7 +123,7 @@ TEST(EssenburgStructure, BendingConvergesWithTheOrdersOfTheElements) {
     const auto structure = bent_beam(2 * elements, {.order = order});
     const State state = loaded(*structure, 0.4);
     const auto middle = static_cast<std::size_t>(elements);
-    return MemberPoint(*structure, structure->members()[0], middle, -0.5 * h).position(state.x).y() + 0.5 * h;
+    return MemberPoint(*structure, structure->members()[0], middle, -0.5 * h).position(state).y() + 0.5 * h;
   };
   const double converged = -0.07108695291778;
   std::vector<double> linear;
@@ -190,8 +191,8 @@ TEST(EssenburgStructure, AnEndMomentRollsTheCantileverUp) {
   builder.add_load(builder.shared_rotation(1).value(), 2.0 * pi * bending, LoadKind::proportional);
   const auto structure = builder.build();
   const State state = loaded(*structure, 1.0);
-  EXPECT_NEAR(structure->value(state.x, *structure->members()[0].rotations.back()), 2.0 * pi, 1e-3);
-  EXPECT_LE(structure->current(state.x, 1).norm(), 1e-3);
+  EXPECT_NEAR(structure->value(state, *structure->members()[0].rotations.back()), 2.0 * pi, 1e-3);
+  EXPECT_LE(structure->current(state, 1).norm(), 1e-3);
   EXPECT_NEAR(structure->energy(state), -0.5 * bending * std::pow(2.0 * pi, 2), 1e-3 * bending);
 }
 
@@ -202,7 +203,7 @@ TEST(EssenburgStructure, ThicknessIsFreeAtSupportsUnlessHeld) {
     const auto structure = bent_beam(80, {}, held);
     const Vector x = linear_solution(*structure);
     const MemberSection middle = structure->members()[0].section(40);
-    const auto value = [&](Index freedom) { return structure->value(x, freedom); };
+    const auto value = [&](Index freedom) { return structure->value({.x = x}, freedom); };
     const double bottom = value(structure->freedom(middle.node, Freedom::z)) - 0.5 * h * value(middle.thickness->e) +
                           0.25 * h * h * value(middle.thickness->xi);
     return -0.08 / bottom;
@@ -244,7 +245,7 @@ TEST(EssenburgStructure, MembersThatGoOnStraightShareTheirThickness) {
   const auto whole = cantilever(straight_axis({0.0, 0.0}, {1.0, 0.0}), 8, {}, 0.2, {0.0, 1e-4});
   EXPECT_EQ(cut->size({}), whole->size({}));
   const Vector x = linear_solution(*cut), y = linear_solution(*whole);  // widths 0.1 and 1, loads alike
-  EXPECT_NEAR(cut->value(x, cut->freedom(2, Freedom::z)), whole->value(y, whole->freedom(1, Freedom::z)),
+  EXPECT_NEAR(cut->value({.x = x}, cut->freedom(2, Freedom::z)), whole->value({.x = y}, whole->freedom(1, Freedom::z)),
               1e-10 * std::abs(x.maxCoeff()));
   EXPECT_EQ(two_members(0.01, false)->size({}), whole->size({}) + 2);
   EXPECT_EQ(two_members(0.0, false, 0.1)->size({}), whole->size({}) + 2);

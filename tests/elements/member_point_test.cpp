@@ -40,21 +40,21 @@ std::unique_ptr<Structure> beam() {
 TEST(MemberPoint, DerivativesAreThoseOfThePosition) {
   const auto structure = beam();
   const MemberMesh& mesh = structure->members()[0];
-  const Vector x = test::Numbers(40).vector(structure->size({}));
+  const State state{.x = test::Numbers(40).vector(structure->size({}))};
   constexpr double step = 1e-5, tolerance = 1e-9;
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
     for (const double offset : {0.0, 0.2, -0.3}) {
       const MemberPoint point(*structure, mesh, node, offset);
       PointKinematics at;
-      point.kinematics(x, at);
-      EXPECT_EQ(at.position, point.position(x));
+      point.kinematics(state, at);
+      EXPECT_EQ(at.position, point.position(state));
       const auto& unknowns = point.unknowns();
       ASSERT_EQ(at.jacobian.cols(), static_cast<Index>(unknowns.size()));
       for (std::size_t i = 0; i < unknowns.size(); ++i) {
         const auto column = static_cast<Index>(i);
-        Vector above = x, below = x;
-        above[unknowns[i]] += step;
-        below[unknowns[i]] -= step;
+        State above = state, below = state;
+        above.x[unknowns[i]] += step;
+        below.x[unknowns[i]] -= step;
         PointKinematics a, b;
         point.kinematics(above, a);
         point.kinematics(below, b);
@@ -71,13 +71,13 @@ TEST(MemberPoint, DerivativesAreThoseOfThePosition) {
 TEST(MemberPoint, FacesStandNormalToTheDeformedSection) {
   const auto structure = beam();
   const MemberMesh& mesh = structure->members()[0];
-  const Vector x = test::Numbers(41).vector(structure->size({}));
-  const Vec2 axis = MemberPoint(*structure, mesh, 2, 0.0).position(x);
-  const Vec2 face = MemberPoint(*structure, mesh, 2, 0.2).position(x);
-  const double angle = mesh.shape[2].angle + structure->value(x, mesh.rotations[2].value());
+  const State state{.x = test::Numbers(41).vector(structure->size({}))};
+  const Vec2 axis = MemberPoint(*structure, mesh, 2, 0.0).position(state);
+  const Vec2 face = MemberPoint(*structure, mesh, 2, 0.2).position(state);
+  const double angle = mesh.shape[2].angle + structure->value(state, mesh.rotations[2].value());
   EXPECT_NEAR((face - axis).norm(), 0.2, 1e-15);
   EXPECT_LE((face - axis - 0.2 * Vec2(-std::sin(angle), std::cos(angle))).norm(), 1e-15);
-  EXPECT_EQ(axis, structure->current(x, mesh.nodes[2]));
+  EXPECT_EQ(axis, structure->current(state, mesh.nodes[2]));
 }
 
 TEST(MemberPoint, OfAClampedEndDependsOnNothing) {
@@ -121,7 +121,7 @@ TEST(FreedomObservable, ReadsADisplacementAndIsZeroWhereHeld) {
   const State state{.x = test::Numbers(43).vector(structure->size({}))};
   const FreedomObservable free(*structure, structure->freedom(1, Freedom::x)),
       held(*structure, structure->freedom(1, Freedom::z));
-  EXPECT_EQ(free.value(state), structure->value(state.x, structure->freedom(1, Freedom::x)));
+  EXPECT_EQ(free.value(state), structure->value(state, structure->freedom(1, Freedom::x)));
   EXPECT_LE(check_gradient(free, state), 1e-8);
   EXPECT_EQ(held.value(state), 0.0);
   EXPECT_EQ(held.gradient(state).dx.norm(), 0.0);

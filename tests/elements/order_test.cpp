@@ -21,8 +21,8 @@ struct Tip {
 
 // Node 1 is the tip.
 Tip tip_of(const Structure& structure, const State& state) {
-  return {.displacement = structure.current(state.x, 1) - structure.position(1),
-          .rotation = structure.value(state.x, structure.members()[0].rotations.back().value())};
+  return {.displacement = structure.current(state, 1) - structure.position(1),
+          .rotation = structure.value(state, structure.members()[0].rotations.back().value())};
 }
 
 Tip solved_tip(const test::Cantilever& cantilever, double lambda) {

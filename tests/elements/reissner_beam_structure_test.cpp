@@ -106,8 +106,8 @@ TEST(ExactBeamOrder, AnEndMomentRollsTheCantileverUp) {
   const Index rotation = structure->members()[0].rotations.back().value();
   for (const int turns : {1, 2}) {
     const State state = solved(*structure, 2.0 * pi * turns, 40 * turns);
-    EXPECT_NEAR(structure->value(state.x, rotation), 2.0 * pi * turns, 1e-10);
-    EXPECT_LE(structure->current(state.x, tip).norm(), 1e-3);
+    EXPECT_NEAR(structure->value(state, rotation), 2.0 * pi * turns, 1e-10);
+    EXPECT_LE(structure->current(state, tip).norm(), 1e-3);
     EXPECT_NEAR(structure->energy(state), -0.5 * std::pow(2.0 * pi * turns, 2), 1e-9);
   }
 }
@@ -207,11 +207,11 @@ TEST(ExactBeamStructure, ReactionsBalanceTheLoads) {
     EXPECT_NEAR(structure->reaction(state, structure->freedom(0, Freedom::x)), -1.5 * (0.3 + 0.5), 1e-12);
     EXPECT_NEAR(structure->reaction(state, structure->freedom(0, Freedom::z)), -1.5 * (-0.4 - 1.0), 1e-12);
     // Moments about the clamped end at the origin, of the loads where they are now.
-    const Vec2 end = structure->current(state.x, tip);
+    const Vec2 end = structure->current(state, tip);
     double moment = 1.5 * (0.2 + end.x() * -0.4 - end.y() * 0.3);
     const MemberMesh& mesh = structure->members()[0];
     const auto add = [&](Index node, double share) {
-      const Vec2 r = structure->current(state.x, node);
+      const Vec2 r = structure->current(state, node);
       moment += 1.5 * share * (r.x() * -1.0 - r.y() * 0.5);
     };
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {

@@ -157,7 +157,7 @@ TEST(Structure, ReactionsBalanceMomentsInTheDeformedState) {
   const test::Cantilever cantilever{.EA = 1e3, .EI = 1.0, .length = 1.0, .elements = 4, .tip_force = 2.0};
   const auto structure = cantilever.structure();
   const State bent = test::solved_at(*structure, {.x = Vector::Zero(structure->size({}))}, 1.0, 4);
-  const Vec2 tip = structure->current(bent.x, 1);
+  const Vec2 tip = structure->current(bent, 1);
   const Index clamp = structure->members()[0].rotations[0].value();
   EXPECT_NEAR(structure->reaction(bent, clamp), -2.0 * tip.x(), 1e-10);
   EXPECT_NEAR(structure->reaction(bent, structure->freedom(0, Freedom::z)), -2.0, 1e-10);
@@ -174,10 +174,10 @@ TEST(Structure, AHeldFreedomIsNoUnknownAndZero) {
   const auto meaning = structure->meaning(*structure->unknown(free));
   EXPECT_EQ(meaning.node, model.corner);
   EXPECT_EQ(meaning.freedom, Freedom::z);
-  const Vector x = test::Numbers(31).vector(structure->size({}));
-  EXPECT_EQ(structure->value(x, held), 0.0);
-  EXPECT_EQ(structure->value(x, free), x[*structure->unknown(free)]);
-  EXPECT_EQ(structure->current(x, model.foot), structure->position(model.foot));
+  const State state{.x = test::Numbers(31).vector(structure->size({}))};
+  EXPECT_EQ(structure->value(state, held), 0.0);
+  EXPECT_EQ(structure->value(state, free), state.x[*structure->unknown(free)]);
+  EXPECT_EQ(structure->current(state, model.foot), structure->position(model.foot));
 }
 
 TEST(Structure, AHingeGivesTheMemberARotationOfItsOwn) {
@@ -212,7 +212,7 @@ TEST(Structure, AHingeTransmitsNoMoment) {
   const auto structure = builder.build();
   const State loaded = test::solved_at(*structure, {.x = Vector::Zero(structure->size({}))}, 1.0, 1);
   // Two cantilevers of length 1 share the force: w = −½ · 1e-6 · 1³/(3 EI), clamp moments ½ · 1e-6.
-  EXPECT_NEAR(structure->value(loaded.x, structure->freedom(1, Freedom::z)), -1e-6 / 6.0, 1e-12);
+  EXPECT_NEAR(structure->value(loaded, structure->freedom(1, Freedom::z)), -1e-6 / 6.0, 1e-12);
   EXPECT_NEAR(structure->reaction(loaded, structure->members()[0].rotations.front().value()), 0.5e-6, 1e-12);
 }
 

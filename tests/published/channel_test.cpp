@@ -18,12 +18,12 @@ using test::trace;
 constexpr double half_sine = 0.00176;
 
 double shortening(const test::ContactModel& model, const State& state) {
-  return -model.structure().value(state.x, model.structure().freedom(1, Freedom::x));
+  return -model.structure().value(state, model.structure().freedom(1, Freedom::x));
 }
 
 double middle(const test::ContactModel& model, const State& state) {
   const MemberMesh& mesh = model.structure().members()[0];
-  return model.structure().current(state.x, mesh.nodes[mesh.nodes.size() / 2]).y();
+  return model.structure().current(state, mesh.nodes[mesh.nodes.size() / 2]).y();
 }
 
 TraceOptions until(double lambda, double step = 0.05) {

@@ -58,11 +58,10 @@ std::vector<Bent> bent(const Column& column, double fraction, const std::vector<
     for (const double value : degrees)
       if (std::abs(angle->value(arc.to.state) - value * pi / 180.0) < 1e-10) {
         EXPECT_EQ(arc.to.count.unstable, Index{0});
-        found.push_back(
-            {.degrees = value,
-             .load = arc.to.state.lambda,
-             .chord = structure->current(arc.to.state.x, 1).x(),
-             .middle = std::abs(structure->current(arc.to.state.x, mesh.nodes[mesh.nodes.size() / 2]).y())});
+        found.push_back({.degrees = value,
+                         .load = arc.to.state.lambda,
+                         .chord = structure->current(arc.to.state, 1).x(),
+                         .middle = std::abs(structure->current(arc.to.state, mesh.nodes[mesh.nodes.size() / 2]).y())});
       }
   EXPECT_EQ(found.size(), degrees.size());
   found.resize(degrees.size());

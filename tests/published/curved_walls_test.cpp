@@ -49,8 +49,7 @@ struct Wrapped {
 };
 
 Wrapped wrapped_at(const test::ContactModel& model, const State& state) {
-  Wrapped found{.turn = -model.structure().value(state.x, *model.structure().members()[0].rotations.back()),
-                .angle = 0};
+  Wrapped found{.turn = -model.structure().value(state, *model.structure().members()[0].rotations.back()), .angle = 0};
   for (Index j = 0; j < model.system().contact_count(); ++j)
     if (state.piece[static_cast<std::size_t>(j)])
       found.angle = std::max(found.angle, length * model.system().candidate(j).label().fraction);

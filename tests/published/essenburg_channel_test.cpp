@@ -19,7 +19,7 @@ const std::vector<SineDeviation> third_harmonic{{.amplitude = 0.00176, .waves = 
 
 double middle(const test::ContactModel& model, const State& state) {
   const MemberMesh& mesh = model.structure().members()[0];
-  return model.structure().current(state.x, mesh.nodes[mesh.nodes.size() / 2]).y();
+  return model.structure().current(state, mesh.nodes[mesh.nodes.size() / 2]).y();
 }
 
 bool concerns_the_middle(const test::ContactModel& model, const Event& event, const std::string& wall) {
@@ -143,7 +143,7 @@ TEST(EssenburgChannel, MiddleAtTheLoadsOfTable2Slow) {
   for (const Listed& row : below) EXPECT_NEAR(heights(row.P).back(), row.axis, row.tolerance) << row.P;
   const State greatest = only_event(branch, EventKind::limit_point).state;
   EXPECT_NEAR(greatest.lambda, 9.9955, 0.0025);
-  EXPECT_NEAR(-model.structure().value(greatest.x, model.structure().freedom(1, Freedom::x)), 0.620, 5e-4);
+  EXPECT_NEAR(-model.structure().value(greatest, model.structure().freedom(1, Freedom::x)), 0.620, 5e-4);
 }
 
 }  // namespace arcwall::essenburg_channel_test

@@ -51,9 +51,9 @@ class FoundationPath {
     const MultiplierContact& system = model_.system();
     const MemberMesh& mesh = model_.structure().members()[0];
     Listed row{.moment = moment,
-               .w = model_.structure().current(state.x, mesh.nodes.front()).y() / scale_,
+               .w = model_.structure().current(state, mesh.nodes.front()).y() / scale_,
                .R = 0.0,
-               .phi_end = model_.structure().value(state.x, *mesh.rotations.back()) / scale_};
+               .phi_end = model_.structure().value(state, *mesh.rotations.back()) / scale_};
     for (Index j = 0; j < system.contact_count(); ++j) {
       row.R += 2.0 * system.force(state, j) / scale_;
       if (state.piece[static_cast<std::size_t>(j)]) row.c = system.candidate(j).label().fraction;
@@ -63,7 +63,7 @@ class FoundationPath {
   }
 
   double bottom(double moment) const {
-    return MemberPoint(model_.structure(), model_.structure().members()[0], 0, -0.1).position(state_at(moment).x).y() +
+    return MemberPoint(model_.structure(), model_.structure().members()[0], 0, -0.1).position(state_at(moment)).y() +
            0.1;
   }
 

@@ -70,9 +70,9 @@ double tilt_spring(const SlidingContact& system, const State& state, Index k) {
   if (on.lies_beside(point)) return infinity;
   if (!state.piece[point]) return 0.0;
   const auto [strand, position] = on.mesh().breakpoint(k);
-  const Vector x = on.x_of(state);
-  const AxisPlace axis = on.mesh().node(strand, position, x);
-  const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, x, on.s_of(state), state.lambda);
+  const MeshState now = mesh_state_of(state);
+  const AxisPlace axis = on.mesh().node(strand, position, now);
+  const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, now);
   const Vec2 face = system.place(state, k);
   const Height wall = system.obstacles()[on.points()[point].obstacle].profile->at(face.x());
   const double travel = std::cos(axis.angle) >= 0.0 ? 1.0 : -1.0;

@@ -12,8 +12,9 @@ InIncrements::InIncrements(std::unique_ptr<Structure> structure, const std::vect
   contact_ = std::make_unique<MultiplierContact>(present_, candidates(*described_, walls),
                                                  ContactScales{.length = 2.0, .force = 1.0}, law);
   const Index n = described_->size({});
-  scheme_ = std::make_unique<LoadIncrements>(*contact_, State{.x = Vector::Zero(n), .piece = contact_->open_piece()},
-                                             1.0, [this, n](const State& state) { present_.advance(state.x.head(n)); });
+  scheme_ = std::make_unique<LoadIncrements>(
+      *contact_, State{.x = Vector::Zero(n), .piece = contact_->open_piece()}, 1.0,
+      [this, n](const State& state) { present_.advance({.x = state.x.head(n), .lambda = state.lambda}); });
   last_ = scheme_->start().to;
 }
 
@@ -31,7 +32,7 @@ void InIncrements::relax(int increments) {
 double InIncrements::force() const { return contact_->closed_forces(last_.state).sum(); }
 
 double InIncrements::z_of(std::size_t node, double offset) const {
-  return MemberPoint(*described_, described_->members()[0], node, offset).position(last_.state.x).y() - offset;
+  return MemberPoint(*described_, described_->members()[0], node, offset).position(last_.state).y() - offset;
 }
 
 void InIncrements::go_to(double lambda) {

@@ -202,7 +202,7 @@ std::shared_ptr<const Observable> joint_rotation(const Structure& structure, Ind
 }
 
 Vec2 displacement_of(const Structure& structure, const State& state, Index node) {
-  return structure.current(state.x, node) - structure.position(node);
+  return structure.current(state, node) - structure.position(node);
 }
 
 TargetValue stop_at(const Structure& structure, Index node, Freedom which, double value) {

@@ -137,7 +137,7 @@ TEST_F(RecorderTest, EventsAreNumberedAndSayWhatChanges) {
   EXPECT_EQ(closes.monitors, std::vector<double>{-0.25});
   ASSERT_EQ(closes.contacts.size(), 1u);
   EXPECT_EQ(closes.contacts[0].label.wall, "floor");
-  EXPECT_EQ(closes.contacts[0].x, study_.contact()->candidate(0).point().position(Vector::Zero(2)).x());
+  EXPECT_EQ(closes.contacts[0].x, study_.contact()->candidate(0).point().position({.x = Vector::Zero(2)}).x());
   EXPECT_TRUE(record_.events[2].contacts.empty());
   EXPECT_EQ(record_.events[3].monitor, "w");
   EXPECT_EQ(closes.monitor, std::nullopt);
