@@ -7,10 +7,6 @@
 // As GNU ld's --wrap wants it: calls of the mangled name go to __wrap_…, __real_… is the library's function. A member
 // function is called like a function with the object's address in front (Itanium C++ ABI).
 #define ARCWALL_FACTORIZE "_ZN7arcwall4Ldlt9factorizeERKN5Eigen12SparseMatrixIdLi0EiEE"
-#define ARCWALL_FACTORIZE_AND_SOLVE                                             \
-  "_ZN7arcwall4Ldlt19factorize_and_solveERKN5Eigen12SparseMatrixIdLi0EiEESt4sp" \
-  "anIKNS_12ScaledColumnELm18446744073709551615EENS1_3RefINS1_6MatrixIdLin1ELi" \
-  "n1ELi0ELin1ELin1EEELi0ENS1_11OuterStrideILin1EEEEE"
 #define ARCWALL_SOLVE                                                                           \
   "_ZNK7arcwall4Ldlt5solveEN5Eigen3RefINS1_6MatrixIdLin1ELin1ELi0ELin1ELin1EEELi0ENS1_11OuterS" \
   "trideILin1EEEEE"
@@ -29,16 +25,12 @@ SolverTimes times;
 const SolverTimes& solver_times() { return times; }
 
 FactorStatus real_factorize(Ldlt* self, const SparseMatrix& matrix) __asm__("__real_" ARCWALL_FACTORIZE);
-FactorStatus real_factorize_and_solve(Ldlt* self, const SparseMatrix& matrix, std::span<const ScaledColumn> of,
-                                      Eigen::Ref<Matrix> X) __asm__("__real_" ARCWALL_FACTORIZE_AND_SOLVE);
 void real_solve(const Ldlt* self, Eigen::Ref<Matrix> X) __asm__("__real_" ARCWALL_SOLVE);
 
 std::optional<LineProducts> real_line(BorderedSolver* self, const Row& border, const Vector& weights,
                                       EquilibriumLine& out) __asm__("__real_" ARCWALL_LINE);
 
 FactorStatus timed_factorize(Ldlt* self, const SparseMatrix& matrix) __asm__("__wrap_" ARCWALL_FACTORIZE);
-FactorStatus timed_factorize_and_solve(Ldlt* self, const SparseMatrix& matrix, std::span<const ScaledColumn> of,
-                                       Eigen::Ref<Matrix> X) __asm__("__wrap_" ARCWALL_FACTORIZE_AND_SOLVE);
 void timed_solve(const Ldlt* self, Eigen::Ref<Matrix> X) __asm__("__wrap_" ARCWALL_SOLVE);
 std::optional<LineProducts> counted_line(BorderedSolver* self, const Row& border, const Vector& weights,
                                          EquilibriumLine& out) __asm__("__wrap_" ARCWALL_LINE);
@@ -47,15 +39,6 @@ FactorStatus timed_factorize(Ldlt* self, const SparseMatrix& matrix) {
   const ScopedTimer timer(times.factorization);
   ++times.factorizations;
   return real_factorize(self, matrix);
-}
-
-FactorStatus timed_factorize_and_solve(Ldlt* self, const SparseMatrix& matrix, std::span<const ScaledColumn> of,
-                                       Eigen::Ref<Matrix> X) {
-  const ScopedTimer timer(times.factorization);
-  ++times.factorizations;
-  ++times.solutions;
-  times.columns += X.cols();
-  return real_factorize_and_solve(self, matrix, of, X);
 }
 
 void timed_solve(const Ldlt* self, Eigen::Ref<Matrix> X) {

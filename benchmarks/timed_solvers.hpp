@@ -5,7 +5,7 @@
 namespace arcwall::bench {
 
 /// What the factorizations of this process took, and Newton's iterations. Programs that link `timed_solvers` have the
-/// libraries' calls of Ldlt::factorize, factorize_and_solve and solve and of BorderedSolver::line go by here (GNU ld's
+/// libraries' calls of Ldlt::factorize and solve and of BorderedSolver::line go by here (GNU ld's
 /// --wrap), so that nothing is timed or counted in the libraries themselves.
 struct SolverTimes {
   double factorization = 0.0;  ///< with solutions that were found along [s]

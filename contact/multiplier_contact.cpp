@@ -74,6 +74,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   out.F.head(n) = inner.F;
   out.F_lambda << inner.F_lambda, Vector::Zero(m);
   copy_values(inner.K, out.K);
+  out.ground = inner.ground;
   Gap gap;
   for_each_closed(state.piece, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
@@ -102,7 +103,8 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
     for (const Index unknown : candidates_[j].point().unknowns()) entries.push_back({.row = k, .column = unknown});
   });
   out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.piece));
-  out.translation_free = entries.empty() ? out.inner->translation_free : std::vector<bool>{};  // walls hold
+  out.translation_free = out.inner->translation_free;
+  if (!out.translation_free.empty()) out.translation_free.resize(static_cast<std::size_t>(out.K.cols()), false);
   out.pattern_of = state.piece;
 }
 

@@ -2,14 +2,9 @@
 
 namespace arcwall {
 
-FactorStatus FactorizedEquations::look(const State& state) {
+FactorStatus FactorizedEquations::linearize_at(const State& state) {
   if (!evaluate(state)) return FactorStatus::not_finite;
   return solver_.factorize(now_, of_.multiplier_count(state.piece));
-}
-
-FactorStatus FactorizedEquations::look_for_line(const State& state, EquilibriumLine& line) {
-  if (!evaluate(state)) return FactorStatus::not_finite;
-  return solver_.factorize_for_line(now_, of_.multiplier_count(state.piece), line);
 }
 
 // False where F is not finite.
@@ -20,8 +15,8 @@ bool FactorizedEquations::evaluate(const State& state) {
   return all_finite(now_.F);
 }
 
-FactorStatus FactorizedEquations::arrive(const State& state) {
-  const FactorStatus status = look(state);
+FactorStatus FactorizedEquations::set_point(const State& state) {
+  const FactorStatus status = linearize_at(state);
   here_ = state;
   arrived_ = status != FactorStatus::not_finite;
   return status;

@@ -16,16 +16,13 @@ class FactorizedEquations {
   explicit FactorizedEquations(const Equations& equations) : of_(equations) {}
 
   /// Evaluates and factorizes; `not_finite` also where F is not.
-  FactorStatus look(const State& state);
-
-  /// The same where the solver's line() is asked for next, for this line.
-  FactorStatus look_for_line(const State& state, EquilibriumLine& line);
+  FactorStatus linearize_at(const State& state);
 
   /// The same, and knows the state again: what is asked from here on is of this one.
-  FactorStatus arrive(const State& state);
+  FactorStatus set_point(const State& state);
 
   /// Whether nothing was looked at or evaluated since a state was arrived at.
-  bool has_arrived() const { return arrived_; }
+  bool has_point() const { return arrived_; }
 
   /// And whether that is this one.
   bool is_at(const State& state) const { return arrived_ && here_ == state; }

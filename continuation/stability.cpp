@@ -63,7 +63,7 @@ std::optional<Index> StabilityCounter::counted_on(const State& state) {
   const bool shares = shared_.is_on(state.piece);
   FactorizedEquations& at = shares ? shared_ : own_;
   if (!shares && start_ != nullptr) own_.track_from(*std::exchange(start_, nullptr));
-  const FactorStatus status = at.look(state);
+  const FactorStatus status = at.linearize_at(state);
   const bool regular = status == FactorStatus::ok, bordered = at.equations().B.cols() > 0;
   if (status == FactorStatus::not_finite || (bordered && !regular)) return std::nullopt;
   NearNull nearest;

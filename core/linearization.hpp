@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/ground_term.hpp"
 #include "core/state.hpp"
 
 namespace arcwall {
@@ -26,10 +27,12 @@ struct Linearization {
                                            ///< the body slid and y_k did not hold it; 0 where it is truly held.
                                            ///< Stability is counted with the others let go (ReleasedBorder)
   Vector F_lambda{};                       ///< ∂F/∂λ
-  std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, by
-                                           ///< unknowns of K: true for the displacement in x of such a node, behind
-                                           ///< which stands that in z. Solutions then know this to the last digit,
-                                           ///< which K's rounded entries do not. May be empty
+  std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, but for
+                                           ///< ground terms, by unknowns of K: true for the displacement in x of such
+                                           ///< a node, behind which stands that in z. Solutions then know this to the
+                                           ///< last digit, which K's rounded entries do not. May be empty
+  std::vector<GroundTerm> ground{};        ///< what of K's entries joins translation-free nodes to the ground; written
+                                           ///< with K in each linearization
   std::optional<Piece> pattern_of{};       ///< the piece whose pattern K has; empty: not laid out yet
   std::unique_ptr<Linearization> inner{};  ///< workspace of a system that wraps another
 };

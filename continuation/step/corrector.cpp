@@ -30,7 +30,7 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
   const Row border = metric.row(along);
   double previous = length;
   while (result.iterations < options.max_iterations) {
-    if (here_.look_for_line(result.state, line_) == FactorStatus::not_finite) return ended(CorrectorStatus::not_finite);
+    if (here_.linearize_at(result.state) == FactorStatus::not_finite) return ended(CorrectorStatus::not_finite);
     if (!find_line(metric, border)) return ended(CorrectorStatus::singular);
     result.roots = constraint.advance(result.state, line_);
     if (!result.roots) return ended(CorrectorStatus::complex_roots);
@@ -68,10 +68,10 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
 
 std::optional<NearNull> Corrector::near_null([[maybe_unused]] const State& here, const Vector& weights, Index count,
                                              Settled settled) const {
-  assert(!here_.has_arrived() || here_.is_at(here));
+  assert(!here_.has_point() || here_.is_at(here));
   const Linearization& now = here_.equations();
   const BorderedSolver& solver = here_.solver();
-  if (!here_.has_arrived() || !solver.inner_is_regular()) return std::nullopt;
+  if (!here_.has_point() || !solver.inner_is_regular()) return std::nullopt;
   const Vector weighted = weights.head(now.K.cols());
   if (now.B.cols() > 0) {
     const ReleasedBorder border(solver, now, sliding_resistance(solver, now));
@@ -88,7 +88,7 @@ std::optional<Index> Corrector::count_here(const State& here, const NearNull& ne
 }
 
 std::optional<Matrix> Corrector::responses(Matrix columns) const {
-  if (!here_.has_arrived() || !here_.solver().inner_is_regular()) return std::nullopt;
+  if (!here_.has_point() || !here_.solver().inner_is_regular()) return std::nullopt;
   here_.solver().inner().solve(columns);
   return columns.allFinite() ? std::optional(std::move(columns)) : std::nullopt;
 }
@@ -141,7 +141,7 @@ double Corrector::take_step(const Metric& metric, double tau, State& state) cons
 
 CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric, const Row& border, Wanted wanted) {
   line_.dx.resize(0, 2);  // room for other columns
-  if (here_.arrive(result.state) == FactorStatus::not_finite) {
+  if (here_.set_point(result.state) == FactorStatus::not_finite) {
     result.status = CorrectorStatus::not_finite;
     return result;
   }
@@ -163,7 +163,7 @@ CorrectorResult Corrector::arrived(CorrectorResult result, const Metric& metric,
 
 CorrectorResult Corrector::find_pairs(const State& state, const Metric& metric) {
   CorrectorResult result;
-  if (here_.arrive(state) == FactorStatus::not_finite) {
+  if (here_.set_point(state) == FactorStatus::not_finite) {
     result.status = CorrectorStatus::not_finite;
     return result;
   }

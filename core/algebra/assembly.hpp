@@ -90,7 +90,7 @@ class ShiftedIndices {
 /// are kept of each.
 class ShiftedLists {
  public:
-  /// The next list, of indices ≥ 0.
+  /// The next list, of indices ≥ 0; −1 stands for none.
   void add(std::span<const Index> list);
 
   /// No list follows.

@@ -1,7 +1,6 @@
 #include "core/algebra/bordered_solver.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -51,28 +50,16 @@ FactorStatus BorderedSolver::factorize(Linearization& equations, Index multiplie
   return status;
 }
 
-FactorStatus BorderedSolver::factorize_for_line(Linearization& equations, Index multipliers, EquilibriumLine& line) {
-  if (equations.B.cols() > 0) return factorize(equations, multipliers);
-  expect_pattern(equations, multipliers);
-  const std::array<ScaledColumn, 2> of{ScaledColumn{equations.F.data(), -1.0},
-                                       ScaledColumn{equations.F_lambda.data(), -1.0}};
-  line.dx.resize(equations.F.size(), 2);
-  const FactorStatus status = ldlt_.factorize_and_solve(equations.K, of, line.dx);
-  regular_ = status == FactorStatus::ok;
-  if (regular_) along_ = &line;
-  return status;
-}
-
 void BorderedSolver::expect_pattern(Linearization& equations, Index multipliers) {
   equations_ = &equations;
   multipliers_ = multipliers;
-  along_ = nullptr;
   ldlt_.set_multiplier_count(multipliers);
   const SparseMatrix& K = equations.K;
   Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
   const bool same = pattern.piece && pattern == pattern_;
   ldlt_.trust_pattern(same);
-  if (!same) ldlt_.set_afloat(equations.translation_free);
+  if (!same) ldlt_.set_translation_free(equations.translation_free);
+  ldlt_.set_ground(equations.ground);
   pattern_ = std::move(pattern);
 }
 
@@ -125,7 +112,7 @@ bool BorderedSolver::is_suspicious(double cancelled) const {
 
 // Where J is nearly singular, J⁻¹ F and J⁻¹ F_λ are large multiples of one vector, and the digits that they differ in
 // are lost. What is not finite shows in the products, without weight, too.
-bool BorderedSolver::keeps_digits(const Row& border, const Matrix& X, const LineProducts& found) const {
+bool BorderedSolver::cancellation_is_small(const Row& border, const Matrix& X, const LineProducts& found) const {
   if (!std::isfinite(found.pp) || !std::isfinite(found.tt)) return false;
   if (ldlt_.pivot_ratio() >= suspicious_pivot) return true;
   const double *b = border.dx.data(), *p = X.col(0).data(), *t = X.col(1).data();
@@ -146,7 +133,6 @@ bool BorderedSolver::solve_line(EquilibriumLine& line, double& cancelled) {
   line.off = 0.0;
   line.scale = 1.0;
   cancelled = 1.0;
-  if (std::exchange(along_, nullptr) == &line) return true;
   const Linearization& now = *equations_;
   line.dx.resize(now.F.size(), 2);
   line.dx.col(0) = -now.F;
@@ -160,7 +146,7 @@ std::optional<LineProducts> BorderedSolver::line(const Row& border, const Vector
   double cancelled = 0.0;
   if (solve_line(out, cancelled)) {
     const LineProducts found = products_of(weights, X);
-    if (!is_suspicious(cancelled) && keeps_digits(border, X, found)) return found;
+    if (!is_suspicious(cancelled) && cancellation_is_small(border, X, found)) return found;
     if (make_line_good(border, out)) return products_of(weights, X);
   }
   if (!factorize_whole(border, X)) return std::nullopt;

@@ -27,9 +27,6 @@ class BorderedSolver {
   /// spring may stand in K for a moment (WholeSolver).
   FactorStatus factorize(Linearization& equations, Index multipliers);
 
-  /// The same where line() is asked for next, for this line: without a border its solutions are found along.
-  FactorStatus factorize_for_line(Linearization& equations, Index multipliers, EquilibriumLine& line);
-
   /// See Ldlt.
   void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
   bool may_use_soft() const { return ldlt_.may_use_soft(); }
@@ -73,7 +70,7 @@ class BorderedSolver {
   bool solve_inner(Matrix& X, double& cancelled) const;
   bool solve_line(EquilibriumLine& line, double& cancelled);
   bool is_suspicious(double cancelled) const;
-  bool keeps_digits(const Row& border, const Matrix& X, const LineProducts& found) const;
+  bool cancellation_is_small(const Row& border, const Matrix& X, const LineProducts& found) const;
   bool make_line_good(const Row& border, EquilibriumLine& line);
   bool make_tangent_good(Matrix& columns);
   bool factorize_whole(const Row& border, const Matrix& columns);
@@ -84,8 +81,7 @@ class BorderedSolver {
   WholeSolver whole_;
   Index multipliers_ = 0;
   bool regular_ = false;
-  const EquilibriumLine* along_ = nullptr;  // whose solutions were found with the factorization
-  Matrix border_;                           // K⁻¹ B
+  Matrix border_;  // K⁻¹ B
   Matrix reduced_;
   Eigen::PartialPivLU<Matrix> slides_;  // of reduced_
 };

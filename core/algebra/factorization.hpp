@@ -14,12 +14,6 @@ struct Inertia {
   Index positive = 0;
 };
 
-/// A column times a factor.
-struct ScaledColumn {
-  const double* entries;
-  double factor;
-};
-
 /// A factorized sparse matrix. The symbolic analysis is kept while the pattern stays the same.
 class Factorization {
  public:

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/algebra/block_tridiagonal/chain_ldlt.hpp"
-#include "core/algebra/block_tridiagonal/held_chain.hpp"
+#include "core/algebra/block_tridiagonal/block_tridiagonal_ldlt.hpp"
+#include "core/algebra/block_tridiagonal/null_space_ldlt.hpp"
 #include "core/algebra/solvers/pattern.hpp"
 #include "core/algebra/solvers/simplicial_ldlt.hpp"
 #include "core/algebra/solvers/sprung_cholesky.hpp"
@@ -22,47 +22,52 @@ struct Ldlt::Implementation {
   Matrix soft;
   Pattern pattern;  // that was analysed
   Index multipliers = 0, analysed_multipliers = 0;
-  std::vector<bool> translation_free, analysed_afloat;
+  std::vector<bool> translation_free, analysed_translations;
+  GroundTerms ground;
   bool trusted = false;  // the pattern
 
-  std::unique_ptr<SymmetricFactors> fresh(const SparseMatrix& A) const {
-    if (auto groups = chain_groups(A, multipliers, ChainLdlt::widest)) {
-      if (multipliers == 0) return std::make_unique<ChainLdlt>(A, *groups, translation_free);
-      if (auto held = HeldChain::of(A, multipliers, *groups)) return held;
-      if (insert_multipliers(A, multipliers, ChainLdlt::widest, *groups))
-        return std::make_unique<ChainLdlt>(A, *groups);
+  std::unique_ptr<SymmetricFactors> analyse(const SparseMatrix& A) const {
+    if (auto blocks = find_blocks(A, multipliers, BlockTridiagonalLdlt::widest)) {
+      if (multipliers == 0) return std::make_unique<BlockTridiagonalLdlt>(A, *blocks, translation_free);
+      if (auto pressed = NullSpaceLdlt::of(A, multipliers, *blocks, translation_free)) return pressed;
+      if (insert_multipliers(A, multipliers, BlockTridiagonalLdlt::widest, *blocks))
+        return std::make_unique<BlockTridiagonalLdlt>(A, *blocks);
     }
     std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : sprung_cholesky(A);
     return large ? std::move(large) : simplicial_ldlt(A, multipliers);
   }
 
-  // Analyses the pattern unless that has been done.
-  void know(const SparseMatrix& A) {
+  void ensure_analysed(const SparseMatrix& A) {
     const bool any = factors != nullptr && multipliers == analysed_multipliers;
     if (any && trusted && pattern.has_sizes_of(A)) return;
-    const bool same = pattern.is_of(A);
-    if (any && same && translation_free == analysed_afloat) return;
+    const bool same = pattern.is_of(A), same_structure = structure_translations() == analysed_translations;
+    if (any && same && same_structure) return;
     others.reset();
-    if (!factors || !factors->adopts(A, multipliers)) factors = fresh(A);
+    if (!factors || !same_structure || !factors->reuse_analysis(A, multipliers)) factors = analyse(A);
     factors->expect_soft(soft);
     if (!same) pattern = Pattern(A);
     analysed_multipliers = multipliers;
-    analysed_afloat = translation_free;
+    analysed_translations = structure_translations();
   }
 
-  // Simplicial LDLᵀ serves all matrices. `serves` factorizes by one of the ways, and may solve.
-  template <class Serves>
-  FactorStatus factorize(const SparseMatrix& A, const Serves& serves) {
+  // Of the unknowns that are no multipliers: these come and go.
+  std::vector<bool> structure_translations() const {
+    const auto count = static_cast<std::ptrdiff_t>(translation_free.size());
+    return {translation_free.begin(), translation_free.end() - std::min<std::ptrdiff_t>(multipliers, count)};
+  }
+
+  // Simplicial LDLᵀ serves all matrices.
+  FactorStatus factorize(const SparseMatrix& A) {
     const auto is_finite = [&] { return all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros())); };
     usable = nullptr;
-    know(A);
+    ensure_analysed(A);
     const bool asks = !factors->sees_what_is_not_finite();
     if (asks && !is_finite()) return FactorStatus::not_finite;
-    if (serves(*factors)) {
+    if (factors->factorize(A, ground)) {
       usable = factors.get();
     } else if (factors->refused()) {
       if (!others) others = simplicial_ldlt(A, multipliers);
-      if (serves(*others)) usable = others.get();
+      if (others->factorize(A, ground)) usable = others.get();
     }
     if (usable != nullptr) return FactorStatus::ok;
     return asks || is_finite() ? FactorStatus::singular : FactorStatus::not_finite;
@@ -76,7 +81,9 @@ Ldlt& Ldlt::operator=(Ldlt&&) noexcept = default;
 
 void Ldlt::set_multiplier_count(Index count) { implementation_->multipliers = count; }
 
-void Ldlt::set_afloat(std::vector<bool> unknowns) { implementation_->translation_free = std::move(unknowns); }
+void Ldlt::set_translation_free(std::vector<bool> unknowns) { implementation_->translation_free = std::move(unknowns); }
+
+void Ldlt::set_ground(GroundTerms ground) { implementation_->ground = ground; }
 
 void Ldlt::expect_soft(Matrix vectors) {
   Implementation& self = *implementation_;
@@ -90,14 +97,7 @@ void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
 
 FactorStatus Ldlt::factorize(const SparseMatrix& A) {
   assert(A.isCompressed() && A.rows() == A.cols());
-  return implementation_->factorize(A, [&](SymmetricFactors& factors) { return factors.factorize(A); });
-}
-
-FactorStatus Ldlt::factorize_and_solve(const SparseMatrix& A, std::span<const ScaledColumn> of, Eigen::Ref<Matrix> X) {
-  assert(A.isCompressed() && A.rows() == A.cols());
-  assert(X.rows() == A.cols() && X.cols() == static_cast<Index>(of.size()));
-  return implementation_->factorize(A,
-                                    [&](SymmetricFactors& factors) { return factors.factorize_and_solve(A, of, X); });
+  return implementation_->factorize(A);
 }
 
 void Ldlt::solve(Eigen::Ref<Matrix> X) const {

@@ -1,15 +1,15 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "core/algebra/factorization.hpp"
+#include "core/ground_term.hpp"
 
 namespace arcwall {
 
-/// LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included: ChainLdlt where the pattern is
-/// that of a chain, CHOLMOD's supernodal LLᵀ with springs (sprung_cholesky.hpp) for large structures of many couplings,
+/// LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included: BlockTridiagonalLdlt where the
+/// pattern is such, CHOLMOD's supernodal LLᵀ with springs (sprung_cholesky.hpp) for large structures of many couplings,
 /// its simplicial LDLᵀ elsewhere and for what those refuse.
 ///
 /// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown
@@ -27,7 +27,11 @@ class Ldlt final : public Factorization {
 
   /// Unknowns of nodes on which no force arises where everything moves parallel (see Linearization); none by default.
   /// Takes effect with the next matrix whose pattern is not trusted.
-  void set_afloat(std::vector<bool> unknowns);
+  void set_translation_free(std::vector<bool> unknowns);
+
+  /// Which parts of the entries of the matrices to come are ground terms; none by default. Must outlive these
+  /// factorizations.
+  void set_ground(GroundTerms ground);
 
   /// Columns that the matrices to come hardly resist, as far as one knows; none by default. Where they are found makes
   /// large indefinite matrices quicker; results depend on them within round-off.
@@ -41,12 +45,6 @@ class Ldlt final : public Factorization {
   void trust_pattern(bool same);
 
   FactorStatus factorize(const SparseMatrix& lower_triangle) override;
-
-  /// The same and X := A⁻¹ `of`, which is quicker for long chains than one after the other. After any status but `ok` X
-  /// is any.
-  FactorStatus factorize_and_solve(const SparseMatrix& lower_triangle, std::span<const ScaledColumn> of,
-                                   Eigen::Ref<Matrix> X);
-
   void solve(Eigen::Ref<Matrix> X) const override;
   std::optional<Inertia> inertia() const override;
 

@@ -50,9 +50,13 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   spring_ = std::abs(diagonal[at_]);
   if (!(spring_ > 0.0 && std::isfinite(spring_))) return false;
   ldlt_.set_multiplier_count(multipliers);
-  ldlt_.set_afloat(afloat_beside_spring());
+  ldlt_.set_translation_free(equations_->translation_free);
+  std::vector<GroundTerm> ground = equations_->ground;
+  ground.push_back({.row = at_, .column = at_, .stiffness = spring_});
+  ldlt_.set_ground(ground);
   const double without = std::exchange(K.coeffRef(at_, at_), diagonal[at_] + spring_);
   const FactorStatus status = ldlt_.factorize(K);
+  ldlt_.set_ground({});
   K.coeffRef(at_, at_) = without;
   if (status != FactorStatus::ok) return false;
   const Index m = equations_->B.cols(), lambda = m, force = m + 1;
@@ -72,16 +76,6 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
   small(force, force) -= 1.0 / spring_;
   small_.compute(small);  // what is singular shows in the residuals
   return true;
-}
-
-// The spring holds its node, if it is not one of rotation.
-std::vector<bool> WholeSolver::afloat_beside_spring() const {
-  std::vector<bool> translation_free = equations_->translation_free;
-  if (translation_free.empty()) return translation_free;
-  const auto at = static_cast<std::size_t>(at_);
-  translation_free[at] = false;
-  if (at > 0) translation_free[at - 1] = false;
-  return translation_free;
 }
 
 // What the rows of the small system are of x: C_x x, c_xᵀ x, eᵀ x.

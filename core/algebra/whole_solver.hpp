@@ -31,7 +31,6 @@ class WholeSolver {
 
  private:
   bool add_spring(Index multipliers, const Vector& soft);
-  std::vector<bool> afloat_beside_spring() const;
   Matrix rows_of(const Matrix& x) const;
   Direction solve_with_spring(const Vector& f, double g) const;
   std::optional<Direction> refined_with_spring(const Vector& f, double g) const;

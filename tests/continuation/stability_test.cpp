@@ -75,13 +75,13 @@ TEST(Stability, CountsBySharedEquationsOnTheirPieceAndByItsOwnElsewhere) {
   FactorizedEquations shared(toy);
   StabilityCounter counter(toy, shared, 1e-12);
   const State held = with_force(0.3), open = toy.with_piece(held, {0});
-  ASSERT_EQ(shared.arrive(held), FactorStatus::ok);
+  ASSERT_EQ(shared.set_point(held), FactorStatus::ok);
   EXPECT_EQ(counter.negative_on(open), 1);
   EXPECT_TRUE(shared.is_at(held));  // undisturbed
   const State other{.x = 2.0 * held.x, .lambda = 1.0, .piece = {1}};
   EXPECT_EQ(counter.negative_on(other), 0);
   EXPECT_TRUE(shared.is_on(other.piece));
-  EXPECT_FALSE(shared.has_arrived());
+  EXPECT_FALSE(shared.has_point());
 }
 
 TEST(Stability, ASingularStiffnessHasNoCount) {

@@ -22,7 +22,7 @@ class SimplicialLdlt final : public SymmetricFactors {
     ldlt_.factor = cholmod_l_analyze_p(&a, as_long(order.data()), nullptr, 0, &ldlt_.common);
   }
 
-  bool factorize(const SparseMatrix& A) override {
+  bool factorize(const SparseMatrix& A, GroundTerms /*ground*/) override {
     if (ldlt_.factor == nullptr) return false;
     cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
     cholmod_l_factorize(&a, ldlt_.factor, &ldlt_.common);

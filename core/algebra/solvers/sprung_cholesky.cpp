@@ -72,7 +72,7 @@ class SprungCholesky final : public SymmetricFactors {
     refuses_ = false;
   }
 
-  bool factorize(const SparseMatrix& A) override {
+  bool factorize(const SparseMatrix& A, GroundTerms /*ground*/) override {
     if (llt_.factor == nullptr || refuses_) return false;
     const OneThread one_thread;
     choose_springs(A);

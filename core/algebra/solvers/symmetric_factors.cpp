@@ -20,13 +20,4 @@ void Pivots::add(const Pivots& others) {
   greatest = std::max(greatest, others.greatest);
 }
 
-bool SymmetricFactors::factorize_and_solve(const SparseMatrix& A, std::span<const ScaledColumn> of,
-                                           Eigen::Ref<Matrix> X) {
-  if (!factorize(A)) return false;
-  for (std::size_t c = 0; c < of.size(); ++c)
-    X.col(static_cast<Index>(c)) = of[c].factor * Eigen::Map<const Vector>(of[c].entries, A.cols());
-  solve(X);
-  return true;
-}
-
 }  // namespace arcwall

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <span>
-
 #include "core/algebra/factorization.hpp"
+#include "core/ground_term.hpp"
 
 namespace arcwall {
 
@@ -23,18 +22,13 @@ class SymmetricFactors {
  public:
   virtual ~SymmetricFactors() = default;
 
-  /// The lower triangle of a matrix with the pattern analysed, its entries finite. False if a pivot is zero or not
-  /// finite, or the matrix is none that this way serves.
-  virtual bool factorize(const SparseMatrix& lower_triangle) = 0;
+  /// The lower triangle of a matrix with the pattern analysed, its entries finite, and which parts of them are ground
+  /// terms, for who can use that. False if a pivot is zero or not finite, or the matrix is none that this way serves.
+  virtual bool factorize(const SparseMatrix& lower_triangle, GroundTerms ground = {}) = 0;
 
-  /// Solves for some columns along with it, which may be quicker than afterwards: X := A⁻¹ `of`. X is any where this is
-  /// false.
-  virtual bool factorize_and_solve(const SparseMatrix& lower_triangle, std::span<const ScaledColumn> of,
-                                   Eigen::Ref<Matrix> X);
-
-  /// Takes over a pattern that differs from the last one in its multipliers alone, its last unknowns; false where that
-  /// needs another analysis.
-  virtual bool adopts(const SparseMatrix&, Index) { return false; }
+  /// Lets the analysis serve a pattern that differs from the last one in its multipliers alone, its last unknowns;
+  /// false where that needs another one.
+  virtual bool reuse_analysis(const SparseMatrix&, Index) { return false; }
 
   /// Whether entries may be other than finite: then no pivot is spared from them, and factorize() is false.
   virtual bool sees_what_is_not_finite() const { return false; }

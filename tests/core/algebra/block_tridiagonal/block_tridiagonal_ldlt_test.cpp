@@ -1,4 +1,4 @@
-#include "core/algebra/block_tridiagonal/chain_ldlt.hpp"
+#include "core/algebra/block_tridiagonal/block_tridiagonal_ldlt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,14 @@
 #include <utility>
 
 #include "core/algebra/ldlt.hpp"
+#include "tests/core/algebra/block_tridiagonal/beam.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall::chain_ldlt_test {
+namespace arcwall::block_tridiagonal_ldlt_test {
 
 namespace {
 
+using test::Beam;
 using test::lower_triangle;
 using test::Numbers;
 
@@ -44,9 +46,9 @@ Index negative(const Matrix& A) {
 }
 
 // The order of cyclic reduction: every second group, then every second of those left, up to one, which is given back.
-std::vector<Index> reduce(ChainGroups left, std::vector<Index>& order) {
+std::vector<Index> reduce(Blocks left, std::vector<Index>& order) {
   while (left.size() > 1) {
-    ChainGroups next;
+    Blocks next;
     for (std::size_t g = 0; g < left.size(); ++g)
       if (g % 2 == 1)
         order.insert(order.end(), left[g].begin(), left[g].end());
@@ -59,10 +61,10 @@ std::vector<Index> reduce(ChainGroups left, std::vector<Index>& order) {
 
 // |v|ᵀ |L| |D| |L|ᵀ |v| of a dense L D Lᵀ in the order in which four stretches of a chain are reduced, then what they
 // leave.
-double weighted(const Matrix& A, const ChainGroups& groups, const Vector& v) {
+double weighted(const Matrix& A, const Blocks& groups, const Vector& v) {
   const auto length = static_cast<std::ptrdiff_t>((groups.size() + 3) / 4);
   std::vector<Index> order;
-  ChainGroups left;
+  Blocks left;
   for (auto from = groups.begin(); from != groups.end();) {
     const auto to = from + std::min(length, groups.end() - from);
     left.push_back(reduce({from, to}, order));
@@ -85,37 +87,37 @@ double weighted(const Matrix& A, const ChainGroups& groups, const Vector& v) {
 
 }  // namespace
 
-TEST(ChainLdlt, GroupsOfAChainAreItsNodes) {
+TEST(BlockTridiagonalLdlt, GroupsOfAChainAreItsNodes) {
   Numbers numbers(11);
   for (const Index freedoms : {1, 2, 3, 5})
     for (const Index nodes : {1, 3, 4, 7, 40}) {
-      const auto groups = chain_groups(lower_triangle(chain(nodes, freedoms, numbers)), 0, freedoms);
+      const auto groups = find_blocks(lower_triangle(chain(nodes, freedoms, numbers)), 0, freedoms);
       ASSERT_TRUE(groups) << nodes << " nodes of " << freedoms;
       EXPECT_EQ(static_cast<Index>(groups->size()), nodes);
     }
 }
 
 // A ring is a chain of pairs, and a star of three arms one of threes.
-TEST(ChainLdlt, WhatIsWiderThanAChainIsOneOfWiderGroupsOrNone) {
+TEST(BlockTridiagonalLdlt, WhatIsWiderThanAChainIsOneOfWiderGroupsOrNone) {
   Matrix ring = Matrix::Identity(12, 12);
   for (Index i = 0; i < 12; ++i) ring(i, (i + 1) % 12) = ring((i + 1) % 12, i) = 0.3;
-  EXPECT_FALSE(chain_groups(lower_triangle(ring), 0, 1));
-  ASSERT_TRUE(chain_groups(lower_triangle(ring), 0, 2));
-  EXPECT_EQ(chain_groups(lower_triangle(ring), 0, 2)->size(), 7U);
+  EXPECT_FALSE(find_blocks(lower_triangle(ring), 0, 1));
+  ASSERT_TRUE(find_blocks(lower_triangle(ring), 0, 2));
+  EXPECT_EQ(find_blocks(lower_triangle(ring), 0, 2)->size(), 7U);
   const Matrix all = Matrix::Ones(9, 9);
-  EXPECT_FALSE(chain_groups(lower_triangle(all), 0, 8));
+  EXPECT_FALSE(find_blocks(lower_triangle(all), 0, 8));
 }
 
-TEST(ChainLdlt, PartsOfAChainNeedNotHangTogether) {
+TEST(BlockTridiagonalLdlt, PartsOfAChainNeedNotHangTogether) {
   Matrix A = Matrix::Zero(7, 7);
   A.diagonal() << 2.0, 3.0, -1.0, 4.0, 5.0, 1.0, 2.0;
   A(4, 1) = A(1, 4) = 1.0;
   A(6, 4) = A(4, 6) = -1.0;
   A(5, 0) = A(0, 5) = 0.5;
   const SparseMatrix lower = lower_triangle(A);
-  const auto groups = chain_groups(lower, 0, 3);
+  const auto groups = find_blocks(lower, 0, 3);
   ASSERT_TRUE(groups);
-  ChainLdlt ldlt(lower, *groups);
+  BlockTridiagonalLdlt ldlt(lower, *groups);
   ASSERT_TRUE(ldlt.factorize(lower));
   EXPECT_EQ(ldlt.pivots().signs.negative, 1);
   Matrix X = A * Matrix::Identity(7, 7);
@@ -123,15 +125,15 @@ TEST(ChainLdlt, PartsOfAChainNeedNotHangTogether) {
   EXPECT_LE((X - Matrix::Identity(7, 7)).norm(), 1e-14);
 }
 
-TEST(ChainLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
+TEST(BlockTridiagonalLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
   Numbers numbers(12);
   for (const Index freedoms : {1, 2, 3, 4, 5, 6, 8})
     for (const Index nodes : {1, 3, 4, 5, 30, 64}) {
       SCOPED_TRACE(std::to_string(nodes) + " nodes of " + std::to_string(freedoms));
       const Matrix A = chain(nodes, freedoms, numbers);
       const SparseMatrix lower = lower_triangle(A);
-      const ChainGroups groups = chain_groups(lower, 0, ChainLdlt::widest).value();
-      ChainLdlt ldlt(lower, groups);
+      const Blocks groups = find_blocks(lower, 0, BlockTridiagonalLdlt::widest).value();
+      BlockTridiagonalLdlt ldlt(lower, groups);
       ASSERT_TRUE(ldlt.factorize(lower));
       EXPECT_EQ(ldlt.pivots().signs.negative, negative(A));
       EXPECT_EQ(ldlt.pivots().signs.positive, A.cols() - negative(A));
@@ -150,11 +152,11 @@ TEST(ChainLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
 }
 
 // Wherever it stands: so that the entries need not be looked at one by one.
-TEST(ChainLdlt, AnEntryThatIsNotFiniteIsSeen) {
+TEST(BlockTridiagonalLdlt, AnEntryThatIsNotFiniteIsSeen) {
   Numbers numbers(6);
   for (const Index nodes : {1, 2, 5, 12}) {
     SparseMatrix lower = lower_triangle(chain(nodes, 2, numbers));
-    ChainLdlt ldlt(lower, chain_groups(lower, 0, 4).value());
+    BlockTridiagonalLdlt ldlt(lower, find_blocks(lower, 0, 4).value());
     for (Index i = 0; i < lower.nonZeros(); ++i)
       for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
         const double good = std::exchange(lower.valuePtr()[i], bad);
@@ -165,24 +167,24 @@ TEST(ChainLdlt, AnEntryThatIsNotFiniteIsSeen) {
   }
 }
 
-TEST(ChainLdlt, AZeroPivotIsSeen) {
+TEST(BlockTridiagonalLdlt, AZeroPivotIsSeen) {
   const SparseMatrix A = lower_triangle(Matrix{{0.0, 1.0}, {1.0, 0.0}});
-  ChainLdlt ldlt(A, ChainGroups{{0, 1}});
+  BlockTridiagonalLdlt ldlt(A, Blocks{{0, 1}});
   EXPECT_FALSE(ldlt.factorize(A));
 }
 
 // Every second node goes first: with δ on the diagonal of one of these, what is left of its neighbours is of the order
 // 1/δ, and nothing of their own is seen beside that. From the ends, as minimum degree goes, nothing grows.
-TEST(ChainLdlt, RefusesAMatrixOfWhichAPartIsSingularAndAnotherOrderServes) {
+TEST(BlockTridiagonalLdlt, RefusesAMatrixOfWhichAPartIsSingularAndAnotherOrderServes) {
   for (const Index nodes : {5, 9, 33})
     for (const double delta : {1e-3, 1e-8, -1e-14}) {
       Matrix A = 2.0 * Matrix::Identity(nodes, nodes);
       A.diagonal(1).setConstant(-0.9);
       A.diagonal(-1).setConstant(-0.9);
-      const ChainGroups groups = chain_groups(lower_triangle(A), 0, ChainLdlt::widest).value();
+      const Blocks groups = find_blocks(lower_triangle(A), 0, BlockTridiagonalLdlt::widest).value();
       A(groups[1][0], groups[1][0]) = delta;
       const SparseMatrix lower = lower_triangle(A);
-      ChainLdlt alone(lower, groups);
+      BlockTridiagonalLdlt alone(lower, groups);
       EXPECT_EQ(alone.factorize(lower), delta == 1e-3);
       EXPECT_EQ(alone.refused(), delta != 1e-3);
       Ldlt ldlt;
@@ -194,71 +196,15 @@ TEST(ChainLdlt, RefusesAMatrixOfWhichAPartIsSingularAndAnotherOrderServes) {
     }
 }
 
-// A beam of length 1 and stiffness EI = 1, its nodes with the unknowns x, z and θ; cubic elements are exact at their
-// nodes. It is held in z at all supports, places in eighths of its length, and in x at the first.
-struct Beam {
-  Index elements;
-  std::vector<Index> supports;
-  SparseMatrix lower{};
-  std::vector<bool> translation_free{};
-
-  Beam(Index of_elements, std::vector<Index> of_supports)
-      : elements(of_elements), supports(std::move(of_supports)), unknown_(static_cast<std::size_t>(3 * elements + 3)) {
-    Index next = 0;
-    for (Index freedom = 0; freedom < 3 * elements + 3; ++freedom)
-      unknown_[static_cast<std::size_t>(freedom)] = is_held(freedom) ? -1 : next++;
-    assemble(next);
-    translation_free.resize(static_cast<std::size_t>(next));
-    for (Index node = 0; node <= elements; ++node) {
-      const auto is_support = [&](Index at) { return is_held(3 * at) || is_held(3 * at + 1); };
-      if (!is_support(node) && !is_support(std::max(node - 1, Index{0})) && !is_support(std::min(node + 1, elements)))
-        translation_free[static_cast<std::size_t>(unknown(3 * node))] = true;
-    }
-  }
-
-  Index unknown(Index freedom) const { return unknown_[static_cast<std::size_t>(freedom)]; }
-  Index deflection(Index eighths) const { return unknown(3 * (elements * eighths / 8) + 1); }
-
- private:
-  bool is_held(Index freedom) const {
-    const auto first_of = [&](Index at) { return 3 * (elements * at / 8); };
-    return freedom == first_of(supports.front()) ||
-           std::any_of(supports.begin(), supports.end(), [&](Index at) { return freedom == first_of(at) + 1; });
-  }
-
-  void assemble(Index unknowns) {
-    const double h = 1.0 / double(elements), EA = 12.0;
-    Matrix block = Matrix::Zero(6, 6);  // of one element
-    for (const Index a : {0, 1})
-      for (const Index b : {0, 1}) {
-        const double sign = a == b ? 1.0 : -1.0, side = a == 0 ? 1.0 : -1.0;
-        block(3 * a, 3 * b) = sign * EA / h;
-        block(3 * a + 1, 3 * b + 1) = sign * 12.0 / (h * h * h);
-        block(3 * a + 1, 3 * b + 2) = block(3 * b + 2, 3 * a + 1) = side * 6.0 / (h * h);
-        block(3 * a + 2, 3 * b + 2) = (a == b ? 4.0 : 2.0) / h;
-      }
-    std::vector<Eigen::Triplet<double, Index>> entries;
-    for (Index e = 0; e < elements; ++e)
-      for (Index i = 0; i < 6; ++i)
-        for (Index j = 0; j <= i; ++j)
-          if (unknown(3 * e + i) >= 0 && unknown(3 * e + j) >= 0)
-            entries.emplace_back(unknown(3 * e + i), unknown(3 * e + j), block(i, j));
-    lower.resize(unknowns, unknowns);
-    lower.setFromTriplets(entries.begin(), entries.end());
-  }
-
-  std::vector<Index> unknown_;
-};
-
 // On two supports under a force of 1 in its middle, which goes down by 1/48. Entries are n⁴ times as great as what they
 // leave to resist the whole, 10¹⁸ here.
-TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
+TEST(BlockTridiagonalLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
   const Beam beam(30000, {0, 8});
   const SparseMatrix& lower = beam.lower;
   const Index middle = beam.deflection(4);
   const Vector bending = Vector::Unit(lower.cols(), middle);
 
-  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.translation_free);
+  BlockTridiagonalLdlt ldlt(lower, find_blocks(lower, 0, 3).value(), beam.translation_free);
   ASSERT_TRUE(ldlt.factorize(lower));
   EXPECT_EQ(ldlt.pivots().signs.negative, 0);
   Matrix w = bending;
@@ -267,7 +213,7 @@ TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
   // Nothing but round-off of what bends stands beside the energy of the deflected beam, which is that of the force.
   EXPECT_LE(std::numeric_limits<double>::epsilon() * ldlt.weighted(w), 1e-4 * w(middle, 0));
 
-  ChainLdlt held(lower, chain_groups(lower, 0, 3).value());
+  BlockTridiagonalLdlt held(lower, find_blocks(lower, 0, 3).value());
   w = bending;
   if (held.factorize(lower)) held.solve(w);
   EXPECT_GT(std::abs(48.0 * w(middle, 0) - 1.0), 0.1);
@@ -275,13 +221,13 @@ TEST(ChainLdlt, KnowsThatNothingHoldsWhatIsAfloatHoweverFineTheMesh) {
 
 // Wherever the supports are: parts between them are translation_free, and what lies beside a support is not. By eight
 // elements.
-TEST(ChainLdlt, KnowsBetweenSupportsToo) {
+TEST(BlockTridiagonalLdlt, KnowsBetweenSupportsToo) {
   for (const std::vector<Index>& supports : std::vector<std::vector<Index>>{{0, 3, 8}, {2, 4, 6}, {0, 1, 7}, {5, 8}}) {
     const Beam coarse(8, supports), fine(30000, supports);
     const Index from = supports[0] == 0 ? 2 : 0;
     const Matrix dense = Matrix(coarse.lower).selfadjointView<Eigen::Lower>();
     const Vector expected = dense.ldlt().solve(Vector::Unit(dense.cols(), coarse.deflection(from)));
-    ChainLdlt ldlt(fine.lower, chain_groups(fine.lower, 0, 3).value(), fine.translation_free);
+    BlockTridiagonalLdlt ldlt(fine.lower, find_blocks(fine.lower, 0, 3).value(), fine.translation_free);
     ASSERT_TRUE(ldlt.factorize(fine.lower));
     EXPECT_EQ(ldlt.pivots().signs.negative, 0);
     Matrix w = Vector::Unit(fine.lower.cols(), fine.deflection(from));
@@ -294,48 +240,61 @@ TEST(ChainLdlt, KnowsBetweenSupportsToo) {
   }
 }
 
-// Of a chain so long that its numbers are brought to their places part by part.
-TEST(ChainLdlt, SolvesAlongAsAfterwards) {
-  Numbers numbers(15);
-  for (const Index nodes : {3, 130, 203}) {
-    const Matrix A = chain(nodes, 2, numbers);
-    const SparseMatrix lower = lower_triangle(A);
-    const Matrix expected = numbers.matrix(A.cols(), 3), B = A * expected;
-    for (const Index columns : {1, 2, 3}) {
-      std::vector<ScaledColumn> of;
-      for (Index c = 0; c < columns; ++c) of.push_back({B.col(c).data(), c == 0 ? 1.0 : -2.0});
-      ChainLdlt ldlt(lower, chain_groups(lower, 0, ChainLdlt::widest).value());
-      Matrix X(A.cols(), columns), Y = B.leftCols(columns);
-      ASSERT_TRUE(ldlt.factorize_and_solve(lower, of, X));
-      ldlt.solve(Y);
-      const double growth = ldlt.pivots().greatest / ldlt.pivots().least;
-      for (Index c = 0; c < columns; ++c) {
-        EXPECT_EQ(X.col(c), of[static_cast<std::size_t>(c)].factor * Y.col(c));
-        EXPECT_LE((Y.col(c) - expected.col(c)).norm(), 1e-13 * growth * double(A.cols()));
-      }
-    }
+// Of a beam on two supports with 60000 elements, bent and pulled at once.
+TEST(BlockTridiagonalLdlt, SolvesForTwoColumnsOfALongChain) {
+  const Beam beam(60000, {0, 8});
+  const SparseMatrix& lower = beam.lower;
+  const Index middle = beam.deflection(4), end = lower.cols() - 2;
+  BlockTridiagonalLdlt ldlt(lower, find_blocks(lower, 0, 3).value(), beam.translation_free);
+  Matrix Y(lower.cols(), 2);
+  Y << Vector::Unit(lower.cols(), middle), Vector::Unit(lower.cols(), end);
+  ASSERT_TRUE(ldlt.factorize(lower));
+  ldlt.solve(Y);
+  EXPECT_NEAR(48.0 * Y(middle, 0), 1.0, 1e-5);
+  EXPECT_NEAR(12.0 * Y(end, 1), 1.0, 1e-5);  // EA = 12
+}
+
+// A spring k in the middle of a beam on two supports shares the force with the beam: w = 1/(48 + k). Entries of K are
+// 10¹⁵ times as great, so that K alone has lost it.
+TEST(BlockTridiagonalLdlt, AStiffnessToGroundKeepsItsDigits) {
+  const Beam beam(40000, {0, 8});
+  const Index middle = beam.deflection(4);
+  for (const double k : {3.0, 48.0, 1e5}) {
+    SparseMatrix lower = beam.lower;
+    lower.coeffRef(middle, middle) += k;
+    const std::vector<GroundTerm> ground{{.row = middle, .column = middle, .stiffness = k}};
+    BlockTridiagonalLdlt ldlt(lower, find_blocks(lower, 0, 3).value(), beam.translation_free);
+    Matrix w = Vector::Unit(lower.cols(), middle);
+    ASSERT_TRUE(ldlt.factorize(lower, ground));
+    ldlt.solve(w);
+    EXPECT_NEAR((48.0 + k) * w(middle, 0), 1.0, 1e-6) << k;
   }
 }
 
-// One whose numbers no cache holds: memory is asked for what comes later.
-TEST(ChainLdlt, SolvesAlongALongChainAsAfterwards) {
-  const Beam beam(60000, {0, 8});
-  const SparseMatrix& lower = beam.lower;
-  const Index middle = beam.deflection(4);
-  const Vector bending = Vector::Unit(lower.cols(), middle), pulling = Vector::Unit(lower.cols(), lower.cols() - 2);
-  const std::array<ScaledColumn, 2> of{ScaledColumn{bending.data(), 1.0}, ScaledColumn{pulling.data(), -2.0}};
-  ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value(), beam.translation_free);
-  Matrix X(lower.cols(), 2), Y(lower.cols(), 2);
-  Y << bending, pulling;
-  ASSERT_TRUE(ldlt.factorize_and_solve(lower, of, X));
-  ldlt.solve(Y);
-  EXPECT_EQ(X.col(0), Y.col(0));
-  EXPECT_EQ(X.col(1), -2.0 * Y.col(1));
-  EXPECT_NEAR(48.0 * Y(middle, 0), 1.0, 1e-5);
-  EXPECT_NEAR(12.0 * Y(lower.cols() - 2, 1), 1.0, 1e-5);  // EA = 12
+// A beam without supports in z stands on two springs k at its ends and is held in x by a third one: under a force of 1
+// in the middle it goes down by 1/48 + 1/(2k) there.
+TEST(BlockTridiagonalLdlt, SpringsAloneHoldAStructure) {
+  const Beam beam(40000, {});
+  const Index middle = beam.deflection(4), ends[]{beam.deflection(0), beam.deflection(8)};
+  const double k = 20.0;
+  SparseMatrix lower = beam.lower;
+  std::vector<GroundTerm> ground;
+  for (const Index at : {ends[0] - 1, ends[0], ends[1]}) {
+    lower.coeffRef(at, at) += k;
+    ground.push_back({.row = at, .column = at, .stiffness = k});
+  }
+  BlockTridiagonalLdlt ldlt(lower, find_blocks(lower, 0, 3).value(), beam.translation_free);
+  Matrix X(lower.cols(), 2);
+  X << Vector::Unit(lower.cols(), middle), Vector::Unit(lower.cols(), ends[1] - 1);
+  ASSERT_TRUE(ldlt.factorize(lower, ground));
+  EXPECT_EQ(ldlt.pivots().signs.negative, 0);
+  ldlt.solve(X);
+  const double expected = 1.0 / 48.0 + 0.5 / k;
+  EXPECT_NEAR(X(middle, 0) / expected, 1.0, 1e-6);
+  EXPECT_NEAR(X(ends[1] - 1, 1), 1.0 / 12.0 + 1.0 / k, 1e-6);  // EA = 12
 }
 
-TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
+TEST(BlockTridiagonalLdlt, NothingIsLeftOfASingularMatrix) {
   Numbers numbers(14);
   for (const Index nodes : {1, 4, 5, 6, 7, 8, 30}) {
     SCOPED_TRACE(nodes);
@@ -347,7 +306,7 @@ TEST(ChainLdlt, NothingIsLeftOfASingularMatrix) {
     for (Index column = 0; column < singular.cols(); ++column)
       for (SparseMatrix::InnerIterator entry(singular, column); entry; ++entry)
         entry.valueRef() = zero_pivots(entry.row(), column);
-    ChainLdlt ldlt(lower, chain_groups(lower, 0, 3).value());
+    BlockTridiagonalLdlt ldlt(lower, find_blocks(lower, 0, 3).value());
     EXPECT_FALSE(ldlt.factorize(singular));
     ASSERT_TRUE(ldlt.factorize(lower));
     Matrix X = A;
@@ -381,4 +340,4 @@ TEST(Ldlt, SolvesChainsWithMultipliers) {
   }
 }
 
-}  // namespace arcwall::chain_ldlt_test
+}  // namespace arcwall::block_tridiagonal_ldlt_test

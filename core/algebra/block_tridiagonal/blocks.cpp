@@ -1,4 +1,4 @@
-#include "core/algebra/block_tridiagonal/chain_groups.hpp"
+#include "core/algebra/block_tridiagonal/blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ class Levels {
   bool seen(Index unknown) const { return seen_[static_cast<std::size_t>(unknown)] == visit_; }
 
   // Appends the levels of a part; false if one is wider than `widest`.
-  bool from(std::vector<Index> level, Index widest, ChainGroups& out) {
+  bool from(std::vector<Index> level, Index widest, Blocks& out) {
     for (const Index unknown : level) mark(unknown);
     while (!level.empty()) {
       if (static_cast<Index>(level.size()) > widest) return false;
@@ -89,51 +89,51 @@ class Levels {
   int visit_ = 1;
 };
 
-// Whether all entries of unknowns that have a group are in groups or between groups beside each other.
-bool is_tridiagonal(const SparseMatrix& A, const ChainGroups& groups) {
+// Whether all entries of unknowns that have a block are in blocks or between blocks beside each other.
+bool is_tridiagonal(const SparseMatrix& A, const Blocks& blocks) {
   constexpr Index none = -1;
-  std::vector<Index> group(static_cast<std::size_t>(A.cols()), none);
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const Index unknown : groups[g]) group[static_cast<std::size_t>(unknown)] = static_cast<Index>(g);
+  std::vector<Index> block(static_cast<std::size_t>(A.cols()), none);
+  for (std::size_t g = 0; g < blocks.size(); ++g)
+    for (const Index unknown : blocks[g]) block[static_cast<std::size_t>(unknown)] = static_cast<Index>(g);
   for (Index column = 0; column < A.cols(); ++column)
     for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry)
-      if (const Index other = group[static_cast<std::size_t>(entry.row())];
-          other != none && std::abs(other - group[static_cast<std::size_t>(column)]) > 1)
+      if (const Index other = block[static_cast<std::size_t>(entry.row())];
+          other != none && std::abs(other - block[static_cast<std::size_t>(column)]) > 1)
         return false;
   return true;
 }
 
 }  // namespace
 
-std::optional<ChainGroups> chain_groups(const SparseMatrix& A, Index multipliers, Index widest) {
+std::optional<Blocks> find_blocks(const SparseMatrix& A, Index multipliers, Index widest) {
   const Index n = A.cols() - multipliers;
   if (n == 0) return std::nullopt;
   const Neighbours near(A, n);
   Levels search(near), levels(near);
-  ChainGroups groups;
+  Blocks blocks;
   for (Index unknown = 0; unknown < n; ++unknown) {
     if (levels.seen(unknown)) continue;
     // From the far end of what is found from anywhere.
-    ChainGroups found;
+    Blocks found;
     search.forget();
     if (!search.from(alike(near, unknown), n, found)) return std::nullopt;
     std::vector<Index> start = alike(near, found.back().front());
-    if (!levels.from(std::move(start), widest, groups)) return std::nullopt;
+    if (!levels.from(std::move(start), widest, blocks)) return std::nullopt;
   }
-  if (!is_tridiagonal(A, groups)) return std::nullopt;
-  return groups;
+  if (!is_tridiagonal(A, blocks)) return std::nullopt;
+  return blocks;
 }
 
-bool insert_multipliers(const SparseMatrix& A, Index multipliers, Index widest, ChainGroups& groups) {
+bool insert_multipliers(const SparseMatrix& A, Index multipliers, Index widest, Blocks& blocks) {
   const Index n = A.cols() - multipliers;
   std::vector<std::size_t> last(static_cast<std::size_t>(multipliers), 0);
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const Index unknown : groups[g])
+  for (std::size_t g = 0; g < blocks.size(); ++g)
+    for (const Index unknown : blocks[g])
       for (SparseMatrix::InnerIterator entry(A, unknown); entry; ++entry)
         if (entry.row() >= n) last[static_cast<std::size_t>(entry.row() - n)] = g;
-  for (Index m = 0; m < multipliers; ++m) groups[last[static_cast<std::size_t>(m)]].push_back(n + m);
-  const auto fits = [&](const std::vector<Index>& group) { return static_cast<Index>(group.size()) <= widest; };
-  return std::all_of(groups.begin(), groups.end(), fits) && is_tridiagonal(A, groups);
+  for (Index m = 0; m < multipliers; ++m) blocks[last[static_cast<std::size_t>(m)]].push_back(n + m);
+  const auto fits = [&](const std::vector<Index>& block) { return static_cast<Index>(block.size()) <= widest; };
+  return std::all_of(blocks.begin(), blocks.end(), fits) && is_tridiagonal(A, blocks);
 }
 
 }  // namespace arcwall
