@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/deck/reader.hpp"
-#include "apps/study.hpp"
 #include "benchmarks/figures.hpp"
 #include "benchmarks/models.hpp"
 #include "benchmarks/timed_solvers.hpp"
 #include "benchmarks/timed_system.hpp"
 #include "continuation/explorer.hpp"
 #include "core/error.hpp"
+#include "model/deck/reader.hpp"
+#include "model/model.hpp"
 
 namespace {
 
@@ -191,8 +191,8 @@ void trace(const std::string& work, long size, Task task) {
 }
 
 // Of stars and frames what lies around the first limit point is wanted: in large ones others follow it close by.
-void trace_model(const std::string& work, long size, Model (*make)(Index), int most_past_limit) {
-  const Model model = make(size);
+void trace_model(const std::string& work, long size, bench::Model (*make)(Index), int most_past_limit) {
+  const bench::Model model = make(size);
   TraceOptions options{.step = {.first = model.first_step}};
   options.target_values.push_back({.quantity = model.down, .value = model.end, .stops = true, .label = "down"});
   trace(work, size,
@@ -206,36 +206,38 @@ void trace_model(const std::string& work, long size, Model (*make)(Index), int m
 
 int trace_deck(const std::string& name, const std::string& file, long size,
                const std::vector<std::string>& assignments) {
-  const Study study(deck::read_deck(file, assignments));
+  const arcwall::Model model(deck::read_deck(file, assignments));
   std::string reason;
-  const auto start = study.start(reason);
+  const auto start = model.start(reason);
   if (!start) {
     std::cerr << "time_split: " << reason << "\n";
     return 1;
   }
   trace(name, size,
-        {.system = study.system(),
+        {.system = model.system(),
          .start = *start,
-         .options = study.options(),
-         .watched = study.watched(),
-         .explore = study.explore(),
-         .elements = study.structure().element_count(),
-         .nodes = study.structure().node_count()});
+         .options = model.options(),
+         .watched = model.watched(),
+         .explore = model.explore(),
+         .elements = model.structure().element_count(),
+         .nodes = model.structure().node_count()});
   return 0;
 }
 
 constexpr int arm_elements = 100;  // more would only make K of single arms worse conditioned
 
-Model lee(Index elements) { return lee_frame(static_cast<int>(elements)); }
-Model star(Index unknowns) { return star_of_arches(static_cast<int>(unknowns / (3 * arm_elements)), arm_elements); }
-Model frame(Index unknowns) { return square_frame(square_side(unknowns)); }
+bench::Model lee(Index elements) { return lee_frame(static_cast<int>(elements)); }
+bench::Model star(Index unknowns) {
+  return star_of_arches(static_cast<int>(unknowns / (3 * arm_elements)), arm_elements);
+}
+bench::Model frame(Index unknowns) { return square_frame(square_side(unknowns)); }
 
 int run(const std::vector<std::string>& words) {
   const std::string work = words.size() >= 2 ? words[0] : "";
   if (work == "deck" && words.size() >= 4)
     return trace_deck(words[1], words[2], std::atol(words[3].c_str()), {words.begin() + 4, words.end()});
   const long size = words.size() == 2 ? std::atol(words[1].c_str()) : 0;
-  Model (*const make)(Index) = work == "lee" ? lee : work == "star" ? star : work == "frame" ? frame : nullptr;
+  bench::Model (*const make)(Index) = work == "lee" ? lee : work == "star" ? star : work == "frame" ? frame : nullptr;
   if (make == nullptr || size < 10) {
     std::cerr
         << "usage: time_split lee ELEMENTS | star UNKNOWNS | frame UNKNOWNS | deck NAME FILE SIZE [KEY=VALUE …]\n";

@@ -1,4 +1,4 @@
-# arcwall_library(NAME name SOURCES … HEADERS …): one of the four libraries of the star. Headers keep their folder below
+# arcwall_library(NAME name SOURCES … HEADERS …): one of the libraries of the star. Headers keep their folder below
 # the include root, in the build tree and installed: <arcwall/core/system.hpp> for users, "core/system.hpp" inside.
 function(arcwall_library)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "" "NAME" "SOURCES;HEADERS")

@@ -29,12 +29,12 @@ and writes the path and the events on it.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libarcwall-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libsuitesparse-dev (>= 1:5.12)")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libsuitesparse-dev (>= 1:5.12), zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake (>= 3.25), g++ (>= 4:12)")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "Headers, static libraries and the CMake configuration of arcwall::core,
-arcwall::continuation, arcwall::elements and arcwall::contact, which follow
-equilibrium paths in programs in C++20.")
+arcwall::continuation, arcwall::elements, arcwall::contact and arcwall::model,
+which follow equilibrium paths in programs in C++20.")
 
 # What every Debian package has: who may do what with it, and its history.
 function(compress from to)

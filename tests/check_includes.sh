@@ -17,7 +17,7 @@ check() {
   allowed=$(IFS='|' && echo "$*")
   while IFS= read -r line; do
     fail "$line   (of this project, $folder may include $* only)"
-  done < <(grep -rnE --include='*.[ch]pp' '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](\.\./)*(arcwall/)?(core|continuation|elements|contact|apps|tests|benchmarks)/' "$folder" |
+  done < <(grep -rnE --include='*.[ch]pp' '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<](\.\./)*(arcwall/)?(core|continuation|elements|contact|model|apps|tests|benchmarks)/' "$folder" |
     grep -vE "#[[:space:]]*include[[:space:]]*\"($allowed)/" || true)
   # A name without a folder, or a way up, would hide where the header is.
   while IFS= read -r line; do
@@ -35,24 +35,45 @@ check continuation core continuation
 check elements core elements
 check contact core contact
 
+check model core continuation elements contact model
+
 # Which factorization is taken, and how it works, is core/algebra's own matter: others see its interfaces alone.
 while IFS= read -r line; do
   fail "$line   (only core, tests and benchmarks may include core/algebra/solvers and core/algebra/block_tridiagonal)"
-done < <(grep -rnE --include='*.[ch]pp' '^#include "core/algebra/(solvers|block_tridiagonal)/' continuation elements contact apps || true)
+done < <(grep -rnE --include='*.[ch]pp' '^#include "core/algebra/(solvers|block_tridiagonal)/' continuation elements contact model apps || true)
 
-# What an installed header includes is installed, too: the headers that a library lists, with their folders inside it.
-installed_headers() {
+# installed LIBRARY: its headers that are installed, with their folders inside it.
+installed() {
   sed -n '/HEADERS/,/)/p' "$1/CMakeLists.txt" | sed 's/.*HEADERS//' | grep -oE '[a-z0-9_/]+\.hpp' | sed "s|^|$1/|"
 }
-installed=$(for library in core continuation elements contact; do installed_headers "$library"; done)
-while IFS=: read -r file _ line; do
-  header=$(sed -E 's/.*"([^"]*)".*/\1/' <<< "$line")
-  grep -qxF "$header" <<< "$installed" ||
-    fail "$file includes $header, which ${header%%/*}/CMakeLists.txt does not list among its HEADERS"
-done < <(grep -nE '^#include "(core|continuation|elements|contact)/' $installed)
+
+# What an installed header includes is installed, too; and users need neither TOML nor JSON headers.
+for library in core continuation elements contact model; do
+  for header in $(installed "$library"); do
+    while IFS= read -r included; do
+      installed "${included%%/*}" | grep -qxF "$included" ||
+        fail "$header includes $included, which ${included%%/*}/CMakeLists.txt does not list among its HEADERS"
+    done < <(sed -nE 's/^#include "((core|continuation|elements|contact|model)\/[^"]*)".*/\1/p' "$header")
+    ! grep -nE '^#include <(toml\+\+|nlohmann|fmt|zlib)' "$header" || fail "$header shows what the library is made with"
+  done
+done
+
+# Inside the model and the program folders form no cycles: what FOLDER/SUBFOLDER includes of FOLDER, as a graph. A file
+# beside the subfolders belongs to FOLDER itself; in the program, where main() stands there, each is by itself.
+check_no_cycles() {
+  local folder=$1 loop
+  loop=$(grep -rnE --include='*.[ch]pp' "^#include \"$folder/" "$folder" |
+    sed -E 's|^([^:]*):[0-9]+:#include "([^"]*)".*|\1 \2|' |
+    if [[ $folder == apps ]]; then cat; else sed -E "s#(^| )$folder/[^/ ]*\\.[ch]pp#\1$folder/.#g"; fi |
+    sed -E "s#($folder/[^/ ]+)/[^ ]*#\1#g" | awk '$1 != $2' | sort -u | tsort 2>&1 >/dev/null || true)
+  [[ -z $loop ]] || fail "the folders of $folder include each other in a circle: $(echo $loop)"
+}
+
+check_no_cycles model
+check_no_cycles apps
 
 if [[ $failures -gt 0 ]]; then
   echo "$failures lines break the star" >&2
   exit 1
 fi
-echo "continuation, elements and contact use core alone; no library prints or exits"
+echo "continuation, elements and contact use core alone, the model uses these; no library prints or exits; no circles"

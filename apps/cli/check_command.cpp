@@ -2,16 +2,16 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/summary.hpp"
-#include "apps/deck/reader.hpp"
+#include "model/deck/reader.hpp"
 
 namespace arcwall {
 
 namespace {
 
 ExitStatus check(const Options& options) {
-  const Study study(deck::read_deck(options.words().front(), options.texts("set")));
-  for (const std::string& warning : study.warnings()) std::cerr << "warning: " << warning << "\n";
-  std::cout << summary(study);
+  const Model model(deck::read_deck(options.words().front(), options.texts("set")));
+  for (const std::string& warning : model.warnings()) std::cerr << "warning: " << warning << "\n";
+  std::cout << summary(model);
   return ExitStatus::success;
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/exit_status.hpp"
 #include "apps/cli/options.hpp"
+#include "apps/output/exit_status.hpp"
 
 namespace arcwall {
 

@@ -4,12 +4,12 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/example_decks.hpp"
-#include "apps/deck/reader.hpp"
 #include "apps/output/files.hpp"
 #include "apps/output/text_table.hpp"
 #include "apps/sweep/sweep_file.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/deck/reader.hpp"
 
 namespace arcwall {
 

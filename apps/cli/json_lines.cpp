@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "apps/cli/exit_status.hpp"
 #include "apps/output/events_json.hpp"
+#include "apps/output/exit_status.hpp"
 
 namespace arcwall {
 

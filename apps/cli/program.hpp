@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/exit_status.hpp"
+#include "apps/output/exit_status.hpp"
 
 namespace arcwall {
 

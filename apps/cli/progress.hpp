@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "apps/output/record.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 

@@ -3,7 +3,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/output/files.hpp"
 #include "apps/output/report_html.hpp"
-#include "apps/run/run_under_way.hpp"
+#include "model/session.hpp"
 
 namespace arcwall {
 
@@ -11,10 +11,10 @@ namespace {
 
 ExitStatus write_report(const Options& options) {
   const std::filesystem::path folder = options.words().front();
-  const RunUnderWay run = stored_run(folder, RunUnderWay::Resume::as_ended);
+  const Session run = stored_session(folder, Session::Resume::as_ended);
   const std::filesystem::path file = folder / "report.html";
-  const DrawnScenes drawn = scenes_to_draw(run.study(), run.record());
-  write_whole(file, ReportPage(run.record(), report_content(run.study(), run.record(), drawn)).pieces());
+  const DrawnScenes drawn = scenes_to_draw(run.model(), run.record());
+  write_whole(file, ReportPage(run.record(), report_content(run.model(), run.record(), drawn)).pieces());
   std::cerr << "wrote " << file.string() << "\n";
   return ExitStatus::success;
 }

@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/session.hpp"
+#include "apps/cli/trace_and_write.hpp"
 
 namespace arcwall {
 
@@ -10,10 +10,10 @@ namespace {
 ExitStatus resume(const Options& options) {
   const Stopwatch since_begin;
   const std::filesystem::path where = options.words().front();
-  RunUnderWay run = stored_run(where, RunUnderWay::Resume::go_on);
+  Session run = stored_session(where, Session::Resume::go_on);
   const OutputFolder folder(where, run.record().deck, Foreign::overwrite);
   if (run.has_ended()) std::cerr << "note: the run had ended; nothing is left to trace\n";
-  return trace_and_write(run, folder, session_options(options), since_begin);
+  return trace_and_write(run, folder, call_options(options), since_begin);
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ Command resume_command() {
                           .example = "trace-path resume results --max-time 3600",
                           .usage = "DIR [options]",
                           .summary = "goes on with a run that was interrupted or met a limit",
-                          .options = session_options(),
+                          .options = call_options(),
                           .least_words = 1,
                           .most_words = 1},
           .run = resume};

@@ -2,10 +2,10 @@
 #include <iostream>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/session.hpp"
 #include "apps/cli/summary.hpp"
-#include "apps/deck/toml_source.hpp"
+#include "apps/cli/trace_and_write.hpp"
 #include "core/error.hpp"
+#include "model/deck/toml_source.hpp"
 
 namespace arcwall {
 
@@ -16,7 +16,7 @@ struct RunRequest {
   RunDescription run{};
   std::filesystem::path folder{};
   Foreign foreign = Foreign::refuse;
-  SessionOptions session{};
+  CallOptions call{};
 };
 
 RunRequest request_from(const Options& options) {
@@ -25,20 +25,19 @@ RunRequest request_from(const Options& options) {
                              .units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown,
                              .ledger = options.has("verbose") ? StepLedger::kept : StepLedger::none},
                      .foreign = options.has("force") ? Foreign::overwrite : Foreign::refuse,
-                     .session = session_options(options)};
+                     .call = call_options(options)};
   request.folder = options.text("out").value_or(std::filesystem::path(request.run.deck).stem().string());
   request.run.deck_text = deck::read_text_file(request.run.deck);
   return request;
 }
 
-ExitStatus dry_run(const RunRequest& request, const RunUnderWay& run) {
+ExitStatus dry_run(const RunRequest& request, const Session& run) {
   require_usable(request.folder, run.record().deck, request.foreign);
-  if (request.session.report != SessionOptions::Report::table) return ExitStatus::success;
-  std::cout << summary(run.study()) << "\nwould write into " << request.folder.string() << ": path.csv, "
+  if (request.call.report != CallOptions::Report::table) return ExitStatus::success;
+  std::cout << summary(run.model()) << "\nwould write into " << request.folder.string() << ": path.csv, "
             << (run.record().has_walls ? "contacts.csv, " : "")
             << "events.json, events.txt, deck.toml, checkpoint, result.json"
-            << (request.session.pictures == SessionOptions::Pictures::written ? ", report.html, shapes.pvd, shapes/"
-                                                                              : "")
+            << (request.call.pictures == CallOptions::Pictures::written ? ", report.html, shapes.pvd, shapes/" : "")
             << "\n";
   return ExitStatus::success;
 }
@@ -46,7 +45,7 @@ ExitStatus dry_run(const RunRequest& request, const RunUnderWay& run) {
 // A run of the same deck that could go on is not lost without a word. One of another version is none.
 void say_what_is_replaced(const RunRequest& request) {
   try {
-    const RunUnderWay there = stored_run(request.folder, RunUnderWay::Resume::go_on);
+    const Session there = stored_session(request.folder, Session::Resume::go_on);
     const RunDescription& of = there.description();
     if (there.has_ended() || of.deck_text != request.run.deck_text || of.assignments != request.run.assignments) return;
     const std::string folder = request.folder.string();
@@ -60,18 +59,17 @@ void say_what_is_replaced(const RunRequest& request) {
 ExitStatus run(const Options& options) {
   const Stopwatch since_begin;
   const RunRequest request = request_from(options);
-  RunUnderWay run(request.run);
-  for (const std::string& warning : run.study().warnings()) std::cerr << "warning: " << warning << "\n";
+  Session run(request.run);
+  for (const std::string& warning : run.model().warnings()) std::cerr << "warning: " << warning << "\n";
   if (options.has("dry-run")) return dry_run(request, run);
 
   const OutputFolder folder(request.folder, run.record().deck, request.foreign);
   say_what_is_replaced(request);
-  std::string reason;
-  if (!run.begin(reason)) {
-    std::cerr << "error: there is no equilibrium at the start: " << reason << "\n";
+  if (!run.begin()) {
+    std::cerr << "error: there is no equilibrium at the start: " << run.problem() << "\n";
     return ExitStatus::no_start;
   }
-  return trace_and_write(run, folder, request.session, since_begin);
+  return trace_and_write(run, folder, request.call, since_begin);
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ Command run_command() {
       {"no-units", "", "leave the units out of the header of path.csv"},
       {"force", "", "write into DIR though something else filled it"},
       set_option()};
-  for (OptionDescription& option : session_options()) options.push_back(std::move(option));
+  for (OptionDescription& option : call_options()) options.push_back(std::move(option));
   options.push_back({"verbose", "", "write steps.jsonl: every attempted step, and why it was accepted or cut back"});
   options.push_back({"dry-run", "", "read, build and check, say what would be written, write nothing"});
   return {.description = {.name = "run",

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/deck/words.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/text_table.hpp"
+#include "model/deck/words.hpp"
 
 namespace arcwall {
 
@@ -26,10 +26,10 @@ class Lines {
 };
 
 // The least gap of a wall in the stress-free state, and where.
-std::string first_gap(const Study& study, const deck::Wall& wall) {
-  if (study.contact() == nullptr) return "no candidates";
-  const MultiplierContact& contact = *study.contact();
-  const State at_rest{.x = Vector::Zero(study.structure().size({}))};
+std::string first_gap(const Model& model, const deck::Wall& wall) {
+  if (model.contact() == nullptr) return "no candidates";
+  const MultiplierContact& contact = *model.contact();
+  const State at_rest{.x = Vector::Zero(model.structure().size({}))};
   Index count = 0;
   const Candidate* nearest_one = nullptr;
   double least = infinity;
@@ -45,15 +45,15 @@ std::string first_gap(const Study& study, const deck::Wall& wall) {
   std::string text = fmt::format("{} candidates", count);
   if (nearest_one == nullptr) return text + ", none faces it";
   const ContactLabel& label = nearest_one->label();
-  return text + ", first gap " + with_unit(fmt::format("{:.6g}", least), study.deck().units.length) +
+  return text + ", first gap " + with_unit(fmt::format("{:.6g}", least), model.deck().units.length) +
          fmt::format(" at {}:{:.4g}", label.member, label.fraction);
 }
 
-void add_model(const Study& study, Lines& lines) {
-  const deck::Deck& deck = study.deck();
+void add_model(const Model& model, Lines& lines) {
+  const deck::Deck& deck = model.deck();
   lines.add("title", deck.title);
-  lines.add("nodes", std::to_string(study.structure().node_count()));
-  lines.add("unknowns", std::to_string(study.structure().size({})));
+  lines.add("nodes", std::to_string(model.structure().node_count()));
+  lines.add("unknowns", std::to_string(model.structure().size({})));
   for (const deck::Member& member : deck.members)
     lines.add("members", fmt::format("{}: {}, {} {}", member.name, text_of(deck::theory_words, member.theory),
                                      member.elements, member.elements == 1 ? "element" : "elements"));
@@ -68,7 +68,7 @@ void add_model(const Study& study, Lines& lines) {
   }
   for (const deck::Wall& wall : deck.walls)
     lines.add("walls", fmt::format("{}: {} the structure, {}", wall.name, text_of(deck::side_words, wall.side),
-                                   first_gap(study, wall)));
+                                   first_gap(model, wall)));
 }
 
 // Where contact is looked for, and what that means for the loads.
@@ -102,12 +102,12 @@ void add_path(const deck::Deck& deck, Lines& lines) {
 
 }  // namespace
 
-std::string summary(const Study& study) {
+std::string summary(const Model& model) {
   Lines lines;
-  add_model(study, lines);
-  add_contact(study.deck(), lines);
-  add_path(study.deck(), lines);
-  return lines.text(study.deck().source.file);
+  add_model(model, lines);
+  add_contact(model.deck(), lines);
+  add_path(model.deck(), lines);
+  return lines.text(model.deck().source.file);
 }
 
 }  // namespace arcwall

@@ -7,7 +7,6 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/progress.hpp"
-#include "apps/deck/cursor.hpp"
 #include "apps/output/files.hpp"
 #include "apps/output/text_table.hpp"
 #include "apps/sweep/case_folder.hpp"
@@ -16,6 +15,7 @@
 #include "apps/sweep/runner.hpp"
 #include "apps/sweep/sweep_report.hpp"
 #include "core/error.hpp"
+#include "model/deck/cursor.hpp"
 
 namespace arcwall {
 
@@ -169,7 +169,7 @@ ExitStatus collect(const Options& options) {
 
 std::vector<Command> sweep_commands() {
   return {{.description = {.name = "sweep plan",
-                           .example = "trace-path sweep plan sweep.toml --out study",
+                           .example = "trace-path sweep plan sweep.toml --out model",
                            .usage = "SWEEP [options]",
                            .summary = "reads a sweep, checks every case, and writes a folder that stands alone",
                            .options = {{"out", "DIR",
@@ -178,7 +178,7 @@ std::vector<Command> sweep_commands() {
                            .most_words = 1},
            .run = plan},
           {.description = {.name = "sweep run",
-                           .example = "trace-path sweep run study --jobs 4 -- --max-points 2000",
+                           .example = "trace-path sweep run model --jobs 4 -- --max-points 2000",
                            .usage = "DIR [options] [-- options of run]",
                            .summary = "runs the cases that have no results yet; may be stopped and goes on",
                            .options = {{"case", "K", "this case alone; cases count from 0"},
@@ -192,7 +192,7 @@ std::vector<Command> sweep_commands() {
                            .passes_on = true},
            .run = run_sweep},
           {.description = {.name = "sweep emit",
-                           .example = "trace-path sweep emit study --engine parallel --jobs 8 >study.sh",
+                           .example = "trace-path sweep emit model --engine parallel --jobs 8 >model.sh",
                            .usage = "DIR --engine parallel|slurm [options]",
                            .summary = "prints a script that runs the cases by GNU parallel or Slurm",
                            .options = {{"engine", "parallel|slurm", "what runs the cases"},
@@ -201,7 +201,7 @@ std::vector<Command> sweep_commands() {
                            .most_words = 1},
            .run = emit},
           {.description = {.name = "sweep collect",
-                           .example = "trace-path sweep collect study",
+                           .example = "trace-path sweep collect model",
                            .usage = "DIR [options]",
                            .summary = "writes cases.csv, sweep.csv and report.html with maps of the loads",
                            .options = {{.name = "over",

@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include "apps/cli/commands.hpp"
-#include "apps/run/run_under_way.hpp"
 #include "apps/verify/verify.hpp"
 #include "core/error.hpp"
+#include "model/session.hpp"
 
 namespace arcwall {
 
@@ -20,14 +20,14 @@ std::string text_of(const std::filesystem::path& file) {
 
 ExitStatus verify_folder(const Options& options) {
   const std::filesystem::path folder = options.words().front();
-  const RunUnderWay run = stored_run(folder, RunUnderWay::Resume::as_ended);
+  const Session run = stored_session(folder, Session::Resume::as_ended);
   const verify::StoredFiles files{.path_csv = text_of(folder / "path.csv"),
                                   .contacts_csv = run.record().has_walls ? text_of(folder / "contacts.csv") : "",
                                   .events_json = text_of(folder / "events.json")};
-  const verify::Verdict verdict = verify::verify(run.study(), run.record(), files, "checkpoint");
+  const verify::Verdict verdict = verify::verify(run.model(), run.record(), files, "checkpoint");
   if (const auto& first = verdict.findings.first()) {
     std::cerr << "error: " << folder.string() << "/" << to_text(*first) << "\n";
-    if (const Index more = verdict.findings.offences() - 1; more > 0)
+    if (const Index more = verdict.findings.failures() - 1; more > 0)
       std::cerr << "  and " << more << " more that " << (more == 1 ? "does" : "do") << " not hold\n";
     return ExitStatus::not_confirmed;
   }

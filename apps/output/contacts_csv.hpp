@@ -3,7 +3,7 @@
 #include <string>
 
 #include "apps/output/csv.hpp"
-#include "apps/output/record.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 

@@ -2,10 +2,9 @@
 
 #include <string>
 
-namespace arcwall {
+#include "model/run_description.hpp"
 
-/// Whether the header of a table names units, as in `mid [cm]`.
-enum class UnitLabels { shown, left_out };
+namespace arcwall {
 
 /// RFC 4180: a cell with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
 std::string csv_cell(const std::string& text);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "apps/output/event_names.hpp"
-#include "apps/output/version.hpp"
+#include "model/event_names.hpp"
+#include "model/version.hpp"
 
 namespace arcwall {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/output/record.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "apps/output/event_names.hpp"
 #include "apps/output/text_table.hpp"
-#include "apps/output/version.hpp"
+#include "model/event_names.hpp"
+#include "model/version.hpp"
 
 namespace arcwall {
 

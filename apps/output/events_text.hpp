@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "apps/output/record.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 

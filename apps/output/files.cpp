@@ -14,8 +14,8 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/checkpoint/checkpoint_file.hpp"
 #include "core/error.hpp"
+#include "model/checkpoint/checkpoint_file.hpp"
 
 namespace arcwall {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/deck/deck.hpp"
+#include "model/deck/deck.hpp"
 
 namespace arcwall {
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "apps/build_contact.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/build_contact.hpp"
 
 namespace arcwall {
 
@@ -175,8 +175,8 @@ struct ContactArrays {
 
 }  // namespace
 
-std::string shape_vtu(const Study& study, const RecordPoint& point, const Shape& shape) {
-  const std::vector<Surface> walls = surfaces(study.deck());
+std::string shape_vtu(const Model& model, const RecordPoint& point, const Shape& shape) {
+  const std::vector<Surface> walls = surfaces(model.deck());
   PolyLines lines;
   std::vector<double> displacement, rotation, axial_force, moment;
   ContactArrays contact;
@@ -190,7 +190,7 @@ std::string shape_vtu(const Study& study, const RecordPoint& point, const Shape&
       moment.push_back(at.moment);
     }
     if (!walls.empty())
-      contact.add(shape, shape.members[m], study.structure().members()[m], walls, study.structure().length_scale());
+      contact.add(shape, shape.members[m], model.structure().members()[m], walls, model.structure().length_scale());
   }
 
   pugi::xml_document document;
@@ -263,7 +263,7 @@ void remove_others(const fs::path& folder, const std::set<std::string>& written)
 
 }  // namespace
 
-void write_shapes(const OutputFolder& folder, const Study& study, const Record& record, const DrawnScenes& drawn) {
+void write_shapes(const OutputFolder& folder, const Model& model, const Record& record, const DrawnScenes& drawn) {
   const fs::path shapes = folder.path() / "shapes";
   std::error_code error;
   fs::create_directories(shapes, error);
@@ -273,11 +273,11 @@ void write_shapes(const OutputFolder& folder, const Study& study, const Record& 
     write_whole(shapes / name, text);
     written.insert(name);
   };
-  if (record.has_walls) write(walls_name, walls_vtu(wall_shapes(study)));
+  if (record.has_walls) write(walls_name, walls_vtu(wall_shapes(model)));
   for (std::size_t i = 0; i < record.points.size(); ++i) {
     const RecordPoint& point = record.points[i];
     const Shape* known = drawn.shape_at(i);
-    write(name_of_point(i), shape_vtu(study, point, known != nullptr ? *known : shape_of(study, point.state)));
+    write(name_of_point(i), shape_vtu(model, point, known != nullptr ? *known : shape_of(model, point.state)));
   }
   folder.write_whole("shapes.pvd", collection(record.points.size(), record.has_walls));
   remove_others(shapes, written);

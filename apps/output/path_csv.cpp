@@ -1,7 +1,7 @@
 #include "apps/output/path_csv.hpp"
 
-#include "apps/output/event_names.hpp"
 #include "core/text.hpp"
+#include "model/event_names.hpp"
 
 namespace arcwall {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "apps/output/record.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 

@@ -9,10 +9,10 @@
 #include <map>
 
 #include "apps/output/event_marks.hpp"
-#include "apps/output/event_names.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
+#include "model/event_names.hpp"
 
 namespace arcwall {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/record.hpp"
 #include "apps/output/shape_pictures.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 

@@ -11,16 +11,17 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/deck/writer.hpp"
 #include "apps/output/event_marks.hpp"
-#include "apps/output/event_names.hpp"
 #include "apps/output/events_text.hpp"
+#include "apps/output/library_versions.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
 #include "apps/output/report_data.hpp"
 #include "apps/output/report_parts.hpp"
 #include "apps/output/svg_chart.hpp"
-#include "apps/output/version.hpp"
+#include "model/deck/writer.hpp"
+#include "model/event_names.hpp"
+#include "model/version.hpp"
 
 namespace arcwall {
 
@@ -312,16 +313,16 @@ std::string facts(const ReportContent& content) {
 
 }  // namespace
 
-ReportContent report_content(const Study& study, const Record& record, const DrawnScenes& drawn) {
-  ReportContent content{.description = study.deck().description,
-                        .loads = varying_loads(study.deck()),
-                        .deck_text = deck::to_toml(study.deck()),
-                        .shapes = draw(drawn, setting_of(study))};
+ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn) {
+  ReportContent content{.description = model.deck().description,
+                        .loads = varying_loads(model.deck()),
+                        .deck_text = deck::to_toml(model.deck()),
+                        .shapes = draw(drawn, setting_of(model))};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);
-  for (const std::string& assignment : study.deck().source.assignments) add("--set", assignment);
-  add("nodes", std::to_string(study.structure().node_count()));
-  add("unknowns", std::to_string(study.structure().size({})));
+  for (const std::string& assignment : model.deck().source.assignments) add("--set", assignment);
+  add("nodes", std::to_string(model.structure().node_count()));
+  add("unknowns", std::to_string(model.structure().size({})));
   Index iterations = 0;
   for (const RecordPoint& point : record.points) iterations += point.iterations;
   add("iterations", std::to_string(iterations));

@@ -8,9 +8,9 @@
 
 #include "apps/output/files.hpp"
 #include "apps/output/load_text.hpp"
-#include "apps/output/record.hpp"
 #include "apps/output/shape_pictures.hpp"
-#include "apps/study.hpp"
+#include "model/model.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 
@@ -23,7 +23,7 @@ struct ReportContent {
   ShapePictures shapes{};
 };
 
-ReportContent report_content(const Study& study, const Record& record, const DrawnScenes& drawn);
+ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn);
 
 /// report.html: one page that needs no other file and no network.
 class ReportPage {

@@ -4,7 +4,8 @@
 #include <zlib.h>
 
 #include "apps/output/events_json.hpp"
-#include "apps/output/version.hpp"
+#include "apps/output/library_versions.hpp"
+#include "model/version.hpp"
 
 namespace arcwall {
 
@@ -18,10 +19,10 @@ std::string crc32_text(std::string_view text) {
   return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
-OrderedJson model(const Study& study) {
-  const MultiplierContact* contact = study.contact();
-  return {{"nodes", study.structure().node_count()},
-          {"unknowns", study.structure().size({})},
+OrderedJson model_sizes(const Model& model) {
+  const MultiplierContact* contact = model.contact();
+  return {{"nodes", model.structure().node_count()},
+          {"unknowns", model.structure().size({})},
           {"contact_candidates", contact == nullptr ? Index{0} : contact->contact_count()}};
 }
 
@@ -36,7 +37,7 @@ OrderedJson counts(const Record& record) {
 
 }  // namespace
 
-OrderedJson result_json(const Study& study, std::string_view deck_text, const Record& record, const RunSeconds& seconds,
+OrderedJson result_json(const Model& model, std::string_view deck_text, const Record& record, const RunSeconds& seconds,
                         int status) {
   OrderedJson libraries = OrderedJson::object();
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
@@ -49,10 +50,10 @@ OrderedJson result_json(const Study& study, std::string_view deck_text, const Re
   json["deck"] = {{"file", record.deck},
                   {"title", record.title},
                   {"crc32", crc32_text(deck_text)},
-                  {"set", study.deck().source.assignments}};
+                  {"set", model.deck().source.assignments}};
   json["program"] = {{"name", "trace-path"}, {"version", program_version()}};
   json["libraries"] = std::move(libraries);
-  json["model"] = model(study);
+  json["model"] = model_sizes(model);
   json["counts"] = counts(record);
   json["seconds"] = {{"total", seconds.total}, {"tracing", seconds.tracing}};
   json["status"] = status;

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "apps/output/record.hpp"
-#include "apps/study.hpp"
+#include "model/model.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 
@@ -17,7 +17,7 @@ struct RunSeconds {
 
 /// result.json: what was run, with which program, and how it ended. `deck_text`: the bytes of the deck's file;
 /// `status`: the exit status.
-nlohmann::ordered_json result_json(const Study& study, std::string_view deck_text, const Record& record,
+nlohmann::ordered_json result_json(const Model& model, std::string_view deck_text, const Record& record,
                                    const RunSeconds& seconds, int status);
 
 }  // namespace arcwall

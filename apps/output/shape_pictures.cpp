@@ -308,9 +308,9 @@ std::vector<std::size_t> points_to_draw(const Record& record, std::size_t most) 
   return {drawn.begin(), drawn.end()};
 }
 
-Scene scene_of(const Study& study, const State& state) {
-  const deck::Deck& deck = study.deck();
-  Scene scene{.shape = shape_of(study, state)};
+Scene scene_of(const Model& model, const State& state) {
+  const deck::Deck& deck = model.deck();
+  Scene scene{.shape = shape_of(model, state)};
   for (const deck::Load& load : deck.loads) {
     const double factor = load.constant ? 1.0 : state.lambda;
     if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(deck, *spread, factor, scene);
@@ -340,20 +340,20 @@ const Shape* DrawnScenes::shape_at(std::size_t point) const {
                                                   : nullptr;
 }
 
-DrawnScenes scenes_to_draw(const Study& study, const Record& record) {
+DrawnScenes scenes_to_draw(const Model& model, const Record& record) {
   constexpr std::size_t most_coordinates = 400'000;  // about 4 MB
   if (record.points.empty()) return {};
-  Scene first = scene_of(study, record.points.front().state);
+  Scene first = scene_of(model, record.points.front().state);
   std::size_t per_shape = 1;
   for (const MemberShape& member : first.shape.members) per_shape += member.points.size();
   DrawnScenes drawn{.points = points_to_draw(record, std::max<std::size_t>(most_coordinates / per_shape, 2))};
   for (const std::size_t point : drawn.points)
-    drawn.scenes.push_back(point == 0 ? std::move(first) : scene_of(study, record.points[point].state));
+    drawn.scenes.push_back(point == 0 ? std::move(first) : scene_of(model, record.points[point].state));
   return drawn;
 }
 
-Setting setting_of(const Study& study) {
-  return {.walls = wall_shapes(study), .heights = section_heights(study.deck())};
+Setting setting_of(const Model& model) {
+  return {.walls = wall_shapes(model), .heights = section_heights(model.deck())};
 }
 
 ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/record.hpp"
-#include "apps/output/shape.hpp"
+#include "model/record.hpp"
+#include "model/shape.hpp"
 
 namespace arcwall {
 
@@ -29,7 +29,7 @@ struct Scene {
   std::vector<HeldPoint> supports{};
 };
 
-Scene scene_of(const Study& study, const State& state);
+Scene scene_of(const Model& model, const State& state);
 
 /// What is drawn of a run.
 struct DrawnScenes {
@@ -41,7 +41,7 @@ struct DrawnScenes {
 };
 
 /// All points of a run, or fewer where all would need more than some megabytes.
-DrawnScenes scenes_to_draw(const Study& study, const Record& record);
+DrawnScenes scenes_to_draw(const Model& model, const Record& record);
 
 /// What is the same in all scenes.
 struct Setting {
@@ -49,7 +49,7 @@ struct Setting {
   std::vector<double> heights{};  ///< of the members' sections; 0 if unknown [length]
 };
 
-Setting setting_of(const Study& study);
+Setting setting_of(const Model& model);
 
 /// A scene as the data of SVG paths.
 struct ShapePicture {

@@ -6,8 +6,8 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/example_decks.hpp"
-#include "apps/output/version.hpp"
 #include "apps/shell/shell_files.hpp"
+#include "model/version.hpp"
 
 namespace arcwall {
 

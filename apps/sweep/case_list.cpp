@@ -2,10 +2,10 @@
 
 #include <sstream>
 
-#include "apps/deck/toml_source.hpp"
-#include "apps/deck/value.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/deck/toml_source.hpp"
+#include "model/deck/value.hpp"
 
 namespace arcwall::sweep {
 

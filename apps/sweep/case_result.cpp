@@ -4,11 +4,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "apps/cli/exit_status.hpp"
-#include "apps/output/event_names.hpp"
+#include "apps/output/exit_status.hpp"
 #include "apps/sweep/case_folder.hpp"
 #include "apps/sweep/runner.hpp"
 #include "core/error.hpp"
+#include "model/event_names.hpp"
 
 namespace arcwall::sweep {
 

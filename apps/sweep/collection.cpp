@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "apps/deck/reader.hpp"
 #include "apps/output/csv.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/deck/reader.hpp"
 
 namespace arcwall::sweep {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/deck/deck.hpp"
 #include "apps/sweep/case_result.hpp"
+#include "model/deck/deck.hpp"
 
 namespace arcwall::sweep {
 

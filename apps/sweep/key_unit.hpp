@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "apps/deck/deck.hpp"
+#include "model/deck/deck.hpp"
 
 namespace arcwall::sweep {
 

@@ -5,11 +5,11 @@
 #include <tuple>
 #include <utility>
 
-#include "apps/deck/reader.hpp"
-#include "apps/deck/toml_source.hpp"
-#include "apps/deck/value.hpp"
 #include "apps/output/files.hpp"
-#include "apps/study.hpp"
+#include "model/deck/reader.hpp"
+#include "model/deck/toml_source.hpp"
+#include "model/deck/value.hpp"
+#include "model/model.hpp"
 
 namespace arcwall::sweep {
 
@@ -102,7 +102,7 @@ class Complaints {
 
 std::vector<Diagnostic> problems_of_base(const Plan& plan, const std::string& deck_file) {
   try {
-    const Study study(deck::read_deck_text(plan.deck_text, deck_file));
+    const Model model(deck::read_deck_text(plan.deck_text, deck_file));
   } catch (const InputError& error) {
     return error.diagnostics();
   }
@@ -113,7 +113,7 @@ void check_cases(const Plan& plan, const std::string& deck_file) {
   Complaints complaints(plan.sweep, problems_of_base(plan, deck_file));
   for (const Case& one : plan.cases) {
     try {
-      const Study study(deck::read_deck_text(plan.deck_text, deck_file, assignments(one)));
+      const Model model(deck::read_deck_text(plan.deck_text, deck_file, assignments(one)));
     } catch (const InputError& error) {
       complaints.add(one, error);
     }

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <list>
 
-#include "apps/cli/exit_status.hpp"
+#include "apps/output/exit_status.hpp"
 #include "apps/output/files.hpp"
 #include "apps/sweep/case_folder.hpp"
 #include "apps/sweep/child.hpp"

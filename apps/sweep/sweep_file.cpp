@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/deck/cursor.hpp"
-#include "apps/deck/toml_source.hpp"
+#include "model/deck/cursor.hpp"
+#include "model/deck/toml_source.hpp"
 
 namespace arcwall::sweep {
 

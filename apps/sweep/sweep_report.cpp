@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "apps/output/event_names.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/markup.hpp"
-#include "apps/output/version.hpp"
 #include "apps/sweep/key_unit.hpp"
+#include "model/event_names.hpp"
+#include "model/version.hpp"
 
 namespace arcwall::sweep {
 

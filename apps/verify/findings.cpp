@@ -26,19 +26,19 @@ void Findings::compare(const std::string& check, double value, double bound, con
     sum.branch = branch_;
     sum.step = step_;
   }
-  if (!(value <= bound)) offend(check, what, value, bound);
+  if (!(value <= bound)) add_failure(check, what, value, bound);
 }
 
 void Findings::require(const std::string& check, bool holds, const std::string& what) {
   ++summary(check).count;
-  if (!holds) offend(check, what, {}, {});
+  if (!holds) add_failure(check, what, {}, {});
 }
 
-void Findings::offend(const std::string& check, const std::string& what, std::optional<double> value,
-                      std::optional<double> bound) {
-  ++offences_;
+void Findings::add_failure(const std::string& check, const std::string& what, std::optional<double> value,
+                           std::optional<double> bound) {
+  ++failures_;
   if (first_) return;
-  first_ = Offence{.file = file_,
+  first_ = Failure{.file = file_,
                    .branch = branch_,
                    .step = step_,
                    .what = what.empty() ? check : check + ": " + what,

@@ -9,7 +9,7 @@
 namespace arcwall::verify {
 
 /// What does not hold.
-struct Offence {
+struct Failure {
   std::string file{};
   Index branch = 0, step = 0;
   std::string what{};
@@ -37,18 +37,18 @@ class Findings {
   void require(const std::string& check, bool holds, const std::string& what);
 
   const std::vector<CheckSummary>& checks() const { return checks_; }
-  const std::optional<Offence>& first() const { return first_; }
-  Index offences() const { return offences_; }
+  const std::optional<Failure>& first() const { return first_; }
+  Index failures() const { return failures_; }
 
  private:
   CheckSummary& summary(const std::string& check);
-  void offend(const std::string& check, const std::string& what, std::optional<double> value,
-              std::optional<double> bound);
+  void add_failure(const std::string& check, const std::string& what, std::optional<double> value,
+                   std::optional<double> bound);
 
   std::string file_{};
-  Index branch_ = 0, step_ = 0, offences_ = 0;
+  Index branch_ = 0, step_ = 0, failures_ = 0;
   std::vector<CheckSummary> checks_{};
-  std::optional<Offence> first_{};
+  std::optional<Failure> first_{};
 };
 
 }  // namespace arcwall::verify

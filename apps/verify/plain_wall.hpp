@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "apps/deck/deck.hpp"
 #include "core/types.hpp"
+#include "model/deck/deck.hpp"
 
 namespace arcwall::verify {
 

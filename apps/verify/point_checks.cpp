@@ -35,8 +35,8 @@ double wall_force(const Touch& touch) { return touch.force - touch.stiffness * t
 // Where a position, an angle or a change of thickness may still move: the metric's mean over the nodes.
 Vector uncertainty(const PointAtHand& at) {
   const State& state = at.point.state;
-  const Index n = structure_unknowns(at.study, state);
-  const Vector weights = at.study.system().weights(state.piece).head(n);
+  const Index n = structure_unknowns(at.model, state);
+  const Vector weights = at.model.system().weights(state.piece).head(n);
   Vector off(n);
   for (Index i = 0; i < n; ++i)
     off[i] = (weights[i] > 0.0 ? distance_left / std::sqrt(weights[i]) : 0.0) + 16.0 * epsilon * std::abs(state.x[i]);
@@ -45,15 +45,15 @@ Vector uncertainty(const PointAtHand& at) {
 
 }  // namespace
 
-bool is_well_formed(const Study& study, const State& state) {
-  return study.system().size(state.piece) == state.x.size() && state.x.allFinite() && std::isfinite(state.lambda);
+bool is_well_formed(const Model& model, const State& state) {
+  return model.system().size(state.piece) == state.x.size() && state.x.allFinite() && std::isfinite(state.lambda);
 }
 
-PointAtHand at_hand(const Study& study, const RecordPoint& point, const std::vector<PlainWall>& walls,
+PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vector<PlainWall>& walls,
                     const Scales& scales) {
-  PointAtHand at{.study = study, .point = point, .scales = scales};
-  at.touches = touches(study, walls, point.state);
-  at.potentials = potentials(study, point.state);
+  PointAtHand at{.model = model, .point = point, .scales = scales};
+  at.touches = touches(model, walls, point.state);
+  at.potentials = potentials(model, point.state);
   for (const Potential& potential : at.potentials) at.stiffness.push_back(stiffness(potential));
   return at;
 }
@@ -70,9 +70,9 @@ void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, 
       findings.compare("open contacts are outside", -gap, length, named(touch.label));
     }
   }
-  if (at.study.sliding() == nullptr || walls.empty()) return;
+  if (at.model.sliding() == nullptr || walls.empty()) return;
   constexpr int places = 10;
-  const LeastGap least = least_gap(at.study, walls, at.point.state, places);
+  const LeastGap least = least_gap(at.model, walls, at.point.state, places);
   if (std::isfinite(least.value))
     findings.compare("no wall is entered between nodes", -least.value, 2e-9 * at.scales.length + least.allowance,
                      least.wall);
@@ -97,7 +97,7 @@ struct Balance {
 // differences are off by.
 Balance balance(const PointAtHand& at) {
   constexpr double differences = 1e-10;  // of the sum of the parts; 1e-12 to 1e-11 measured
-  Balance sum{.F = -point_loads(at.study, at.point.state)};
+  Balance sum{.F = -point_loads(at.model, at.point.state)};
   Vector parts = sum.F.cwiseAbs();
   sum.allowed = Vector::Constant(parts.size(), 1e-300);
   const Vector off = uncertainty(at);
@@ -151,7 +151,7 @@ void check_equilibrium(const PointAtHand& at, Findings& findings) {
     for (Index i = 0; i < found.F.size(); ++i)
       if ((at_contact[static_cast<std::size_t>(i)] != 0) == contacts)
         findings.compare("forces balance at nodes", std::abs(found.F[i]), found.allowed[i],
-                         found.share(i) > 1.0 ? name_of_unknown(at.study, at.point.state, i) : "");
+                         found.share(i) > 1.0 ? name_of_unknown(at.model, at.point.state, i) : "");
   };
   check(false);
   check_contact_forces(at, found, findings);
@@ -165,7 +165,7 @@ Energy energy(const PointAtHand& at) {
     sum.magnitude += std::abs(part);
   };
   for (const Potential& potential : at.potentials) add(potential.energy(potential.at));
-  add(-work_of_point_loads(at.study, at.point.state));
+  add(-work_of_point_loads(at.model, at.point.state));
   for (const Touch& touch : at.touches.all) add(0.5 * touch.compliance * touch.force * touch.force);
   return sum;
 }
@@ -211,7 +211,7 @@ void add_row(Matrix& G, const std::vector<Index>& unknowns, const Vector& gradie
 // K of the elements, less p ∂²g of the contacts, plus their springs; on the motions that leave closed contacts closed.
 // Lengths and angles are made comparable: D K D has a unit diagonal.
 CountRange unstable_range(const PointAtHand& at, double zero) {
-  const Index n = structure_unknowns(at.study, at.point.state);
+  const Index n = structure_unknowns(at.model, at.point.state);
   Matrix K = Matrix::Zero(n, n), idle_springs = Matrix::Zero(n, n), strong(0, n), all(0, n);
   for (std::size_t e = 0; e < at.potentials.size(); ++e) add_block(K, at.potentials[e].unknowns, at.stiffness[e]);
   for (const Touch& touch : at.touches.all) {

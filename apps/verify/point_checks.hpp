@@ -1,13 +1,13 @@
 #pragma once
 
-#include "apps/output/record.hpp"
 #include "apps/verify/findings.hpp"
 #include "apps/verify/potentials.hpp"
 #include "apps/verify/touches.hpp"
+#include "model/record.hpp"
 
 namespace arcwall::verify {
 
-/// Sizes of the study that bounds are relative to.
+/// Sizes of the model that bounds are relative to.
 struct Scales {
   double length = 1.0;  ///< of the structure
   double force = 1.0;   ///< of contact forces
@@ -15,7 +15,7 @@ struct Scales {
 
 /// A point of the record with what is known of it.
 struct PointAtHand {
-  const Study& study;
+  const Model& model;
   const RecordPoint& point;
   const Scales& scales;
   Touches touches{};
@@ -24,9 +24,9 @@ struct PointAtHand {
 };
 
 /// Whether the state has as many finite unknowns as its piece asks for.
-bool is_well_formed(const Study& study, const State& state);
+bool is_well_formed(const Model& model, const State& state);
 
-PointAtHand at_hand(const Study& study, const RecordPoint& point, const std::vector<PlainWall>& walls,
+PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vector<PlainWall>& walls,
                     const Scales& scales);
 
 /// Gaps and forces: g ≥ 0 of open contacts, p ≥ 0 and g + c p = 0 of closed ones, nothing inside a wall between nodes;

@@ -140,9 +140,9 @@ Potential sliding_potential(const State& state, Index strand, Index position) {
   return potential;
 }
 
-std::vector<Potential> sliding_potentials(const Study& study, const State& state) {
+std::vector<Potential> sliding_potentials(const Model& model, const State& state) {
   std::vector<Potential> all;
-  for (Index strand = 0; strand < study.sliding_structure()->strands(); ++strand)
+  for (Index strand = 0; strand < model.sliding_structure()->strands(); ++strand)
     for (Index position = 0; position + 1 < sliding_mesh(state).nodes(strand); ++position)
       all.push_back(sliding_potential(state, strand, position));
   return all;
@@ -150,8 +150,8 @@ std::vector<Potential> sliding_potentials(const Study& study, const State& state
 
 // visit(unknown, load, displacement) for each freedom that carries one.
 template <class Visit>
-void for_each_point_load(const Study& study, const State& state, const Visit& visit) {
-  const Structure& structure = study.structure();
+void for_each_point_load(const Model& model, const State& state, const Visit& visit) {
+  const Structure& structure = model.structure();
   std::set<Index> freedoms;
   for (Index e = 0; e < structure.element_count(); ++e) {
     const ShiftedIndices of_element = structure.element_freedoms(e);
@@ -161,33 +161,33 @@ void for_each_point_load(const Study& study, const State& state, const Visit& vi
     const double load = state.lambda * structure.point_load(freedom, LoadKind::proportional) +
                         structure.point_load(freedom, LoadKind::constant);
     if (load == 0.0) continue;
-    if (study.sliding() == nullptr) {
+    if (model.sliding() == nullptr) {
       if (const auto i = structure.unknown(freedom)) visit(*i, load, structure.value(state, freedom));
-    } else if (const auto i = study.sliding_structure()->unknown(sliding_mesh(state), freedom)) {
-      visit(*i, load, study.sliding_structure()->value(sliding_mesh(state), mesh_state_of(state), freedom));
+    } else if (const auto i = model.sliding_structure()->unknown(sliding_mesh(state), freedom)) {
+      visit(*i, load, model.sliding_structure()->value(sliding_mesh(state), mesh_state_of(state), freedom));
     }
   }
 }
 
 }  // namespace
 
-std::vector<Potential> potentials(const Study& study, const State& state) {
-  return study.sliding() != nullptr ? sliding_potentials(study, state) : fixed_potentials(study.structure(), state);
+std::vector<Potential> potentials(const Model& model, const State& state) {
+  return model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model.structure(), state);
 }
 
-Index structure_unknowns(const Study& study, const State& state) {
-  return study.sliding() != nullptr ? sliding_mesh(state).unknowns() : study.structure().size({});
+Index structure_unknowns(const Model& model, const State& state) {
+  return model.sliding() != nullptr ? sliding_mesh(state).unknowns() : model.structure().size({});
 }
 
-Vector point_loads(const Study& study, const State& state) {
-  Vector loads = Vector::Zero(structure_unknowns(study, state));
-  for_each_point_load(study, state, [&](Index i, double load, double) { loads[i] += load; });
+Vector point_loads(const Model& model, const State& state) {
+  Vector loads = Vector::Zero(structure_unknowns(model, state));
+  for_each_point_load(model, state, [&](Index i, double load, double) { loads[i] += load; });
   return loads;
 }
 
-double work_of_point_loads(const Study& study, const State& state) {
+double work_of_point_loads(const Model& model, const State& state) {
   double work = 0.0;
-  for_each_point_load(study, state, [&](Index, double load, double displacement) { work += load * displacement; });
+  for_each_point_load(model, state, [&](Index, double load, double displacement) { work += load * displacement; });
   return work;
 }
 
@@ -224,18 +224,18 @@ std::string word(Freedom freedom) {
 
 }  // namespace
 
-std::string name_of_unknown(const Study& study, const State& state, Index unknown) {
-  if (study.sliding() == nullptr) {
-    const auto [node, freedom] = study.structure().meaning(unknown);
-    return word(freedom) + " at " + name_of_node(study.structure(), node);
+std::string name_of_unknown(const Model& model, const State& state, Index unknown) {
+  if (model.sliding() == nullptr) {
+    const auto [node, freedom] = model.structure().meaning(unknown);
+    return word(freedom) + " at " + name_of_node(model.structure(), node);
   }
   const SlidingMesh& mesh = sliding_mesh(state);
-  for (Index strand = 0; strand < study.sliding_structure()->strands(); ++strand)
+  for (Index strand = 0; strand < model.sliding_structure()->strands(); ++strand)
     for (Index position = 0; position < mesh.nodes(strand); ++position) {
       const NodeUnknowns unknowns = mesh.node_unknowns(strand, position);
       const auto found = std::find(unknowns.begin(), unknowns.end(), unknown);
       if (found == unknowns.end()) continue;
-      const auto [member, fraction] = study.sliding_structure()->label(
+      const auto [member, fraction] = model.sliding_structure()->label(
           {.strand = strand, .s = mesh.coordinate(strand, position, coordinates(state))});
       return word(kind_of(static_cast<std::size_t>(found - unknowns.begin()), 3)) + " at " + member + ":" +
              round_trip(fraction);

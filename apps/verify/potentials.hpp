@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/study.hpp"
+#include "model/model.hpp"
 
 namespace arcwall::verify {
 
@@ -18,19 +18,19 @@ struct Potential {
 };
 
 /// All of them, whether the mesh slides or not.
-std::vector<Potential> potentials(const Study& study, const State& state);
+std::vector<Potential> potentials(const Model& model, const State& state);
 
 /// Point loads on the unknowns.
-Vector point_loads(const Study& study, const State& state);
+Vector point_loads(const Model& model, const State& state);
 
 /// Their work: loads times displacements from rest.
-double work_of_point_loads(const Study& study, const State& state);
+double work_of_point_loads(const Model& model, const State& state);
 
 /// Number of unknowns of the structure, which stand first in a state's.
-Index structure_unknowns(const Study& study, const State& state);
+Index structure_unknowns(const Model& model, const State& state);
 
 /// What an unknown of the structure is: `z at column:0.5`.
-std::string name_of_unknown(const Study& study, const State& state, Index unknown);
+std::string name_of_unknown(const Model& model, const State& state, Index unknown);
 
 /// ∂U/∂u of a potential by differences of its energy alone.
 Vector forces(const Potential& potential);

@@ -8,8 +8,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/output/event_names.hpp"
 #include "core/text.hpp"
+#include "model/event_names.hpp"
 
 namespace arcwall::verify {
 
@@ -167,8 +167,8 @@ void check_monitors(const Json& monitors, const Record& record, const RecordPoin
 }
 
 // Where a contact that is named stands in the state at all, it is where it is said to be, and touches.
-void check_named_contacts(const Json& contacts, const Study& study, const Touches& touches, Findings& findings) {
-  const double length = study.structure().length_scale();
+void check_named_contacts(const Json& contacts, const Model& model, const Touches& touches, Findings& findings) {
+  const double length = model.structure().length_scale();
   for (const Json& contact : contacts) {
     const std::string wall = contact.value("wall", ""), member = contact.value("member", "");
     const double fraction = number(contact.value("fraction", Json())), x = number(contact.value("x", Json()));
@@ -178,7 +178,7 @@ void check_named_contacts(const Json& contacts, const Study& study, const Touche
     };
     const auto found = std::find_if(touches.all.begin(), touches.all.end(), meant);
     const std::string name = wall + " at " + member + ":" + round_trip(fraction);
-    findings.require(events_check, study.sliding() != nullptr || found != touches.all.end(), "no contact is " + name);
+    findings.require(events_check, model.sliding() != nullptr || found != touches.all.end(), "no contact is " + name);
     if (found == touches.all.end()) continue;
     findings.compare(events_check, std::abs(x - found->place.x()), 1e-9 * length, "x of " + name);
   }
@@ -212,7 +212,7 @@ void check_counts(const Json& events, const Record& record, Findings& findings) 
 
 }  // namespace
 
-void check_events(const std::string& text, const Record& record, const Study& study,
+void check_events(const std::string& text, const Record& record, const Model& model,
                   const std::vector<PlainWall>& walls, Findings& findings) {
   findings.at("events.json", 0, 0);
   const Json json = Json::parse(text, nullptr, false);
@@ -234,7 +234,7 @@ void check_events(const std::string& text, const Record& record, const Study& st
     findings.compare(events_check, std::abs(number(event["arc"]) - point.arc), 0.0, "arc");
     check_monitors(event["monitors"], record, point, findings);
     if (event.contains("contact"))
-      check_named_contacts(event["contact"], study, touches(study, walls, point.state), findings);
+      check_named_contacts(event["contact"], model, touches(model, walls, point.state), findings);
   }
   check_counts(json["events"], record, findings);
 }

@@ -30,7 +30,7 @@ void check_contact_rows(const std::vector<std::vector<std::string>>& rows, std::
                         const Touches& touches, double length, Findings& findings);
 
 /// events.json against the points.
-void check_events(const std::string& text, const Record& record, const Study& study,
+void check_events(const std::string& text, const Record& record, const Model& model,
                   const std::vector<PlainWall>& walls, Findings& findings);
 
 }  // namespace arcwall::verify

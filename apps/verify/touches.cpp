@@ -63,14 +63,14 @@ NodeFunction node_unknowns(const Structure& structure, const MemberSection& sect
   return function;
 }
 
-// Which face touches is part of the model: of both the one that the study names.
-double offset_of(const Study& study, const PlainWall& wall, Index j, SectionPoint point) {
+// Which face touches is part of the model: of both the one that the model names.
+double offset_of(const Model& model, const PlainWall& wall, Index j, SectionPoint point) {
   if (wall.deck().acts_on == deck::ActsOn::axis) return 0.0;
-  const Candidate& candidate = study.contact()->candidate(j);
+  const Candidate& candidate = model.contact()->candidate(j);
   const std::string& name = candidate.label().member;
-  const auto& members = study.structure().members();
+  const auto& members = model.structure().members();
   const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == name; });
-  const Vec2 meant = candidate.point().position({.x = Vector::Zero(study.structure().size({}))});
+  const Vec2 meant = candidate.point().position({.x = Vector::Zero(model.structure().size({}))});
   const double half = 0.5 * mesh->height.value();
   const auto distance = [&](double offset) {
     point.offset = offset;
@@ -79,31 +79,31 @@ double offset_of(const Study& study, const PlainWall& wall, Index j, SectionPoin
   return distance(half) < distance(-half) ? half : -half;
 }
 
-Touch node_touch(const Study& study, const std::vector<PlainWall>& walls, const State& state, Index j) {
-  const Structure& structure = study.structure();
-  const ContactLabel& label = study.contact()->candidate(j).label();
+Touch node_touch(const Model& model, const std::vector<PlainWall>& walls, const State& state, Index j) {
+  const Structure& structure = model.structure();
+  const ContactLabel& label = model.contact()->candidate(j).label();
   const PlainWall& wall = wall_of(walls, label.wall);
   const MemberSection section = section_of(structure, label);
   SectionPoint point{.node = structure.position(section.node),
                      .shape_angle = section.shape.angle,
                      .axis_angle = section.axis.angle,
                      .along_director = section.quadratic == QuadraticTerm::director};
-  point.offset = offset_of(study, wall, j, point);
+  point.offset = offset_of(model, wall, j, point);
   Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
   touch.gap.of = [point, &wall](const Vector& u) { return gap_of(wall, point.at(u)); };
   touch.place = point.at(touch.gap.at);
-  const deck::Contact& contact = study.deck().contact;
+  const deck::Contact& contact = model.deck().contact;
   const double spring = contact.penalty.value_or(0.0) * label.tributary;
   if (contact.method == deck::ContactMethod::penalty) touch.compliance = 1.0 / spring;
   if (contact.method == deck::ContactMethod::augmented) touch.stiffness = spring;
   return touch;
 }
 
-Touches node_touches(const Study& study, const std::vector<PlainWall>& walls, const State& state) {
+Touches node_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
   Touches touches;
-  Index force = study.structure().size({});
+  Index force = model.structure().size({});
   for (std::size_t j = 0; j < state.piece.size(); ++j) {
-    touches.all.push_back(node_touch(study, walls, state, static_cast<Index>(j)));
+    touches.all.push_back(node_touch(model, walls, state, static_cast<Index>(j)));
     touches.all.back().closed = state.piece[j] != 0;
     if (touches.all.back().closed) touches.all.back().force = state.x[force++];
   }
@@ -118,9 +118,9 @@ struct SlidingNode {
 
 // A sliding state with what stands in it.
 struct Sliding {
-  const Study& study;
+  const Model& model;
   const State& state;
-  const SlidingStructure& body = *study.sliding_structure();
+  const SlidingStructure& body = *model.sliding_structure();
   const SlidingContactLayout& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
   const SlidingMesh& mesh = on.mesh();
   MeshState now = mesh_state_of(state);
@@ -213,8 +213,8 @@ std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& a
   return ends;
 }
 
-Touches sliding_touches(const Study& study, const std::vector<PlainWall>& walls, const State& state) {
-  const auto at = std::make_shared<const Sliding>(Sliding{.study = study, .state = state});
+Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
+  const auto at = std::make_shared<const Sliding>(Sliding{.model = model, .state = state});
   Touches touches;
   Index force = at->mesh.unknowns();
   const auto add = [&](const PlainWall& wall, const SlidingNode& node, bool closed) -> const Touch& {
@@ -267,9 +267,9 @@ Matrix NodeFunction::hessian() const {
   return 0.5 * (hessian + hessian.transpose());
 }
 
-Touches touches(const Study& study, const std::vector<PlainWall>& walls, const State& state) {
-  if (study.sliding() != nullptr) return sliding_touches(study, walls, state);
-  return study.contact() != nullptr ? node_touches(study, walls, state) : Touches{};
+Touches touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
+  if (model.sliding() != nullptr) return sliding_touches(model, walls, state);
+  return model.contact() != nullptr ? node_touches(model, walls, state) : Touches{};
 }
 
 namespace {
@@ -289,10 +289,10 @@ double cubic_of_ends(const Function& f, double t) {
 
 // Gaps between nodes are taken for the cubic that has their values and slopes; the shape of an element, and of a wall
 // along it, differs a little from that.
-LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, const State& state, int places) {
+LeastGap least_gap(const Model& model, const std::vector<PlainWall>& walls, const State& state, int places) {
   LeastGap least;
-  if (study.sliding() == nullptr) return least;
-  const Sliding at{.study = study, .state = state};
+  if (model.sliding() == nullptr) return least;
+  const Sliding at{.model = model, .state = state};
   for (Index strand = 0; strand < at.body.strands(); ++strand)
     for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e)
       for (int i = 0; i <= places; ++i) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/study.hpp"
 #include "apps/verify/plain_wall.hpp"
+#include "model/model.hpp"
 
 namespace arcwall::verify {
 
@@ -49,7 +49,7 @@ struct Touches {
   std::vector<Tangency> tangencies{};
 };
 
-Touches touches(const Study& study, const std::vector<PlainWall>& walls, const State& state);
+Touches touches(const Model& model, const std::vector<PlainWall>& walls, const State& state);
 
 /// The least gap of members on meshes that slide, at `places` points of each element, with where it is.
 struct LeastGap {
@@ -57,6 +57,6 @@ struct LeastGap {
   double allowance = 0.0;  ///< for the shapes of the elements there, which gaps between nodes only approximate
   std::string wall{};
 };
-LeastGap least_gap(const Study& study, const std::vector<PlainWall>& walls, const State& state, int places);
+LeastGap least_gap(const Model& model, const std::vector<PlainWall>& walls, const State& state, int places);
 
 }  // namespace arcwall::verify

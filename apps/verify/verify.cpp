@@ -13,9 +13,9 @@ namespace arcwall::verify {
 
 namespace {
 
-Scales scales_of(const Study& study) {
-  return {.length = study.structure().length_scale(),
-          .force = study.contact() != nullptr ? study.contact()->scales().force : study.structure().force_scale()};
+Scales scales_of(const Model& model) {
+  return {.length = model.structure().length_scale(),
+          .force = model.contact() != nullptr ? model.contact()->scales().force : model.structure().force_scale()};
 }
 
 // Dense eigenvalues cost the cube of the unknowns: of long runs every so many points are counted, besides those with
@@ -44,17 +44,17 @@ bool is_reaction(deck::Component component) {
 
 // Monitors are differences of places, or sums of nodal forces: their round-off is that of these. Reactions of a run in
 // increments are of stresses that no state tells.
-void add_monitors(const Study& study, const State& state, PathExpectation& expected) {
-  const Structure& structure = study.structure();
-  for (std::size_t i = 0; i < study.monitors().size(); ++i) {
-    expected.names.push_back(study.monitors()[i].name);
-    const bool reaction = is_reaction(study.deck().monitors[i].component);
-    if (reaction && study.in_increments()) {
+void add_monitors(const Model& model, const State& state, PathExpectation& expected) {
+  const Structure& structure = model.structure();
+  for (std::size_t i = 0; i < model.monitors().size(); ++i) {
+    expected.names.push_back(model.monitors()[i].name);
+    const bool reaction = is_reaction(model.deck().monitors[i].component);
+    if (reaction && model.in_increments()) {
       expected.monitors.push_back(0.0);
       expected.allowed.push_back(infinity);
       continue;
     }
-    const double value = study.monitors()[i].quantity->value(state);
+    const double value = model.monitors()[i].quantity->value(state);
     const double roundoff = reaction ? 10.0 * structure.force_roundoff() : 1e-14 * structure.length_scale();
     expected.monitors.push_back(value);
     expected.allowed.push_back(1e-12 * std::abs(value) + roundoff);
@@ -76,9 +76,9 @@ Index listed_contacts(const Touches& touches) {
                        [](const Touch& touch) { return touch.closed && touch.listed; });
 }
 
-std::vector<std::string> left_out(const Study& study, const CountPlan& plan, Index unknowns) {
+std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Index unknowns) {
   std::vector<std::string> sentences;
-  if (study.in_increments())
+  if (model.in_increments())
     sentences.emplace_back(
         "equilibrium, gaps, contact forces, energies, reactions and unstable directions: load increments leave a "
         "residue, and their stresses are those of the increments before");
@@ -87,7 +87,7 @@ std::vector<std::string> left_out(const Study& study, const CountPlan& plan, Ind
   else if (plan.every > 1)
     sentences.push_back(fmt::format(
         "unstable directions between events at all but every {}th point: dense eigenvalues are slow", plan.every));
-  if (study.sliding() != nullptr) sentences.emplace_back("how a member bends at the ends of parts pressed on a wall");
+  if (model.sliding() != nullptr) sentences.emplace_back("how a member bends at the ends of parts pressed on a wall");
   sentences.emplace_back(
       "arc lengths, iterations, residuals, modes and types of branch points, and whether all events were found: they "
       "are not told by single states");
@@ -96,18 +96,18 @@ std::vector<std::string> left_out(const Study& study, const CountPlan& plan, Ind
 
 class Verifier {
  public:
-  Verifier(const Study& study, const Record& record, const StoredFiles& files, const std::string& states_file)
-      : study_(study),
+  Verifier(const Model& model, const Record& record, const StoredFiles& files, const std::string& states_file)
+      : model_(model),
         record_(record),
         states_file_(states_file),
-        scales_(scales_of(study)),
+        scales_(scales_of(model)),
         path_rows_(csv_rows(files.path_csv)),
         contact_rows_(csv_rows(files.contacts_csv)) {
-    for (const deck::Wall& wall : study.deck().walls) walls_.emplace_back(wall);
+    for (const deck::Wall& wall : model.deck().walls) walls_.emplace_back(wall);
   }
 
   Verdict run(const StoredFiles& files) {
-    const Index unknowns = study_.structure().size({});
+    const Index unknowns = model_.structure().size({});
     const CountPlan plan(unknowns, record_.points.size());
     Findings& findings = verdict_.findings;
     findings.at("path.csv", 0, 0);
@@ -118,8 +118,8 @@ class Verifier {
     findings.at("contacts.csv", 0, 0);
     findings.require("contacts.csv has a row a contact", next_contact_ == contact_rows_.size(),
                      fmt::format("{} rows, {} closed contacts", contact_rows_.size(), next_contact_));
-    check_events(files.events_json, record_, study_, walls_, findings);
-    verdict_.not_checked = left_out(study_, plan, unknowns);
+    check_events(files.events_json, record_, model_, walls_, findings);
+    verdict_.not_checked = left_out(model_, plan, unknowns);
     return verdict_;
   }
 
@@ -128,13 +128,13 @@ class Verifier {
     const RecordPoint& point = record_.points[number];
     Findings& findings = verdict_.findings;
     findings.at(states_file_, point.branch, point.step);
-    const bool well_formed = is_well_formed(study_, point.state);
+    const bool well_formed = is_well_formed(model_, point.state);
     findings.require("states are finite and whole", well_formed, "its unknowns");
     if (!well_formed) return false;
-    const PointAtHand at = at_hand(study_, point, walls_, scales_);
+    const PointAtHand at = at_hand(model_, point, walls_, scales_);
     PathExpectation expected{.contacts = listed_contacts(at.touches)};
-    add_monitors(study_, point.state, expected);
-    if (!study_.in_increments()) {
+    add_monitors(model_, point.state, expected);
+    if (!model_.in_increments()) {
       check_contacts(at, walls_, findings);
       check_equilibrium(at, findings);
       expected.energy = energy(at);
@@ -149,7 +149,7 @@ class Verifier {
     return true;
   }
 
-  const Study& study_;
+  const Model& model_;
   const Record& record_;
   std::string states_file_;
   Scales scales_;
@@ -161,8 +161,8 @@ class Verifier {
 
 }  // namespace
 
-Verdict verify(const Study& study, const Record& record, const StoredFiles& files, const std::string& states_file) {
-  return Verifier(study, record, files, states_file).run(files);
+Verdict verify(const Model& model, const Record& record, const StoredFiles& files, const std::string& states_file) {
+  return Verifier(model, record, files, states_file).run(files);
 }
 
 std::string to_text(const Verdict& verdict) {
@@ -183,10 +183,10 @@ std::string to_text(const Verdict& verdict) {
   return text;
 }
 
-std::string to_text(const Offence& offence) {
+std::string to_text(const Failure& failure) {
   std::string text =
-      fmt::format("{}: branch {}, step {}: {}", offence.file, offence.branch, offence.step, offence.what);
-  if (offence.value) text += fmt::format(": {:.6g} exceeds {:.6g}", *offence.value, *offence.bound);
+      fmt::format("{}: branch {}, step {}: {}", failure.file, failure.branch, failure.step, failure.what);
+  if (failure.value) text += fmt::format(": {:.6g} exceeds {:.6g}", *failure.value, *failure.bound);
   return text;
 }
 

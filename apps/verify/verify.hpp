@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/record.hpp"
-#include "apps/study.hpp"
 #include "apps/verify/findings.hpp"
+#include "model/model.hpp"
+#include "model/record.hpp"
 
 /// Checks a run again by plain formulas: potentials differentiated by differences, walls evaluated from the deck, dense
 /// eigenvalues. Nothing that tracing computes with takes part but the elements' energies and the mesh's interpolation.
@@ -22,12 +22,12 @@ struct Verdict {
 };
 
 /// `record` holds the states, `states_file` is the name under which messages speak of them.
-Verdict verify(const Study& study, const Record& record, const StoredFiles& files, const std::string& states_file);
+Verdict verify(const Model& model, const Record& record, const StoredFiles& files, const std::string& states_file);
 
 /// The table of worst figures, and what was not checked.
 std::string to_text(const Verdict& verdict);
 
-/// The first offender: file, branch, step, what, value and bound.
-std::string to_text(const Offence& offence);
+/// The first failure: file, branch, step, what, value and bound.
+std::string to_text(const Failure& failure);
 
 }  // namespace arcwall::verify

@@ -1,22 +1,22 @@
 #include <gtest/gtest.h>
 
 #include "apps/cli/example_decks.hpp"
-#include "apps/deck/reader.hpp"
-#include "apps/study.hpp"
+#include "model/deck/reader.hpp"
+#include "model/model.hpp"
 #include "tests/support/explore.hpp"
 
 namespace arcwall::example_steps_test {
 
 namespace {
 
-test::Graph traced(const Study& study, double first, double greatest) {
+test::Graph traced(const Model& model, double first, double greatest) {
   std::string reason;
-  const auto start = study.start(reason);
+  const auto start = model.start(reason);
   EXPECT_TRUE(start.has_value()) << reason;
-  TraceOptions options = study.options();
+  TraceOptions options = model.options();
   options.step.first *= first;
   options.step.max *= greatest;
-  return test::explore(study.system(), options, study.explore(), start.value(), study.watched());
+  return test::explore(model.system(), options, model.explore(), start.value(), model.watched());
 }
 
 }  // namespace
@@ -26,14 +26,14 @@ test::Graph traced(const Study& study, double first, double greatest) {
 TEST(ExampleDecks, FindTheSameEventsWithAnyStepSlow) {
   for (const ExampleDeck& example : example_decks()) {
     SCOPED_TRACE(std::string(example.name));
-    const Study study(deck::read_deck_text(example.text, std::string(example.name)));
-    const test::Graph expected = traced(study, 1.0, 1.0);
+    const Model model(deck::read_deck_text(example.text, std::string(example.name)));
+    const test::Graph expected = traced(model, 1.0, 1.0);
     for (const test::Branch& branch : expected.branches)
       for (const Event& event : test::events_of(branch)) EXPECT_FALSE(event.suspected);
     for (const double first : {0.25, 4.0})
       for (const double greatest : {1.0, first}) {
         SCOPED_TRACE("first step times " + std::to_string(first) + ", greatest times " + std::to_string(greatest));
-        test::expect_same_graphs(traced(study, first, greatest), expected);
+        test::expect_same_graphs(traced(model, first, greatest), expected);
       }
   }
 }

@@ -1,4 +1,4 @@
-#include "apps/member_force.hpp"
+#include "model/member_force.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include "core/derivative_check.hpp"
 #include "core/error.hpp"
-#include "tests/apps/deck/sample_decks.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/model/deck/sample_decks.hpp"
 
 namespace arcwall::member_force_test {
 
@@ -73,7 +73,7 @@ void expect_balance(const TracedDeck& run) {
 }
 
 void expect_gradients(const TracedDeck& run) {
-  for (const MonitorColumn& column : run.study().monitors())
+  for (const MonitorColumn& column : run.model().monitors())
     EXPECT_LE(check_gradient(*column.quantity, run.last()), 1e-6) << column.name;
 }
 
@@ -100,7 +100,7 @@ TEST(MemberForce, BalancesOnAMeshThatSlides) {
   for (const char* theory : {"theory = \"classic\"", "theory = \"elastica\""}) {
     SCOPED_TRACE(theory);
     const TracedDeck run(clamped_strip(theory, far_wall));
-    ASSERT_NE(run.study().sliding(), nullptr);
+    ASSERT_NE(run.model().sliding(), nullptr);
     expect_balance(run);
   }
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/cli/example_decks.hpp"
-#include "apps/run/run_under_way.hpp"
+#include "model/session.hpp"
 
 namespace arcwall::test {
 
@@ -16,18 +16,17 @@ class TracedDeck {
  public:
   explicit TracedDeck(std::string_view text, const std::vector<std::string>& assignments = {})
       : run_({.deck = "deck.toml", .deck_text = std::string(text), .assignments = assignments}) {
-    std::string reason;
-    if (!run_.begin(reason)) ADD_FAILURE() << reason;
-    while (run_.advance()) {
+    if (!run_.begin()) ADD_FAILURE() << run_.problem();
+    while (run_.next() != nullptr) {
     }
   }
 
-  const Study& study() const { return run_.study(); }
+  const Model& model() const { return run_.model(); }
   const Record& record() const { return run_.record(); }
   const State& last() const { return record().points.back().state; }
 
  private:
-  RunUnderWay run_;
+  Session run_;
 };
 
 /// The text of an example that comes with the program.

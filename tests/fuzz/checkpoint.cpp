@@ -14,10 +14,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "apps/checkpoint/archive.hpp"
-#include "apps/checkpoint/checkpoint_file.hpp"
-#include "apps/run/run_under_way.hpp"
 #include "core/error.hpp"
+#include "model/checkpoint/archive.hpp"
+#include "model/checkpoint/checkpoint_file.hpp"
+#include "model/session_content.hpp"
 #include "tests/fuzz/edited_content.hpp"
 #include "tests/fuzz/kept_runs.hpp"
 #include "tests/fuzz/one_in.hpp"
@@ -39,10 +39,10 @@ bool is_to_go_on(std::string_view bytes) { return is_one_in(128, bytes); }
 void take_up(const KeptRun& kept, json content, bool go_on) try {
   if (!content.is_array() || content.size() < head_entries) return;
   std::copy_n(kept.content.begin(), head_entries, content.begin());
-  RunUnderWay run = RunUnderWay::from_content(content, "checkpoint", RunUnderWay::Resume::go_on, kept.study);
+  Session run = SessionContent::read(content, "checkpoint", Session::Resume::go_on, kept.model);
   ++tally.taken_up;
   if (!go_on) return;
-  run.advance();
+  run.next();
   ++tally.gone_on;
 } catch (const OutputError&) {
 }

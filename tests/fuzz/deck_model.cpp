@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "apps/cli/summary.hpp"
-#include "apps/deck/reader.hpp"
-#include "apps/study.hpp"
+#include "model/deck/reader.hpp"
+#include "model/model.hpp"
 #include "tests/fuzz/mutated_deck.hpp"
 #include "tests/fuzz/one_in.hpp"
 #include "tests/fuzz/require.hpp"
@@ -29,11 +29,11 @@ std::int64_t elements(const deck::Deck& deck) {
 void build(const std::string& text) {
   deck::Deck deck = deck::read_deck_text(text, "fuzz.toml");
   if (elements(deck) > most_elements) return;
-  const Study study(std::move(deck));
-  require(!summary(study).empty(), "check says nothing");
+  const Model model(std::move(deck));
+  require(!summary(model).empty(), "check says nothing");
   if (!is_one_in(32, text)) return;
   std::string reason;
-  const std::optional<State> start = study.start(reason);
+  const std::optional<State> start = model.start(reason);
   require(start ? start->x.allFinite() && start->lambda == 0.0 : !reason.empty(),
           "the start is not finite, or there is none for no reason");
 }

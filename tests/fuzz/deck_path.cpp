@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
-#include "apps/deck/reader.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/path_csv.hpp"
 #include "apps/output/result_json.hpp"
-#include "apps/run/run_under_way.hpp"
+#include "model/deck/reader.hpp"
+#include "model/session.hpp"
 #include "tests/fuzz/mutated_deck.hpp"
 #include "tests/fuzz/require.hpp"
 
@@ -37,29 +37,28 @@ void check_points(const Record& record) {
   }
 }
 
-void write(const RunUnderWay& run) {
+void write(const Session& run) {
   contacts_csv(run.record(), UnitLabels::shown);
   to_text(events_json(run.record()), JsonLayout::lines);
   events_text(run.record());
-  to_text(result_json(run.study(), run.description().deck_text, run.record(), {}, 0), JsonLayout::lines);
+  to_text(result_json(run.model(), run.description().deck_text, run.record(), {}, 0), JsonLayout::lines);
 }
 
 void follow(const std::string& text) {
   if (!is_small(deck::read_deck_text(text, "fuzz.toml"))) return;
-  RunUnderWay run({.deck = "fuzz.toml", .deck_text = text});
-  std::string reason;
-  if (!run.begin(reason)) {
-    require(!reason.empty(), "there is no start and no reason");
+  Session run({.deck = "fuzz.toml", .deck_text = text});
+  if (!run.begin()) {
+    require(!run.problem().empty(), "there is no start and no reason");
     return;
   }
-  for (int points = 0; points < most_points && run.advance(); ++points) continue;
+  for (int points = 0; points < most_points && run.next() != nullptr; ++points) continue;
   check_points(run.record());
   if (run.record().points.empty()) return;
-  const RunUnderWay again = RunUnderWay::from(run.checkpoint(), "checkpoint", RunUnderWay::Resume::go_on);
+  const Session again = Session::from(run.checkpoint(), "checkpoint", Session::Resume::go_on);
   require(path_csv(again.record(), UnitLabels::shown) == path_csv(run.record(), UnitLabels::shown),
           "a run that is kept reads otherwise");
   run.stop({.reason = EndReason::max_points, .detail = ""});
-  run.advance();
+  run.next();
   write(run);
 }
 

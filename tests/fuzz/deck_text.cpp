@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/deck/reader.hpp"
-#include "apps/deck/writer.hpp"
 #include "core/error.hpp"
+#include "model/deck/reader.hpp"
+#include "model/deck/writer.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace arcwall::fuzz {

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "apps/checkpoint/checkpoint_file.hpp"
 #include "apps/cli/example_decks.hpp"
-#include "apps/deck/reader.hpp"
-#include "apps/run/run_under_way.hpp"
+#include "model/checkpoint/checkpoint_file.hpp"
+#include "model/deck/reader.hpp"
+#include "model/session.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace arcwall::fuzz {
@@ -21,13 +21,12 @@ std::string example(const std::string& name) {
 
 KeptRun kept(const std::string& name, const std::vector<std::string>& assignments, int points) {
   const RunDescription description{.deck = name + ".toml", .deck_text = example(name), .assignments = assignments};
-  RunUnderWay run(description);
-  std::string reason;
-  require(run.begin(reason), "a base run has no start");
-  for (int i = 0; i < points; ++i) run.advance();
-  KeptRun result{.content = from_checkpoint(run.checkpoint(), "checkpoint"), .study = nullptr};
-  if (!run.study().in_increments())
-    result.study = std::make_shared<Study>(deck::read_deck_text(description.deck_text, description.deck, assignments));
+  Session run(description);
+  require(run.begin(), "a base run has no start");
+  for (int i = 0; i < points; ++i) run.next();
+  KeptRun result{.content = from_checkpoint(run.checkpoint(), "checkpoint"), .model = nullptr};
+  if (!run.model().in_increments())
+    result.model = std::make_shared<Model>(deck::read_deck_text(description.deck_text, description.deck, assignments));
   return result;
 }
 

@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/study.hpp"
+#include "model/model.hpp"
 
 namespace arcwall::fuzz {
 
 struct KeptRun {
   nlohmann::json content;        ///< of its checkpoint
-  std::shared_ptr<Study> study;  ///< null where each run needs its own
+  std::shared_ptr<Model> model;  ///< null where each run needs its own
 };
 
 /// The first entries of a content: the version of the program, and what the run is of.

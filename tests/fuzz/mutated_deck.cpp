@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "apps/cli/example_decks.hpp"
-#include "apps/deck/toml_source.hpp"
-#include "apps/deck/value.hpp"
-#include "apps/deck/words.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "tests/apps/deck/sample_decks.hpp"
+#include "model/deck/toml_source.hpp"
+#include "model/deck/value.hpp"
+#include "model/deck/words.hpp"
 #include "tests/fuzz/odd_numbers.hpp"
+#include "tests/model/deck/sample_decks.hpp"
 
 namespace arcwall::fuzz {
 

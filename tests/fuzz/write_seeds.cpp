@@ -5,11 +5,11 @@
 #include <iostream>
 #include <string>
 
-#include "apps/checkpoint/checkpoint_file.hpp"
 #include "apps/cli/example_decks.hpp"
 #include "apps/output/files.hpp"
-#include "tests/apps/deck/sample_decks.hpp"
+#include "model/checkpoint/checkpoint_file.hpp"
 #include "tests/fuzz/kept_runs.hpp"
+#include "tests/model/deck/sample_decks.hpp"
 
 namespace arcwall::fuzz {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/event_names.hpp"
-#include "apps/output/shape.hpp"
-#include "apps/study.hpp"
 #include "core/text.hpp"
+#include "model/event_names.hpp"
+#include "model/model.hpp"
+#include "model/shape.hpp"
 #include "tests/properties/random_decks.hpp"
 #include "tests/properties/retold.hpp"
 
@@ -42,11 +42,11 @@ struct Story {
 };
 
 Story story_of(const Deck& deck) {
-  const Study study(deck);
+  const Model model(deck);
   std::string reason;
-  const auto start = study.start(reason);
+  const auto start = model.start(reason);
   RC_ASSERT(start.has_value());
-  Explorer explorer(study.system(), *start, study.options(), study.watched(), study.explore());
+  Explorer explorer(model.system(), *start, model.options(), model.watched(), model.explore());
   Story story;
   while (const auto step = explorer.next()) {
     const PathPoint& to = step->arc.to;
@@ -122,14 +122,14 @@ Way follow(Tracer& tracer, const IsThere& is_there) {
 
 // The greatest distance between places of the structure in two states, at the fractions of its members that both shapes
 // have: where forces jump or walls touch there are more [its length scale].
-double distance(const Study& study, const State& a, const State& b) {
-  const Shape first = shape_of(study, a), second = shape_of(study, b);
+double distance(const Model& model, const State& a, const State& b) {
+  const Shape first = shape_of(model, a), second = shape_of(model, b);
   double greatest = 0.0;
   for (std::size_t i = 0; i < first.members.size(); ++i)
     for (const ShapePoint& one : first.members[i].points)
       for (const ShapePoint& other : second.members[i].points)
         if (one.fraction == other.fraction) greatest = std::max(greatest, (one.position - other.position).norm());
-  return greatest / study.structure().length_scale();
+  return greatest / model.structure().length_scale();
 }
 
 bool has_walls(const Deck& deck) { return !deck.walls.empty(); }
@@ -144,10 +144,10 @@ enum class WayBack {
 // From the end of a path the other way, to λ = 0: one of the points there is the start. Not from the last point before
 // an early end. Where paths come near each other a step may pass from one to the other; then shorter ones do not.
 WayBack way_back(const Deck& deck) {
-  const Study study(deck);
+  const Model model(deck);
   std::string reason;
-  const State start = study.start(reason).value();
-  Tracer there(study.system(), start, study.options());
+  const State start = model.start(reason).value();
+  Tracer there(model.system(), start, model.options());
   const Way way = follow(there, [](const State&) { return false; });
   const PathPoint& last = there.here();
   const bool whole = there.end()->reason == EndReason::stop || there.end()->reason == EndReason::max_points;
@@ -156,14 +156,14 @@ WayBack way_back(const Deck& deck) {
 
   // Its steps grow from the first again, and it lands on λ = 0: it may take more of them.
   for (const int shorter : {1, 10}) {
-    TraceOptions options = study.options();
+    TraceOptions options = model.options();
     options.max_points = shorter * (4 * way.points + 100);
     options.step.first = std::copysign(options.step.first, -last.tangent.dlambda);
     options.step.max /= shorter;
     options.target_values.assign(1, {.quantity = std::make_shared<ParameterValue>(), .value = 0.0, .label = "λ = 0"});
-    Tracer tracer(study.system(), BranchStart{.state = last.state, .lambda_scale = there.lambda_scale()}, options);
+    Tracer tracer(model.system(), BranchStart{.state = last.state, .lambda_scale = there.lambda_scale()}, options);
     const Way back = follow(tracer, [&](const State& here) {
-      return std::abs(here.lambda) <= tolerance * way.greatest && distance(study, here, start) <= tolerance;
+      return std::abs(here.lambda) <= tolerance * way.greatest && distance(model, here, start) <= tolerance;
     });
     RC_LOG() << "back, with steps shorter by " << shorter << back.told.str() << "\n";
     if (back.arrived) return WayBack::arrived;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "apps/deck/writer.hpp"
 #include "core/types.hpp"
+#include "model/deck/writer.hpp"
 
 namespace arcwall::test {
 

@@ -2,7 +2,7 @@
 
 #include <rapidcheck.h>
 
-#include "apps/deck/deck.hpp"
+#include "model/deck/deck.hpp"
 
 /// Small structures at random: what a few elements show of trusses, toggles, arches, frames, and columns among walls.
 namespace arcwall::test {

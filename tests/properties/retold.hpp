@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "apps/deck/deck.hpp"
+#include "model/deck/deck.hpp"
 
 /// The same structure told otherwise: what these make of a deck has the same path. They know what random_decks.hpp
 /// makes: point loads, straight and round walls, supports that hold x and z together.

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/checkpoint/archive.hpp"
-#include "apps/checkpoint/checkpoint_file.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/path_csv.hpp"
-#include "apps/run/run_under_way.hpp"
 #include "core/error.hpp"
+#include "model/checkpoint/archive.hpp"
+#include "model/checkpoint/checkpoint_file.hpp"
+#include "model/session.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 // A run that is kept and taken up again goes on to the last bit as if it had never stopped.
@@ -21,22 +21,21 @@ namespace arcwall::checkpoint_test {
 namespace {
 
 using Json = nlohmann::json;
-using Resume = RunUnderWay::Resume;
+using Resume = Session::Resume;
 using Assignments = std::vector<std::string>;
 
-RunUnderWay begun(const std::string& example, const Assignments& assignments = {}) {
-  RunUnderWay run(
+Session begun(const std::string& example, const Assignments& assignments = {}) {
+  Session run(
       {.deck = example + ".toml", .deck_text = std::string(test::example(example)), .assignments = assignments});
-  std::string reason;
-  EXPECT_TRUE(run.begin(reason)) << reason;
+  EXPECT_TRUE(run.begin()) << run.problem();
   return run;
 }
 
 // Taken up from a checkpoint after each `stride` points.
-RunUnderWay traced(const std::string& example, const Assignments& assignments, int stride) {
-  RunUnderWay run = begun(example, assignments);
-  for (int points = 1; run.advance(); ++points)
-    if (stride > 0 && points % stride == 0) run = RunUnderWay::from(run.checkpoint(), "checkpoint", Resume::go_on);
+Session traced(const std::string& example, const Assignments& assignments, int stride) {
+  Session run = begun(example, assignments);
+  for (int points = 1; run.next() != nullptr; ++points)
+    if (stride > 0 && points % stride == 0) run = Session::from(run.checkpoint(), "checkpoint", Resume::go_on);
   return run;
 }
 
@@ -50,7 +49,7 @@ class ResumedRun : public testing::TestWithParam<Case> {};
 
 TEST_P(ResumedRun, EndsWithTheFilesOfAnUninterruptedOne) {
   const auto& [example, assignments, stride] = GetParam();
-  RunUnderWay whole = traced(example, assignments, 0), parts = traced(example, assignments, stride);
+  Session whole = traced(example, assignments, 0), parts = traced(example, assignments, stride);
   EXPECT_GT(whole.record().points.size(), 5u);
   EXPECT_EQ(path_csv(parts.record(), UnitLabels::shown), path_csv(whole.record(), UnitLabels::shown));
   EXPECT_EQ(contacts_csv(parts.record(), UnitLabels::shown), contacts_csv(whole.record(), UnitLabels::shown));
@@ -102,12 +101,11 @@ std::string large_frame() {
 
 TEST(Checkpoint, ALargeFrameGoesOnToTheLastBitBeyondItsLimitPoint) {
   const RunDescription frame{.deck = "frame.toml", .deck_text = large_frame()};
-  RunUnderWay whole(frame), parts(frame);
-  std::string reason;
-  ASSERT_TRUE(whole.begin(reason) && parts.begin(reason)) << reason;
+  Session whole(frame), parts(frame);
+  ASSERT_TRUE(whole.begin() && parts.begin()) << whole.problem();
   for (int points = 1; points <= 20; ++points) {
-    ASSERT_TRUE(whole.advance() && parts.advance());
-    if (points % 3 == 0) parts = RunUnderWay::from(parts.checkpoint(), "checkpoint", Resume::go_on);
+    ASSERT_TRUE(whole.next() != nullptr && parts.next() != nullptr);
+    if (points % 3 == 0) parts = Session::from(parts.checkpoint(), "checkpoint", Resume::go_on);
   }
   const auto limit = [](const RecordEvent& event) { return event.kind == EventKind::limit_point; };
   EXPECT_TRUE(std::any_of(whole.record().events.begin(), whole.record().events.end(), limit));
@@ -117,8 +115,8 @@ TEST(Checkpoint, ALargeFrameGoesOnToTheLastBitBeyondItsLimitPoint) {
 }
 
 TEST(Checkpoint, IsRefusedWithAnyBitChangedAndWhenCut) {
-  RunUnderWay run = begun("truss");
-  run.advance();
+  Session run = begun("truss");
+  run.next();
   const std::string bytes = run.checkpoint();
   ASSERT_NO_THROW(from_checkpoint(bytes, "checkpoint"));
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
@@ -148,12 +146,12 @@ TEST(Checkpoint, OfAnotherVersionIsRefusedWithASentence) {
 
 // Bytes with a right sum that no run can have written.
 TEST(Checkpoint, IsRefusedWhoseContentIsNotThatOfARun) {
-  RunUnderWay run = begun("channel", {"member.column.elements=8"});
-  for (int i = 0; i < 20; ++i) run.advance();
+  Session run = begun("channel", {"member.column.elements=8"});
+  for (int i = 0; i < 20; ++i) run.next();
   const Json content = from_checkpoint(run.checkpoint(), "checkpoint");
-  ASSERT_NO_THROW(RunUnderWay::from(to_checkpoint(content), "checkpoint", Resume::go_on));
+  ASSERT_NO_THROW(Session::from(to_checkpoint(content), "checkpoint", Resume::go_on));
   const auto refused = [](const Json& changed) {
-    EXPECT_THROW(RunUnderWay::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError);
+    EXPECT_THROW(Session::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError);
   };
   // Each entry in turn is taken away, or something else stands in its place.
   for (std::size_t entry = 0; entry < content.size(); ++entry) {
@@ -175,8 +173,8 @@ TEST(Checkpoint, IsRefusedWhoseContentIsNotThatOfARun) {
 
 // Sums and differences of counts are taken all along a path.
 TEST(Checkpoint, IsRefusedWithACountBeyondReason) {
-  RunUnderWay run = begun("lee");
-  for (int i = 0; i < 12; ++i) run.advance();
+  Session run = begun("lee");
+  for (int i = 0; i < 12; ++i) run.next();
   const Json content = from_checkpoint(run.checkpoint(), "checkpoint");
   int counts = 0;
   const Json flat = content.flatten();
@@ -186,7 +184,7 @@ TEST(Checkpoint, IsRefusedWithACountBeyondReason) {
                               std::numeric_limits<std::int64_t>::max()}) {
       Json changed = content;
       changed[Json::json_pointer(pointer)] = beyond;
-      EXPECT_THROW(RunUnderWay::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError) << pointer;
+      EXPECT_THROW(Session::from(to_checkpoint(changed), "checkpoint", Resume::go_on), OutputError) << pointer;
     }
     ++counts;
   }
@@ -196,8 +194,8 @@ TEST(Checkpoint, IsRefusedWithACountBeyondReason) {
 // Lists that belong together have lengths that do. What is taken all the same goes on, or ends with a reason.
 TEST(Checkpoint, IsRefusedOrGoesOnWithAnyListEmptied) {
   for (const std::string example : {"lee", "channel"}) {
-    RunUnderWay run = begun(example);
-    for (int i = 0; i < 12; ++i) run.advance();
+    Session run = begun(example);
+    for (int i = 0; i < 12; ++i) run.next();
     const Json content = from_checkpoint(run.checkpoint(), "checkpoint");
     int refused = 0, emptied = 0;
     const Json flat = content.flatten();
@@ -208,8 +206,8 @@ TEST(Checkpoint, IsRefusedOrGoesOnWithAnyListEmptied) {
       changed[list] = Json::array();
       ++emptied;
       try {
-        RunUnderWay other = RunUnderWay::from(to_checkpoint(changed), "checkpoint", Resume::go_on);
-        for (int i = 0; i < 3 && other.advance(); ++i) continue;
+        Session other = Session::from(to_checkpoint(changed), "checkpoint", Resume::go_on);
+        for (int i = 0; i < 3 && other.next() != nullptr; ++i) continue;
       } catch (const OutputError&) {
         ++refused;
       }
@@ -235,16 +233,16 @@ TEST(Checkpoint, TakesNoListLongerThanItsBytes) {
 
 // Stopped from outside, a run shows that end until it goes on.
 TEST(Checkpoint, KnowsAnEndFromOutsideOnlyForThoseWhoAsk) {
-  RunUnderWay run = begun("truss");
-  for (int i = 0; i < 5; ++i) run.advance();
+  Session run = begun("truss");
+  for (int i = 0; i < 5; ++i) run.next();
   const std::string bytes = run.checkpoint(BranchEnd{.reason = EndReason::interrupted, .detail = "by a signal"});
-  const RunUnderWay ended = RunUnderWay::from(bytes, "checkpoint", Resume::as_ended);
+  const Session ended = Session::from(bytes, "checkpoint", Resume::as_ended);
   ASSERT_TRUE(ended.record().branches.front().end);
   EXPECT_EQ(ended.record().branches.front().end->reason, EndReason::interrupted);
   EXPECT_EQ(ended.record().events.back().kind, EventKind::end);
-  RunUnderWay resumed = RunUnderWay::from(bytes, "checkpoint", Resume::go_on);
+  Session resumed = Session::from(bytes, "checkpoint", Resume::go_on);
   EXPECT_FALSE(resumed.record().branches.front().end);
-  while (resumed.advance()) {
+  while (resumed.next() != nullptr) {
   }
   EXPECT_EQ(events_json(resumed.record()), events_json(traced("truss", {}, 0).record()));
 }

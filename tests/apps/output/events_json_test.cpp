@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/output/event_names.hpp"
-#include "apps/output/version.hpp"
+#include "model/event_names.hpp"
+#include "model/version.hpp"
 #include "tests/apps/output/sample_record.hpp"
 
 namespace arcwall::events_json_test {

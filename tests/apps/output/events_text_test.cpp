@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/output/text_table.hpp"
-#include "apps/output/version.hpp"
+#include "model/version.hpp"
 #include "tests/apps/output/sample_record.hpp"
 
 namespace arcwall::events_text_test {

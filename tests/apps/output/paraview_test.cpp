@@ -59,10 +59,10 @@ TEST(Paraview, AnotherProgramReadsTheSameNumbers) {
   const TracedDeck traced(example("channel"));
   const TemporaryFolder folder;
   const OutputFolder out = outputs(folder);
-  write_shapes(out, traced.study(), traced.record());
+  write_shapes(out, traced.model(), traced.record());
   const RecordPoint& point = traced.record().points.back();
   auto arrays = arrays_of(out.path() / "shapes" / last_file(traced.record()), folder);
-  const Shape shape = shape_of(traced.study(), point.state);
+  const Shape shape = shape_of(traced.model(), point.state);
   const std::vector<ShapePoint>& column = shape.members.at(0).points;
   ASSERT_EQ(arrays["Points"].size(), 3 * column.size());
   ASSERT_EQ(arrays["gap"].size(), column.size());
@@ -98,7 +98,7 @@ TEST(Paraview, StructuresWithoutWallsHaveNeitherContactNorGap) {
   const TracedDeck traced(example("truss"));
   const TemporaryFolder folder;
   const OutputFolder out = outputs(folder);
-  write_shapes(out, traced.study(), traced.record());
+  write_shapes(out, traced.model(), traced.record());
   const auto arrays = arrays_of(out.path() / "shapes" / "0001.vtu", folder);
   EXPECT_EQ(arrays.count("gap"), 0u);
   EXPECT_EQ(arrays.count("contact_force"), 0u);
@@ -110,7 +110,7 @@ TEST(Paraview, TheCollectionListsAFileForEachPointAndTheWallsWithIt) {
   const TracedDeck traced(example("cylinder"));
   const TemporaryFolder folder;
   const OutputFolder out = outputs(folder);
-  write_shapes(out, traced.study(), traced.record());
+  write_shapes(out, traced.model(), traced.record());
   pugi::xml_document collection;
   ASSERT_TRUE(collection.load_file((out.path() / "shapes.pvd").c_str()));
   std::size_t points = 0, walls = 0;
@@ -126,13 +126,13 @@ TEST(Paraview, FilesOfALongerRunAreRemovedAndOthersAreLeft) {
   const TracedDeck traced(example("cylinder"));
   const TemporaryFolder folder;
   const OutputFolder out = outputs(folder);
-  write_shapes(out, traced.study(), traced.record());
+  write_shapes(out, traced.model(), traced.record());
   put(out.path() / "shapes" / "notes.txt", "mine");
   put(out.path() / "shapes" / "12.vtu", "mine");
   put(out.path() / "shapes" / "12345.vtu", "of a longer run");
   Record shorter = traced.record();
   shorter.points.resize(2);
-  write_shapes(out, traced.study(), shorter);
+  write_shapes(out, traced.model(), shorter);
   EXPECT_EQ(names_in(out.path() / "shapes"),
             (std::set<std::string>{"0000.vtu", "0001.vtu", "12.vtu", "notes.txt", "walls.vtu"}));
 }
@@ -143,7 +143,7 @@ TEST(Paraview, AFolderThatCannotBeMadeIsNamed) {
   const OutputFolder out = outputs(folder);
   put(out.path() / "shapes", "a file");
   try {
-    write_shapes(out, traced.study(), traced.record());
+    write_shapes(out, traced.model(), traced.record());
     FAIL() << "not refused";
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find("shapes"), std::string::npos);

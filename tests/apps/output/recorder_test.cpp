@@ -1,9 +1,9 @@
-#include "apps/output/recorder.hpp"
+#include "model/recorder.hpp"
 
 #include <gtest/gtest.h>
 
-#include "apps/deck/reader.hpp"
 #include "apps/output/result_json.hpp"
+#include "model/deck/reader.hpp"
 
 namespace arcwall::recorder_test {
 namespace {
@@ -62,13 +62,13 @@ component = "z"
 )";
 
 // A branch made by hand: what the recorder adds does not depend on how the path was found.
-Arc arc_at(const Study& study, double w, double arc, std::vector<EventKind> kinds) {
+Arc arc_at(const Model& model, double w, double arc, std::vector<EventKind> kinds) {
   Arc result;
-  result.to.state.x = Vector::Zero(study.structure().size({}));
-  const Index top = study.structure().members()[0].nodes.back();
-  result.to.state.x[*study.structure().unknown(study.structure().freedom(top, Freedom::z))] = w;
+  result.to.state.x = Vector::Zero(model.structure().size({}));
+  const Index top = model.structure().members()[0].nodes.back();
+  result.to.state.x[*model.structure().unknown(model.structure().freedom(top, Freedom::z))] = w;
   result.to.state.lambda = 2.0 * w;
-  result.to.state.piece = Piece(static_cast<std::size_t>(study.contact()->contact_count()), 0);
+  result.to.state.piece = Piece(static_cast<std::size_t>(model.contact()->contact_count()), 0);
   result.to.arc = arc;
   result.to.iterations = 3;
   result.to.residual = 1e-13;
@@ -80,8 +80,8 @@ Arc arc_at(const Study& study, double w, double arc, std::vector<EventKind> kind
 
 class RecorderTest : public testing::Test {
  protected:
-  const Study study_{deck::read_deck_text(truss, "folder/two-bars.toml")};
-  Record record_ = empty_record(study_);
+  const Model model_{deck::read_deck_text(truss, "folder/two-bars.toml")};
+  Record record_ = empty_record(model_);
 };
 
 TEST_F(RecorderTest, NamesDeckColumnsAndUnits) {
@@ -94,9 +94,9 @@ TEST_F(RecorderTest, NamesDeckColumnsAndUnits) {
 }
 
 TEST_F(RecorderTest, APointHasMonitorsEnergyAndItsPlaceInTheBranch) {
-  Recorder recorder(study_, record_);
-  recorder.add(arc_at(study_, 0.0, 0.0, {EventKind::start}));
-  recorder.add(arc_at(study_, -0.25, 0.5, {}));
+  Recorder recorder(model_, record_);
+  recorder.add(arc_at(model_, 0.0, 0.0, {EventKind::start}));
+  recorder.add(arc_at(model_, -0.25, 0.5, {}));
 
   ASSERT_EQ(record_.points.size(), 2u);
   const RecordPoint& point = record_.points[1];
@@ -113,10 +113,10 @@ TEST_F(RecorderTest, APointHasMonitorsEnergyAndItsPlaceInTheBranch) {
 
 TEST_F(RecorderTest, ARowShowsTheLastEventThatIsNoChangeOfContact) {
   using enum EventKind;
-  Recorder recorder(study_, record_);
-  recorder.add(arc_at(study_, 0.0, 0.0, {start, contact_closes}));
-  recorder.add(arc_at(study_, 0.1, 0.1, {contact_closes, contact_limit_point}));
-  recorder.add(arc_at(study_, 0.2, 0.2, {contact_closes, contact_opens}));
+  Recorder recorder(model_, record_);
+  recorder.add(arc_at(model_, 0.0, 0.0, {start, contact_closes}));
+  recorder.add(arc_at(model_, 0.1, 0.1, {contact_closes, contact_limit_point}));
+  recorder.add(arc_at(model_, 0.2, 0.2, {contact_closes, contact_opens}));
   recorder.end({EndReason::min_step, "why"});
 
   EXPECT_EQ(record_.points[0].event, start);
@@ -125,10 +125,10 @@ TEST_F(RecorderTest, ARowShowsTheLastEventThatIsNoChangeOfContact) {
 }
 
 TEST_F(RecorderTest, EventsAreNumberedAndSayWhatChanges) {
-  Recorder recorder(study_, record_);
-  recorder.add(arc_at(study_, 0.0, 0.0, {EventKind::start}));
-  recorder.add(arc_at(study_, -0.25, 0.5, {EventKind::contact_closes, EventKind::contact_limit_point}));
-  recorder.add(arc_at(study_, -0.5, 0.7, {EventKind::displacement_limit}));
+  Recorder recorder(model_, record_);
+  recorder.add(arc_at(model_, 0.0, 0.0, {EventKind::start}));
+  recorder.add(arc_at(model_, -0.25, 0.5, {EventKind::contact_closes, EventKind::contact_limit_point}));
+  recorder.add(arc_at(model_, -0.5, 0.7, {EventKind::displacement_limit}));
 
   ASSERT_EQ(record_.events.size(), 4u);
   for (Index id = 0; id < 4; ++id) EXPECT_EQ(record_.events[static_cast<std::size_t>(id)].id, id);
@@ -137,15 +137,15 @@ TEST_F(RecorderTest, EventsAreNumberedAndSayWhatChanges) {
   EXPECT_EQ(closes.monitors, std::vector<double>{-0.25});
   ASSERT_EQ(closes.contacts.size(), 1u);
   EXPECT_EQ(closes.contacts[0].label.wall, "floor");
-  EXPECT_EQ(closes.contacts[0].x, study_.contact()->candidate(0).point().position({.x = Vector::Zero(2)}).x());
+  EXPECT_EQ(closes.contacts[0].x, model_.contact()->candidate(0).point().position({.x = Vector::Zero(2)}).x());
   EXPECT_TRUE(record_.events[2].contacts.empty());
   EXPECT_EQ(record_.events[3].monitor, "w");
   EXPECT_EQ(closes.monitor, std::nullopt);
 }
 
 TEST_F(RecorderTest, TheEndIsAnEventOfTheLastPoint) {
-  Recorder recorder(study_, record_);
-  recorder.add(arc_at(study_, -0.25, 0.5, {EventKind::start}));
+  Recorder recorder(model_, record_);
+  recorder.add(arc_at(model_, -0.25, 0.5, {EventKind::start}));
   recorder.end({EndReason::stop, "w = -0.25"});
 
   const RecordEvent& end = record_.events.back();
@@ -159,18 +159,18 @@ TEST_F(RecorderTest, TheEndIsAnEventOfTheLastPoint) {
 }
 
 TEST_F(RecorderTest, ABranchWithoutPointsHasNoEndEvent) {
-  Recorder recorder(study_, record_);
+  Recorder recorder(model_, record_);
   recorder.end({EndReason::no_ray, ""});
   EXPECT_TRUE(record_.events.empty());
   EXPECT_EQ(record_.branches[0].end->reason, EndReason::no_ray);
 }
 
 TEST_F(RecorderTest, ASecondBranchCountsItsOwnSteps) {
-  Recorder first(study_, record_);
-  first.add(arc_at(study_, 0.0, 0.0, {EventKind::start}));
+  Recorder first(model_, record_);
+  first.add(arc_at(model_, 0.0, 0.0, {EventKind::start}));
   first.end({EndReason::stop, ""});
-  Recorder second(study_, record_, BranchRecord{.id = 1, .parent = 0});
-  second.add(arc_at(study_, 0.1, 0.0, {EventKind::start}));
+  Recorder second(model_, record_, BranchRecord{.id = 1, .parent = 0});
+  second.add(arc_at(model_, 0.1, 0.0, {EventKind::start}));
 
   EXPECT_EQ(record_.branches[1].parent, 0);
   EXPECT_EQ(record_.points[1].branch, 1);
@@ -179,19 +179,19 @@ TEST_F(RecorderTest, ASecondBranchCountsItsOwnSteps) {
 }
 
 TEST_F(RecorderTest, TheResultSaysWhatWasRunAndHowItEnded) {
-  Recorder recorder(study_, record_);
-  recorder.add(arc_at(study_, 0.0, 0.0, {EventKind::start}));
+  Recorder recorder(model_, record_);
+  recorder.add(arc_at(model_, 0.0, 0.0, {EventKind::start}));
   recorder.end({EndReason::max_points, "1 points"});
 
   // The check value of CRC-32: that of the digits 1 to 9.
-  const auto json = result_json(study_, "123456789", record_, {.total = 2.0, .tracing = 1.5}, 6);
+  const auto json = result_json(model_, "123456789", record_, {.total = 2.0, .tracing = 1.5}, 6);
 
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["deck"]["file"], "two-bars.toml");
   EXPECT_EQ(json["deck"]["crc32"], "cbf43926");
   EXPECT_EQ(json["model"]["nodes"], 3);
   EXPECT_EQ(json["model"]["unknowns"], 2);
-  EXPECT_EQ(json["model"]["contact_candidates"], study_.contact()->contact_count());
+  EXPECT_EQ(json["model"]["contact_candidates"], model_.contact()->contact_count());
   EXPECT_EQ(json["counts"].dump(), R"({"branches":1,"points":1,"events":2,"iterations":3})");
   EXPECT_EQ(json["seconds"]["tracing"], 1.5);
   EXPECT_EQ(json["status"], 6);

@@ -145,7 +145,7 @@ stop = { lambda = [-1.0, 0.6] }
 )");
   const Record& record = run.record();
 
-  const std::string page = page_of(record, report_content(run.study(), record, scenes_to_draw(run.study(), record)));
+  const std::string page = page_of(record, report_content(run.model(), record, scenes_to_draw(run.model(), record)));
 
   ASSERT_GT(record.branches.size(), 1u);
   const Json data = data_of(own_part(page));
@@ -167,7 +167,7 @@ TEST(ReportData, RoundoffIsShownAsZero) {
 
 TEST(ReportHtml, SaysWhatLambdaMultipliesAndHowHeightsAreDrawn) {
   const test::TracedDeck run(test::example("channel"), {"path.stop.lambda=[-1.0, 0.5]", "load.0.force=[-2.0, 0.0]"});
-  ReportContent content = report_content(run.study(), run.record(), scenes_to_draw(run.study(), run.record()));
+  ReportContent content = report_content(run.model(), run.record(), scenes_to_draw(run.model(), run.record()));
   content.shapes.stretch = 10.0;
   const std::string page = own_part(page_of(run.record(), content));
   EXPECT_EQ(data_of(page)["load_title"], "load factor λ, times 2 kN");

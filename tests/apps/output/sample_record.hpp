@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/output/record.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 

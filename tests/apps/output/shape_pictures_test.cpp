@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/deck/reader.hpp"
+#include "model/deck/reader.hpp"
 
 namespace arcwall::shape_pictures_test {
 namespace {
@@ -112,7 +112,7 @@ TEST(PointsToDraw, AreFewThoughEveryPointHasAnEvent) {
 
 // A portal that is loaded in all ways: what acts from outside stands where the deck has it.
 TEST(SceneOf, LoadsAndSupportsAreWhereTheDeckHasThem) {
-  const Study study(deck::read_deck_text(R"(
+  const Model model(deck::read_deck_text(R"(
 title = "A portal"
 material.steel = { E = 2.1e4 }
 section.bar = { shape = "rectangle", width = 0.5, height = 0.25 }
@@ -140,9 +140,9 @@ component = "z"
 lambda = [-1.0, 1.0]
 )",
                                          "portal.toml"));
-  State state{.x = Vector::Zero(study.structure().size({})), .lambda = 2.0};
+  State state{.x = Vector::Zero(model.structure().size({})), .lambda = 2.0};
 
-  const Scene scene = scene_of(study, state);
+  const Scene scene = scene_of(model, state);
 
   ASSERT_EQ(scene.loads.size(), 11u);
   EXPECT_TRUE(scene.loads[0].at.isApprox(Vec2(2.0, 1.0)));

@@ -5,12 +5,12 @@
 #include <functional>
 #include <random>
 
-#include "apps/build_contact.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/path_csv.hpp"
 #include "apps/verify/plain_wall.hpp"
 #include "core/text.hpp"
+#include "model/build_contact.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 namespace arcwall::verify::verify_test {
@@ -28,14 +28,14 @@ StoredFiles files_of(const Record& record) {
 
 void expect_confirmed(const TracedDeck& traced) {
   ASSERT_GT(traced.record().points.size(), 5u);
-  const Verdict verdict = verify(traced.study(), traced.record(), files_of(traced.record()), "checkpoint");
+  const Verdict verdict = verify(traced.model(), traced.record(), files_of(traced.record()), "checkpoint");
   EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
   for (const CheckSummary& check : verdict.findings.checks()) EXPECT_GT(check.count, 0) << check.name;
 }
 
 // A record of one point, cut out of a run.
 void expect_confirmed_point(const TracedDeck& traced, const Record& record) {
-  const Verdict verdict = verify(traced.study(), record, files_of(record), "checkpoint");
+  const Verdict verdict = verify(traced.model(), record, files_of(record), "checkpoint");
   EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
 }
 
@@ -145,9 +145,9 @@ TEST(Verify, EveryTheoryAndWallHoldsSlow) {
 TEST(Verify, IncrementsAreCheckedAgainstTheirFilesAlone) {
   const TracedDeck traced(example("channel"),
                           {"path.method=\"incremental\"", "path.step=0.1", "path.land={lambda=[1.0, 2.0]}"});
-  ASSERT_TRUE(traced.study().in_increments());
+  ASSERT_TRUE(traced.model().in_increments());
   expect_confirmed(traced);
-  const Verdict verdict = verify(traced.study(), traced.record(), files_of(traced.record()), "checkpoint");
+  const Verdict verdict = verify(traced.model(), traced.record(), files_of(traced.record()), "checkpoint");
   EXPECT_FALSE(has_check(verdict, "forces balance at nodes"));
   EXPECT_NE(verdict.not_checked.at(0).find("equilibrium"), std::string::npos);
   EXPECT_NE(to_text(verdict).find("- equilibrium"), std::string::npos);
@@ -196,28 +196,28 @@ class FalsifiedRun : public testing::Test {
   }
 
   // The verdict on a record whose states differ from what its files say.
-  Offence first_offence(const std::function<void(Record&)>& change) const {
+  Failure first_failure(const std::function<void(Record&)>& change) const {
     Record record = traced_.record();
     change(record);
-    return offence(record, files_of(traced_.record()));
+    return failure(record, files_of(traced_.record()));
   }
 
   // With one text in a file replaced by another, where it stands last.
-  Offence first_offence(std::string StoredFiles::*file, const std::string& text, const std::string& by) const {
+  Failure first_failure(std::string StoredFiles::*file, const std::string& text, const std::string& by) const {
     StoredFiles files = files_of(traced_.record());
     const auto at = (files.*file).rfind(text);
     EXPECT_NE(at, std::string::npos) << text;
     (files.*file).replace(at, text.size(), by);
-    return offence(traced_.record(), files);
+    return failure(traced_.record(), files);
   }
 
-  Offence offence(const Record& record, const StoredFiles& files) const {
-    const Verdict verdict = verify(traced_.study(), record, files, "checkpoint");
+  Failure failure(const Record& record, const StoredFiles& files) const {
+    const Verdict verdict = verify(traced_.model(), record, files, "checkpoint");
     EXPECT_TRUE(verdict.findings.first().has_value()) << "not caught";
-    return verdict.findings.first().value_or(Offence{});
+    return verdict.findings.first().value_or(Failure{});
   }
 
-  Index structure_unknowns() const { return traced_.study().structure().size({}); }
+  Index structure_unknowns() const { return traced_.model().structure().size({}); }
 
   TracedDeck traced_;
 };
@@ -232,7 +232,7 @@ std::string with_other_digit(std::string number) {
 
 TEST_F(FalsifiedRun, ADisplacementOffByAMillionthIsCaught) {
   const std::size_t where = pressed_point();
-  const Offence first = first_offence([&](Record& record) { record.points[where].state.x[4] += 1e-6; });
+  const Failure first = first_failure([&](Record& record) { record.points[where].state.x[4] += 1e-6; });
   EXPECT_EQ(first.file, "checkpoint");
   EXPECT_EQ(first.step, traced_.record().points[where].step);
   EXPECT_EQ(first.what, "forces balance at nodes: x at column:0.0625") << "the first that the stretch pulls at";
@@ -240,26 +240,26 @@ TEST_F(FalsifiedRun, ADisplacementOffByAMillionthIsCaught) {
 
 TEST_F(FalsifiedRun, AContactThatPullsIsCaught) {
   const std::size_t where = pressed_point();
-  const Offence first =
-      first_offence([&](Record& record) { record.points[where].state.x[structure_unknowns()] *= -1.0; });
+  const Failure first =
+      first_failure([&](Record& record) { record.points[where].state.x[structure_unknowns()] *= -1.0; });
   EXPECT_EQ(first.file, "checkpoint");
   EXPECT_EQ(first.step, traced_.record().points[where].step);
   EXPECT_NE(first.what.find("contact forces push: "), std::string::npos) << first.what;
 }
 
 TEST_F(FalsifiedRun, AContactForceThatDoesNotBalanceIsCaught) {
-  const Offence first = first_offence(
+  const Failure first = first_failure(
       [&](Record& record) { record.points[pressed_point()].state.x[structure_unknowns()] *= 1.0 + 1e-4; });
   EXPECT_NE(first.what.find("contact forces balance: "), std::string::npos) << first.what;
 }
 
 TEST_F(FalsifiedRun, APenetrationIsCaught) {
   const std::size_t where = pressed_point();
-  const Structure& structure = traced_.study().structure();
+  const Structure& structure = traced_.model().structure();
   // The middle of the column moved through both walls, 0.2 away.
   const Index w = *structure.unknown(structure.freedom(structure.members()[0].nodes[8], Freedom::z));
   for (const double by : {1.0, -1.0}) {
-    const Offence first = first_offence([&](Record& record) { record.points[where].state.x[w] += by; });
+    const Failure first = first_failure([&](Record& record) { record.points[where].state.x[w] += by; });
     EXPECT_EQ(first.step, traced_.record().points[where].step);
     EXPECT_TRUE(first.what.find("closed contacts touch") == 0 || first.what.find("open contacts are outside") == 0)
         << first.what;
@@ -271,7 +271,7 @@ TEST_F(FalsifiedRun, ACountOffByOneIsCaught) {
     Record record = traced_.record();
     const std::size_t where = pressed_point();
     record.points[where].count.unstable = *record.points[where].count.unstable + by;
-    const Offence first = offence(record, files_of(record));
+    const Failure first = failure(record, files_of(record));
     EXPECT_EQ(first.file, "path.csv");
     EXPECT_EQ(first.step, record.points[where].step);
     EXPECT_NE(first.what.find("unstable directions"), std::string::npos) << first.what;
@@ -282,8 +282,8 @@ TEST_F(FalsifiedRun, ADigitOfPathCsvIsCaught) {
   const RecordPoint& last = traced_.record().points.back();
   const auto caught = [&](double number, const std::string& what) {
     const std::string text = round_trip(number);
-    const Offence first =
-        first_offence(&StoredFiles::path_csv, text, with_other_digit(text.substr(0, 7)) + text.substr(7));
+    const Failure first =
+        first_failure(&StoredFiles::path_csv, text, with_other_digit(text.substr(0, 7)) + text.substr(7));
     EXPECT_EQ(first.file, "path.csv");
     EXPECT_EQ(first.step, last.step);
     EXPECT_EQ(first.what, "path.csv tells the states: " + what);
@@ -292,46 +292,46 @@ TEST_F(FalsifiedRun, ADigitOfPathCsvIsCaught) {
   caught(last.arc, "arc");
   caught(last.monitors[1], "monitor shortening");
   caught(last.energy, "energy");
-  const Offence lambda = first_offence(&StoredFiles::path_csv, "," + round_trip(last.lambda) + ",",
+  const Failure lambda = first_failure(&StoredFiles::path_csv, "," + round_trip(last.lambda) + ",",
                                        "," + round_trip(std::nextafter(last.lambda, 0.0)) + ",");
   EXPECT_EQ(lambda.what, "path.csv tells the states: lambda");
-  EXPECT_EQ(first_offence(&StoredFiles::path_csv, ",end\n", ",\n").what,
+  EXPECT_EQ(first_failure(&StoredFiles::path_csv, ",end\n", ",\n").what,
             "path.csv tells the states: event is \"\" instead of \"end\"");
 }
 
 TEST_F(FalsifiedRun, ADigitOfContactsCsvIsCaught) {
   const RecordForce& last = traced_.record().points.back().forces.back();
   const std::string force = round_trip(last.force);
-  const Offence first =
-      first_offence(&StoredFiles::contacts_csv, force, with_other_digit(force.substr(0, 8)) + force.substr(8));
+  const Failure first =
+      first_failure(&StoredFiles::contacts_csv, force, with_other_digit(force.substr(0, 8)) + force.substr(8));
   EXPECT_EQ(first.file, "contacts.csv");
   EXPECT_NE(first.what.find("force of " + last.label.wall), std::string::npos) << first.what;
-  const Offence wall = first_offence(&StoredFiles::contacts_csv, last.label.wall, "other");
+  const Failure wall = first_failure(&StoredFiles::contacts_csv, last.label.wall, "other");
   EXPECT_NE(wall.what.find("wall of "), std::string::npos) << wall.what;
 }
 
 TEST_F(FalsifiedRun, AnEventThatSaysSomethingElseIsCaught) {
-  const Offence lambda = first_offence(&StoredFiles::events_json, "\"lambda\": ", "\"lambda\": 1");
+  const Failure lambda = first_failure(&StoredFiles::events_json, "\"lambda\": ", "\"lambda\": 1");
   EXPECT_EQ(lambda.file, "events.json");
   EXPECT_EQ(lambda.what, "events.json tells the states: lambda");
-  const Offence count = first_offence(&StoredFiles::events_json, "\"unstable_before\": 0", "\"unstable_before\": 1");
+  const Failure count = first_failure(&StoredFiles::events_json, "\"unstable_before\": 0", "\"unstable_before\": 1");
   EXPECT_EQ(count.file, "events.json");
   EXPECT_NE(count.what.find("unstable_before is 1"), std::string::npos) << count.what;
-  EXPECT_EQ(first_offence(&StoredFiles::events_json, "\"events\"", "\"others\"").what,
+  EXPECT_EQ(first_failure(&StoredFiles::events_json, "\"events\"", "\"others\"").what,
             "events.json tells the states: it cannot be read");
 }
 
 TEST_F(FalsifiedRun, AMissingRowIsCaught) {
   StoredFiles files = files_of(traced_.record());
   files.path_csv.erase(files.path_csv.rfind('\n', files.path_csv.size() - 2) + 1);
-  const Offence first = offence(traced_.record(), files);
+  const Failure first = failure(traced_.record(), files);
   EXPECT_EQ(first.file, "path.csv");
   EXPECT_NE(first.what.find("rows"), std::string::npos) << first.what;
 }
 
 TEST_F(FalsifiedRun, AStateThatIsNotFiniteIsCaught) {
-  const Offence first =
-      first_offence([](Record& record) { record.points[3].state.x[2] = std::numeric_limits<double>::quiet_NaN(); });
+  const Failure first =
+      first_failure([](Record& record) { record.points[3].state.x[2] = std::numeric_limits<double>::quiet_NaN(); });
   EXPECT_EQ(first.step, 3);
   EXPECT_EQ(first.what, "states are finite and whole: its unknowns");
 }
@@ -354,9 +354,9 @@ TEST(FalsifiedSlidingRun, APlaceAMomentAndAPenetrationAreCaught) {
   const auto caught = [&](Index unknown, double by) {
     Record falsified = record;
     falsified.points[0].state.x[unknown] += by;
-    const Verdict verdict = verify(traced.study(), falsified, files_of(record), "checkpoint");
+    const Verdict verdict = verify(traced.model(), falsified, files_of(record), "checkpoint");
     EXPECT_TRUE(verdict.findings.first().has_value());
-    const std::string what = verdict.findings.first().value_or(Offence{}).what;
+    const std::string what = verdict.findings.first().value_or(Failure{}).what;
     return what.substr(0, what.find(':'));
   };
   const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());

@@ -1,0 +1,223 @@
+#include "apps/cli/trace_and_write.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "apps/cli/interrupt.hpp"
+#include "apps/cli/json_lines.hpp"
+#include "apps/output/contacts_csv.hpp"
+#include "apps/output/events_json.hpp"
+#include "apps/output/events_text.hpp"
+#include "apps/output/paraview.hpp"
+#include "apps/output/path_csv.hpp"
+#include "apps/output/report_html.hpp"
+#include "apps/output/result_json.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "model/deck/writer.hpp"
+#include "model/event_names.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using Report = CallOptions::Report;
+
+// Writes checkpoints now and then, so seldom that they take a small part of the time. A run of a moment needs none on
+// its way.
+class CheckpointKeeper {
+ public:
+  CheckpointKeeper(Session& run, const OutputFolder& folder, std::chrono::duration<double> pause)
+      : run_(run), folder_(folder), pause_(pause), next_(Clock::now() + std::chrono::milliseconds(100)) {
+    if (pause_.count() == 0.0) next_ = Clock::now();
+  }
+
+  void keep_now_and_then() {
+    if (Clock::now() < next_) return;
+    try {
+      keep({});
+    } catch (const OutputError& problem) {  // the files at the end may still find room
+      if (!std::exchange(warned_, true)) std::cerr << "warning: no checkpoint: " << problem.what() << "\n";
+    }
+  }
+
+  void keep(const std::optional<BranchEnd>& stopped) {
+    constexpr double part = 0.05;  // of the time, at most
+    const Clock::time_point before = Clock::now();
+    folder_.write_durably("checkpoint", run_.checkpoint(stopped));
+    const std::chrono::duration<double> taken = Clock::now() - before;
+    next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::max(pause_, taken / part));
+    if (pause_.count() == 0.0) next_ = before;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Session& run_;
+  const OutputFolder& folder_;
+  std::chrono::duration<double> pause_;
+  Clock::time_point next_;
+  bool warned_ = false;
+};
+
+// Why this call goes no further though the paths do.
+std::optional<BranchEnd> limit_met(const CallOptions& options, int points, const Stopwatch& watch,
+                                   const InterruptGuard& interrupts) {
+  if (interrupts.interrupted()) return BranchEnd{.reason = EndReason::interrupted, .detail = "by a signal"};
+  if (!std::cout)
+    return BranchEnd{.reason = EndReason::interrupted, .detail = "standard output can no longer be written"};
+  if (options.max_seconds && watch.seconds() >= *options.max_seconds)
+    return BranchEnd{.reason = EndReason::max_time, .detail = round_trip(*options.max_seconds) + " s"};
+  if (options.max_points && points >= *options.max_points)
+    return BranchEnd{.reason = EndReason::max_points, .detail = std::to_string(points) + " points"};
+  return std::nullopt;
+}
+
+// Until all has ended or a limit is met. The last checkpoint knows nothing of ends that came from outside.
+std::optional<BranchEnd> trace(Session& run, CheckpointKeeper& checkpoints, const CallOptions& options,
+                               const InterruptGuard& interrupts) {
+  const Stopwatch watch;
+  ProgressLine progress(options.progress);
+  JsonLines lines(run.record());
+  std::optional<BranchEnd> stopped;
+  for (int points = 1; run.next() != nullptr; ++points) {
+    progress.show(run.record());
+    if (options.report == Report::json_lines) lines.print_new(run.record());
+    stopped = limit_met(options, points, watch, interrupts);
+    if (stopped) break;
+    checkpoints.keep_now_and_then();
+  }
+  if (!run.record().points.empty()) checkpoints.keep(stopped);
+  if (stopped) {
+    run.stop(*stopped);
+    run.next();
+  }
+  if (options.report == Report::json_lines) lines.print_new(run.record());
+  return stopped;
+}
+
+// The branch whose end decides the status: an interrupt, then a limit, then an early end.
+const RecordBranch& decisive_branch(const Record& record) {
+  const auto severity = [](const RecordBranch& branch) {
+    switch (exit_status(branch.end->reason)) {
+      case ExitStatus::interrupted:
+        return 3;
+      case ExitStatus::limit_met:
+        return 2;
+      case ExitStatus::success:
+        return 0;
+      case ExitStatus::internal_error:
+      case ExitStatus::wrong_input:
+      case ExitStatus::ended_early:
+      case ExitStatus::no_start:
+      case ExitStatus::file_error:
+      case ExitStatus::not_confirmed:
+        return 1;
+    }
+    return 1;
+  };
+  return *std::max_element(record.branches.begin(), record.branches.end(),
+                           [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); });
+}
+
+// Those of an earlier run would show another path than the tables.
+void remove_pictures(const OutputFolder& folder) {
+  for (const char* name : {"report.html", "shapes.pvd", "shapes"}) {
+    std::error_code error;
+    std::filesystem::remove_all(folder.path() / name, error);
+    if (error) throw OutputError((folder.path() / name).string() + ": cannot be removed: " + error.message());
+  }
+}
+
+// result.json comes last: where it is, the others are, but for the pictures, which can be many.
+void write_files(const OutputFolder& folder, const Session& run, const CallOptions& options, const RunSeconds& seconds,
+                 ExitStatus status) {
+  const bool pictures = options.pictures == CallOptions::Pictures::written;
+  if (!pictures) remove_pictures(folder);
+  const Record& record = run.record();
+  const RunDescription& description = run.description();
+  const DrawnScenes drawn = pictures ? scenes_to_draw(run.model(), record) : DrawnScenes();
+  FileSet files(folder);
+  files.write("path.csv", path_csv(record, description.units));
+  if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
+  files.write("events.json", to_text(events_json(record), JsonLayout::lines));
+  files.write("events.txt", events_text(record));
+  if (pictures) files.write("report.html", ReportPage(record, report_content(run.model(), record, drawn)).pieces());
+  if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
+  files.write("deck.toml", deck::to_toml(run.model().deck()));
+  const auto result = result_json(run.model(), description.deck_text, record, seconds, static_cast<int>(status));
+  files.write("result.json", to_text(result, JsonLayout::lines));
+  files.put_in_place();
+  if (pictures) write_shapes(folder, run.model(), record, drawn);
+}
+
+// An early end in full: the reason, the last good point, and what to try.
+void say_that_it_ended_early(const RecordBranch& branch, const Record& record, const std::string& where) {
+  std::cerr << fmt::format("error: branch {} ended early: {}; what was traced is in {}\n", branch.id,
+                           how_it_ended(*branch.end), where);
+  const auto is_its = [&](const RecordPoint& point) { return point.branch == branch.id; };
+  const auto last = std::find_if(record.points.rbegin(), record.points.rend(), is_its);
+  if (last != record.points.rend()) std::cerr << "  last point: " << progress_text(record, *last) << "\n";
+  std::cerr << "  try: " << what_to_try(branch.end->reason) << "\n";
+}
+
+// `stopped`: from outside, so that the run can go on.
+void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Record& record, const std::string& where) {
+  if (stopped) {
+    std::cerr << fmt::format("note: the run ended: {}; what was traced is in {}, and trace-path resume {} goes on\n",
+                             how_it_ended(*stopped), where, where);
+    return;
+  }
+  const RecordBranch& branch = decisive_branch(record);
+  const ExitStatus status = exit_status(branch.end->reason);
+  if (status == ExitStatus::limit_met)
+    std::cerr << fmt::format("note: the run ended: {}, which the deck says; what was traced is in {}\n",
+                             how_it_ended(*branch.end), where);
+  else if (status != ExitStatus::success)
+    say_that_it_ended_early(branch, record, where);
+}
+
+}  // namespace
+
+std::vector<OptionDescription> call_options() {
+  return {{"max-points", "N", "end after N points (status 6)"},
+          {"max-time", "SECONDS", "end after that time (status 6)"},
+          {"checkpoint-pause", "SECONDS", "time between two checkpoints, 0 for one at each point (default: 5)"},
+          {"json", "", "points, events and end on standard output, one JSON object a line"},
+          {"no-pictures", "", "write neither report.html nor the shapes (trace-path report writes the one later)"},
+          {"quiet", "", "no progress and no table of events"}};
+}
+
+CallOptions call_options(const Options& options) {
+  CallOptions call{.max_points = options.count("max-points"), .max_seconds = options.seconds("max-time")};
+  if (const auto pause = options.pause("checkpoint-pause"))
+    call.checkpoint_pause = std::chrono::duration<double>(*pause);
+  if (options.has("no-pictures")) call.pictures = CallOptions::Pictures::left_out;
+  if (options.has("quiet")) call.report = Report::none;
+  if (options.has("json")) call.report = Report::json_lines;
+  if (!options.has("quiet") && !options.has("json")) call.progress = progress_wanted();
+  return call;
+}
+
+ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallOptions& options,
+                           const Stopwatch& since_begin) {
+  const InterruptGuard interrupts;
+  const Stopwatch since_start;
+  CheckpointKeeper checkpoints(run, folder, options.checkpoint_pause);
+  const std::optional<BranchEnd> stopped = trace(run, checkpoints, options, interrupts);
+  const Record& record = run.record();
+  const EndReason reason = stopped ? stopped->reason : decisive_branch(record).end->reason;
+  if (record.points.empty() && (reason == EndReason::singular || reason == EndReason::not_finite)) {
+    std::cerr << "error: there is no equilibrium at the start: " << explanation(reason) << "\n";
+    return ExitStatus::no_start;
+  }
+  const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
+  write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
+  if (options.report == Report::table) std::cout << events_text(record);
+  say_how_it_ended(stopped, record, folder.path().string());
+  return status;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,129 @@
+#include "model/build_contact.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.hpp"
+#include "elements/member_point.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Offsets from the axis of the points that may touch: 0, or the face whose normal looks at the wall; both of a section
+// that stands across it.
+std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
+  if (wall.acts_on == deck::ActsOn::axis) return {0.0};
+  const double up = std::cos(section.shape.angle) * (wall.side == deck::Side::above ? 1.0 : -1.0);
+  const double half = 0.5 * mesh.height.value();
+  constexpr double level = 1e-9;
+  if (std::abs(up) <= level) return {half, -half};
+  return {up > 0.0 ? half : -half};
+}
+
+// The deepest penetration of one wall at rest.
+struct Penetration {
+  double depth = 0.0;
+  ContactLabel label{};
+  bool everywhere = true;  ///< of all points that might touch
+};
+
+std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
+  const std::string apart = "move the wall or the member apart";
+  if (!found.everywhere) return apart;
+  const bool above = wall.side == deck::Side::above;
+  return fmt::format("side = \"{}\" means that the structure stays {} the wall: is \"{}\" meant? Else {}",
+                     above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
+}
+
+}  // namespace
+
+Side side_of(const deck::Wall& wall) { return wall.side == deck::Side::above ? Side::above : Side::below; }
+
+std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
+  struct Maker {
+    Side side;
+    std::unique_ptr<Profile> operator()(const deck::FlatProfile& p) const { return flat_profile(p.z); }
+    std::unique_ptr<Profile> operator()(const deck::LineProfile& p) const { return line_profile(p.z, p.slope); }
+    std::unique_ptr<Profile> operator()(const deck::CircleProfile& p) const {
+      return circle_profile({p.centre.x, p.centre.z}, p.radius, side);
+    }
+    std::unique_ptr<Profile> operator()(const deck::ParabolaProfile& p) const {
+      return parabola_profile({p.apex.x, p.apex.z}, p.curvature);
+    }
+    std::unique_ptr<Profile> operator()(const deck::SplineProfile& p) const { return spline_profile(p.x, p.z); }
+  };
+  return std::visit(Maker{side_of(wall)}, wall.profile);
+}
+
+bool concerns(const deck::Wall& wall, const std::string& member) {
+  return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
+}
+
+std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
+  std::vector<Candidate> candidates;
+  const State rest{.x = Vector::Zero(structure.size({}))};
+  for (const deck::Wall& wall : deck.walls) {
+    const Side side = side_of(wall);
+    const std::shared_ptr<const Profile> profile = profile_of(wall);
+    std::vector<std::pair<Index, Vec2>> taken;  // node and place: members that meet share a point
+    Penetration deepest;
+    for (const MemberMesh& mesh : structure.members()) {
+      if (!concerns(wall, mesh.name)) continue;
+      if (wall.acts_on == deck::ActsOn::face && !mesh.rotations.front()) {
+        problems.add(wall.position, "wall.acts_on",
+                     "member \"" + mesh.name + "\" is a truss and has no faces that turn", "use acts_on = \"axis\"");
+        continue;
+      }
+      for (const MemberSection& section : mesh.contact_sections())
+        for (const double offset : offsets(wall, mesh, section)) {
+          auto point = std::make_unique<MemberPoint>(structure, section, offset);
+          const Vec2 place = point->position(rest);
+          const auto same = [&](const auto& other) {
+            return other.first == section.node && (other.second - place).norm() <= 1e-12 * structure.length_scale();
+          };
+          if (std::any_of(taken.begin(), taken.end(), same)) continue;
+          taken.emplace_back(section.node, place);
+          const bool movable = !point->unknowns().empty();
+          Candidate candidate(
+              std::move(point), profile, side,
+              {.wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
+          const double gap = candidate.gap(rest);
+          deepest.everywhere = deepest.everywhere && gap < 0.0;
+          if (-gap > deepest.depth) {
+            deepest.depth = -gap;
+            deepest.label = candidate.label();
+          }
+          if (movable) candidates.push_back(std::move(candidate));
+        }
+    }
+    if (deepest.depth > 1e-12 * structure.length_scale())
+      problems.add(wall.position, "wall." + wall.name,
+                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.4g}",
+                               deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth),
+                   how_to_part(wall, deepest));
+  }
+  return candidates;
+}
+
+bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b) {
+  return std::all_of(deck.walls.begin(), deck.walls.end(),
+                     [&](const deck::Wall& wall) { return concerns(wall, a) == concerns(wall, b); });
+}
+
+std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
+  std::vector<Obstacle> obstacles;
+  for (const deck::Wall& wall : deck.walls) {
+    Obstacle obstacle{.name = wall.name,
+                      .profile = profile_of(wall),
+                      .side = side_of(wall),
+                      .on_face = wall.acts_on == deck::ActsOn::face};
+    for (Index strand = 0; strand < structure.strands(); ++strand)
+      obstacle.strands.push_back(concerns(wall, structure.label({.strand = strand, .s = 0.0}).first) ? 1 : 0);
+    obstacles.push_back(std::move(obstacle));
+  }
+  return obstacles;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/multiplier_contact.hpp"
+#include "contact/sliding_contact.hpp"
+#include "elements/sliding_structure.hpp"
+#include "model/build_structure.hpp"
+
+namespace arcwall {
+
+/// Where a wall is, and its surface.
+Side side_of(const deck::Wall& wall);
+std::unique_ptr<Profile> profile_of(const deck::Wall& wall);
+
+/// Whether a wall stands in the way of a member.
+bool concerns(const deck::Wall& wall, const std::string& member);
+
+/// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
+/// each wall that a member penetrates at the start.
+std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
+
+/// Whether the same walls concern two members.
+bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b);
+
+/// The walls for contact points that slide.
+std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure);
+
+}  // namespace arcwall

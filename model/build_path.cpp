@@ -1,0 +1,308 @@
+#include "model/build_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.hpp"
+#include "elements/member_point.hpp"
+#include "model/deck/words.hpp"
+#include "model/member_force.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using Component = MemberObservable::Component;
+
+std::optional<Component> member_component(deck::Component component) {
+  switch (component) {
+    case deck::Component::x:
+      return Component::x;
+    case deck::Component::z:
+      return Component::z;
+    case deck::Component::rotation:
+      return Component::rotation;
+    case deck::Component::face_above_z:
+      return Component::face_above_z;
+    case deck::Component::face_below_z:
+      return Component::face_below_z;
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+    case deck::Component::reaction_moment:
+    case deck::Component::axial_force:
+    case deck::Component::moment:
+    case deck::Component::thickness:
+    case deck::Component::thickness2:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Freedom> reaction_freedom(deck::Component component) {
+  switch (component) {
+    case deck::Component::reaction_x:
+      return Freedom::x;
+    case deck::Component::reaction_z:
+      return Freedom::z;
+    case deck::Component::reaction_moment:
+      return Freedom::rotation;
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::rotation:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+    case deck::Component::axial_force:
+    case deck::Component::moment:
+    case deck::Component::thickness:
+    case deck::Component::thickness2:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::string unit_of(const deck::Deck& deck, deck::Component component) {
+  switch (component) {
+    case deck::Component::rotation:
+      return "rad";
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+    case deck::Component::axial_force:
+      return deck.units.force;
+    case deck::Component::reaction_moment:
+    case deck::Component::moment:
+      return deck.units.force + " " + deck.units.length;
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+      return deck.units.length;
+    case deck::Component::thickness:
+      return "-";
+    case deck::Component::thickness2:
+      return "1/" + deck.units.length;
+  }
+  return {};
+}
+
+// The member whose end a joint is; where several meet, the first that has what is asked for.
+struct End {
+  const MemberMesh* mesh = nullptr;
+  std::size_t position = 0;
+};
+
+std::vector<End> ends_at(const Structure& structure, Index joint) {
+  std::vector<End> ends;
+  for (const MemberMesh& mesh : structure.members()) {
+    if (mesh.nodes.front() == joint) ends.push_back({.mesh = &mesh, .position = 0});
+    if (mesh.nodes.back() == joint) ends.push_back({.mesh = &mesh, .position = mesh.nodes.size() - 1});
+  }
+  return ends;
+}
+
+std::shared_ptr<const Observable> reaction(const Measured& body, Index freedom) {
+  if (body.sliding != nullptr)
+    return std::make_shared<JointObservable>(*body.sliding, freedom, JointObservable::What::reaction);
+  if (body.incremental != nullptr) return std::make_shared<IncrementalReaction>(*body.incremental, freedom);
+  return std::make_shared<ReactionObservable>(body.structure, freedom);
+}
+
+std::optional<Index> thickness_freedom(const ThicknessFreedoms& freedoms, deck::Component component) {
+  if (component == deck::Component::thickness) return freedoms.e;
+  if (component == deck::Component::thickness2) return freedoms.xi;
+  return std::nullopt;
+}
+
+// What the member at a place carries there; null where several meet, whose forces differ, or which has no such force.
+std::shared_ptr<const Observable> member_force(const Measured& body, const std::vector<End>& at,
+                                               deck::Component component) {
+  const bool bends = component == deck::Component::moment;
+  if (at.size() != 1 || body.incremental != nullptr) return nullptr;
+  const MemberMesh& mesh = *at.front().mesh;
+  const std::size_t position = at.front().position;
+  if (bends && !mesh.rotations[position]) return nullptr;
+  const auto what = bends ? MemberForce::What::moment : MemberForce::What::axial_force;
+  const double fraction = mesh.fraction(position);
+  if (body.sliding != nullptr) return std::make_shared<SlidingMemberForce>(*body.sliding, mesh.name, fraction, what);
+  const auto member = static_cast<std::size_t>(&mesh - body.structure.members().data());
+  const TiedMember tied{.structure = body.structure, .member = member, .theory = body.deck.members[member].theory};
+  return std::make_shared<TiedMemberForce>(tied, fraction, what);
+}
+
+// What a place's component is read from; null if the place has no such component.
+std::shared_ptr<const Observable> observable(const Measured& body, const deck::Place& place,
+                                             deck::Component component) {
+  const Structure& structure = body.structure;
+  const Places::Node node = body.places.find(place, structure.members());
+  std::vector<End> at = ends_at(structure, node.node);
+  if (node.member != nullptr) at.assign(1, End{.mesh = node.member, .position = node.position});
+  if (component == deck::Component::axial_force || component == deck::Component::moment)
+    return member_force(body, at, component);
+  if (const auto freedom = reaction_freedom(component)) {
+    if (*freedom != Freedom::rotation) return reaction(body, structure.freedom(node.node, *freedom));
+    for (const End& end : at)
+      if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
+        return reaction(body, *rotation);
+    return nullptr;
+  }
+  for (const End& end : at)
+    if (const auto thickness = end.mesh->section(end.position).thickness)
+      if (const auto freedom = thickness_freedom(*thickness, component))
+        return std::make_shared<FreedomObservable>(structure, *freedom);
+  const auto wanted = member_component(component);
+  if (!wanted) return nullptr;
+  const bool turns = *wanted != Component::x && *wanted != Component::z;
+  const bool face = *wanted == Component::face_above_z || *wanted == Component::face_below_z;
+  for (const End& end : at) {
+    const auto rotation = end.mesh->rotations[end.position];
+    if ((turns && !rotation) || (face && !end.mesh->height)) continue;
+    // Members that meet at an angle agree on the rotation of their joint, not on the slopes of their imperfections.
+    const bool joint = *wanted == Component::rotation && at.size() > 1;
+    if (body.sliding != nullptr) {
+      if (joint) return std::make_shared<JointObservable>(*body.sliding, *rotation, JointObservable::What::motion);
+      const MaterialPoint point = body.sliding->find(end.mesh->name, end.mesh->fraction(end.position));
+      return std::make_shared<PlaceObservable>(*body.sliding, point, *wanted);
+    }
+    if (joint) return std::make_shared<FreedomObservable>(structure, *rotation);
+    return std::make_shared<MemberObservable>(structure, *end.mesh, end.position, *wanted);
+  }
+  return nullptr;
+}
+
+PathMethod path_method(deck::PathMethod method) {
+  switch (method) {
+    case deck::PathMethod::load:
+      return PathMethod::load;
+    case deck::PathMethod::displacement:
+      return PathMethod::displacement;
+    case deck::PathMethod::riks:
+      return PathMethod::riks;
+    case deck::PathMethod::normal_plane:
+      return PathMethod::normal_plane;
+    case deck::PathMethod::cylindrical:
+      return PathMethod::cylindrical;
+    case deck::PathMethod::spherical:
+      return PathMethod::spherical;
+    case deck::PathMethod::pseudo_arclength:
+      return PathMethod::pseudo_arclength;
+    case deck::PathMethod::incremental:  // has no steps along the path
+      break;
+  }
+  return PathMethod::spherical;
+}
+
+EventSearch event_search(deck::Events events) {
+  switch (events) {
+    case deck::Events::locate:
+      return EventSearch::locate;
+    case deck::Events::detect:
+      return EventSearch::detect;
+    case deck::Events::none:
+      return EventSearch::none;
+  }
+  return EventSearch::locate;
+}
+
+EventKind kind_of_stop(deck::StopEvent event) {
+  switch (event) {
+    case deck::StopEvent::contact_closes:
+      return EventKind::contact_closes;
+    case deck::StopEvent::contact_opens:
+      return EventKind::contact_opens;
+    case deck::StopEvent::contact_spreads:
+      return EventKind::contact_spreads;
+    case deck::StopEvent::contact_gathers:
+      return EventKind::contact_gathers;
+    case deck::StopEvent::limit_point:
+      return EventKind::limit_point;
+    case deck::StopEvent::contact_limit_point:
+      return EventKind::contact_limit_point;
+    case deck::StopEvent::displacement_limit:
+      return EventKind::displacement_limit;
+    case deck::StopEvent::branch_point:
+      return EventKind::branch_point;
+  }
+  return EventKind::limit_point;
+}
+
+}  // namespace
+
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& body, DeckProblems& problems) {
+  std::vector<MonitorColumn> columns;
+  for (const deck::Monitor& monitor : deck.monitors) {
+    auto quantity = monitor.at.fraction || body.places.joints.contains(monitor.at.name)
+                        ? observable(body, monitor.at, monitor.component)
+                        : nullptr;
+    if (!quantity) {
+      problems.add(monitor.position, "monitor.component",
+                   "\"" + to_text(monitor.at) + "\" does not have this component",
+                   "rotations need a beam, faces a section with a height, reactions a support, thickness the theory "
+                   "\"essenburg\"; axial-force and moment one member, which for a moment is a beam, and no load "
+                   "increments");
+      continue;
+    }
+    const auto raw = quantity;
+    if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(raw, -1.0);
+    columns.push_back(
+        {.name = monitor.name, .unit = unit_of(deck, monitor.component), .quantity = std::move(quantity), .raw = raw});
+  }
+  return columns;
+}
+
+std::vector<double> load_levels(const deck::Path& path) {
+  std::vector<double> levels;
+  double from = 0.0;
+  for (const deck::Landing& landing : path.land) {
+    if (landing.name != "lambda") continue;
+    for (const double value : landing.values) {
+      // A level that round-off alone keeps from being met needs no increment of its own.
+      const int parts = std::max(1, static_cast<int>(std::ceil(std::abs((value - from) / path.step) - 1e-9)));
+      for (int i = 1; i < parts; ++i) levels.push_back(from + (value - from) * i / parts);
+      levels.push_back(value);
+      from = value;
+    }
+  }
+  return levels;
+}
+
+TraceOptions trace_options(const deck::Deck& deck, const Measured& body, const std::vector<MonitorColumn>& monitors,
+                           DeckProblems& problems) {
+  const deck::Path& path = deck.path;
+  TraceOptions options;
+  options.method = path_method(path.method);
+  options.events = event_search(path.events);
+  options.step.first = path.step;
+  options.step.min = path.min_step;
+  options.step.max = path.max_step;
+  options.max_points = path.max_points;
+  options.stay = path.branches != deck::Branches::follow;
+  if (path.control) {
+    options.control = observable(body, path.control->at, path.control->component);
+    if (!options.control)
+      problems.add(path.control->at.position, "path.control",
+                   "\"" + to_text(path.control->at) + "\" cannot be controlled so",
+                   "name a component that the place has");
+  }
+  const auto quantity = [&](const std::string& name) -> std::shared_ptr<const Observable> {
+    if (name == "lambda") return std::make_shared<ParameterValue>();
+    const MonitorColumn* column = deck::find(monitors, name);
+    return column != nullptr ? column->quantity : nullptr;
+  };
+  const auto mark = [&](const std::string& name, double value, bool stops) {
+    if (auto q = quantity(name))
+      options.target_values.push_back(
+          {.quantity = std::move(q), .value = value, .stops = stops, .label = name + " = " + round_trip(value)});
+  };
+  for (const deck::Landing& landing : path.land)
+    for (const double value : landing.values) mark(landing.name, value, false);
+  for (const deck::StopBounds& bounds : path.stop.bounds) {
+    mark(bounds.name, bounds.low, true);
+    mark(bounds.name, bounds.high, true);
+  }
+  if (path.stop.contacts) options.stop_contacts = *path.stop.contacts;
+  for (const deck::StopEvent event : path.stop.events)
+    options.stop_events.push_back(
+        {.kind = kind_of_stop(event), .label = "event = " + text_of(deck::stop_event_words, event)});
+  return options;
+}
+
+}  // namespace arcwall

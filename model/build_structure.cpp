@@ -1,0 +1,356 @@
+#include "model/build_structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+Vec2 vec(const deck::Vector& v) { return {v.x, v.z}; }
+
+std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, const Vec2& to) {
+  struct Maker {
+    const Vec2 &from, &to;
+    std::unique_ptr<Axis> operator()(const deck::Straight&) const { return straight_axis(from, to); }
+    std::unique_ptr<Axis> operator()(const deck::Arc& arc) const { return arc_axis(from, vec(arc.via), to); }
+    std::unique_ptr<Axis> operator()(const deck::SineAxis& sine) const {
+      return sine_axis(from, to, sine.rise, sine.waves);
+    }
+    std::unique_ptr<Axis> operator()(const deck::Curve& curve) const {
+      std::vector<Vec2> points;
+      for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(curve.x[i], curve.z[i]);
+      return spline_axis(points);
+    }
+  };
+  return std::visit(Maker{from, to}, member.axis);
+}
+
+Theory theory_of(const deck::Member& member) {
+  switch (member.theory) {
+    case deck::Theory::classic:
+      return Theory::classic;
+    case deck::Theory::elastica:
+      return Theory::elastica;
+    case deck::Theory::exact:
+      return Theory::exact;
+    case deck::Theory::essenburg:
+      return Theory::essenburg;
+    case deck::Theory::truss:
+      return Theory::truss;
+  }
+  return Theory::classic;
+}
+
+QuadraticTerm quadratic_term(deck::Along along) {
+  switch (along) {
+    case deck::Along::fixed:
+      return QuadraticTerm::fixed;
+    case deck::Along::director:
+      return QuadraticTerm::director;
+  }
+  return QuadraticTerm::fixed;
+}
+
+TrussStrain strain_of(deck::Strain strain) {
+  switch (strain) {
+    case deck::Strain::green:
+      return TrussStrain::green;
+    case deck::Strain::engineering:
+      return TrussStrain::engineering;
+    case deck::Strain::log:
+      return TrussStrain::log;
+  }
+  return TrussStrain::green;
+}
+
+// Shear area over area of the exact theory: Cowper's (1966) for no lateral contraction, of which 5/6 for the rectangle
+// is the best known. A ring of the radii's ratio m has 6 (1 + m²)² / (7 (1 + m²)² + 20 m²): 6/7 for a circle, ½ for a
+// thin tube. A general section counts as a rectangle.
+double shear_correction(const deck::Section& section) {
+  struct Correction {
+    static double ring(double m) {
+      const double square = (1.0 + m * m) * (1.0 + m * m);
+      return 6.0 * square / (7.0 * square + 20.0 * m * m);
+    }
+    double operator()(const deck::Rectangle&) const { return 5.0 / 6.0; }
+    double operator()(const deck::Circle&) const { return ring(0.0); }
+    double operator()(const deck::Tube& tube) const { return ring(1.0 - tube.thickness / tube.radius); }
+    double operator()(const deck::General&) const { return 5.0 / 6.0; }
+  };
+  return section.shear_correction.value_or(std::visit(Correction{}, section.shape));
+}
+
+std::vector<SectionPoint> section_points(const deck::Section& section) {
+  struct Points {
+    std::vector<SectionPoint> operator()(const deck::Rectangle& of) const {
+      return rectangle_points(of.width, of.height);
+    }
+    std::vector<SectionPoint> operator()(const deck::Circle& of) const { return circle_points(of.radius); }
+    std::vector<SectionPoint> operator()(const deck::Tube& of) const { return tube_points(of.radius, of.thickness); }
+    std::vector<SectionPoint> operator()(const deck::General&) const { return {}; }  // refused by the reader
+  };
+  return std::visit(Points{}, section.shape);
+}
+
+Section section_of(const deck::Deck& deck, const deck::Member& member) {
+  const deck::Section& described = *deck::find(deck.sections, member.section);
+  const deck::Material& material = *deck::find(deck.materials, member.material);
+  const deck::SectionProperties properties = deck::properties(described);
+  Section section{.E = material.E, .A = properties.A, .I = properties.I, .height = properties.height};
+  const bool essenburg = member.theory == deck::Theory::essenburg;
+  if (member.theory != deck::Theory::exact && !essenburg) return section;
+  section.G = material.E / (2.0 * (1.0 + material.nu.value()));
+  if (essenburg) {
+    section.shear_area = described.shear_correction.value_or(1.0) * properties.A;
+    section.points = section_points(described);
+    return section;
+  }
+  section.shear_area = properties.shear_area.value_or(shear_correction(described) * properties.A);
+  return section;
+}
+
+// What can move without strain does not depend on how stiff a member is in bending and shear, but shows best where both
+// are as stiff as the axis: in a thin beam shear is far stiffer than bending.
+Section balanced(Section section, double length) {
+  section.I = section.A * length * length;
+  section.G = section.E;
+  section.shear_area = section.A;
+  return section;
+}
+
+// A section of finite height needs an axis that bends less: at the centre of curvature its fibres would meet.
+void check_curvature(const deck::Member& member, const MemberDescription& description, DeckProblems& problems) {
+  const ImperfectAxis shape(*description.axis, description.imperfection);
+  const int places = 2 * member.elements;
+  for (int i = 0; i <= places; ++i) {
+    const DeviatedPoint at = shape.along(description.axis->length() * i / places);
+    const double radius = std::abs(at.speed / at.turning);
+    if (radius > 0.5 * description.section.height.value()) continue;
+    problems.add(
+        member.position, "member." + member.name,
+        fmt::format("at {} of its length the axis has a radius of {:.4g}, less than half the height of section {}",
+                    double(i) / places, radius, member.section),
+        "bend the axis less, or take theory \"classic\" or \"elastica\"");
+    return;
+  }
+}
+
+// Stiffnesses of an element, over their units, and its length against the coordinates and the height of its section,
+// which are only so fine.
+void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const MemberDescription& description,
+                      DeckProblems& problems) {
+  const double h = description.axis->length() / member.elements;
+  const double EA = description.section.EA();
+  const double EI = member.theory == deck::Theory::truss ? EA * h * h : description.section.EI();
+  const bool shears = member.theory == deck::Theory::exact || member.theory == deck::Theory::essenburg;
+  const double GA = shears ? description.section.GA() : EA;
+  const auto far = [&](const std::string& name) {
+    const deck::Vector& at = deck::find(deck.points, name)->at;
+    return std::max(std::abs(at.x), std::abs(at.z));
+  };
+  const double height = description.section.height.value_or(0.0);
+  const bool is_long_enough = h > 1e-12 * std::max({far(member.from), far(member.to), height});
+  const auto is_usable = [](double value) { return value > 1e-100 && value < 1e100; };
+  if (is_long_enough && is_usable(h) && is_usable(EA / h) && is_usable(GA / h) && is_usable(EI / h) &&
+      is_usable(EI / (h * h * h)))
+    return;
+  problems.add(
+      member.position, "member." + member.name,
+      fmt::format("with elements of length {:.4g}, EA = {:.4g} and EI = {:.4g} its stiffness cannot be computed "
+                  "with numbers of 16 digits",
+                  h, EA, EI),
+      "choose units in which lengths and forces are nearer to 1, and an origin near the structure");
+}
+
+// As told, or with another number of elements, which is to find out what moves without strain.
+MemberDescription description_of(const deck::Deck& deck, const deck::Member& member, std::optional<int> elements,
+                                 const StructureOfDeck& out) {
+  const Theory theory = theory_of(member);
+  MemberDescription description{.name = member.name,
+                                .from = out.places.joints.at(member.from),
+                                .to = out.places.joints.at(member.to),
+                                .theory = theory,
+                                .order = member.order.value_or(2),
+                                .quadratic = quadratic_term(member.along),
+                                .strain = strain_of(member.strain),
+                                .section = section_of(deck, member),
+                                .elements = elements.value_or(member.elements),
+                                .hinge_from = member.hinge_from,
+                                .hinge_to = member.hinge_to};
+  description.axis =
+      make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
+  // A classic element moves without strain where one of the elastica does, and takes any bend of its axis; an exact
+  // one where one of Essenburg's does, whose thickness has a stiffness of its own.
+  if (elements && theory == Theory::elastica) description.theory = Theory::classic;
+  if (elements && theory == Theory::essenburg) description.theory = Theory::exact;
+  if (elements && description.theory == Theory::exact)
+    description.section = balanced(description.section, description.axis->length());
+  for (const deck::Imperfection& wave : member.imperfections)
+    description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
+  return description;
+}
+
+// No member is built of numbers that are out of range: its stiffness may be zero.
+void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
+  std::vector<MemberDescription> descriptions;
+  for (const deck::Member& member : deck.members) {
+    descriptions.push_back(description_of(deck, member, elements, out));
+    if (!elements) check_magnitudes(deck, member, descriptions.back(), problems);
+  }
+  problems.raise();
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    const deck::Member& member = deck.members[i];
+    if (descriptions[i].theory == Theory::truss && member.elements > 1)
+      problems.add(
+          member.position, "member." + member.name + ".elements",
+          fmt::format("a truss of {} elements is a chain of hinges that can move without strain", member.elements),
+          "use elements = 1, or theory = \"classic\"");
+    if (theory_of(member) == Theory::essenburg) check_curvature(member, descriptions[i], problems);
+    out.places.members[member.name] = out.builder.add_member(std::move(descriptions[i]));
+  }
+}
+
+void fix_thickness(const deck::Support& support, deck::Direction direction, DeckProblems& problems,
+                   StructureOfDeck& out) {
+  const std::vector<ThicknessFreedoms> ends = out.builder.thickness(out.places.joints.at(support.point));
+  for (const ThicknessFreedoms& end : ends) out.builder.fix(direction == deck::Direction::thickness ? end.e : end.xi);
+  if (ends.empty())
+    problems.add(support.position, "support." + support.point,
+                 "no member of theory \"essenburg\" ends at \"" + support.point + "\": there is no thickness to fix",
+                 "leave out \"thickness\" and \"thickness2\"");
+}
+
+void add_support(const deck::Support& support, DeckProblems& problems, StructureOfDeck& out) {
+  const Index joint = out.places.joints.at(support.point);
+  for (const deck::Direction direction : support.directions) {
+    const std::string key = "support." + support.point;
+    switch (direction) {
+      case deck::Direction::x:
+        out.builder.fix(out.builder.freedom(joint, Freedom::x));
+        break;
+      case deck::Direction::z:
+        out.builder.fix(out.builder.freedom(joint, Freedom::z));
+        break;
+      case deck::Direction::rotation:
+        if (const auto rotation = out.builder.shared_rotation(joint)) {
+          out.builder.fix(*rotation);
+        } else {
+          problems.add(support.position, key, "no member end at \"" + support.point + "\" has a rotation to fix",
+                       "leave out \"rotation\", or join a beam there without a hinge");
+        }
+        break;
+      case deck::Direction::thickness:
+      case deck::Direction::thickness2:
+        fix_thickness(support, direction, problems, out);
+        break;
+    }
+  }
+}
+
+// A fraction is a node of the deck's mesh; in the coarsest model loads inside members play no part.
+void add_point_load(const deck::Load& load, const deck::PointLoad& action, bool coarse, DeckProblems& problems,
+                    StructureOfDeck& out) {
+  const LoadKind kind = load.constant ? LoadKind::constant : LoadKind::proportional;
+  Index node = 0;
+  std::optional<Index> rotation;
+  if (action.at.fraction) {
+    if (coarse || !out.places.members.contains(action.at.name)) return;
+    const MemberMesh& mesh = out.builder.mesh(out.places.members.at(action.at.name));
+    const auto k = static_cast<std::size_t>(std::lround(*action.at.fraction * double(mesh.nodes.size() - 1)));
+    node = mesh.nodes[k];
+    rotation = mesh.rotations[k];
+  } else {
+    node = out.places.joints.at(action.at.name);
+    rotation = out.builder.shared_rotation(node);
+  }
+  out.builder.add_load(out.builder.freedom(node, Freedom::x), action.force.x, kind);
+  out.builder.add_load(out.builder.freedom(node, Freedom::z), action.force.z, kind);
+  if (action.moment == 0.0) return;
+  if (rotation) {
+    out.builder.add_load(*rotation, action.moment, kind);
+  } else {
+    problems.add(action.at.position, "load.moment", "nothing at \"" + to_text(action.at) + "\" can take a moment",
+                 "put the moment where a beam is joined without a hinge");
+  }
+}
+
+void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, StructureOfDeck& out) {
+  for (const deck::Load& load : deck.loads) {
+    if (const auto* at_point = std::get_if<deck::PointLoad>(&load.action)) {
+      add_point_load(load, *at_point, coarse, problems, out);
+    } else {
+      const auto& on_member = std::get<deck::MemberLoad>(load.action);
+      if (out.places.members.contains(on_member.member))
+        out.builder.add_distributed_load(out.places.members.at(on_member.member), vec(on_member.distributed),
+                                         load.constant ? LoadKind::constant : LoadKind::proportional);
+    }
+  }
+}
+
+}  // namespace
+
+Places::Node Places::find(const deck::Place& place, const std::vector<MemberMesh>& meshes) const {
+  if (!place.fraction) return {.node = joints.at(place.name)};
+  const MemberMesh& mesh = meshes[static_cast<std::size_t>(members.at(place.name))];
+  const auto k = static_cast<std::size_t>(std::lround(*place.fraction * double(mesh.nodes.size() - 1)));
+  return {.node = mesh.nodes[k], .member = &mesh, .position = k};
+}
+
+StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problems,
+                                   std::optional<int> elements_a_member) {
+  StructureOfDeck out;
+  // Points that no member joins stay out: they would be nodes without stiffness.
+  for (const deck::Member& member : deck.members)
+    for (const std::string& name : {member.from, member.to})
+      if (!out.places.joints.contains(name))
+        out.places.joints[name] = out.builder.add_joint(vec(deck::find(deck.points, name)->at));
+  add_members(deck, problems, elements_a_member, out);
+  const auto joined = [&](const std::string& name, const deck::Position& position, const std::string& key) {
+    if (out.places.joints.contains(name)) return true;
+    problems.add(position, key, "no member is joined to point \"" + name + "\"", "join a member there or leave it out");
+    return false;
+  };
+  for (const deck::Support& support : deck.supports)
+    if (joined(support.point, support.position, "support." + support.point)) add_support(support, problems, out);
+  bool places_are_known = true;
+  for (const deck::Load& load : deck.loads)
+    if (const auto* action = std::get_if<deck::PointLoad>(&load.action); action != nullptr && !action->at.fraction)
+      places_are_known = joined(action->at.name, action->at.position, "load.at") && places_are_known;
+  if (places_are_known) add_loads(deck, elements_a_member.has_value(), problems, out);
+  return out;
+}
+
+void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
+  DeckProblems ignored(deck.source);
+  const StructureOfDeck coarse = describe_structure(deck, ignored, 1);
+  const auto structure = coarse.builder.build();
+  const auto mechanism = find_mechanism(*structure);
+  if (!mechanism) return;
+  std::string where = "inside a member";
+  for (const auto& [name, node] : coarse.places.joints)
+    if (node == mechanism->node) where = "at point \"" + name + "\"";
+  const auto direction = [&] {
+    switch (mechanism->freedom) {
+      case Freedom::x:
+        return "in x";
+      case Freedom::z:
+        return "in z";
+      case Freedom::rotation:
+        return "in rotation";
+      case Freedom::thickness:
+      case Freedom::thickness2:
+        return "in thickness";
+    }
+    return "";
+  }();
+  const deck::Position position =
+      deck.supports.empty() ? deck.members.front().position : deck.supports.front().position;
+  problems.add(position, "support",
+               fmt::format("the structure is a mechanism: it can move without strain, most {} {}", where, direction),
+               "add a support, or remove a hinge");
+}
+
+}  // namespace arcwall

@@ -1,0 +1,133 @@
+#include "model/checkpoint/archive.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "model/checkpoint/parts.hpp"
+
+namespace arcwall {
+
+using Json = nlohmann::json;
+
+bool ArchiveModel::owns(const Piece& piece) const {
+  if (!system) return false;
+  const Piece open = system->open_piece();
+  if ((piece.layout() == nullptr) != (open.layout() == nullptr)) return false;
+  const auto* layout = dynamic_cast<const SlidingContactLayout*>(piece.layout().get());
+  const auto is_status = [](std::uint8_t closed) { return closed <= 1; };
+  return piece.size() == open.size() + (layout ? layout->points().size() : 0) &&
+         std::all_of(piece.begin(), piece.end(), is_status);
+}
+
+bool ArchiveModel::owns(const State& state) const {
+  if (state.x.size() == 0 && state.piece == Piece()) return true;
+  return owns(state.piece) && state.x.size() == system->size(state.piece);
+}
+
+namespace archive_detail {
+
+Json from_numbers(const double* values, Index rows, Index columns) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(rows * columns) * sizeof(double));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values, bytes.size());
+  return Json::array({rows, columns, Json::binary(std::move(bytes))});
+}
+
+Matrix to_numbers(const Json& json) {
+  const auto is_size = [](const Json& number) {
+    return number.is_number_unsigned() && number.get<std::uint64_t>() <= (std::uint64_t{1} << 30);
+  };
+  if (!json.is_array() || json.size() != 3 || !is_size(json[0]) || !is_size(json[1]) || !json[2].is_binary())
+    throw BadArchive("no block of numbers where there should be one");
+  const auto rows = json[0].get<std::uint64_t>(), columns = json[1].get<std::uint64_t>();
+  const Json::binary_t& bytes = json[2].get_binary();
+  if (rows * columns * sizeof(double) != bytes.size()) throw BadArchive("a block of numbers of a wrong size");
+  Matrix numbers(static_cast<Index>(rows), static_cast<Index>(columns));
+  if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  return numbers;
+}
+
+}  // namespace archive_detail
+
+ArchiveWriter::ArchiveWriter(const ArchiveModel& model) : shared_(std::make_shared<Shared>()) {
+  shared_->layouts.push_back(model.system->open_piece().layout().get());
+}
+
+std::optional<std::size_t> ArchiveWriter::met(std::vector<const void*>& before, const void* object) {
+  const auto known = std::find(before.begin(), before.end(), object);
+  if (known != before.end()) return static_cast<std::size_t>(known - before.begin());
+  before.push_back(object);
+  return std::nullopt;
+}
+
+Json ArchiveWriter::piece(const Piece& piece) {
+  Json json = Json::array({Json::binary(std::vector<std::uint8_t>(piece.begin(), piece.end()))});
+  if (!piece.layout()) return json;
+  if (const auto place = met(shared_->layouts, piece.layout().get())) {
+    json.push_back(*place);
+    return json;
+  }
+  const auto& layout = dynamic_cast<const SlidingContactLayout&>(*piece.layout());
+  ElementsPerSegment cut = layout.mesh().elements_per_segment();
+  std::vector<SlidingContactLayout::Point> points = layout.points();
+  Vector origin = layout.origin();
+  ArchiveWriter inner(shared_);
+  inner(cut, points, origin);
+  json.push_back(std::move(inner.json_));
+  return json;
+}
+
+Json ArchiveWriter::branch_point(const std::shared_ptr<const BranchPoint>& point) {
+  if (!point) return nullptr;
+  if (const auto place = met(shared_->branch_points, point.get())) return *place;
+  BranchPoint copy = *point;
+  return structure(copy);
+}
+
+ArchiveReader::ArchiveReader(const Json& json, const ArchiveModel& model)
+    : ArchiveReader(json, std::make_shared<Shared>(Shared{.model = model, .layouts = {}, .branch_points = {}})) {
+  if (model.system) shared_->layouts.push_back(model.system->open_piece().layout());
+}
+
+std::int64_t ArchiveReader::whole_number(const Json& json, std::int64_t least, std::int64_t most) const {
+  require(json.is_number_integer());
+  if (json.is_number_unsigned()) require(json.get<std::uint64_t>() <= static_cast<std::uint64_t>(most));
+  const auto number = json.get<std::int64_t>();
+  require(number >= least && number <= most);
+  return number;
+}
+
+Piece ArchiveReader::piece(const Json& json) {
+  require(json.is_array() && (json.size() == 1 || json.size() == 2) && json[0].is_binary());
+  const Json::binary_t& closed = json[0].get_binary();
+  Piece piece(closed.size(), 0, json.size() == 2 ? layout(json[1]) : nullptr);
+  for (std::size_t j = 0; j < closed.size(); ++j) piece[j] = closed[j];
+  return piece;
+}
+
+std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
+  if (!json.is_array())
+    return shared_->layouts[static_cast<std::size_t>(
+        whole_number(json, 0, static_cast<std::int64_t>(shared_->layouts.size()) - 1))];
+  ElementsPerSegment cut;
+  std::vector<SlidingContactLayout::Point> points;
+  Vector origin;
+  ArchiveReader inner(json, shared_);
+  inner(cut, points, origin);
+  require(inner.at_end() && model().sliding != nullptr);
+  shared_->layouts.push_back(model().sliding->layout_of(cut, std::move(points), origin));
+  require(shared_->layouts.back() != nullptr);
+  return shared_->layouts.back();
+}
+
+std::shared_ptr<const BranchPoint> ArchiveReader::branch_point(const Json& json) {
+  if (json.is_null()) return nullptr;
+  auto& known = shared_->branch_points;
+  if (!json.is_array())
+    return known[static_cast<std::size_t>(whole_number(json, 0, static_cast<std::int64_t>(known.size()) - 1))];
+  auto point = std::make_shared<BranchPoint>();
+  structure(json, *point);
+  known.push_back(std::move(point));
+  return known.back();
+}
+
+}  // namespace arcwall

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "continuation/explorer.hpp"
+#include "model/checkpoint/archive.hpp"
+
+/// The parts of the values that are kept, in their order.
+namespace arcwall {
+
+/// The last value of an enumeration.
+constexpr std::int64_t greatest(Stability) { return static_cast<std::int64_t>(Stability::undecided); }
+constexpr std::int64_t greatest(EventKind) { return static_cast<std::int64_t>(EventKind::user); }
+constexpr std::int64_t greatest(BranchType) { return static_cast<std::int64_t>(BranchType::undetermined); }
+constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::unsupported); }
+
+constexpr std::int64_t greatest(SlidingContactLayout::Span) {
+  return static_cast<std::int64_t>(SlidingContactLayout::Span::pressed);
+}
+
+template <typename Archive>
+void parts(Archive& archive, SlidingContactLayout::Point& point) {
+  archive(point.obstacle, point.behind);
+}
+
+template <typename Archive>
+void parts(Archive& archive, State& state) {
+  archive(state.x, state.lambda, state.piece);
+  if constexpr (Archive::reads) archive.require(archive.model().owns(state));
+}
+
+template <typename Archive>
+void parts(Archive& archive, Direction& direction) {
+  archive(direction.dx, direction.dlambda);
+}
+
+template <typename Archive>
+void parts(Archive& archive, NearNull& pairs) {
+  Matrix vectors = *pairs.vectors;
+  archive(pairs.values, vectors);
+  archive.require(pairs.values.size() == vectors.cols());
+  if constexpr (Archive::reads) pairs.vectors = std::move(vectors);
+}
+
+template <typename Archive>
+void parts(Archive& archive, StabilityCount& count) {
+  archive(count.unstable, count.stability);
+}
+
+template <typename Archive>
+void parts(Archive& archive, PathPoint& point) {
+  archive(point.state, point.tangent, point.arc, point.negative_eigenvalues, point.count, point.nearest,
+          point.iterations, point.residual, point.guards, point.guard_rates);
+  archive.require(point.guards.size() == point.guard_rates.size() || point.guard_rates.size() == 0);
+  archive.require(point.tangent.dx.size() == point.state.x.size() || point.tangent.dx.size() == 0);
+}
+
+template <typename Archive>
+void parts(Archive& archive, BranchPoint::Way& way) {
+  archive(way.piece, way.direction);
+  if constexpr (Archive::reads)
+    archive.require(archive.model().owns(State{.x = way.direction.dx, .lambda = 0.0, .piece = way.piece}));
+}
+
+template <typename Archive>
+void parts(Archive& archive, BranchPoint& point) {
+  archive(point.type, point.state, point.along, point.mode, point.modes, point.other, point.ways, point.multiplicity,
+          point.change, point.localised, point.discretisation);
+  const auto fits = [&](const Direction& direction) {
+    return direction.dx.size() == 0 || direction.dx.size() == point.state.x.size();
+  };
+  archive.require(fits(point.along) && fits(point.mode) && fits(point.other));
+}
+
+template <typename Archive>
+void parts(Archive& archive, Event& event) {
+  archive(event.kind, event.label, event.state, event.arc, event.residual, event.localised, event.suspected,
+          event.unstable_before, event.unstable_after, event.guards, event.branching);
+}
+
+template <typename Archive>
+void parts(Archive& archive, Continuum& family) {
+  archive(family.energy, family.length);
+}
+
+template <typename Archive>
+void parts(Archive& archive, BranchEnd& end) {
+  archive(end.reason, end.detail, end.partner, end.continuum);
+}
+
+template <typename Archive>
+void parts(Archive& archive, Arc& arc) {
+  archive(arc.to, arc.events);
+}
+
+template <typename Archive>
+void parts(Archive& archive, KnownPoint& known) {
+  archive(known.state, known.branch);
+}
+
+template <typename Archive>
+void parts(Archive& archive, BranchStart& start) {
+  archive(start.state, start.forward, start.mode, start.distance, start.unstable, start.lambda_scale, start.known);
+  archive.require(!start.forward || start.forward->dx.size() == start.state.x.size());
+  archive.require(start.mode.dx.size() == 0 || start.mode.dx.size() == start.state.x.size());
+}
+
+template <typename Archive>
+void parts(Archive& archive, BranchRecord& record) {
+  archive(record.id, record.parent, record.origin, record.depth, record.sign, record.mirrored, record.end);
+}
+
+}  // namespace arcwall

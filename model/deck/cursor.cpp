@@ -1,0 +1,309 @@
+#include "model/deck/cursor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include "core/text.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+constexpr std::size_t longest_name_compared = 100;  // the distance of two words costs the product of their lengths
+
+// Words of other programs and books for those of a deck.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 22> also_called{{
+    {"euler", "classic"},
+    {"bernoulli", "classic"},
+    {"euler-bernoulli", "classic"},
+    {"bernoulli-euler", "classic"},
+    {"kirchhoff", "elastica"},
+    {"timoshenko", "exact"},
+    {"reissner", "exact"},
+    {"simo-reissner", "exact"},
+    {"bar", "truss"},
+    {"rod", "truss"},
+    {"arc-length", "spherical"},
+    {"arclength", "spherical"},
+    {"crisfield", "spherical"},
+    {"rot", "rotation"},
+    {"theta", "rotation"},
+    {"phi", "rotation"},
+    {"normal-force", "axial-force"},
+    {"bending-moment", "moment"},
+    {"upper", "above"},
+    {"top", "above"},
+    {"lower", "below"},
+    {"bottom", "below"},
+}};
+
+// The candidate that a word means; empty if it is nobody's word for one of them.
+std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
+  for (const auto& [other, ours] : also_called)
+    if (word == other && std::find(candidates.begin(), candidates.end(), ours) != candidates.end())
+      return std::string(ours);
+  return {};
+}
+
+std::string range_words(const IntegerRange& range) {
+  const std::string from = "an integer of at least " + std::to_string(range.low);
+  return range.high == std::numeric_limits<int>::max() ? from : from + " and at most " + std::to_string(range.high);
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(words.size(), most); ++i) {
+    if (i > 0) text += ", ";
+    text += words[i];
+  }
+  return words.size() > most ? text + ", …" : text;
+}
+
+void Findings::add(const Position& position, std::string key, std::string message, std::string cure) {
+  diagnostics_.push_back(diagnostic_at(source_, position, std::move(key), std::move(message), std::move(cure)));
+}
+
+void Findings::add_first(const Position& position, std::string key, std::string message, std::string cure) {
+  first_.push_back(diagnostic_at(source_, position, std::move(key), std::move(message), std::move(cure)));
+}
+
+void Findings::throw_if_any() const {
+  if (first_.empty() && diagnostics_.empty()) return;
+  const auto stands_before = [](const Diagnostic& a, const Diagnostic& b) {
+    return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
+  };
+  std::vector<Diagnostic> in_order = first_, others = diagnostics_;
+  std::stable_sort(in_order.begin(), in_order.end(), stands_before);
+  std::stable_sort(others.begin(), others.end(), stands_before);
+  in_order.insert(in_order.end(), others.begin(), others.end());
+  throw InputError(std::move(in_order));
+}
+
+Cursor::Cursor(const Value& table, std::string path, Findings& findings)
+    : value_(table), path_(std::move(path)), findings_(findings), is_known_(table.items.size(), false) {}
+
+const Value* Cursor::find(std::string_view key, Presence presence) {
+  known_.emplace_back(key);
+  const Value* found = lookup(key);
+  if (found == nullptr && presence == Presence::required) {
+    findings_.add(position(), path_of(key), "is missing", "add " + std::string(key));
+  }
+  return found;
+}
+
+const Value* Cursor::find_of_kind(std::string_view key, Presence presence, Value::Kind kind,
+                                  const std::string& wanted) {
+  const Value* found = find(key, presence);
+  return found != nullptr && accept(*found, kind, path_of(key), wanted) ? found : nullptr;
+}
+
+bool Cursor::accept(const Value& value, Value::Kind kind, const std::string& path, const std::string& wanted) {
+  if (value.kind != kind) findings_.add(value.position, path, shown(value) + " is of the wrong type", "give " + wanted);
+  return value.kind == kind;
+}
+
+bool Cursor::accept_number(const Value& value, const std::string& path, const Requirement& requirement) {
+  const std::string cure = std::string("give ") + requirement.words;
+  if (value.kind != Value::Kind::integer && value.kind != Value::Kind::number) {
+    findings_.add(value.position, path, shown(value) + " is of the wrong type", cure);
+  } else if (!std::isfinite(value.number)) {
+    findings_.add(value.position, path, shown(value) + " is not a finite number", cure);
+  } else if (!requirement.holds(value.number)) {
+    findings_.add(value.position, path, shown(value) + " is out of range", cure);
+  } else {
+    return true;
+  }
+  return false;
+}
+
+bool Cursor::number(std::string_view key, Presence presence, const Requirement& requirement, double& target) {
+  const Value* found = find(key, presence);
+  if (found == nullptr || !accept_number(*found, path_of(key), requirement)) return false;
+  target = found->number;
+  return true;
+}
+
+bool Cursor::number(std::string_view key, Presence presence, const Requirement& requirement,
+                    std::optional<double>& target) {
+  double value = 0.0;
+  const bool right = number(key, presence, requirement, value);
+  if (right) target = value;
+  return right;
+}
+
+bool Cursor::integer(std::string_view key, Presence presence, const IntegerRange& range, int& target) {
+  const Value* found = find_of_kind(key, presence, Value::Kind::integer, range_words(range));
+  if (found == nullptr) return false;
+  const bool right = found->integer >= range.low && found->integer <= range.high;
+  if (right) {
+    target = static_cast<int>(found->integer);
+  } else {
+    findings_.add(found->position, path_of(key), shown(*found) + " is out of range", "give " + range_words(range));
+  }
+  return right;
+}
+
+bool Cursor::integer(std::string_view key, Presence presence, const IntegerRange& range, std::optional<int>& target) {
+  int value = 0;
+  const bool right = integer(key, presence, range, value);
+  if (right) target = value;
+  return right;
+}
+
+bool Cursor::flag(std::string_view key, Presence presence, bool& target) {
+  const Value* found = find_of_kind(key, presence, Value::Kind::boolean, "true or false");
+  if (found != nullptr) target = found->boolean;
+  return found != nullptr;
+}
+
+bool Cursor::text(std::string_view key, Presence presence, std::string& target) {
+  const Value* found = find_of_kind(key, presence, Value::Kind::string, "text in quotes");
+  if (found != nullptr) target = found->string;
+  return found != nullptr;
+}
+
+bool Cursor::reference(std::string_view key, Presence presence, Reference& target) {
+  const Value* found = find_of_kind(key, presence, Value::Kind::string, "text in quotes");
+  if (found != nullptr) target = {found->string, found->position};
+  return found != nullptr;
+}
+
+bool Cursor::vector(std::string_view key, Presence presence, Vector& target) {
+  const std::string wanted = "two numbers [x, z]";
+  const Value* found = find_of_kind(key, presence, Value::Kind::array, wanted);
+  if (found == nullptr) return false;
+  if (found->items.size() != 2) {
+    findings_.add(found->position, path_of(key), shown(*found) + " has the wrong length", "give " + wanted);
+    return false;
+  }
+  const bool x = accept_number(found->items[0], path_of(key) + ".0", any_number);
+  const bool z = accept_number(found->items[1], path_of(key) + ".1", any_number);
+  if (x && z) target = {found->items[0].number, found->items[1].number};
+  return x && z;
+}
+
+bool Cursor::numbers(std::string_view key, Presence presence, std::vector<double>& target) {
+  const Value* found = find_of_kind(key, presence, Value::Kind::array, "an array of numbers");
+  if (found == nullptr) return false;
+  bool right = true;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < found->items.size(); ++i) {
+    right = accept_number(found->items[i], path_of(key) + "." + std::to_string(i), any_number) && right;
+    values.push_back(found->items[i].number);
+  }
+  if (values.empty()) {
+    findings_.add(found->position, path_of(key), "the array is empty", "give at least one number");
+    return false;
+  }
+  if (right) target = std::move(values);
+  return right;
+}
+
+bool Cursor::references(std::string_view key, Presence presence, std::vector<Reference>& target) {
+  const Value* found = find_of_kind(key, presence, Value::Kind::array, "an array of texts in quotes");
+  if (found == nullptr) return false;
+  if (found->items.empty()) {
+    findings_.add(found->position, path_of(key), "the array is empty", "name at least one");
+    return false;
+  }
+  bool right = true;
+  for (std::size_t i = 0; i < found->items.size(); ++i) {
+    const Value& item = found->items[i];
+    const std::string path = path_of(key) + "." + std::to_string(i);
+    if (!accept(item, Value::Kind::string, path, "text in quotes")) {
+      right = false;
+      continue;
+    }
+    const bool again = std::any_of(target.begin(), target.end(),
+                                   [&item](const Reference& earlier) { return earlier.text == item.string; });
+    if (again) {
+      findings_.add(item.position, path, shown(item) + " is named twice", "name it once");
+      right = false;
+    } else {
+      target.push_back({item.string, item.position});
+    }
+  }
+  return right;
+}
+
+std::optional<Cursor> Cursor::table(std::string_view key, Presence presence) {
+  const Value* found = find_of_kind(key, presence, Value::Kind::table, "a table");
+  if (found == nullptr) return std::nullopt;
+  return Cursor(*found, path_of(key), findings_);
+}
+
+std::vector<Cursor> Cursor::tables(std::string_view key) {
+  const Value* found =
+      find_of_kind(key, Presence::optional, Value::Kind::array, "an array of tables [[" + path_of(key) + "]]");
+  std::vector<Cursor> result;
+  if (found == nullptr) return result;
+  for (std::size_t i = 0; i < found->items.size(); ++i) {
+    const std::string path = path_of(key) + "." + std::to_string(i);
+    if (accept(found->items[i], Value::Kind::table, path, "a table"))
+      result.emplace_back(found->items[i], path, findings_);
+  }
+  return result;
+}
+
+std::vector<Cursor> Cursor::named_tables(std::string_view key) {
+  std::vector<Cursor> result;
+  auto group = table(key, Presence::optional);
+  if (!group) return result;
+  for (const Value& item : group->value().items) {
+    const std::string path = group->path_of(item.key);
+    if (!is_name(item.key)) {
+      findings_.add(item.key_position, path, "is no name", "use letters, digits, _ and - only");
+    }
+    if (accept(item, Value::Kind::table, path, "a table [" + path_of(key) + ".NAME]")) {
+      result.emplace_back(item, path, findings_);
+    }
+  }
+  return result;
+}
+
+const Value* Cursor::lookup(std::string_view key) {
+  const Value* found =
+      next_ < value_.items.size() && value_.items[next_].key == key ? &value_.items[next_] : deck::find(value_, key);
+  if (found == nullptr) return nullptr;
+  const auto index = static_cast<std::size_t>(found - value_.items.data());
+  is_known_[index] = true;
+  next_ = index + 1;
+  return found;
+}
+
+void Cursor::finish() {
+  std::vector<std::string> known;
+  for (const std::string& key : known_) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
+  }
+  for (std::size_t i = 0; i < value_.items.size(); ++i) {
+    const Value& item = value_.items[i];
+    if (is_known_[i]) continue;
+    report_unknown({item.key, item.key_position}, path_of(item.key), "is not a key of this table", known);
+  }
+}
+
+void Cursor::report(std::string_view key, std::string message, std::string cure) {
+  const Value* found = deck::find(value_, key);
+  findings_.add(found != nullptr ? found->position : position(), path_of(key), std::move(message), std::move(cure));
+}
+
+void Cursor::report_unknown(const Reference& found, const std::string& path, const std::string& message,
+                            const std::vector<std::string>& candidates) {
+  std::string near = meant_by(found.text, candidates);
+  if (near.empty() && found.text.size() <= longest_name_compared) near = nearest(found.text, candidates);
+  std::string cure = candidates.empty() ? "there is none" : "known are " + listed(candidates);
+  if (!near.empty()) cure = "did you mean " + near + "?";
+  findings_.add(found.position, path, in_quotes(found.text, longest_name_compared) + " " + message, std::move(cure));
+}
+
+Position Cursor::position() const { return value_.key.empty() ? value_.position : value_.key_position; }
+
+std::string Cursor::path_of(std::string_view key) const { return (path_.empty() ? "" : path_ + ".") + key_text(key); }
+
+}  // namespace arcwall::deck

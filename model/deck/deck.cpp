@@ -1,0 +1,86 @@
+#include "model/deck/deck.hpp"
+
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "core/text.hpp"
+#include "model/deck/value.hpp"
+#include "model/deck/words.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+SectionProperties properties_of(const Rectangle& shape) {
+  const double h = shape.height;
+  return {.A = shape.width * h, .I = shape.width * h * h * h / 12.0, .height = h};
+}
+
+SectionProperties properties_of(const Circle& shape) {
+  const double r = shape.radius;
+  return {.A = pi * r * r, .I = pi * r * r * r * r / 4.0, .height = 2.0 * r};
+}
+
+// With R and r the outer and the inner radius, t = R − r: R² − r² = t (R + r), which does not cancel for thin walls.
+SectionProperties properties_of(const Tube& shape) {
+  const double R = shape.radius;
+  const double r = R - shape.thickness;
+  const double A = pi * shape.thickness * (R + r);
+  return {.A = A, .I = A * (R * R + r * r) / 4.0, .height = 2.0 * R};
+}
+
+SectionProperties properties_of(const General& shape) {
+  return {.A = shape.A, .I = shape.I, .height = shape.height, .shear_area = shape.shear_area};
+}
+
+}  // namespace
+
+SectionProperties properties(const Section& section) {
+  return std::visit([](const auto& shape) { return properties_of(shape); }, section.shape);
+}
+
+std::string to_text(const Place& place) {
+  return place.fraction ? place.name + ":" + round_trip(*place.fraction) : place.name;
+}
+
+// Sliding where contact forces are point forces. Springs and increments act at nodes.
+PointsOfContact points_of_contact(const Deck& deck) {
+  if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
+  if (deck.contact.method != ContactMethod::multiplier)
+    return {.points = ContactPoints::nodes,
+            .why = "method " + text_of(contact_method_words, deck.contact.method) + " puts springs at nodes"};
+  if (deck.path.method == PathMethod::incremental)
+    return {.points = ContactPoints::nodes, .why = "path.method incremental has contact at nodes"};
+  for (const Member& member : deck.members)
+    if (member.theory != Theory::classic && member.theory != Theory::elastica)
+      return {.points = ContactPoints::nodes,
+              .why = "member " + member.name + " is of theory " + text_of(theory_words, member.theory)};
+  return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};
+}
+
+std::string origin_of(const std::string& assignment) {
+  constexpr std::size_t most_shown = 200;
+  std::string text = assignment.size() > most_shown ? assignment.substr(0, most_shown) + "…" : assignment;
+  return "--set " + on_one_line(text);
+}
+
+Diagnostic diagnostic_at(const Source& source, const Position& position, std::string key, std::string message,
+                         std::string cure) {
+  Diagnostic diagnostic{.file = source.file,
+                        .line = position.line,
+                        .column = position.column,
+                        .key = std::move(key),
+                        .message = std::move(message),
+                        .cure = std::move(cure)};
+  if (position.assignment > 0) {
+    diagnostic.file = origin_of(source.assignments.at(static_cast<std::size_t>(position.assignment) - 1));
+    diagnostic.line = 0;
+    diagnostic.column = 0;
+  }
+  return diagnostic;
+}
+
+}  // namespace arcwall::deck

@@ -1,0 +1,94 @@
+#include "model/member_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+constexpr double force_difference = 1e-6;  // of a rotation [rad], and of a displacement over the structure's size
+
+// Moves of all unknowns that are alike in the path metric; those without weight stay.
+Vector moves_alike(const Vector& weights) {
+  const double nodes = static_cast<double>(weights.size()) / 3.0;
+  Vector steps = Vector::Zero(weights.size());
+  for (Index i = 0; i < weights.size(); ++i)
+    if (weights[i] > 0.0) steps[i] = force_difference / std::sqrt(nodes * weights[i]);
+  return steps;
+}
+
+}  // namespace
+
+double MemberForce::value(const State& state) const {
+  const ShapePoint at = place(state);
+  return what_ == What::axial_force ? at.axial_force : at.moment;
+}
+
+Row MemberForce::gradient(const State& state) const {
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  State moved = state;
+  const auto slope = [&](double& unknown, double step) {
+    const double here = unknown;
+    unknown = here + step;
+    const double above = value(moved);
+    unknown = here - step;
+    const double below = value(moved);
+    unknown = here;
+    return (above - below) / (2.0 * step);
+  };
+  const Vector step = steps(state);
+  for (Index i = 0; i < step.size(); ++i)
+    if (step[i] > 0.0) row.dx[i] = slope(moved.x[i], step[i]);
+  row.dlambda = slope(moved.lambda, std::max(1.0, std::abs(state.lambda)) * force_difference);
+  return row;
+}
+
+ShapePoint TiedMemberForce::place(const State& state) const {
+  const int elements = member_.elements();
+  const int before = std::clamp(static_cast<int>(std::lround(fraction_ * elements)) - 1, 0, elements - 1);
+  std::vector<MemberStretch> stretches;
+  add_stretches(member_, before, state, stretches);
+  return (fraction_ > stretches.front().from ? stretches.back() : stretches.front()).at(fraction_);
+}
+
+Vector TiedMemberForce::steps(const State& state) const {
+  Vector steps = Vector::Zero(state.x.size());
+  const Vector weights = member_.structure.weights({});
+  steps.head(weights.size()) = moves_alike(weights);
+  return steps;
+}
+
+SlidingMemberForce::SlidingMemberForce(const SlidingStructure& structure, const std::string& member, double fraction,
+                                       What what)
+    : MemberForce(what), structure_(structure) {
+  constexpr double same = 1e-12;
+  for (const SlidingStructure::MemberPart& part : structure.parts_of(member)) {
+    const double t = (fraction - part.first_fraction) / (part.last_fraction - part.first_fraction);
+    at_ = {.strand = part.strand, .s = part.from + std::clamp(t, 0.0, 1.0) * (part.to - part.from)};
+    begin_ = part.from;
+    if (fraction <= part.last_fraction + same) break;
+  }
+}
+
+// In the element that ends there; at the member's beginning, in its first.
+ShapePoint SlidingMemberForce::place(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const Vector s = state.x.tail(mesh.breakpoints());
+  const double same = 1e-12 * structure_.length(at_.strand);
+  Index position = 0;
+  const auto end = [&] { return mesh.coordinate(at_.strand, position + 1, s); };
+  while (position + 2 < mesh.nodes(at_.strand) && (end() < at_.s - same || end() <= begin_ + same)) ++position;
+  return sliding_stretch(structure_, at_.strand, position, state).at(at_.s);
+}
+
+Vector SlidingMemberForce::steps(const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  Vector steps = Vector::Zero(state.x.size());
+  steps.head(mesh.unknowns()) = moves_alike(mesh.weights());
+  for (Index k = 0; k < mesh.breakpoints(); ++k)
+    steps[state.x.size() - mesh.breakpoints() + k] = force_difference * structure_.length(mesh.breakpoint(k).first);
+  return steps;
+}
+
+}  // namespace arcwall

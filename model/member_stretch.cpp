@@ -1,0 +1,99 @@
+#include "model/member_stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Forces differ, beyond what equilibrium leaves open.
+bool jumps(const ShapePoint& before, const ShapePoint& behind, double force, double moment) {
+  constexpr double relative = 1e-6;
+  return std::abs(before.axial_force - behind.axial_force) > relative * force ||
+         std::abs(before.moment - behind.moment) > relative * moment;
+}
+
+}  // namespace
+
+double angle_near(const Vec2& v, double other) {
+  return other + std::remainder(std::atan2(v.y(), v.x()) - other, 2.0 * pi);
+}
+
+// The derivatives at the ends are as long as an inextensible axis with an angle that is quadratic along it, to the
+// second order in its slopes against the chord.
+AxisCurve::AxisCurve(const Vec2& first, const Vec2& second, double angle1, double angle2)
+    : first_(first), chord_(second - first), angle1_(angle1) {
+  const double chord = angle_near(chord_, angle1);
+  const double t1 = angle1 - chord, t2 = std::remainder(angle2 - chord, 2.0 * pi);
+  const double bend = t2 - t1, skew = 3.0 * (t1 + t2);
+  const double length = chord_.norm() * (1.0 + bend * bend / 24.0 + skew * skew / 360.0);
+  derivative1_ = length * direction(angle1);
+  derivative2_ = length * direction(angle2);
+}
+
+Vec2 AxisCurve::position(double xi) const {
+  const double x2 = xi * xi, x3 = x2 * xi;
+  return first_ + (3.0 * x2 - 2.0 * x3) * chord_ + (xi - 2.0 * x2 + x3) * derivative1_ + (x3 - x2) * derivative2_;
+}
+
+Vec2 AxisCurve::integral_to(double xi) const {
+  const double x2 = xi * xi, x3 = x2 * xi, x4 = x2 * x2;
+  return xi * first_ + (x3 - 0.5 * x4) * chord_ + (0.5 * x2 - 2.0 / 3.0 * x3 + 0.25 * x4) * derivative1_ +
+         (0.25 * x4 - x3 / 3.0) * derivative2_;
+}
+
+double AxisCurve::angle(double xi) const {
+  const double x2 = xi * xi;
+  return angle_near(
+      6.0 * (xi - x2) * chord_ + (1.0 - 4.0 * xi + 3.0 * x2) * derivative1_ + (3.0 * x2 - 2.0 * xi) * derivative2_,
+      angle1_);
+}
+
+// With the force R = R1 + ξ (R2 − R1) the balance dM/dξ = −r′ × R gives
+//
+//   M(ξ) = M1 − (r − r1) × R1 − (ξ r − ∫ r dξ) × (R2 − R1)                                               (1)
+double MemberStretch::balanced_moment(double xi) const {
+  const Vec2 r = now.position(xi);
+  return first.moment - cross(r - now.first(), first.force) -
+         cross(xi * r - now.integral_to(xi), second.force - first.force);
+}
+
+// What the interpolation leaves open at the second end is shared out evenly.
+ShapePoint MemberStretch::at(double fraction) const {
+  const double xi = std::clamp((fraction - from) / (to - from), 0.0, 1.0);
+  const double angle = now.angle(xi) - shear;
+  ShapePoint point{.fraction = fraction, .position = now.position(xi), .angle = angle};
+  point.displacement = point.position - rest.position(xi);
+  point.rotation = angle - (rest.angle(xi) - rest_shear);
+  point.axial_force = ((1.0 - xi) * first.force + xi * second.force).dot(direction(angle));
+  point.moment = balanced_moment(xi) + xi * (second.moment - balanced_moment(1.0));
+  return point;
+}
+
+std::vector<ShapePoint> sampled(std::span<const MemberStretch> stretches, std::span<const double> fractions) {
+  constexpr double same = 1e-12;
+  double force = 0.0, moment = 0.0;
+  for (const MemberStretch& stretch : stretches) {
+    force = std::max({force, stretch.first.force.norm(), stretch.second.force.norm()});
+    moment = std::max({moment, std::abs(stretch.first.moment), std::abs(stretch.second.moment)});
+  }
+  std::vector<ShapePoint> points;
+  points.reserve(fractions.size());
+  auto here = stretches.begin();
+  for (const double fraction : fractions) {
+    while (here + 1 != stretches.end() && here->to < fraction - same) ++here;
+    points.push_back(here->at(fraction));
+    const auto next = here + 1;
+    if (next == stretches.end() || std::abs(here->to - fraction) > same) continue;
+    if (const ShapePoint behind = next->at(fraction); jumps(points.back(), behind, force, moment))
+      points.push_back(behind);
+  }
+  return points;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,216 @@
+#include "model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/build_contact.hpp"
+#include "model/build_path.hpp"
+#include "model/build_structure.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Forces below the tolerance times this scale count as zero: small against the loads of a step, above the round-off of
+// the mesh.
+ContactScales contact_scales(const Structure& structure, double first_step) {
+  constexpr double steps = 10.0;
+  const double tolerance = TraceOptions{}.guard_tolerance;
+  return {.length = structure.length_scale(),
+          .force = std::max({steps * structure.force_scale() * std::abs(first_step),
+                             structure.force_roundoff() / tolerance, 1e-300})};
+}
+
+bool moves_something(const Structure& structure) {
+  Linearization now;
+  structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
+  return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
+}
+
+BranchPolicy policy_of(deck::Branches branches) {
+  switch (branches) {
+    case deck::Branches::primary:
+      return BranchPolicy::primary;
+    case deck::Branches::follow:
+      return BranchPolicy::follow;
+    case deck::Branches::all:
+      return BranchPolicy::all;
+  }
+  return BranchPolicy::follow;
+}
+
+ContactLaw contact_law(const deck::Contact& contact) {
+  switch (contact.method) {
+    case deck::ContactMethod::multiplier:
+      return {};
+    case deck::ContactMethod::penalty:
+      return {.method = ContactLaw::Method::penalty, .stiffness = contact.penalty.value()};
+    case deck::ContactMethod::augmented:
+      return {.method = ContactLaw::Method::augmented, .stiffness = contact.penalty.value()};
+  }
+  return {};
+}
+
+bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
+
+// Whether contact points slide, which springs, increments and members of other theories do not allow.
+bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblems& problems) {
+  if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
+  const bool rigid = deck.contact.method == deck::ContactMethod::multiplier;
+  if (rigid && !increments_of(deck) && builder.can_slide()) return true;
+  problems.add({}, "contact.points",
+               "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
+               "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
+               "use \"nodes\"");
+  return false;
+}
+
+// Whether increments can be taken where the deck wants them.
+bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
+  if (!increments_of(deck)) return false;
+  const bool possible = structure.can_be_updated();
+  if (!possible)
+    problems.add(deck.path.position, "path.method",
+                 "method \"incremental\" needs members of theory \"classic\" or \"essenburg\" throughout",
+                 "use \"spherical\"");
+  for (const deck::Load& load : deck.loads)
+    if (load.constant)
+      problems.add(load.position, "load", "method \"incremental\" has no constant loads",
+                   "multiply all loads by lambda, or use method \"spherical\"");
+  return possible;
+}
+
+}  // namespace
+
+Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
+  DeckProblems problems(deck_.source);
+  const StructureOfDeck described = describe_structure(deck_, problems);
+  problems.raise();
+  check_mechanism(deck_, problems);
+  problems.raise();
+
+  structure_ = described.builder.build();
+  if (!moves_something(*structure_))
+    problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
+                 "the loads that λ multiplies act on supports only: nothing moves", "load a free direction");
+  if (takes_increments(deck_, *structure_, problems))
+    incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
+  auto candidates = contact_candidates(deck_, *structure_, problems);
+  const bool sliding = slides(deck_, described.builder, problems);
+  if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
+  const Measured read_off{.deck = deck_,
+                          .structure = *structure_,
+                          .sliding = sliding_structure_.get(),
+                          .incremental = incremental_structure_.get(),
+                          .places = described.places};
+  monitors_ = monitor_columns(deck_, read_off, problems);
+  options_ = trace_options(deck_, read_off, monitors_, problems);
+  problems.raise();
+
+  const auto constant = [](const deck::Load& load) { return load.constant; };
+  const bool ramp = std::any_of(deck_.loads.begin(), deck_.loads.end(), constant);
+  if (ramp) ramp_structure_ = described.builder.build(true);
+  if (!deck_.walls.empty()) {
+    const ContactScales scales = contact_scales(*structure_, deck_.path.step);
+    const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
+    const ContactLaw law = contact_law(deck_.contact);
+    contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
+    if (ramp)
+      ramp_contact_ = std::make_unique<MultiplierContact>(
+          *ramp_structure_, contact_candidates(deck_, *ramp_structure_, problems), scales, law);
+    if (sliding) make_sliding(described.builder, ramp, scales);
+  }
+  for (const std::string& name : deck_.path.watch)
+    watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
+  explore_.policy = policy_of(deck_.path.branches);
+  explore_.depth = deck_.path.depth;
+  for (const MonitorColumn& monitor : monitors_) explore_.preference.push_back(monitor.raw);
+  const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
+  options_.node_contacts =
+      contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
+}
+
+std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilder& builder, bool ramp) const {
+  return builder.build_sliding(ramp,
+                               [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
+}
+
+void Model::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
+  const auto on = [&](const SlidingStructure& structure) {
+    return std::make_unique<SlidingContact>(structure, obstacles(deck_, structure), scales);
+  };
+  sliding_ = on(*sliding_structure_);
+  if (!ramp) return;
+  sliding_ramp_structure_ = sliding_structure(builder, true);
+  sliding_ramp_ = on(*sliding_ramp_structure_);
+}
+
+const System& Model::system() const {
+  if (sliding_) return *sliding_;
+  if (contact_) return *contact_;
+  if (incremental_structure_) return *incremental_structure_;
+  return *structure_;
+}
+
+LoadIncrements Model::increments(State start) {
+  const double scale = Tracer(system(), start, options_).lambda_scale();
+  const Index n = structure_->size({});
+  return {system(), std::move(start), scale, [this, n](const State& state) {
+            incremental_structure_->advance({.x = state.x.head(n), .lambda = state.lambda});
+          }};
+}
+
+std::optional<State> Model::start(std::string& reason) const {
+  State state{.x = Vector::Zero(structure_->size({})),
+              .lambda = 0.0,
+              .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->contact_count()) : 0, 0)};
+  if (sliding_) state = sliding_->rest();
+  if (!ramp_structure_) return state;
+  // The constant loads grow from nothing along a path of their own, contacts included.
+  TraceOptions options;
+  options.step.first = 0.1;
+  options.max_points = 2000;
+  options.events = EventSearch::none;
+  options.target_values.push_back(
+      {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
+  const System* ramp = ramp_structure_.get();
+  if (ramp_contact_) ramp = ramp_contact_.get();
+  if (sliding_ramp_) {
+    ramp = sliding_ramp_.get();
+    state = sliding_ramp_->rest();
+  }
+  Tracer tracer(*ramp, state, options);
+  while (const auto arc = tracer.next()) state = arc->to.state;
+  if (!tracer.end() || tracer.end()->reason != EndReason::stop) {
+    reason = "the constant loads find no equilibrium: their growth ends at " + std::to_string(state.lambda) +
+             " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
+    return std::nullopt;
+  }
+  state.lambda = 0.0;
+  return sliding_ ? sliding_->adopted(state) : state;
+}
+
+Model::ContactPlace Model::contact_place(const State& state, Index j) const {
+  if (sliding_) return {.label = sliding_->label(state, j), .x = sliding_->place(state, j).x()};
+  const Candidate& candidate = contact_->candidate(j);
+  return {.label = candidate.label(), .x = candidate.point().position(state).x()};
+}
+
+std::vector<Model::ContactForce> Model::contact_forces(const State& state) const {
+  std::vector<ContactForce> forces;
+  if (state.piece.closed_count() == 0) return forces;
+  const Vector at_nodes = sliding_ ? Vector() : contact_->closed_forces(state);
+  for (std::size_t i = 0; i < state.piece.size(); ++i) {
+    if (!state.piece[i]) continue;
+    const auto j = static_cast<Index>(i), k = static_cast<Index>(forces.size());
+    ContactPlace place = contact_place(state, j);
+    const double force = sliding_ ? sliding_->force(state, j) : at_nodes[k];
+    const auto pressure = pressure_of(place.label, force);
+    forces.push_back({.place = std::move(place), .force = force, .pressure = pressure});
+  }
+  return forces;
+}
+
+Index Model::closed_contacts(const State& state) const { return state.piece.closed_count(); }
+
+}  // namespace arcwall

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/multiplier_contact.hpp"
+#include "contact/sliding_contact.hpp"
+#include "continuation/explorer.hpp"
+#include "continuation/load_increments.hpp"
+#include "elements/incremental_structure.hpp"
+#include "elements/sliding_structure.hpp"
+#include "model/deck/deck.hpp"
+
+namespace arcwall {
+
+/// A column of path.csv.
+struct MonitorColumn {
+  std::string name{};
+  std::string unit{};                            ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
+  std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign
+  std::shared_ptr<const Observable> raw{};       ///< without
+};
+
+/// A deck made ready to be traced: the model, what is read off it, and how it is followed.
+class Model {
+ public:
+  /// Builds the model. Throws InputError with all diagnostics: what this version does not support, a mechanism, a point
+  /// that is inside a wall, a load that moves nothing.
+  explicit Model(deck::Deck deck);
+
+  const deck::Deck& deck() const { return deck_; }
+  const Structure& structure() const { return *structure_; }
+
+  /// The nodes of the deck's mesh among the walls; null if the deck has no walls.
+  const MultiplierContact* contact() const { return contact_.get(); }
+
+  /// Contact points that slide; null where contact is tied to nodes.
+  const SlidingContact* sliding() const { return sliding_.get(); }
+
+  /// The structure of those; null likewise.
+  const SlidingStructure* sliding_structure() const { return sliding_structure_.get(); }
+
+  /// What is traced: the structure with its contacts.
+  const System& system() const;
+
+  /// Whether load increments are taken instead of steps along the equations' path.
+  bool in_increments() const { return incremental_structure_ != nullptr; }
+
+  /// The increments from the start, whose reference configuration is the model's: for one run alone.
+  LoadIncrements increments(State start);
+
+  /// Where contact j of a state's piece is.
+  struct ContactPlace {
+    ContactLabel label{};
+    double x = 0.0;  ///< present [length]
+  };
+  ContactPlace contact_place(const State& state, Index j) const;
+
+  /// The closed contacts of a state.
+  struct ContactForce {
+    ContactPlace place{};
+    double force = 0.0;                ///< of the wall on the structure, along its normal [force]
+    std::optional<double> pressure{};  ///< force over the length of axis it stands for; not of a point force
+  };
+  std::vector<ContactForce> contact_forces(const State& state) const;
+
+  const std::vector<MonitorColumn>& monitors() const { return monitors_; }
+  const TraceOptions& options() const { return options_; }
+  const std::vector<Watch>& watched() const { return watched_; }
+  const ExploreOptions& explore() const { return explore_; }
+
+  /// What the user should know though it is no error: one sentence each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// The state at λ = 0 under the constant loads, found by tracing their growth from nothing. `reason` says why there
+  /// is none.
+  std::optional<State> start(std::string& reason) const;
+
+  /// Number of closed contact points.
+  Index closed_contacts(const State& state) const;
+
+ private:
+  std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
+  void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
+
+  deck::Deck deck_;
+  std::unique_ptr<Structure> structure_, ramp_structure_;
+  std::unique_ptr<IncrementalStructure> incremental_structure_;
+  std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
+  std::unique_ptr<SlidingStructure> sliding_structure_, sliding_ramp_structure_;
+  std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;
+  std::vector<MonitorColumn> monitors_;
+  TraceOptions options_;
+  std::vector<Watch> watched_;
+  ExploreOptions explore_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "model/checkpoint/parts.hpp"
+#include "model/record.hpp"
+
+/// The parts of a record that are kept, in their order.
+namespace arcwall {
+
+template <typename Archive>
+void parts(Archive& archive, ContactLabel& label) {
+  archive(label.wall, label.member, label.fraction, label.tributary);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordForce& force) {
+  archive(force.label, force.x, force.force, force.pressure);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordPoint& point) {
+  archive(point.branch, point.step, point.arc, point.lambda, point.monitors, point.count, point.contacts, point.energy,
+          point.iterations, point.residual, point.event, point.forces, point.state);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordContact& contact) {
+  archive(contact.label, contact.x);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordEvent& event) {
+  archive(event.id, event.kind, event.branch, event.step, event.arc, event.lambda, event.monitors,
+          event.unstable_before, event.unstable_after, event.residual, event.localised, event.contacts, event.monitor,
+          event.branch_end, event.branch_type, event.multiplicity, event.suspected, event.discretisation,
+          event.branches, event.mode);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordBranchPoint& point) {
+  archive(point.point, point.event);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordBranch& branch) {
+  archive(branch.id, branch.parent, branch.origin, branch.mirrored, branch.points, branch.least_lambda,
+          branch.greatest_lambda, branch.end);
+}
+
+}  // namespace arcwall

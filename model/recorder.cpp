@@ -1,0 +1,135 @@
+#include "model/recorder.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "model/event_names.hpp"
+
+namespace arcwall {
+
+namespace {
+
+std::vector<double> values(const std::vector<MonitorColumn>& monitors, const State& state) {
+  std::vector<double> result;
+  for (const MonitorColumn& monitor : monitors) result.push_back(monitor.quantity->value(state));
+  return result;
+}
+
+std::vector<RecordForce> forces_at(const Model& model, const State& state) {
+  std::vector<RecordForce> forces;
+  for (const auto& [place, force, pressure] : model.contact_forces(state))
+    forces.push_back({.label = place.label, .x = place.x, .force = force, .pressure = pressure});
+  return forces;
+}
+
+// The critical mode has no λ, and only that of a smooth crossing is known.
+std::vector<double> mode_rates(const std::vector<MonitorColumn>& monitors, const BranchPoint& point) {
+  std::vector<double> result;
+  if (point.mode.dx.size() != point.state.x.size()) return result;
+  for (const MonitorColumn& monitor : monitors)
+    result.push_back(monitor.quantity->gradient(point.state).dx.dot(point.mode.dx));
+  return result;
+}
+
+}  // namespace
+
+Record empty_record(const Model& model) {
+  const deck::Deck& deck = model.deck();
+  const std::string between = deck.units.force.empty() || deck.units.length.empty() ? "" : " ";
+  Record record{.deck = std::filesystem::path(deck.source.file).filename().string(),
+                .title = deck.title,
+                .energy_unit = deck.units.force + between + deck.units.length,
+                .length_unit = deck.units.length,
+                .force_unit = deck.units.force,
+                .has_walls = !deck.walls.empty()};
+  for (const MonitorColumn& monitor : model.monitors()) record.columns.push_back({monitor.name, monitor.unit});
+  return record;
+}
+
+Recorder::Recorder(const Model& model, Record& record, const BranchRecord& branch)
+    : model_(model), record_(record), branch_(record.branches.size()) {
+  RecordBranch added{.id = static_cast<Index>(branch_), .mirrored = branch.mirrored};
+  if (branch.parent) added.parent = *branch.parent;
+  const auto same = [&](const RecordBranchPoint& known) { return known.point == branch.origin; };
+  const auto origin = std::find_if(record.branch_points.begin(), record.branch_points.end(), same);
+  if (branch.origin && origin != record.branch_points.end()) {
+    added.origin = origin->event;
+    record.events[static_cast<std::size_t>(origin->event)].branches.push_back(added.id);
+  }
+  record_.branches.push_back(std::move(added));
+}
+
+void Recorder::add(const Arc& arc) {
+  const PathPoint& to = arc.to;
+  record_.points.push_back({.branch = branch().id,
+                            .step = branch().points,
+                            .arc = to.arc,
+                            .lambda = to.state.lambda,
+                            .monitors = values(model_.monitors(), to.state),
+                            .count = to.count,
+                            .contacts = model_.closed_contacts(to.state),
+                            .energy = model_.system().energy(to.state),
+                            .iterations = to.iterations,
+                            .residual = to.residual,
+                            .forces = forces_at(model_, to.state),
+                            .state = to.state});
+  ++branch().points;
+  branch().least_lambda = std::min(branch().least_lambda, to.state.lambda);
+  branch().greatest_lambda = std::max(branch().greatest_lambda, to.state.lambda);
+  for (const Event& event : arc.events) {
+    if (event.branching)
+      record_.branch_points.push_back({.point = event.branching, .event = static_cast<Index>(record_.events.size())});
+    add_event(recorded(event));
+  }
+}
+
+void Recorder::end(const BranchEnd& end) {
+  branch().end = end;
+  if (branch().points == 0) return;
+  const RecordPoint& last = record_.points.back();
+  add_event({.kind = EventKind::end,
+             .arc = last.arc,
+             .lambda = last.lambda,
+             .monitors = last.monitors,
+             .unstable_before = last.count.unstable,
+             .unstable_after = last.count.unstable,
+             .residual = last.residual,
+             .branch_end = end});
+}
+
+RecordEvent Recorder::recorded(const Event& event) const {
+  RecordEvent record{.kind = event.kind,
+                     .arc = event.arc,
+                     .lambda = event.state.lambda,
+                     .monitors = values(model_.monitors(), event.state),
+                     .unstable_before = event.unstable_before,
+                     .unstable_after = event.unstable_after,
+                     .residual = event.residual,
+                     .localised = event.localised,
+                     .suspected = event.suspected};
+  if (event.kind == EventKind::displacement_limit) record.monitor = event.label;
+  if (event.branching) {
+    record.branch_type = event.branching->type;
+    record.multiplicity = event.branching->multiplicity;
+    record.discretisation = event.branching->discretisation;
+    record.mode = mode_rates(model_.monitors(), *event.branching);
+  }
+  if (!changes_contact(event.kind)) return record;
+  for (const Index j : event.guards) {
+    const auto [label, x] = model_.contact_place(event.state, j);
+    record.contacts.push_back({.label = label, .x = x});
+  }
+  return record;
+}
+
+void Recorder::add_event(RecordEvent event) {
+  event.id = static_cast<Index>(record_.events.size());
+  event.branch = branch().id;
+  event.step = branch().points - 1;
+  RecordPoint& point = record_.points.back();
+  if (!point.event || changes_contact(*point.event) || !changes_contact(event.kind)) point.event = event.kind;
+  record_.events.push_back(std::move(event));
+}
+
+}  // namespace arcwall

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "model/model.hpp"
+#include "model/record.hpp"
+
+namespace arcwall {
+
+/// A record of the model's deck and columns, without branches yet.
+Record empty_record(const Model& model);
+
+/// Adds one branch to a record, arc by arc.
+class Recorder {
+ public:
+  /// `model` and `record` must outlive this. `branch` says where the branch leaves another; without it, it leaves none.
+  Recorder(const Model& model, Record& record, const BranchRecord& branch = {});
+
+  /// Goes on with the last branch of a record.
+  static Recorder last_branch(const Model& model, Record& record) {
+    return {model, record, record.branches.size() - 1};
+  }
+
+  /// The arc's end as a point, and its events.
+  void add(const Arc& arc);
+
+  /// The end of the branch, as an event of its last point. A branch without points has no such event.
+  void end(const BranchEnd& end);
+
+ private:
+  Recorder(const Model& model, Record& record, std::size_t branch) : model_(model), record_(record), branch_(branch) {}
+
+  RecordBranch& branch() { return record_.branches[branch_]; }
+  RecordEvent recorded(const Event& event) const;
+  void add_event(RecordEvent event);
+
+  const Model& model_;
+  Record& record_;
+  std::size_t branch_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,129 @@
+#include "model/section_forces.hpp"
+
+#include <tuple>
+
+namespace arcwall {
+
+namespace {
+
+double mean_of(double a, double b) { return 0.5 * (a + b); }
+
+// A node of an element, now or stress-free.
+struct ElementNode {
+  Vec2 position = Vec2::Zero();
+  double angle = 0.0;  // of the section's normal
+};
+
+bool flexible_in_shear(deck::Theory theory) {
+  switch (theory) {
+    case deck::Theory::exact:
+    case deck::Theory::essenburg:
+      return true;
+    case deck::Theory::classic:
+    case deck::Theory::elastica:
+    case deck::Theory::truss:
+      return false;
+  }
+  return false;
+}
+
+// The axis between two nodes, and its angle against the sections: shear is constant between them. A bar is straight.
+std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNode& b, deck::Theory theory) {
+  const double angle = mean_of(a.angle, b.angle), chord = angle_near(b.position - a.position, angle);
+  if (theory == deck::Theory::truss) return {{a.position, b.position, chord, chord}, 0.0};
+  const double shear = flexible_in_shear(theory) ? chord - angle : 0.0;
+  return {{a.position, b.position, a.angle + shear, b.angle + shear}, shear};
+}
+
+// What the nodes exert on an element, per local unknown. Loads along a bar act at its ends.
+Vector element_forces(const Structure& structure, Index e, const State& state, bool loads) {
+  const auto freedoms = structure.element_freedoms(e);
+  Vector u(static_cast<Index>(freedoms.size())), f(u.size());
+  for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
+  structure.element(e).evaluate(u.data(), f.data(), nullptr);
+  if (!loads) return f;
+  Vector part(u.size());
+  for (const std::uint32_t i : structure.loads_of_element(e)) {
+    const Structure::ElementLoad& load = structure.element_loads()[i];
+    load.potential->evaluate(u.data(), part.data(), nullptr);
+    f += (load.kind == LoadKind::proportional ? state.lambda : 1.0) * part;
+  }
+  return f;
+}
+
+// The nodes of element k of a member in order, its middle node included.
+struct ElementNodes {
+  std::vector<ElementNode> now{}, rest{};
+};
+
+ElementNodes element_nodes(const Structure& structure, const MemberMesh& mesh, std::size_t k, const State& state) {
+  ElementNodes nodes;
+  const auto add = [&](Index node, std::optional<Index> rotation, double rest_angle) {
+    nodes.rest.push_back({.position = structure.position(node), .angle = rest_angle});
+    nodes.now.push_back({.position = structure.current(state, node),
+                         .angle = rest_angle + (rotation ? structure.value(state, *rotation) : 0.0)});
+  };
+  add(mesh.nodes[k], mesh.rotations[k], mesh.shape[k].angle);
+  if (!mesh.middle_nodes.empty())
+    add(mesh.middle_nodes[k], mesh.middle_rotations[k], mean_of(mesh.shape[k].angle, mesh.shape[k + 1].angle));
+  add(mesh.nodes[k + 1], mesh.rotations[k + 1], mesh.shape[k + 1].angle);
+  return nodes;
+}
+
+Index first_element(const Structure& structure, std::size_t member) {
+  Index e = 0;
+  for (std::size_t m = 0; m < member; ++m) e += static_cast<Index>(structure.members()[m].nodes.size()) - 1;
+  return e;
+}
+
+}  // namespace
+
+// Sums of nodal forces balance the load along the element, q h = −Σ f, which is spread evenly over it.
+void add_stretches(const TiedMember& member, int k, const State& state, std::vector<MemberStretch>& to) {
+  const Structure& structure = member.structure;
+  const MemberMesh& mesh = structure.members()[member.member];
+  const deck::Theory theory = member.theory;
+  const ElementNodes nodes = element_nodes(structure, mesh, static_cast<std::size_t>(k), state);
+  const Index e = first_element(structure, member.member) + k;
+  const Vector f = element_forces(structure, e, state, theory != deck::Theory::truss);
+  const std::size_t stretches = nodes.now.size() - 1;
+  const auto stride = f.size() / static_cast<Index>(nodes.now.size());
+  Vec2 load = Vec2::Zero();
+  for (std::size_t a = 0; a <= stretches; ++a) load -= f.segment<2>(stride * static_cast<Index>(a));
+  const auto moment = [&](std::size_t a) { return stride > 2 ? f[stride * static_cast<Index>(a) + 2] : 0.0; };
+
+  Resultant carried{};
+  for (std::size_t a = 0; a < stretches; ++a) {
+    carried.force -= f.segment<2>(stride * static_cast<Index>(a));
+    carried.moment -= moment(a);
+    const double part = 1.0 / double(stretches), first = double(k) + part * double(a);
+    MemberStretch stretch{.from = first / double(mesh.nodes.size() - 1),
+                          .to = (first + part) / double(mesh.nodes.size() - 1),
+                          .first = carried};
+    std::tie(stretch.now, stretch.shear) = axis_between(nodes.now[a], nodes.now[a + 1], theory);
+    std::tie(stretch.rest, stretch.rest_shear) = axis_between(nodes.rest[a], nodes.rest[a + 1], theory);
+    stretch.second.force = carried.force - part * load;
+    stretch.second.moment = moment(stretches);
+    if (a + 1 < stretches) stretch.second.moment = stretch.balanced_moment(1.0);
+    carried = stretch.second;
+    to.push_back(stretch);
+  }
+}
+
+MemberStretch sliding_stretch(const SlidingStructure& body, Index strand, Index position, const State& state) {
+  const SlidingMesh& mesh = mesh_of(state);
+  const MeshState now = mesh_state_of(state);
+  const double S1 = mesh.coordinate(strand, position, now.s), S2 = mesh.coordinate(strand, position + 1, now.s);
+  const AxisPlace a = mesh.node(strand, position, now), b = mesh.node(strand, position + 1, now);
+  const AxisPlace a0 = body.undeformed({.strand = strand, .s = S1}, true),
+                  b0 = body.undeformed({.strand = strand, .s = S2}, true);
+  const SlidingMesh::EndForces forces = mesh.end_forces(strand, position, now);
+  return {.from = S1,
+          .to = S2,
+          .now = {a.position, b.position, a.angle, b.angle},
+          .rest = {a0.position, b0.position, a0.angle, b0.angle},
+          .first = {.force = -forces[0].head<2>(), .moment = -forces[0][2]},
+          .second = {.force = forces[1].head<2>(), .moment = forces[1][2]}};
+}
+
+}  // namespace arcwall

@@ -1,0 +1,150 @@
+#include "model/session.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include "core/error.hpp"
+#include "model/checkpoint/checkpoint_file.hpp"
+#include "model/deck/reader.hpp"
+#include "model/deck/toml_source.hpp"
+#include "model/record_parts.hpp"
+#include "model/recorder.hpp"
+#include "model/session_content.hpp"
+#include "model/tracing.hpp"
+#include "model/version.hpp"
+
+namespace arcwall {
+
+using Json = nlohmann::json;
+
+namespace {
+
+// What was traced. The rest of a record follows from the deck.
+template <typename Archive>
+void keep_traced(Archive& archive, Record& record) {
+  archive(record.branches, record.points, record.events, record.branch_points, record.steps);
+}
+
+// Whether all that a record refers to is in it.
+bool is_whole(const Record& record) {
+  const auto has_branch = [&](Index branch) {
+    return branch >= 0 && branch < static_cast<Index>(record.branches.size());
+  };
+  const auto has_event = [&](Index event) { return event >= 0 && event < static_cast<Index>(record.events.size()); };
+  for (const RecordBranch& branch : record.branches)
+    if (branch.origin && !has_event(*branch.origin)) return false;
+  for (const RecordPoint& point : record.points)
+    if (!has_branch(point.branch) || point.monitors.size() != record.columns.size()) return false;
+  for (const RecordEvent& event : record.events)
+    if (!has_branch(event.branch) || event.monitors.size() != record.columns.size()) return false;
+  for (const RecordBranchPoint& point : record.branch_points)
+    if (!has_event(point.event)) return false;
+  return true;
+}
+
+ArchiveModel model_of(const Model& model) { return {.system = &model.system(), .sliding = model.sliding()}; }
+
+std::shared_ptr<Model> built(const RunDescription& run) {
+  return std::make_shared<Model>(deck::read_deck_text(run.deck_text, run.deck, run.assignments));
+}
+
+}  // namespace
+
+Session::Session(RunDescription description, std::shared_ptr<Model> model)
+    : description_(std::move(description)),
+      model_(model ? std::move(model) : built(description_)),
+      record_(std::make_unique<Record>(empty_record(*model_))) {}
+
+Session::Session(RunDescription description) : Session(std::move(description), nullptr) {}
+
+Session::Session(Session&& other) noexcept = default;
+Session& Session::operator=(Session&& other) noexcept = default;
+Session::~Session() = default;
+
+Session Session::open(const std::string& file, std::vector<std::string> assignments) {
+  return Session({.deck = file, .deck_text = deck::read_text_file(file), .assignments = std::move(assignments)});
+}
+
+bool Session::begin() {
+  std::optional<State> start = model_->start(problem_);
+  if (!start) return false;
+  start_ = std::move(*start);
+  tracing_ = make_tracing(*model_, *record_, start_, description_.ledger);
+  return true;
+}
+
+const RecordPoint* Session::next() {
+  if (!tracing_ && (!problem_.empty() || !begin())) return nullptr;
+  return tracing_->advance() ? &record_->points.back() : nullptr;
+}
+
+bool Session::has_ended() const { return tracing_ && tracing_->has_ended(); }
+
+void Session::stop(const BranchEnd& end) { tracing_->stop(end); }
+
+std::string Session::checkpoint(const std::optional<BranchEnd>& stopped) {
+  return to_checkpoint(SessionContent::of(*this, stopped));
+}
+
+Session Session::from(std::string_view checkpoint, const std::string& file, Resume how) {
+  return SessionContent::read(from_checkpoint(checkpoint, file), file, how);
+}
+
+Json SessionContent::of(Session& session, const std::optional<BranchEnd>& stopped) {
+  ArchiveWriter archive(model_of(*session.model_));
+  std::string program = program_version();
+  std::optional<BranchEnd> ending = stopped;
+  archive(program, session.description_, ending, session.start_);
+  keep_traced(archive, *session.record_);
+  session.tracing_->serialize(archive);
+  return archive.json();
+}
+
+Session SessionContent::read(const Json& content, const std::string& file, Session::Resume how,
+                             std::shared_ptr<Model> model) {
+  try {
+    // What the run is of comes first: the rest can be read when its model is there.
+    ArchiveReader head(content, ArchiveModel{});
+    std::string program;
+    head(program);
+    if (program != program_version())
+      throw OutputError(file + ": was written by version " + program + "; only that version can go on with it");
+    RunDescription description;
+    std::optional<BranchEnd> stopped;
+    head(description, stopped);
+    Session session(std::move(description), std::move(model));
+
+    ArchiveReader archive(content, model_of(*session.model_));
+    archive(program, session.description_, stopped, session.start_);
+    archive.require(session.start_.x.size() > 0);
+    session.tracing_ = make_tracing(*session.model_, *session.record_, session.start_, session.description_.ledger);
+    keep_traced(archive, *session.record_);
+    archive.require(is_whole(*session.record_));
+    session.tracing_->serialize(archive);
+    archive.require(archive.at_end());
+    if (stopped && how == Session::Resume::as_ended) {
+      session.stop(*stopped);
+      session.next();
+    }
+    return session;
+  } catch (const BadArchive& problem) {
+    throw OutputError(file + ": is no checkpoint of this deck: " + problem.what() + "; run the deck again");
+  }
+}
+
+Session stored_session(const std::filesystem::path& folder, Session::Resume how) {
+  const std::filesystem::path file = folder / "checkpoint";
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    std::error_code ignored;
+    throw OutputError(std::filesystem::is_directory(folder, ignored)
+                          ? file.string() + ": there is none; `trace-path run DECK --out " + folder.string() +
+                                "` writes it"
+                          : folder.string() + ": there is no such folder");
+  }
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (stream.bad()) throw OutputError(file.string() + ": cannot be read");
+  return Session::from(bytes, file.string(), how);
+}
+
+}  // namespace arcwall

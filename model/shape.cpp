@@ -1,0 +1,203 @@
+#include "model/shape.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "model/build_contact.hpp"
+#include "model/section_forces.hpp"
+
+namespace arcwall {
+
+namespace {
+
+double mean(double a, double b) { return 0.5 * (a + b); }
+
+std::vector<double> sample_fractions(int elements);
+std::vector<ShapePoint> points_on_nodes(const Model& model, const State& state, std::size_t member);
+std::vector<ShapePoint> points_between_breakpoints(const Model& model, const State& state, std::size_t member);
+std::vector<ContactMark> node_contacts(const Model& model, const State& state);
+std::vector<ContactMark> sliding_contacts(const Model& model, const State& state);
+
+}  // namespace
+
+Shape shape_of(const Model& model, const State& state) {
+  Shape shape;
+  for (std::size_t m = 0; m < model.deck().members.size(); ++m)
+    shape.members.push_back({.member = model.deck().members[m].name,
+                             .points = model.sliding() != nullptr ? points_between_breakpoints(model, state, m)
+                                                                  : points_on_nodes(model, state, m)});
+  if (model.sliding() != nullptr)
+    shape.contacts = sliding_contacts(model, state);
+  else if (model.contact() != nullptr)
+    shape.contacts = node_contacts(model, state);
+  return shape;
+}
+
+namespace {
+
+// --- members --------------------------------------------------------------------------------------------------------
+
+// Equal parts, each node among them on meshes that are not too fine.
+std::vector<double> sample_fractions(int elements) {
+  constexpr int fewest = 40, most = 200;
+  const int parts = std::min(elements * ((fewest + elements - 1) / elements), most);
+  std::vector<double> fractions;
+  for (int i = 0; i <= parts; ++i) fractions.push_back(double(i) / parts);
+  return fractions;
+}
+
+// Of the elements only those are evaluated in which points are wanted.
+std::vector<ShapePoint> points_on_nodes(const Model& model, const State& state, std::size_t member) {
+  const TiedMember tied{
+      .structure = model.structure(), .member = member, .theory = model.deck().members[member].theory};
+  const int elements = tied.elements();
+  const std::vector<double> fractions = sample_fractions(elements);
+  std::set<int> wanted;
+  for (const double fraction : fractions)
+    for (const double side : {-1e-9, 1e-9})
+      wanted.insert(std::clamp(static_cast<int>(std::floor(fraction * elements + side)), 0, elements - 1));
+  std::vector<MemberStretch> stretches;
+  for (const int k : wanted) add_stretches(tied, k, state, stretches);
+  return sampled(stretches, fractions);
+}
+
+// --- members whose mesh slides --------------------------------------------------------------------------------------
+
+// A member is one stretch of a strand, or several strands of its own where loads act inside it.
+std::vector<ShapePoint> points_between_breakpoints(const Model& model, const State& state, std::size_t member) {
+  const SlidingStructure& body = *model.sliding_structure();
+  const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
+  const SlidingMesh& mesh = on.mesh();
+  const Vector s = on.s_of(state);
+  const std::string& name = model.deck().members[member].name;
+  const auto elements = static_cast<int>(model.structure().members()[member].nodes.size()) - 1;
+  std::vector<double> fractions = sample_fractions(elements);
+  std::vector<MemberStretch> stretches;
+  for (const SlidingStructure::MemberPart& part : body.parts_of(name)) {
+    const double rate = (part.last_fraction - part.first_fraction) / (part.to - part.from);
+    const auto fraction = [&](double S) { return part.first_fraction + rate * (S - part.from); };
+    for (Index position = 0; position + 1 < mesh.nodes(part.strand); ++position) {
+      MemberStretch stretch = sliding_stretch(body, part.strand, position, state);
+      if (stretch.to <= part.from || stretch.from >= part.to) continue;
+      stretch.from = fraction(stretch.from);
+      stretch.to = fraction(stretch.to);
+      stretches.push_back(stretch);
+    }
+    for (Index k = 0; k < mesh.breakpoints(); ++k)
+      if (const double S = s[k]; mesh.breakpoint(k).first == part.strand && S > part.from && S < part.to)
+        fractions.push_back(fraction(S));
+  }
+  std::sort(fractions.begin(), fractions.end());
+  return sampled(stretches, fractions);
+}
+
+// --- contacts -------------------------------------------------------------------------------------------------------
+
+// The walls' surfaces by name.
+class Surfaces {
+ public:
+  explicit Surfaces(const deck::Deck& deck) {
+    for (const deck::Wall& wall : deck.walls) surfaces_[wall.name] = {profile_of(wall), side_of(wall)};
+  }
+
+  // A force along the wall's normal.
+  Vec2 force(const std::string& wall, const Vec2& at, double size) const {
+    const auto& [profile, side] = surfaces_.at(wall);
+    const SurfaceGap gap = surface_gap(*profile, side, at);
+    return size * Vec2(gap.x, gap.z).normalized();
+  }
+
+ private:
+  std::map<std::string, std::pair<std::unique_ptr<Profile>, Side>> surfaces_;
+};
+
+std::vector<ContactMark> node_contacts(const Model& model, const State& state) {
+  const Surfaces surfaces(model.deck());
+  const MultiplierContact& contact = *model.contact();
+  std::vector<ContactMark> marks;
+  for (Index j = 0; j < contact.contact_count(); ++j) {
+    if (!state.piece[static_cast<std::size_t>(j)]) continue;
+    const Candidate& candidate = contact.candidate(j);
+    const Vec2 at = candidate.point().position(state);
+    marks.push_back({.label = candidate.label(),
+                     .position = at,
+                     .force = surfaces.force(candidate.label().wall, at, contact.force(state, j)),
+                     .pressure = contact.pressure(state, j)});
+  }
+  return marks;
+}
+
+std::vector<ContactMark> sliding_contacts(const Model& model, const State& state) {
+  const Surfaces surfaces(model.deck());
+  const SlidingContact& contact = *model.sliding();
+  std::vector<ContactMark> marks;
+  for (std::size_t i = 0; i < state.piece.size(); ++i) {
+    if (!state.piece[i]) continue;
+    const auto j = static_cast<Index>(i);
+    const ContactLabel label = contact.label(state, j);
+    const Vec2 at = contact.place(state, j);
+    marks.push_back({.label = label, .position = at, .force = surfaces.force(label.wall, at, contact.force(state, j))});
+  }
+  for (const SlidingContact::HeldNode& node : contact.held_nodes(state))
+    marks.push_back({.label = node.label,
+                     .position = node.place,
+                     .force = surfaces.force(node.label.wall, node.place, node.force),
+                     .pressure = node.force / node.label.tributary});
+  return marks;
+}
+
+// --- walls ----------------------------------------------------------------------------------------------------------
+
+// Half as far again as the structure reaches at rest.
+Eigen::AlignedBox2d reach(const Model& model) {
+  Eigen::AlignedBox2d box;
+  for (Index node = 0; node < model.structure().node_count(); ++node) box.extend(model.structure().position(node));
+  const double margin = 0.5 * box.diagonal().norm();
+  return {box.min() - Vec2::Constant(margin), box.max() + Vec2::Constant(margin)};
+}
+
+// Where a wall has a surface, within x.
+std::pair<double, double> covered(const deck::Wall& wall, std::pair<double, double> x) {
+  const auto within = [&](double low, double high) {
+    if (high <= x.first || low >= x.second) return std::pair(low, high);
+    return std::pair(std::max(low, x.first), std::min(high, x.second));
+  };
+  if (const auto* circle = std::get_if<deck::CircleProfile>(&wall.profile)) {
+    const double radius = circle->radius * (1.0 - 2e-6);
+    return within(circle->centre.x - radius, circle->centre.x + radius);
+  }
+  if (const auto* spline = std::get_if<deck::SplineProfile>(&wall.profile))
+    return within(spline->x.front(), spline->x.back());
+  return x;
+}
+
+}  // namespace
+
+// Of a wall that climbs out of the structure's reach only what lies between its first and last place within; all of one
+// that is nowhere within.
+std::vector<WallShape> wall_shapes(const Model& model) {
+  constexpr int parts = 400;  // closer together towards the ends, where a circle is steep
+  const Eigen::AlignedBox2d box = reach(model);
+  std::vector<WallShape> walls;
+  for (const deck::Wall& wall : model.deck().walls) {
+    const auto profile = profile_of(wall);
+    const auto [low, high] = covered(wall, {box.min().x(), box.max().x()});
+    std::vector<Vec2> line;
+    for (int i = 0; i <= parts; ++i) {
+      const double x = std::clamp(mean(low, high) - 0.5 * (high - low) * std::cos(pi * i / parts), low, high);
+      line.emplace_back(x, profile->at(x).value);
+    }
+    const auto inside = [&](const Vec2& point) { return box.contains(point); };
+    const auto first = std::find_if(line.begin(), line.end(), inside);
+    const auto last = std::find_if(line.rbegin(), line.rend(), inside).base();
+    walls.push_back({.name = wall.name,
+                     .side = side_of(wall),
+                     .line = first == line.end() || last - first < 2 ? line : std::vector<Vec2>(first, last)});
+  }
+  return walls;
+}
+
+}  // namespace arcwall

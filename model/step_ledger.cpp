@@ -1,0 +1,86 @@
+#include "model/step_ledger.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+#include "model/event_names.hpp"
+
+namespace arcwall {
+
+using OrderedJson = nlohmann::ordered_json;
+
+namespace {
+
+std::string_view to_text(StepOutcome outcome) {
+  switch (outcome) {
+    case StepOutcome::accepted:
+      return "accepted";
+    case StepOutcome::too_many_iterations:
+      return "too_many_iterations";
+    case StepOutcome::diverged:
+      return "diverged";
+    case StepOutcome::complex_roots:
+      return "complex_roots";
+    case StepOutcome::singular:
+      return "singular";
+    case StepOutcome::not_finite:
+      return "not_finite";
+    case StepOutcome::obstructed:
+      return "wall_end";
+    case StepOutcome::strayed:
+      return "strayed";
+    case StepOutcome::turned:
+      return "turned";
+    case StepOutcome::not_landed:
+      return "not_landed";
+    case StepOutcome::penetrates:
+      return "penetrates";
+    case StepOutcome::refined:
+      return "refined";
+    case StepOutcome::events_unclear:
+      return "events_unclear";
+    case StepOutcome::ended:
+      return "ended";
+  }
+  assert(false);
+  return {};
+}
+
+// Contacts that change and other events.
+OrderedJson events_of(const Model& model, const Arc& arc) {
+  OrderedJson events = OrderedJson::array();
+  for (const Event& event : arc.events) {
+    OrderedJson json{{"kind", to_text(event.kind)}};
+    if (changes_contact(event.kind)) {
+      json["contact"] = OrderedJson::array();
+      for (const Index j : event.guards) {
+        const auto [label, x] = model.contact_place(event.state, j);
+        json["contact"].push_back({{"wall", label.wall}, {"member", label.member}, {"fraction", label.fraction}});
+      }
+    }
+    events.push_back(std::move(json));
+  }
+  return events;
+}
+
+}  // namespace
+
+std::string ledger_line(const Model& model, Index branch, const StepAttempt& attempt) {
+  OrderedJson json{
+      {"branch", branch}, {"arc", attempt.arc}, {"radius", attempt.radius}, {"outcome", to_text(attempt.outcome)}};
+  json["iterations"] = attempt.iterations;
+  json["residual"] = attempt.residual;
+  json["root"] = attempt.roots ? OrderedJson(attempt.roots->taken) : OrderedJson(nullptr);
+  json["other_root"] =
+      attempt.roots && attempt.roots->other ? OrderedJson(*attempt.roots->other) : OrderedJson(nullptr);
+  json["turn"] = attempt.turn ? OrderedJson(*attempt.turn) : OrderedJson(nullptr);
+  if (attempt.accepted) {
+    json["lambda"] = attempt.accepted->to.state.lambda;
+    json["length"] = attempt.accepted->to.arc - attempt.arc;
+    json["events"] = events_of(model, *attempt.accepted);
+  }
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+}
+
+}  // namespace arcwall

@@ -1,0 +1,198 @@
+#include "model/tracing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/text.hpp"
+#include "model/build_path.hpp"
+#include "model/record_parts.hpp"
+#include "model/recorder.hpp"
+#include "model/step_ledger.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// Every branch, one after the other.
+class PathTracing final : public Tracing {
+ public:
+  PathTracing(const Model& model, Record& record, const State& start, StepLedger ledger)
+      : model_(model),
+        record_(record),
+        explorer_(model.system(), start, options(ledger), model.watched(), model.explore()) {}
+
+  bool advance() override {
+    const std::optional<Explorer::Step> step = explorer_.next();
+    if (!step) {
+      finish();
+      return false;
+    }
+    if (step->branch != branch_) {
+      if (recorder_) end_branch();
+      branch_ = step->branch;
+      recorder_.emplace(model_, record_, branch());
+    }
+    recorder_->add(step->arc);
+    return true;
+  }
+
+  bool has_ended() const override { return finished_; }
+
+  void stop(const BranchEnd& end) override { explorer_.stop(end); }
+
+  void serialize(ArchiveWriter& archive) override { visit(archive); }
+  void serialize(ArchiveReader& archive) override {
+    visit(archive);
+    archive.require(branch_ < static_cast<int>(record_.branches.size()) &&
+                    branch_ < static_cast<int>(explorer_.branches().size()) &&
+                    (branch_ < 0 || record_.branches.back().id == branch_) && (branch_ >= 0 || record_.points.empty()));
+    if (branch_ >= 0) recorder_.emplace(Recorder::last_branch(model_, record_));
+  }
+
+ private:
+  template <typename Archive>
+  void visit(Archive& archive) {
+    archive(branch_, finished_, explorer_);
+  }
+
+  TraceOptions options(StepLedger ledger) {
+    TraceOptions options = model_.options();
+    if (ledger == StepLedger::kept)
+      options.ledger = [this](const StepAttempt& attempt) {
+        record_.steps += ledger_line(model_, static_cast<Index>(explorer_.branches().size()) - 1, attempt);
+      };
+    return options;
+  }
+
+  const BranchRecord& branch() const { return explorer_.branches()[static_cast<std::size_t>(branch_)]; }
+  void end_branch() { recorder_->end(branch().end.value()); }
+
+  void finish() {
+    if (std::exchange(finished_, true)) return;
+    if (!recorder_) {  // not even a start: the branch has no points, but an end
+      recorder_.emplace(model_, record_);
+      branch_ = 0;
+    }
+    end_branch();
+  }
+
+  const Model& model_;
+  Record& record_;
+  Explorer explorer_;
+  std::optional<Recorder> recorder_;
+  int branch_ = -1;
+  bool finished_ = false;
+};
+
+// Whether the way between two states crosses a bound that stops.
+const TargetValue* crossed(const std::vector<TargetValue>& target_values, const State& from, const State& to) {
+  const auto stops = [&](const TargetValue& target_value) {
+    const double before = target_value.quantity->value(from) - target_value.value;
+    const double after = target_value.quantity->value(to) - target_value.value;
+    return target_value.stops && before != 0.0 && before * after <= 0.0;
+  };
+  const auto found = std::find_if(target_values.begin(), target_values.end(), stops);
+  return found == target_values.end() ? nullptr : &*found;
+}
+
+// The deck's load increments: one branch.
+class IncrementTracing final : public Tracing {
+ public:
+  IncrementTracing(Model& model, Record& record, const State& start, StepLedger ledger)
+      : model_(model),
+        record_(record),
+        ledger_(ledger),
+        levels_(load_levels(model.deck().path)),
+        increments_(model.increments(start)),
+        recorder_(model, record) {}
+
+  bool advance() override {
+    if (!end_ && record_.points.empty()) {
+      recorder_.add(increments_.start());
+      return true;
+    }
+    if (!end_ && taken_ == levels_.size()) end_ = all_taken();
+    if (!end_) {
+      if (const auto arc = increments_.to(levels_[taken_])) {
+        ++taken_;
+        const RecordPoint before = record_.points.back();
+        recorder_.add(*arc);
+        if (ledger_ == StepLedger::kept)
+          record_.steps += ledger_line(model_, 0,
+                                       {.arc = before.arc,
+                                        .radius = arc->to.arc - before.arc,
+                                        .iterations = 1,
+                                        .residual = arc->to.residual,
+                                        .accepted = &*arc});
+        end_ = bound_met(before.state, *arc);
+        return true;
+      }
+      end_ = increments_.end();
+    }
+    if (!std::exchange(finished_, true)) recorder_.end(*end_);
+    return false;
+  }
+
+  bool has_ended() const override { return finished_; }
+
+  void stop(const BranchEnd& end) override {
+    if (!end_) end_ = end;
+  }
+
+  void serialize(ArchiveWriter& archive) override { visit(archive); }
+  void serialize(ArchiveReader& archive) override {
+    visit(archive);
+    archive.require(taken_ <= levels_.size() && record_.branches.size() == 1);
+    for (std::size_t i = 1; i < record_.points.size(); ++i) increments_.repeat(record_.points[i].state);
+  }
+
+ private:
+  template <typename Archive>
+  void visit(Archive& archive) {
+    archive(taken_, finished_, end_, increments_);
+  }
+
+  std::optional<BranchEnd> bound_met(const State& before, const Arc& arc) const {
+    const TraceOptions& options = model_.options();
+    const State& after = arc.to.state;
+    if (const TargetValue* bound = crossed(options.target_values, before, after))
+      return BranchEnd{.reason = EndReason::stop, .detail = bound->label};
+    for (const StopEvent& stop : options.stop_events)
+      if (std::any_of(arc.events.begin(), arc.events.end(), [&](const Event& e) { return e.kind == stop.kind; }))
+        return BranchEnd{.reason = EndReason::stop, .detail = stop.label};
+    const Index closed = model_.closed_contacts(after);
+    if (options.stop_contacts && closed >= *options.stop_contacts)
+      return BranchEnd{.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
+    if (static_cast<int>(record_.points.size()) >= options.max_points)
+      return BranchEnd{.reason = EndReason::max_points, .detail = std::to_string(options.max_points) + " points"};
+    return std::nullopt;
+  }
+
+  BranchEnd all_taken() const {
+    std::string detail = "lambda = " + round_trip(record_.points.back().lambda);
+    if (increments_.unsettled() > 0)
+      detail += fmt::format("; contacts did not settle in {} increments", increments_.unsettled());
+    return {.reason = EndReason::stop, .detail = detail};
+  }
+
+  Model& model_;
+  Record& record_;
+  StepLedger ledger_;
+  std::vector<double> levels_;
+  LoadIncrements increments_;
+  Recorder recorder_;
+  std::size_t taken_ = 0;
+  std::optional<BranchEnd> end_;
+  bool finished_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Tracing> make_tracing(Model& model, Record& record, const State& start, StepLedger ledger) {
+  if (model.in_increments()) return std::make_unique<IncrementTracing>(model, record, start, ledger);
+  return std::make_unique<PathTracing>(model, record, start, ledger);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,7 @@
+#include "model/version.hpp"
+
+namespace arcwall {
+
+std::string program_version() { return ARCWALL_VERSION; }
+
+}  // namespace arcwall

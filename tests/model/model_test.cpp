@@ -1,0 +1,153 @@
+#include "model/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "continuation/tracer.hpp"
+#include "core/error.hpp"
+#include "model/deck/reader.hpp"
+#include "tests/model/deck/sample_decks.hpp"
+
+namespace arcwall::model_test {
+namespace {
+
+std::vector<Diagnostic> problems_of(const std::string& text) {
+  try {
+    const Model model(deck::read_deck_text(text, "odd.toml"));
+  } catch (const InputError& error) {
+    return error.diagnostics();
+  }
+  return {};
+}
+
+// A beam with a load at its middle comes down on a round floor at 0.42 of its length.
+struct Descent {
+  std::optional<double> touch{};  // λ
+  BranchEnd end{};
+};
+
+Descent descent(int elements) {
+  const Model model(deck::read_deck_text(R"toml(
+title = "A beam on a round floor"
+material.steel = { E = 1.0e4 }
+section.bar = { shape = "rectangle", width = 1.0, height = 0.1 }
+point = { left = [0.0, 0.0], right = [20.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "beam:0.5", force = [-0.3, -1.0] }]
+path = { step = 0.001, stop = { lambda = [-0.06, 0.06] } }
+[member.beam]
+from = "left"
+to = "right"
+theory = "classic"
+material = "steel"
+section = "bar"
+imperfection = { shape = "sine", amplitude = -0.1, waves = 1 }
+[[wall]]
+name = "floor"
+side = "below"
+profile = { type = "circle", centre = [8.0, -30.25], radius = 30.0 }
+)toml",
+                                         "floor.toml", {"member.beam.elements=" + std::to_string(elements)}));
+  std::string reason;
+  Tracer tracer(model.system(), model.start(reason).value(), model.options());
+  Descent found;
+  while (const auto arc = tracer.next())
+    for (const Event& event : arc->events)
+      if (event.kind == EventKind::contact_closes) found.touch = event.state.lambda;
+  found.end = tracer.end().value();
+  return found;
+}
+
+// Of 16 elements the last before the load is 1.3 long where the touch begins to be followed: it must be two.
+TEST(Model, ATouchBesideALoadIsFollowedWithElementsThatAreShortEnough) {
+  const Descent coarse = descent(16), fine = descent(40);
+  EXPECT_EQ(coarse.end.reason, EndReason::stop) << coarse.end.detail;
+  EXPECT_EQ(fine.end.reason, EndReason::stop);
+  ASSERT_TRUE(coarse.touch && fine.touch);
+  EXPECT_NEAR(*coarse.touch, *fine.touch, 1e-4 * *fine.touch);  // measured: 4.6·10⁻⁵
+}
+
+// Of four elements one has its end at the load and the touch in its nearer half.
+TEST(Model, ATouchTooNearToALoadEndsTheBranchAsUnsupported) {
+  const Descent found = descent(4);
+  EXPECT_FALSE(found.touch);
+  EXPECT_EQ(found.end.reason, EndReason::unsupported) << found.end.detail;
+}
+
+// Each alone is a number, but powers and quotients of them are not, or the length of an element is lost in the digits
+// of its coordinates.
+TEST(Model, RefusesSizesWhoseStiffnessIsBeyondNumbers) {
+  const std::pair<const char*, const char*> changes[] = {
+      {"A = [0.0, 0.0]", "A = [-1.7976931348623157e308, 0.0]"},
+      {"B = [2.0, 0.0]", "B = [2e-60, 0.0]"},
+      {"E = 2.1e4", "E = 1e300"},
+      {"E = 2.1e4", "E = 5e-324"},
+      {"height = 0.2", "height = 1e-40"},
+      {"A = [0.0, 0.0]\nB = [2.0, 0.0]", "A = [1e15, 0.0]\nB = [1e15, 2.0]"},
+  };
+  ASSERT_TRUE(problems_of(std::string(deck::column_deck)).empty());
+  for (const auto& [from, to] : changes) {
+    const auto found = problems_of(deck::replaced(deck::column_deck, from, to));
+    ASSERT_EQ(found.size(), 1u) << to;
+    EXPECT_EQ(found.front().key, "member.column") << to;
+    EXPECT_NE(found.front().message.find("cannot be computed"), std::string::npos) << to_text(found.front());
+  }
+}
+
+// So is its length, against the height of the section.
+TEST(Model, RefusesAnElementWithoutLengthBesideItsHeight) {
+  const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
+                                          "theory = \"classic\"", "theory = \"essenburg\"");
+  ASSERT_TRUE(problems_of(deck).empty());
+  const auto found = problems_of(deck::replaced(deck, "B = [2.0, 0.0]", "B = [2e-22, 0.0]"));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().key, "member.column");
+}
+
+// The shear stiffness is looked at where there is one.
+TEST(Model, RefusesAShearStiffnessBeyondNumbers) {
+  const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),
+                                          "theory = \"classic\"", "theory = \"exact\"");
+  ASSERT_TRUE(problems_of(deck).empty());
+  const std::string soft = deck::replaced(deck, "height = 0.2", "height = 0.2\nshear_correction = 1e-200");
+  const std::string none = deck::replaced(soft, "E = 2.1e4", "E = 1e-200");  // the product is zero
+  for (const std::string& text : {soft, none}) {
+    const auto found = problems_of(text);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found.front().key, "member.column");
+  }
+}
+
+std::string deck_with_wall(const std::string& side, const std::string& profile) {
+  std::string text(deck::column_deck);
+  text += "[[wall]]\nname = \"w\"\nside = \"";
+  text += side;
+  text += "\"\nprofile = { ";
+  text += profile;
+  return text += " }\n";
+}
+
+std::string said_of_wall(const std::string& side) {
+  const auto found = problems_of(deck_with_wall(side, "type = \"flat\", z = 0.5"));
+  return found.empty() ? "" : to_text(found.front());
+}
+
+TEST(Model, ASideThatIsTheWrongOneIsGuessed) {
+  EXPECT_EQ(said_of_wall("above"), "");
+  EXPECT_EQ(said_of_wall("below"),
+            "odd.toml:30:1: wall.w: member \"column\" is inside the wall at the start: node column:0 by 0.6; side = "
+            "\"below\" means that the structure stays above the wall: is \"above\" meant? Else move the wall or the "
+            "member apart");
+}
+
+TEST(Model, AWallThatIsEnteredInPartIsOnTheRightSide) {
+  const std::string deck = deck_with_wall("above", "type = \"line\", z = 0.6, slope = -0.3333333333333333");
+  const auto found = problems_of(deck);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().cure, "move the wall or the member apart");
+  EXPECT_NE(found.front().message.find("node column:1 by 0.1581"), std::string::npos) << found.front().message;
+}
+
+}  // namespace
+}  // namespace arcwall::model_test
