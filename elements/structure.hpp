@@ -287,14 +287,4 @@ class StructureBuilder {
   std::vector<DistributedLoad> distributed_loads_;
 };
 
-/// A motion without strain.
-struct Mechanism {
-  Index node;
-  Freedom freedom;  ///< where the motion is greatest
-};
-
-/// Whether the structure can move from its stress-free state without strain. Meant for one element a member, where the
-/// stiffness is well scaled: subdivision does not change the answer for beams.
-std::optional<Mechanism> find_mechanism(const Structure& structure);
-
 }  // namespace arcwall

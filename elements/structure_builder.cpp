@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <numeric>
 
-#include "core/algebra/ldlt.hpp"
-#include "core/algebra/near_null.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"
@@ -356,36 +354,6 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
   structure->rotations_ = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
   return structure;
-}
-
-std::optional<Mechanism> find_mechanism(const Structure& structure) {
-  const State rest{.x = Vector::Zero(structure.size({}))};
-  if (rest.x.size() == 0) return std::nullopt;
-  Linearization now;
-  structure.linearize(rest, now);
-  // Lengths and rotations are made comparable: D K D with D = 1/√K_ii has a unit diagonal.
-  Vector scale = now.K.diagonal();
-  for (double& entry : scale) entry = entry > 0.0 ? 1.0 / std::sqrt(entry) : 1.0;
-  SparseMatrix K = scale.asDiagonal() * now.K * scale.asDiagonal();
-  constexpr double shift = 1e-9, zero = 1e-11;  // of a unit diagonal
-  SparseMatrix shifted = K;
-  for (Index i = 0; i < K.cols(); ++i) shifted.coeffRef(i, i) += shift;
-  Ldlt ldlt;
-  if (ldlt.factorize(shifted) != FactorStatus::ok) return std::nullopt;
-  const NearNull softest = near_null(ldlt, K, Vector::Ones(K.cols()), 1);
-  if (std::abs(softest.values[0]) > zero) return std::nullopt;
-  // The largest motion, rotations taken over the length scale.
-  Index largest = 0;
-  double motion = -1.0;
-  for (Index i = 0; i < K.cols(); ++i) {
-    const double length = structure.meaning(i).freedom == Freedom::rotation ? 0.5 * structure.length_scale() : 1.0;
-    const double here = std::abs((*softest.vectors)(i, 0)) * scale[i] * length;
-    if (here > motion * (1.0 + 1e-9)) {
-      motion = here;
-      largest = i;
-    }
-  }
-  return Mechanism{.node = structure.meaning(largest).node, .freedom = structure.meaning(largest).freedom};
 }
 
 }  // namespace arcwall

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/mechanism.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -326,8 +328,7 @@ StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problem
 void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
   DeckProblems ignored(deck.source);
   const StructureOfDeck coarse = describe_structure(deck, ignored, 1);
-  const auto structure = coarse.builder.build();
-  const auto mechanism = find_mechanism(*structure);
+  const auto mechanism = find_mechanism(*coarse.builder.build());
   if (!mechanism) return;
   std::string where = "inside a member";
   for (const auto& [name, node] : coarse.places.joints)

@@ -1,0 +1,228 @@
+#include "elements/mechanism.hpp"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseQR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace arcwall {
+
+namespace {
+
+using Rows = Eigen::SparseMatrix<double>;
+
+// Sets of numbers 0 … n − 1 that are united step by step (union–find).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+
+  std::size_t representative(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::size_t a, std::size_t b) { parent_[representative(a)] = representative(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// A node of a beam element: where its motion is seen by others.
+struct ElementEnd {
+  Index node;
+  Index rotation;  // freedom
+};
+
+// Beam elements that move as one, by the motion of their centre and ωℓ: point r moves by u + ω e_y × (r − centre).
+struct RigidBody {
+  Vec2 centre = Vec2::Zero();
+  double size = 0.0;               // ℓ, the greatest distance of a node from the centre
+  std::vector<ElementEnd> ends{};  // of all its elements
+
+  // The motion of a point in x and z, by u_x, u_z and ωℓ.
+  Eigen::Matrix<double, 2, 3> motion_at(const Vec2& point) const {
+    const Vec2 arm = (point - centre) / size;
+    Eigen::Matrix<double, 2, 3> by;
+    by << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
+    return by;
+  }
+};
+
+std::vector<RigidBody> rigid_bodies(const Structure& structure) {
+  std::vector<std::pair<ElementEnd, ElementEnd>> beams;
+  for (const MemberMesh& mesh : structure.members())
+    for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k)
+      if (mesh.rotations[k])
+        beams.push_back({{mesh.nodes[k], *mesh.rotations[k]}, {mesh.nodes[k + 1], *mesh.rotations[k + 1]}});
+
+  DisjointSets sets(beams.size());
+  std::map<Index, std::size_t> beam_of_rotation;
+  for (std::size_t e = 0; e < beams.size(); ++e)
+    for (const ElementEnd& end : {beams[e].first, beams[e].second})
+      sets.unite(e, beam_of_rotation.try_emplace(end.rotation, e).first->second);
+
+  std::map<std::size_t, RigidBody> bodies;
+  for (std::size_t e = 0; e < beams.size(); ++e)
+    for (const ElementEnd& end : {beams[e].first, beams[e].second}) bodies[sets.representative(e)].ends.push_back(end);
+  std::vector<RigidBody> out;
+  for (auto& [key, body] : bodies) {
+    for (const ElementEnd& end : body.ends) body.centre += structure.position(end.node) / double(body.ends.size());
+    for (const ElementEnd& end : body.ends)
+      body.size = std::max(body.size, (structure.position(end.node) - body.centre).norm());
+    out.push_back(std::move(body));
+  }
+  return out;
+}
+
+// The motions q of a structure of rigid beams: three of each body, then two of each node that only bars have. A node
+// of a body moves with the first one that has it; the others are joined to it by conditions.
+struct Motions {
+  const Structure& structure;
+  std::vector<RigidBody> bodies;
+  std::vector<std::optional<std::size_t>> body_of_node;
+  std::vector<Eigen::Index> first_of_node;  // of those without a body
+  Eigen::Index count = 0;
+
+  explicit Motions(const Structure& of)
+      : structure(of),
+        bodies(rigid_bodies(of)),
+        body_of_node(static_cast<std::size_t>(of.node_count())),
+        first_of_node(body_of_node.size(), -1),
+        count(3 * static_cast<Eigen::Index>(bodies.size())) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (const ElementEnd& end : bodies[b].ends)
+        if (auto& body = body_of_node[static_cast<std::size_t>(end.node)]; !body) body = b;
+    for (const MemberMesh& mesh : of.members())
+      for (const Index node : mesh.nodes) {
+        const auto i = static_cast<std::size_t>(node);
+        if (body_of_node[i] || first_of_node[i] >= 0) continue;
+        first_of_node[i] = count;
+        count += 2;
+      }
+  }
+
+  // Of node in a direction: what is multiplied with q, as (place, factor).
+  std::vector<std::pair<Eigen::Index, double>> of_node(Index node, const Vec2& direction) const {
+    const auto i = static_cast<std::size_t>(node);
+    if (body_of_node[i]) return of_body(*body_of_node[i], node, direction);
+    return {{first_of_node[i], direction.x()}, {first_of_node[i] + 1, direction.y()}};
+  }
+  std::vector<std::pair<Eigen::Index, double>> of_body(std::size_t body, Index node, const Vec2& direction) const {
+    const Eigen::RowVector3d by = direction.transpose() * bodies[body].motion_at(structure.position(node));
+    const Eigen::Index first = 3 * static_cast<Eigen::Index>(body);
+    return {{first, by[0]}, {first + 1, by[1]}, {first + 2, by[2]}};
+  }
+};
+
+// Conditions C q = 0: bars keep their lengths, bodies hold together at their joints, and supports do not move.
+class Conditions {
+ public:
+  explicit Conditions(const Motions& motions) : motions_(motions) {
+    keep_lengths_of_bars();
+    join_bodies();
+    hold_supports();
+  }
+
+  Rows matrix() const {
+    Rows C(rows_, motions_.count);
+    C.setFromTriplets(entries_.begin(), entries_.end());
+    return C;
+  }
+
+ private:
+  using Terms = std::vector<std::pair<Eigen::Index, double>>;
+
+  void add(const Terms& plus, const Terms& minus = {}) {
+    for (const auto& [place, factor] : plus) entries_.emplace_back(rows_, place, factor);
+    for (const auto& [place, factor] : minus) entries_.emplace_back(rows_, place, -factor);
+    ++rows_;
+  }
+
+  void keep_lengths_of_bars() {
+    const Structure& structure = motions_.structure;
+    for (const MemberMesh& mesh : structure.members())
+      for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
+        if (mesh.rotations[k]) continue;
+        const Index a = mesh.nodes[k], b = mesh.nodes[k + 1];
+        const Vec2 along = (structure.position(b) - structure.position(a)).normalized();
+        add(motions_.of_node(b, along), motions_.of_node(a, along));
+      }
+  }
+
+  void join_bodies() {
+    std::set<std::pair<std::size_t, Index>> joined;
+    for (std::size_t b = 0; b < motions_.bodies.size(); ++b)
+      for (const ElementEnd& end : motions_.bodies[b].ends)
+        if (motions_.body_of_node[static_cast<std::size_t>(end.node)] != b && joined.insert({b, end.node}).second)
+          for (const Vec2& direction : {Vec2(Vec2::UnitX()), Vec2(Vec2::UnitY())})
+            add(motions_.of_body(b, end.node, direction), motions_.of_node(end.node, direction));
+  }
+
+  void hold_supports() {
+    const Structure& structure = motions_.structure;
+    std::set<Index> seen;
+    const auto holds = [&](Index freedom) { return seen.insert(freedom).second && !structure.unknown(freedom); };
+    for (const MemberMesh& mesh : structure.members())
+      for (const Index node : mesh.nodes) {
+        if (holds(structure.freedom(node, Freedom::x))) add(motions_.of_node(node, Vec2::UnitX()));
+        if (holds(structure.freedom(node, Freedom::z))) add(motions_.of_node(node, Vec2::UnitY()));
+      }
+    for (std::size_t b = 0; b < motions_.bodies.size(); ++b)
+      for (const ElementEnd& end : motions_.bodies[b].ends)
+        if (holds(end.rotation)) add({{3 * static_cast<Eigen::Index>(b) + 2, 1.0}});
+  }
+
+  const Motions& motions_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::Index rows_ = 0;
+};
+
+// A unit vector q with C q = 0, or none: where the columns of Cᵀ have no full rank, the last column of Q in
+// Cᵀ = Q R is orthogonal to all of them.
+std::optional<Vector> null_vector(const Rows& C) {
+  const Eigen::Index n = C.cols();
+  if (C.rows() == 0) return Vector::Unit(n, n - 1);
+  Rows transposed = C.transpose();
+  transposed.makeCompressed();
+  const Eigen::SparseQR<Rows, Eigen::COLAMDOrdering<int>> qr(transposed);
+  if (qr.rank() == n) return std::nullopt;
+  const Vector last = Vector::Unit(n, n - 1);
+  return Vector(qr.matrixQ() * last);
+}
+
+}  // namespace
+
+std::optional<Mechanism> find_mechanism(const Structure& structure) {
+  const Motions motions(structure);
+  if (motions.count == 0) return std::nullopt;
+  const auto q = null_vector(Conditions(motions).matrix());
+  if (!q) return std::nullopt;
+
+  Mechanism greatest{};
+  double motion = -1.0;
+  const auto compare = [&](Index node, Freedom freedom, double here) {
+    if (std::abs(here) <= motion * (1.0 + 1e-9)) return;
+    motion = std::abs(here);
+    greatest = {.node = node, .freedom = freedom};
+  };
+  const auto moves = [&](Index node, const Vec2& direction) {
+    double sum = 0.0;
+    for (const auto& [place, factor] : motions.of_node(node, direction)) sum += factor * (*q)[place];
+    return sum;
+  };
+  for (const MemberMesh& mesh : structure.members())
+    for (const Index node : mesh.nodes) {
+      compare(node, Freedom::x, moves(node, Vec2::UnitX()));
+      compare(node, Freedom::z, moves(node, Vec2::UnitY()));
+    }
+  for (std::size_t b = 0; b < motions.bodies.size(); ++b) {
+    const double turns = (*q)[3 * static_cast<Eigen::Index>(b) + 2] / motions.bodies[b].size;
+    compare(motions.bodies[b].ends.front().node, Freedom::rotation, turns * 0.5 * structure.length_scale());
+  }
+  return greatest;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "elements/structure.hpp"
+
+namespace arcwall {
+
+/// A motion of a structure without strain.
+struct Mechanism {
+  Index node;
+  Freedom freedom;  ///< where the motion is greatest, rotations taken over half the structure's length scale
+};
+
+/// Whether a structure can begin to move from its stress-free state without strain; one such motion if it can.
+///
+/// This is a question of geometry alone. In a motion without strain every beam element moves as a rigid body does, and
+/// those that share a rotation move as one; bars keep their lengths. What is left are the conditions between these
+/// bodies at their joints and those of bars and supports: their rank is counted. So the answer does not depend on how
+/// finely beams are divided, on how slender they are, or on whether a beam is written as one member or as many.
+std::optional<Mechanism> find_mechanism(const Structure& structure);
+
+}  // namespace arcwall
