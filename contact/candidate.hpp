@@ -1,26 +1,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 
+#include "contact/contact_point.hpp"
 #include "contact/profile.hpp"
 #include "core/tracked_point.hpp"
 
 namespace arcwall {
-
-/// Where a contact is, in the user's words.
-struct ContactLabel {
-  std::string wall{};
-  std::string member{};
-  double fraction = 0.0;   ///< of the member's arc length
-  double tributary = 0.0;  ///< part of the axis whose pressure the contact stands for; 0 if not given [length]
-};
-
-/// A contact force over the length of axis it stands for; empty where that is not given: a point force.
-inline std::optional<double> pressure_of(const ContactLabel& label, double force) {
-  return label.tributary > 0.0 ? std::optional(force / label.tributary) : std::nullopt;
-}
 
 /// A gap with its derivatives in the tracked point's unknowns (sizes as in PointKinematics).
 struct Gap {
@@ -49,6 +35,9 @@ class Candidate {
 
   /// Rate of the gap along a direction; 0 where there is no surface.
   double gap_rate(const State& state, const Direction& direction) const;
+
+  /// The unit vector along which the obstacle presses; only where faces_wall().
+  Vec2 normal(const State& state) const { return surface_normal(*wall_, side_, point_->position(state)); }
 
  private:
   std::unique_ptr<TrackedPoint> point_;

@@ -200,8 +200,22 @@ double MultiplierContact::force(const State& state, Index j) const {
   return k ? state.x[*k] : 0.0;
 }
 
-std::optional<double> MultiplierContact::pressure(const State& state, Index j) const {
-  return pressure_of(candidate(j).label(), force(state, j));
+ContactPoint MultiplierContact::told(const State& state, std::size_t j, double force) const {
+  const Candidate& candidate = candidates_[j];
+  ContactPoint contact{.label = candidate.label(), .place = candidate.point().position(state), .force = force};
+  if (force != 0.0 && candidate.faces_wall(state)) contact.force_vector = force * candidate.normal(state);
+  return contact;
+}
+
+ContactPoint MultiplierContact::contact(const State& state, Index j) const {
+  return told(state, static_cast<std::size_t>(j), force(state, j));
+}
+
+std::vector<ContactPoint> MultiplierContact::closed_contacts(const State& state) const {
+  std::vector<ContactPoint> contacts;
+  const Index n = inner_.size({});
+  for_each_closed(state.piece, [&](std::size_t j, Index k) { contacts.push_back(told(state, j, state.x[n + k])); });
+  return contacts;
 }
 
 }  // namespace arcwall

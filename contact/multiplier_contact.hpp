@@ -3,15 +3,11 @@
 #include <vector>
 
 #include "contact/candidate.hpp"
+#include "contact/contact_point.hpp"
+#include "contact/contact_scales.hpp"
 #include "core/system.hpp"
 
 namespace arcwall {
-
-/// Scales that make guards of order 1.
-struct ContactScales {
-  double length = 1.0;  ///< of gaps [length]
-  double force = 1.0;   ///< of contact forces [force]
-};
 
 /// What obstacles answer a contact with (docs/theory.md, section 7.4). Stiffnesses are per length of axis and of gap
 /// [force/length²]: a contact has that times its tributary length.
@@ -32,7 +28,7 @@ struct ContactLaw {
 ///     p_j = 0,   g_j ≥ 0                                     (open)       [ −G                         −c  ]
 ///
 /// with t = p − r g; c = 0 but for the method `penalty`, r = 0 but for `augmented`.
-class MultiplierContact final : public System {
+class MultiplierContact final : public System, public ContactQuery {
  public:
   /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary
   /// lengths.
@@ -62,14 +58,9 @@ class MultiplierContact final : public System {
   const Candidate& candidate(Index j) const { return candidates_[static_cast<std::size_t>(j)]; }
   const ContactScales& scales() const { return scales_; }
 
-  /// Contact force of candidate j, 0 if open [force].
-  double force(const State& state, Index j) const;
-
-  /// The same over the length of axis it stands for [force/length]; empty where it is a point force.
-  std::optional<double> pressure(const State& state, Index j) const;
-
-  /// Forces of all closed contacts, in their order [force].
-  Vector closed_forces(const State& state) const { return state.x.tail(multiplier_count(state.piece)); }
+  ContactPoint contact(const State& state, Index j) const override;
+  double force(const State& state, Index j) const override;
+  std::vector<ContactPoint> closed_contacts(const State& state) const override;
 
  private:
   State inner_state(const State& state) const {
@@ -81,6 +72,7 @@ class MultiplierContact final : public System {
   };
   const Springs& springs_at(Index j) const { return springs_[static_cast<std::size_t>(j)]; }
   double open_guard(Index j, const State& state) const;
+  ContactPoint told(const State& state, std::size_t j, double force) const;
   void lay_out(const State& state, Linearization& out) const;
 
   const Equations& inner_;

@@ -91,6 +91,11 @@ SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point)
   return {.value = sign * d * c, .x = -sign * psi.first * c * (1.0 + d * psi.second * c * c), .z = sign * c};
 }
 
+Vec2 surface_normal(const Profile& profile, Side side, const Vec2& point) {
+  const SurfaceGap gap = surface_gap(profile, side, point);
+  return Vec2(gap.x, gap.z).normalized();
+}
+
 std::unique_ptr<Profile> flat_profile(double z) { return std::make_unique<LineProfile>(z, 0.0); }
 std::unique_ptr<Profile> line_profile(double z, double slope) { return std::make_unique<LineProfile>(z, slope); }
 std::unique_ptr<Profile> parabola_profile(const Vec2& apex, double curvature) {

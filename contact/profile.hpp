@@ -46,6 +46,9 @@ struct SurfaceSlope {
 SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point);
 SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point);
 
+/// The unit vector along which the gap grows fastest.
+Vec2 surface_normal(const Profile& profile, Side side, const Vec2& point);
+
 std::unique_ptr<Profile> flat_profile(double z);
 std::unique_ptr<Profile> line_profile(double z, double slope);                  ///< z + slope·x
 std::unique_ptr<Profile> parabola_profile(const Vec2& apex, double curvature);  ///< z = apex + ½ curvature (x − apex)²

@@ -112,13 +112,13 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
                      [&](const deck::Wall& wall) { return concerns(wall, a) == concerns(wall, b); });
 }
 
-std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
-  std::vector<Obstacle> obstacles;
+std::vector<SlidingObstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
+  std::vector<SlidingObstacle> obstacles;
   for (const deck::Wall& wall : deck.walls) {
-    Obstacle obstacle{.name = wall.name,
-                      .profile = profile_of(wall),
-                      .side = side_of(wall),
-                      .on_face = wall.acts_on == deck::ActsOn::face};
+    SlidingObstacle obstacle{.name = wall.name,
+                             .profile = profile_of(wall),
+                             .side = side_of(wall),
+                             .on_face = wall.acts_on == deck::ActsOn::face};
     for (Index strand = 0; strand < structure.strands(); ++strand)
       obstacle.strands.push_back(concerns(wall, structure.label({.strand = strand, .s = 0.0}).first) ? 1 : 0);
     obstacles.push_back(std::move(obstacle));

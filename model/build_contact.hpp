@@ -26,6 +26,6 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
 bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b);
 
 /// The walls for contact points that slide.
-std::vector<Obstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure);
+std::vector<SlidingObstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure);
 
 }  // namespace arcwall

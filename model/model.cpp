@@ -190,25 +190,9 @@ std::optional<State> Model::start(std::string& reason) const {
   return sliding_ ? sliding_->adopted(state) : state;
 }
 
-Model::ContactPlace Model::contact_place(const State& state, Index j) const {
-  if (sliding_) return {.label = sliding_->label(state, j), .x = sliding_->place(state, j).x()};
-  const Candidate& candidate = contact_->candidate(j);
-  return {.label = candidate.label(), .x = candidate.point().position(state).x()};
-}
-
-std::vector<Model::ContactForce> Model::contact_forces(const State& state) const {
-  std::vector<ContactForce> forces;
-  if (state.piece.closed_count() == 0) return forces;
-  const Vector at_nodes = sliding_ ? Vector() : contact_->closed_forces(state);
-  for (std::size_t i = 0; i < state.piece.size(); ++i) {
-    if (!state.piece[i]) continue;
-    const auto j = static_cast<Index>(i), k = static_cast<Index>(forces.size());
-    ContactPlace place = contact_place(state, j);
-    const double force = sliding_ ? sliding_->force(state, j) : at_nodes[k];
-    const auto pressure = pressure_of(place.label, force);
-    forces.push_back({.place = std::move(place), .force = force, .pressure = pressure});
-  }
-  return forces;
+const ContactQuery* Model::contacts() const {
+  if (sliding_) return sliding_.get();
+  return contact_.get();
 }
 
 Index Model::closed_contacts(const State& state) const { return state.piece.closed_count(); }

@@ -50,20 +50,8 @@ class Model {
   /// The increments from the start, whose reference configuration is the model's: for one run alone.
   LoadIncrements increments(State start);
 
-  /// Where contact j of a state's piece is.
-  struct ContactPlace {
-    ContactLabel label{};
-    double x = 0.0;  ///< present [length]
-  };
-  ContactPlace contact_place(const State& state, Index j) const;
-
-  /// The closed contacts of a state.
-  struct ContactForce {
-    ContactPlace place{};
-    double force = 0.0;                ///< of the wall on the structure, along its normal [force]
-    std::optional<double> pressure{};  ///< force over the length of axis it stands for; not of a point force
-  };
-  std::vector<ContactForce> contact_forces(const State& state) const;
+  /// What tells the contacts of a state, whichever kind they are of; null if the deck has no walls.
+  const ContactQuery* contacts() const;
 
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
   const TraceOptions& options() const { return options_; }

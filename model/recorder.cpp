@@ -18,8 +18,10 @@ std::vector<double> values(const std::vector<MonitorColumn>& monitors, const Sta
 
 std::vector<RecordForce> forces_at(const Model& model, const State& state) {
   std::vector<RecordForce> forces;
-  for (const auto& [place, force, pressure] : model.contact_forces(state))
-    forces.push_back({.label = place.label, .x = place.x, .force = force, .pressure = pressure});
+  if (model.contacts() == nullptr) return forces;
+  for (const ContactPoint& contact : model.contacts()->closed_contacts(state))
+    forces.push_back(
+        {.label = contact.label, .x = contact.place.x(), .force = contact.force, .pressure = contact.pressure()});
   return forces;
 }
 
@@ -117,8 +119,8 @@ RecordEvent Recorder::recorded(const Event& event) const {
   }
   if (!changes_contact(event.kind)) return record;
   for (const Index j : event.guards) {
-    const auto [label, x] = model_.contact_place(event.state, j);
-    record.contacts.push_back({.label = label, .x = x});
+    const ContactPoint contact = model_.contacts()->contact(event.state, j);
+    record.contacts.push_back({.label = contact.label, .x = contact.place.x()});
   }
   return record;
 }

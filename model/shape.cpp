@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "model/build_contact.hpp"
@@ -18,8 +17,7 @@ double mean(double a, double b) { return 0.5 * (a + b); }
 std::vector<double> sample_fractions(int elements);
 std::vector<ShapePoint> points_on_nodes(const Model& model, const State& state, std::size_t member);
 std::vector<ShapePoint> points_between_breakpoints(const Model& model, const State& state, std::size_t member);
-std::vector<ContactMark> node_contacts(const Model& model, const State& state);
-std::vector<ContactMark> sliding_contacts(const Model& model, const State& state);
+std::vector<ContactMark> contact_marks(const ContactQuery& contacts, const State& state);
 
 }  // namespace
 
@@ -29,10 +27,7 @@ Shape shape_of(const Model& model, const State& state) {
     shape.members.push_back({.member = model.deck().members[m].name,
                              .points = model.sliding() != nullptr ? points_between_breakpoints(model, state, m)
                                                                   : points_on_nodes(model, state, m)});
-  if (model.sliding() != nullptr)
-    shape.contacts = sliding_contacts(model, state);
-  else if (model.contact() != nullptr)
-    shape.contacts = node_contacts(model, state);
+  if (model.contacts() != nullptr) shape.contacts = contact_marks(*model.contacts(), state);
   return shape;
 }
 
@@ -69,9 +64,8 @@ std::vector<ShapePoint> points_on_nodes(const Model& model, const State& state, 
 // A member is one stretch of a strand, or several strands of its own where loads act inside it.
 std::vector<ShapePoint> points_between_breakpoints(const Model& model, const State& state, std::size_t member) {
   const SlidingStructure& body = *model.sliding_structure();
-  const auto& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
-  const SlidingMesh& mesh = on.mesh();
-  const Vector s = on.s_of(state);
+  const SlidingMesh& mesh = mesh_of(state);
+  const Vector s = mesh_state_of(state).s;
   const std::string& name = model.deck().members[member].name;
   const auto elements = static_cast<int>(model.structure().members()[member].nodes.size()) - 1;
   std::vector<double> fractions = sample_fractions(elements);
@@ -96,56 +90,15 @@ std::vector<ShapePoint> points_between_breakpoints(const Model& model, const Sta
 
 // --- contacts -------------------------------------------------------------------------------------------------------
 
-// The walls' surfaces by name.
-class Surfaces {
- public:
-  explicit Surfaces(const deck::Deck& deck) {
-    for (const deck::Wall& wall : deck.walls) surfaces_[wall.name] = {profile_of(wall), side_of(wall)};
-  }
-
-  // A force along the wall's normal.
-  Vec2 force(const std::string& wall, const Vec2& at, double size) const {
-    const auto& [profile, side] = surfaces_.at(wall);
-    const SurfaceGap gap = surface_gap(*profile, side, at);
-    return size * Vec2(gap.x, gap.z).normalized();
-  }
-
- private:
-  std::map<std::string, std::pair<std::unique_ptr<Profile>, Side>> surfaces_;
-};
-
-std::vector<ContactMark> node_contacts(const Model& model, const State& state) {
-  const Surfaces surfaces(model.deck());
-  const MultiplierContact& contact = *model.contact();
+std::vector<ContactMark> contact_marks(const ContactQuery& contacts, const State& state) {
   std::vector<ContactMark> marks;
-  for (Index j = 0; j < contact.contact_count(); ++j) {
-    if (!state.piece[static_cast<std::size_t>(j)]) continue;
-    const Candidate& candidate = contact.candidate(j);
-    const Vec2 at = candidate.point().position(state);
-    marks.push_back({.label = candidate.label(),
-                     .position = at,
-                     .force = surfaces.force(candidate.label().wall, at, contact.force(state, j)),
-                     .pressure = contact.pressure(state, j)});
-  }
-  return marks;
-}
-
-std::vector<ContactMark> sliding_contacts(const Model& model, const State& state) {
-  const Surfaces surfaces(model.deck());
-  const SlidingContact& contact = *model.sliding();
-  std::vector<ContactMark> marks;
-  for (std::size_t i = 0; i < state.piece.size(); ++i) {
-    if (!state.piece[i]) continue;
-    const auto j = static_cast<Index>(i);
-    const ContactLabel label = contact.label(state, j);
-    const Vec2 at = contact.place(state, j);
-    marks.push_back({.label = label, .position = at, .force = surfaces.force(label.wall, at, contact.force(state, j))});
-  }
-  for (const SlidingContact::HeldNode& node : contact.held_nodes(state))
-    marks.push_back({.label = node.label,
-                     .position = node.place,
-                     .force = surfaces.force(node.label.wall, node.place, node.force),
-                     .pressure = node.force / node.label.tributary});
+  const auto add = [&](const std::vector<ContactPoint>& points) {
+    for (const ContactPoint& point : points)
+      marks.push_back(
+          {.label = point.label, .position = point.place, .force = point.force_vector, .pressure = point.pressure()});
+  };
+  add(contacts.closed_contacts(state));
+  add(contacts.pressed_nodes(state));
   return marks;
 }
 

@@ -55,7 +55,7 @@ OrderedJson events_of(const Model& model, const Arc& arc) {
     if (changes_contact(event.kind)) {
       json["contact"] = OrderedJson::array();
       for (const Index j : event.guards) {
-        const auto [label, x] = model.contact_place(event.state, j);
+        const ContactLabel label = model.contacts()->contact(event.state, j).label;
         json["contact"].push_back({{"wall", label.wall}, {"member", label.member}, {"fraction", label.fraction}});
       }
     }

@@ -42,6 +42,12 @@ while IFS= read -r line; do
   fail "$line   (only core, tests and benchmarks may include core/algebra/solvers and core/algebra/block_tridiagonal)"
 done < <(grep -rnE --include='*.[ch]pp' '^#include "core/algebra/(solvers|block_tridiagonal)/' continuation elements contact model apps || true)
 
+# Contact that slides is made in a room of its own, of which others see the layout alone.
+while IFS= read -r line; do
+  fail "$line   (only contact may include contact/sliding; others may include its layout.hpp)"
+done < <(grep -rnE --include='*.[ch]pp' '^#include "contact/sliding/' continuation elements model apps |
+  grep -v '"contact/sliding/layout.hpp"' || true)
+
 # installed LIBRARY: its headers that are installed, with their folders inside it.
 installed() {
   sed -n '/HEADERS/,/)/p' "$1/CMakeLists.txt" | sed 's/.*HEADERS//' | grep -oE '[a-z0-9_/]+\.hpp' | sed "s|^|$1/|"

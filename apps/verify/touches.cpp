@@ -121,7 +121,7 @@ struct Sliding {
   const Model& model;
   const State& state;
   const SlidingStructure& body = *model.sliding_structure();
-  const SlidingContactLayout& on = static_cast<const SlidingContactLayout&>(*state.piece.layout());
+  const SlidingContactLayout& on = sliding_layout(state.piece);
   const SlidingMesh& mesh = on.mesh();
   MeshState now = mesh_state_of(state);
 
@@ -236,8 +236,8 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
   const auto ends = free_ends(*at, walls);
   for (std::size_t i = 0; i < ends.size(); ++i)
     add(*ends[i].second, ends[i].first, state.piece[points.size() + i] != 0);
-  for (const SlidingContactLayout::Held& held : at->on.held()) {
-    add(walls[held.obstacle], {.strand = held.strand, .position = held.position}, true);
+  for (const SlidingContactLayout::PressedNode& node : at->on.pressed_nodes()) {
+    add(walls[node.obstacle], {.strand = node.strand, .position = node.position}, true);
     touches.all.back().listed = false;
   }
   return touches;

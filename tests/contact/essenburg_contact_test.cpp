@@ -102,8 +102,8 @@ TEST(EssenburgContact, PressureIsForcePerTributaryLength) {
   piece[1] = 1;
   State state{.x = Vector::Zero(system.size(piece)), .piece = piece};
   state.x[*system.multiplier_index(piece, 1)] = 2.0;
-  EXPECT_NEAR(*system.pressure(state, 1), 6.0, 1e-14);
-  EXPECT_EQ(*system.pressure(state, 0), 0.0);
+  EXPECT_NEAR(*system.contact(state, 1).pressure(), 6.0, 1e-14);
+  EXPECT_EQ(*system.contact(state, 0).pressure(), 0.0);
 }
 
 }  // namespace arcwall::essenburg_contact_test

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/sliding_layout.hpp"
 #include "core/derivative_check.hpp"
 #include "tests/contact/contact_models.hpp"
 #include "tests/support/dense.hpp"

@@ -58,7 +58,7 @@ class FoundationPath {
       row.R += 2.0 * system.force(state, j) / scale_;
       if (state.piece[static_cast<std::size_t>(j)]) row.c = system.candidate(j).label().fraction;
     }
-    row.q0 = *system.pressure(state, 0) / scale_;
+    row.q0 = *system.contact(state, 0).pressure() / scale_;
     return row;
   }
 

@@ -249,7 +249,7 @@ TEST(SlidingContactPath, CountsAsItsEquationsSayOnASharpBend) {
     for (const ExploredBranch& branch : path.branches)
       for (const Arc& arc : branch.arcs) {
         const State& state = arc.to.state;
-        const bool one_point = state.piece.closed_count() == 1 && path.model.system().border_width(state.piece) == 1;
+        const bool one_point = state.piece.closed_count() == 1 && mesh_of(state).breakpoints() == 1;
         if (!one_point || !arc.to.count.unstable || !arc.events.empty()) continue;
         const Index unstable = *arc.to.count.unstable;
         const int sign = determinant_sign(path.model.system(), state) * (unstable % 2 == 0 ? 1 : -1);

@@ -90,7 +90,7 @@ TEST_P(SlidingPressedPart, LiftsOffInside) {
     const Path path = path_of(bent_column(elements, GetParam(), 1.5e-5, -1.5e-4).model(), 6.0);
     ASSERT_EQ(path.kinds(), (std::vector{closes, spreads, opens}));
     const Event event = path.events()[2];
-    EXPECT_NEAR(path.model.system().label(event.state, event.guards[0]).fraction, 0.5, 1e-7);
+    EXPECT_NEAR(path.model.system().contact(event.state, event.guards[0]).label.fraction, 0.5, 1e-7);
     ASSERT_EQ(path.points().size(), 4);
     EXPECT_NEAR(path.points()[1] + path.points()[2], 2.0, 1e-7);
     loads.push_back(event.state.lambda / 3.945344896566 - 1.0);
@@ -140,7 +140,7 @@ TEST_P(SlidingPressedPart, LiesDownAgain) {
   ASSERT_EQ(unloading.size(), 3U);
   EXPECT_EQ(unloading[0].kind, closes);
   EXPECT_NEAR(unloading[0].state.lambda, 3.945344896566, 2e-5 * 3.9);
-  EXPECT_NEAR(path.model.system().label(unloading[0].state, unloading[0].guards[0]).fraction, 0.5, 1e-7);
+  EXPECT_NEAR(path.model.system().contact(unloading[0].state, unloading[0].guards[0]).label.fraction, 0.5, 1e-7);
   EXPECT_EQ(unloading[1].kind, gathers);
   EXPECT_NEAR(unloading[1].state.lambda, loading[1].state.lambda, 1e-9 * loading[1].state.lambda);
   EXPECT_EQ(unloading[2].kind, opens);

@@ -6,8 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "contact/sliding_layout.hpp"
-
 namespace arcwall::test {
 
 Matrix full(const SparseMatrix& lower) {
@@ -73,7 +71,7 @@ double tilt_spring(const SlidingContact& system, const State& state, Index k) {
   const MeshState now = mesh_state_of(state);
   const AxisPlace axis = on.mesh().node(strand, position, now);
   const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, now);
-  const Vec2 face = system.place(state, k);
+  const Vec2 face = system.contact(state, k).place;
   const Height wall = system.obstacles()[on.points()[point].obstacle].profile->at(face.x());
   const double travel = std::cos(axis.angle) >= 0.0 ? 1.0 : -1.0;
   const double wall_curvature = travel * wall.second / std::pow(1.0 + wall.first * wall.first, 1.5);
@@ -90,7 +88,7 @@ std::optional<Index> dense_unstable_count(const SlidingContact& system, const St
   system.linearize(state, now);
   const Matrix whole = full(now.K);
   const Index m = system.multiplier_count(state.piece), n = whole.rows() - m;
-  const Index points = system.border_width(state.piece);
+  const Index points = mesh_of(state).breakpoints();
   Matrix K = whole.topLeftCorner(n, n);
   std::vector<Index> held;
   for (Index row = n; row < n + state.piece.closed_count(); ++row)

@@ -104,7 +104,7 @@ Vector bordered_allowance(const SlidingContact& system, const State& state, cons
                           const TraceOptions& options, double lambda_scale) {
   const Vector weights = system.weights(state.piece);
   const double tolerance = 4.0 * options.corrector.tolerance, L = system.scales().length;
-  const Index n = state.x.size(), m = system.border_width(state.piece), core = n - m;
+  const Index n = state.x.size(), m = mesh_of(state).breakpoints(), core = n - m;
   Vector off(n);
   for (Index i = 0; i < n; ++i) {
     const double left = weights[i] > 0.0 ? tolerance / std::sqrt(weights[i]) : i >= core ? tolerance * L : 0.0;

@@ -12,7 +12,7 @@ SlidingModel::SlidingModel(const StructureBuilder& builder, const std::vector<Te
   const auto tied = builder.build();
   const double force = std::max(10.0 * tied->force_scale() * std::abs(first_step),
                                 tied->force_roundoff() / TraceOptions{}.guard_tolerance);
-  std::vector<Obstacle> obstacles;
+  std::vector<SlidingObstacle> obstacles;
   for (const TestWall& wall : walls)
     obstacles.push_back({.name = wall.name,
                          .profile = wall.profile,

@@ -1,8 +1,8 @@
-#include "contact/layout_edit.hpp"
+#include "contact/sliding/layout_edit.hpp"
 
 #include <algorithm>
 
-namespace arcwall {
+namespace arcwall::sliding {
 
 namespace {
 
@@ -39,7 +39,7 @@ std::size_t points_before(const std::vector<Index>& strands, std::size_t point) 
 }  // namespace
 
 int& LayoutEdit::segment(std::size_t point, std::size_t beyond) {
-  return cut[static_cast<std::size_t>(strands[point])][points_before(strands, point) + beyond];
+  return elements[static_cast<std::size_t>(strands[point])][points_before(strands, point) + beyond];
 }
 
 std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elements_behind) {
@@ -53,17 +53,17 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   insert_at(forces, k, entry.force);
   s = inserted(s, k, entry.s);
   const std::size_t before = points_before(strands, k);
-  std::vector<int>& elements = cut[static_cast<std::size_t>(entry.strand)];
-  elements[before] = elements_before;
-  insert_at(elements, before + 1, elements_behind);
+  std::vector<int>& in_strand = elements[static_cast<std::size_t>(entry.strand)];
+  in_strand[before] = elements_before;
+  insert_at(in_strand, before + 1, elements_behind);
   return k;
 }
 
-void LayoutEdit::erase(std::size_t point, int elements) {
+void LayoutEdit::erase(std::size_t point, int of_both) {
   const std::size_t before = points_before(strands, point);
-  std::vector<int>& in_run = cut[static_cast<std::size_t>(strands[point])];
-  in_run[before] = elements;
-  erase_at(in_run, before + 1);
+  std::vector<int>& in_strand = elements[static_cast<std::size_t>(strands[point])];
+  in_strand[before] = of_both;
+  erase_at(in_strand, before + 1);
   erase_at(points, point);
   erase_at(strands, point);
   erase_at(closed, point);
@@ -71,4 +71,18 @@ void LayoutEdit::erase(std::size_t point, int elements) {
   s = erased(s, point);
 }
 
-}  // namespace arcwall
+LayoutEdit edit_of(const SlidingState& at) {
+  LayoutEdit edit{.elements = at.mesh.elements_per_segment(), .points = at.layout.points(), .s = at.now.s};
+  for (std::size_t k = 0; k < edit.points.size(); ++k) {
+    edit.strands.push_back(at.mesh.breakpoint(static_cast<Index>(k)).first);
+    edit.closed.push_back(at.is_closed(k));
+    edit.forces.push_back(at.force(k));
+  }
+  return edit;
+}
+
+std::shared_ptr<const SlidingContactLayout> layout_of(const SlidingBody& body, const LayoutEdit& edit) {
+  return std::make_shared<SlidingContactLayout>(body, body.mesh(edit.elements), edit.points, edit.s);
+}
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/state.hpp"
+
+namespace arcwall {
+
+/// Where a contact is, in the user's words.
+struct ContactLabel {
+  std::string wall{};
+  std::string member{};
+  double fraction = 0.0;   ///< of the member's arc length
+  double tributary = 0.0;  ///< part of the axis whose pressure the contact stands for; 0 if not given [length]
+};
+
+/// A contact of one state, as events, tables and pictures tell it.
+struct ContactPoint {
+  ContactLabel label{};
+  Vec2 place = Vec2::Zero();         ///< of the point of the body that touches [length]
+  double force = 0.0;                ///< compression is positive; 0 where the contact is open [force]
+  Vec2 force_vector = Vec2::Zero();  ///< of the obstacle on the body, along the obstacle's normal [force]
+
+  /// The force over the length of axis that it stands for [force/length]; empty where it is a point force.
+  std::optional<double> pressure() const {
+    return label.tributary > 0.0 ? std::optional(force / label.tributary) : std::nullopt;
+  }
+};
+
+/// Tells the contacts of a state. Contact at nodes and contact that slides do so alike.
+class ContactQuery {
+ public:
+  virtual ~ContactQuery() = default;
+
+  /// Contact j of the state's piece, open or closed. The number of a validity bound that an event names stands for the
+  /// place that it watches: where the pressure of a part on an obstacle is least.
+  virtual ContactPoint contact(const State& state, Index j) const = 0;
+
+  /// The force of contact j alone, 0 where it is open [force].
+  virtual double force(const State& state, Index j) const = 0;
+
+  /// The closed contacts of the state's piece, in their order.
+  virtual std::vector<ContactPoint> closed_contacts(const State& state) const = 0;
+
+  /// Nodes that are pressed on an obstacle between two closed contacts, where the layout of the piece has such.
+  virtual std::vector<ContactPoint> pressed_nodes(const State&) const { return {}; }
+};
+
+}  // namespace arcwall

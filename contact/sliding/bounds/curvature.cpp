@@ -1,0 +1,40 @@
+#include "contact/sliding/bounds/curvature.hpp"
+
+#include "contact/sliding/bending.hpp"
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/spreading.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+constexpr double flatness = 0.5;  // curvature of an open point over its gap, both scaled, below which it is let go
+
+}  // namespace
+
+double CurvatureBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  const double bend = curvature_gap(setting, at, point_).value * setting.scales.length;
+  if (at.is_closed(point_)) return bend;
+  const double gap = face_gap(setting, touch_of_contact(setting, at.layout, point_), at);
+  return bend - flatness * gap / setting.scales.length;
+}
+
+Row CurvatureBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  Row row = at.no_slope();
+  curvature_gap(setting, at, point_).add_to(row, setting.scales.length, at.index);
+  if (at.is_closed(point_)) return row;
+  const Touch touch = touch_of_contact(setting, at.layout, point_);
+  const Eigen::Vector3d by_gap = flatness / setting.scales.length * touch_gap(setting, touch, at).gap_gradient;
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), -by_gap, row.dx);
+  return row;
+}
+
+std::vector<Transition> CurvatureBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                    const Arrival& arrival) const {
+  if (at.is_closed(point_)) return points_to_lines(setting, at, arrival.tolerance);
+  return {remeshed(setting, at, arrival.forward, [k = point_](LayoutEdit& edit) {
+    edit.erase(k, edit.elements_before(k) + edit.elements_behind(k));
+  })};
+}
+
+}  // namespace arcwall::sliding

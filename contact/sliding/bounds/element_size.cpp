@@ -1,0 +1,66 @@
+#include "contact/sliding/bounds/element_size.hpp"
+
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/spans.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+int elements_of(const SlidingState& at, std::size_t segment) { return at.layout.segments()[segment].elements; }
+
+}  // namespace
+
+double elements_wanted(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
+  return setting.body.elements_between(part.strand, from, to);
+}
+
+Row elements_wanted_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
+                             double factor) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
+  const double step = 1e-6 * setting.body.length(part.strand);
+  const auto density = [&](double S) {
+    return setting.body.elements_between(part.strand, S - step, S + step) / (2.0 * step) * factor;
+  };
+  Row row = at.no_slope();
+  if (part.first_point >= 0) row.dx[at.index.coordinate(part.first_point)] = -density(from);
+  if (part.last_point >= 0) row.dx[at.index.coordinate(part.last_point)] = density(to);
+  return row;
+}
+
+double CoarseBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  return coarsest - elements_wanted(setting, at, segment_) / elements_of(at, segment_);
+}
+
+Row CoarseBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  return elements_wanted_gradient(setting, at, segment_, -1.0 / elements_of(at, segment_));
+}
+
+std::vector<Transition> CoarseBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                 const Arrival& arrival) const {
+  return {with_elements(setting, at, arrival.forward, segment_, 2 * elements_of(at, segment_))};
+}
+
+bool FineBound::serves(const SlidingBody& body, const SlidingContactLayout& on,
+                       const SlidingContactLayout::Segment& segment) {
+  const auto [from, to] = on.ends(body, segment, on.origin());
+  return segment.elements > 1 && body.elements_between(segment.strand, from, to) > 1.2 * finest * segment.elements;
+}
+
+double FineBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  return elements_wanted(setting, at, segment_) / elements_of(at, segment_) - finest;
+}
+
+Row FineBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  return elements_wanted_gradient(setting, at, segment_, 1.0 / elements_of(at, segment_));
+}
+
+std::vector<Transition> FineBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                               const Arrival& arrival) const {
+  return {with_elements(setting, at, arrival.forward, segment_, (elements_of(at, segment_) + 1) / 2)};
+}
+
+}  // namespace arcwall::sliding

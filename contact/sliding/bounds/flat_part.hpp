@@ -1,0 +1,34 @@
+#pragma once
+
+#include "contact/sliding/validity_bound.hpp"
+
+namespace arcwall::sliding {
+
+/// The length of a flat part that has one element, over half a wave of its buckling (8.6): behind the bound it has
+/// elements of its own.
+class HalfWaveBound final : public ValidityBound {
+ public:
+  explicit HalfWaveBound(std::size_t segment) : segment_(segment) {}
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  std::size_t segment_;
+};
+
+/// The reverse: behind the bound, at 0.8 of half a wave, a flat part with elements of its own has one again.
+class StraightBound final : public ValidityBound {
+ public:
+  explicit StraightBound(std::size_t segment) : segment_(segment) {}
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  std::size_t segment_;
+};
+
+}  // namespace arcwall::sliding

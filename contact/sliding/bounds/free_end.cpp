@@ -1,0 +1,80 @@
+#include "contact/sliding/bounds/free_end.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/touch.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+constexpr double out_of_reach = 1.0;     // value of the bounds of an end that does not touch
+constexpr double nearly_upright = 0.02;  // cosine: beyond 0 the section's other corner touches, and nothing is smooth
+
+// A free end that touches an obstacle.
+struct TouchingEnd {
+  const FreeEnd& end;
+  Touch touch;
+};
+
+// The contact of an end of a strand that is closed, if one is.
+std::optional<TouchingEnd> touching_end(const SlidingSetting& setting, const SlidingState& at, Index strand,
+                                        bool last) {
+  const std::size_t points = at.layout.points().size();
+  for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
+    const FreeEnd& end = setting.free_ends[j];
+    if (end.strand == strand && end.last == last && at.is_closed(points + j))
+      return TouchingEnd{.end = end, .touch = touch_of_contact(setting, at.layout, points + j)};
+  }
+  return std::nullopt;
+}
+
+// The sine of the angle between body and wall has this sign at an end where the gap grows from there on.
+double outward(Side side, bool last) { return (side == Side::below) == last ? -1.0 : 1.0; }
+
+}  // namespace
+
+double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  const auto touching = touching_end(setting, at, strand_, last_);
+  if (!touching) return out_of_reach;
+  return outward(setting.obstacles[touching->end.obstacle].side, last_) *
+         std::sin(touch_gap(setting, touching->touch, at).angle);
+}
+
+Row LiesDownBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  Row row = at.no_slope();
+  const auto touching = touching_end(setting, at, strand_, last_);
+  if (!touching) return row;
+  const TouchGap gap = touch_gap(setting, touching->touch, at);
+  const Eigen::Vector3d by_node =
+      outward(setting.obstacles[touching->end.obstacle].side, last_) * std::cos(gap.angle) * gap.tilt_gradient;
+  add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), by_node, row.dx);
+  return row;
+}
+
+std::vector<Transition> LiesDownBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
+  return {unsupported("the free end of a member lies down on a wall")};
+}
+
+double UprightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  const auto touching = touching_end(setting, at, strand_, last_);
+  if (!touching || touching->touch.offset == 0.0 || touching->end.travel == 0.0) return out_of_reach;
+  return touching->end.travel * std::cos(touching->touch.axis(at).angle) - nearly_upright;
+}
+
+Row UprightBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  Row row = at.no_slope();
+  const auto touching = touching_end(setting, at, strand_, last_);
+  if (!touching || touching->touch.offset == 0.0) return row;
+  const double turned = -touching->end.travel * std::sin(touching->touch.axis(at).angle);
+  add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), {0.0, 0.0, turned}, row.dx);
+  return row;
+}
+
+std::vector<Transition> UprightBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
+  return {unsupported("the free end of a member stands upright against a wall: its other corner would touch")};
+}
+
+}  // namespace arcwall::sliding

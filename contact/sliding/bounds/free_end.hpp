@@ -1,0 +1,37 @@
+#pragma once
+
+#include "contact/sliding/validity_bound.hpp"
+
+namespace arcwall::sliding {
+
+/// How fast the gap grows from a free end on that touches: behind the bound the end lies down on the wall, which is not
+/// modelled. Positive where the end does not touch.
+class LiesDownBound final : public ValidityBound {
+ public:
+  LiesDownBound(Index strand, bool last) : strand_(strand), last_(last) {}
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  Index strand_;
+  bool last_;
+};
+
+/// How far a free end that touches is from standing upright: behind the bound its section's other corner would touch,
+/// which is not modelled. Positive where the end does not touch.
+class UprightBound final : public ValidityBound {
+ public:
+  UprightBound(Index strand, bool last) : strand_(strand), last_(last) {}
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  Index strand_;
+  bool last_;
+};
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,28 @@
+#include "contact/sliding/bounds/length.hpp"
+
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/shrinking.hpp"
+#include "contact/sliding/spans.hpp"
+
+namespace arcwall::sliding {
+
+double LengthBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  const auto k = static_cast<Index>(point_);
+  return (at.s(k + 1) - at.s(k) - shortest_span(setting.body, at.layout, point_)) / setting.scales.length;
+}
+
+Row LengthBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  const auto k = static_cast<Index>(point_);
+  Row row = at.no_slope();
+  row.dx[at.index.coordinate(k)] = -1.0 / setting.scales.length;
+  row.dx[at.index.coordinate(k + 1)] = 1.0 / setting.scales.length;
+  return row;
+}
+
+std::vector<Transition> LengthBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                 const Arrival& arrival) const {
+  return {span_vanishes(setting, at, point_, arrival.tolerance),
+          unsupported("a stretch between contacts closes, and no equilibrium without it was found")};
+}
+
+}  // namespace arcwall::sliding

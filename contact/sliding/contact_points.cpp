@@ -1,0 +1,61 @@
+#include "contact/sliding/contact_points.hpp"
+
+#include "contact/sliding/bounds/pressure.hpp"
+#include "contact/sliding/pressed_part.hpp"
+#include "contact/sliding/touch.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+ContactLabel label_of(const SlidingSetting& setting, std::size_t obstacle, const MaterialPoint& at) {
+  const auto [member, fraction] = setting.body.label(at);
+  return {.wall = setting.obstacles[obstacle].name, .member = member, .fraction = fraction};
+}
+
+ContactPoint at_node(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, double force) {
+  const SlidingObstacle& obstacle = setting.obstacles[touch.obstacle];
+  const double s = at.mesh.coordinate(touch.strand, touch.position, at.now.s);
+  ContactPoint contact{.label = label_of(setting, touch.obstacle, {.strand = touch.strand, .s = s}),
+                       .place = face(touch.offset, touch.axis(at)),
+                       .force = force};
+  if (force != 0.0) contact.force_vector = force * surface_normal(*obstacle.profile, obstacle.side, contact.place);
+  return contact;
+}
+
+// Where the pressure is least that a bound watches.
+ContactPoint at_least_pressure(const SlidingSetting& setting, const SlidingState& at, const PressureBound& bound) {
+  const SlidingContactLayout::PressedNode& node = at.layout.pressed_nodes()[bound.node()];
+  const MaterialPoint least{.strand = node.strand, .s = least_pressure(at, bound.node()).s};
+  return {.label = label_of(setting, node.obstacle, least),
+          .place = face(setting.face_offset(node.obstacle, node.strand), at.mesh.place(least, at.now))};
+}
+
+}  // namespace
+
+ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
+  if (j < at.contacts()) return at_node(setting, at, touch_of_contact(setting, at.layout, j), at.force(j));
+  const ValidityBound& bound = *at.layout.bounds()[j - at.contacts()];
+  return at_least_pressure(setting, at, dynamic_cast<const PressureBound&>(bound));
+}
+
+std::vector<ContactPoint> closed_contacts(const SlidingSetting& setting, const SlidingState& at) {
+  std::vector<ContactPoint> contacts;
+  for (std::size_t j = 0; j < at.contacts(); ++j)
+    if (at.is_closed(j)) contacts.push_back(contact_point(setting, at, j));
+  return contacts;
+}
+
+std::vector<ContactPoint> pressed_nodes(const SlidingSetting& setting, const SlidingState& at) {
+  std::vector<ContactPoint> nodes;
+  for (std::size_t i = 0; i < at.layout.pressed_nodes().size(); ++i) {
+    const Touch touch = touch_of_node(setting, at.layout.pressed_nodes()[i]);
+    const auto coordinate = [&](Index position) { return at.mesh.coordinate(touch.strand, position, at.now.s); };
+    ContactPoint node = at_node(setting, at, touch, at.pressed_force(i));
+    node.label.tributary = 0.5 * (coordinate(touch.position + 1) - coordinate(touch.position - 1));
+    nodes.push_back(std::move(node));
+  }
+  return nodes;
+}
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,133 @@
+#include "contact/sliding/equations.hpp"
+
+#include <algorithm>
+
+#include "contact/sliding/bending.hpp"
+#include "contact/sliding/touch.hpp"
+#include "core/algebra/assembly.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+// visit(touch, index of its force) for all that carry force.
+template <typename Visit>
+void for_each_force(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
+  Index force = at.index.nodes;
+  for (std::size_t j = 0; j < at.contacts(); ++j)
+    if (at.is_closed(j)) visit(touch_of_contact(setting, at.layout, j), force++);
+  for (const SlidingContactLayout::PressedNode& node : at.layout.pressed_nodes())
+    visit(touch_of_node(setting, node), force++);
+}
+
+NodeUnknowns unknowns_of(const SlidingState& at, const Touch& touch) {
+  return at.mesh.node_unknowns(touch.strand, touch.position);
+}
+
+// The forces of contact on the body, and the equations −g = 0, −t = 0 and m = 0 or EI (κ̂ − κ) = m.
+void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
+  for_each_force(setting, at, [&](const Touch& touch, Index p) {
+    const TouchGap gap = touch_gap(setting, touch, at);
+    add_at_node(unknowns_of(at, touch), -at.state.x[p] * gap.gap_gradient, F);
+    F[p] = -gap.gap;
+  });
+  for (Index k = 0; k < at.index.points; ++k) {
+    const auto point = static_cast<std::size_t>(k);
+    const Touch touch = touch_of_contact(setting, at.layout, point);
+    const TouchGap gap = touch_gap(setting, touch, at);
+    add_at_node(unknowns_of(at, touch), -at.moment(k) * gap.tilt_gradient, F);
+    F[at.index.moment(k)] = -gap.tilt;
+    F[at.index.coordinate(k)] = at.layout.lies_pressed(point) ? setting.body.bending_stiffness(touch.strand) *
+                                                                    curvature_gap(setting, at, point).value
+                                                              : at.moment(k);
+  }
+}
+
+// The row of a constraint, less its gradient by a node.
+void set_row(const NodeUnknowns& unknowns, const Eigen::Vector3d& gradient, Index row, SparseMatrix& K) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (unknowns[i] >= 0) K.coeffRef(row, unknowns[i]) = -gradient[static_cast<Index>(i)];
+}
+
+// What a force along a gradient adds to the stiffness of its node.
+void add_hessian(const NodeUnknowns& unknowns, const Eigen::Matrix3d& hessian, double force, SparseMatrix& K) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (unknowns[i] < 0 || unknowns[j] < 0) continue;
+      const double h = hessian(static_cast<Index>(i), static_cast<Index>(j));
+      if (h != 0.0) K.coeffRef(std::max(unknowns[i], unknowns[j]), std::min(unknowns[i], unknowns[j])) -= force * h;
+    }
+}
+
+// The pattern of K: that of the mesh with rows of forces and moments behind it.
+void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
+  std::vector<RowEntry> entries;
+  const auto add = [&](const Touch& touch, Index row) {
+    for (const Index unknown : unknowns_of(at, touch))
+      if (unknown >= 0) entries.push_back({.row = row - at.index.nodes, .column = unknown});
+  };
+  for_each_force(setting, at, add);
+  out.holding.clear();
+  for (Index k = 0; k < at.index.points; ++k) {
+    add(touch_of_contact(setting, at.layout, static_cast<std::size_t>(k)), at.index.moment(k));
+    out.holding.push_back(at.index.moment(k));
+  }
+  out.K = with_rows_behind(out.inner->K, entries, at.index.multipliers());
+  out.pattern_of = at.state.piece;
+}
+
+// F, K, F_λ and B of the mesh in the places that they have among all equations.
+void take_over(const Linearization& mesh, const SlidingState& at, Linearization& out) {
+  const Index n = at.index.nodes;
+  out.F.resize(at.index.size());
+  out.F.head(n) = mesh.F;
+  out.F_lambda.setZero(at.index.size());
+  out.F_lambda.head(n) = mesh.F_lambda;
+  out.B.setZero(at.index.of_K(), at.index.points);
+  out.B.topRows(n) = mesh.B;
+  copy_values(mesh.K, out.K);
+}
+
+}  // namespace
+
+void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
+  at.mesh.residual(at.now, F.head(at.index.nodes));
+  add_contact(setting, at, F);
+}
+
+void linearize(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
+  if (!out.inner) out.inner = std::make_unique<Linearization>();
+  Linearization& mesh = *out.inner;
+  if (!out.pattern_of || out.pattern_of->layout() != at.state.piece.layout()) mesh.pattern_of.reset();
+  at.mesh.linearize(at.now, mesh);
+  mesh.pattern_of = at.state.piece;
+  if (!out.pattern_of || *out.pattern_of != at.state.piece) lay_out(setting, at, out);
+
+  take_over(mesh, at, out);
+  add_contact(setting, at, out.F);
+  out.border_rates = border_rates(setting, at);
+  for_each_force(setting, at, [&](const Touch& touch, Index p) {
+    const TouchGap gap = touch_gap(setting, touch, at);
+    set_row(unknowns_of(at, touch), gap.gap_gradient, p, out.K);
+    add_hessian(unknowns_of(at, touch), gap.gap_hessian, at.state.x[p], out.K);
+  });
+  out.C.setZero(at.index.points, at.index.size());
+  for (Index k = 0; k < at.index.points; ++k) {
+    const auto point = static_cast<std::size_t>(k);
+    const Touch touch = touch_of_contact(setting, at.layout, point);
+    const TouchGap gap = touch_gap(setting, touch, at);
+    set_row(unknowns_of(at, touch), gap.tilt_gradient, at.index.moment(k), out.K);
+    add_hessian(unknowns_of(at, touch), gap.tilt_hessian, at.moment(k), out.K);
+    if (at.layout.lies_pressed(point)) {
+      const double EI = setting.body.bending_stiffness(touch.strand);
+      const CurvatureGap bend = curvature_gap(setting, at, point);
+      out.C.row(k).head(at.index.nodes) = EI * bend.dx;
+      out.C.row(k).tail(at.index.points) = EI * bend.ds;
+      out.F_lambda[at.index.coordinate(k)] = EI * bend.dlambda;
+    } else {
+      out.C(k, at.index.moment(k)) = 1.0;
+    }
+  }
+}
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "contact/sliding/setting.hpp"
+#include "contact/sliding/unknowns.hpp"
+#include "core/transition.hpp"
+
+namespace arcwall::sliding {
+
+/// The start of a step with an open point that follows the least gap which becomes negative within the step; empty
+/// where there is none, and where it does not exist at the start yet. See System::with_inserted_contact.
+std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, const SlidingState& from,
+                                                const Direction& forward, const SlidingState& to, double margin);
+
+}  // namespace arcwall::sliding

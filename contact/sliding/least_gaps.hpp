@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "contact/sliding/setting.hpp"
+#include "contact/sliding/unknowns.hpp"
+
+namespace arcwall::sliding {
+
+/// A place inside an element where the gap to an obstacle is least.
+struct LeastGap {
+  std::size_t obstacle = 0;
+  MaterialPoint at{};
+  double gap = 0.0;  ///< [length]
+};
+
+/// The deepest of the least gaps below `margin` (in the scale of the guards) that no guard watches: beside contact
+/// points, and where the body lies on the obstacle, guards say all.
+std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const SlidingState& at, double margin);
+
+/// Of all least gaps on the same strand and obstacle the one nearest another.
+std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const SlidingState& at, const LeastGap& other);
+
+/// The least gap at `places` points of each element against every obstacle [length].
+double sampled_least_gap(const SlidingSetting& setting, const SlidingState& at, int places);
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,119 @@
+#include "contact/sliding/remeshing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/sliding/bending.hpp"
+
+namespace arcwall::sliding {
+
+using Span = SlidingContactLayout::Span;
+using Point = SlidingContactLayout::Point;
+
+State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
+                  const std::shared_ptr<const SlidingContactLayout>& on) {
+  const std::size_t points = edit.points.size(), before = at.layout.points().size(), ends = setting.free_ends.size();
+  Piece piece(points + ends, 0, on);
+  for (std::size_t k = 0; k < points; ++k) piece[k] = edit.closed[k];
+  for (std::size_t j = 0; j < ends; ++j) piece[points + j] = at.state.piece[before + j];
+  const SlidingUnknowns index(piece);
+  State out{.x = Vector::Zero(index.size()), .lambda = at.now.lambda, .piece = piece};
+  out.x.head(index.nodes) = at.mesh.transferred(at.now, on->mesh(), edit.s);
+  for (std::size_t j = 0; j < piece.size(); ++j)
+    if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : at.force(before + j - points);
+  out.x.tail(edit.s.size()) = edit.s;
+  return out;
+}
+
+Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                    const EditLayout& edit) {
+  constexpr double step = 1e-6;  // [path metric]
+  const auto edited = [&](const SlidingState& from) {
+    LayoutEdit changed = edit_of(from);
+    edit(changed);
+    return changed;
+  };
+  const LayoutEdit here = edited(at);
+  const auto on = layout_of(setting.body, here);
+  Transition transition{.change = Transition::Change::remeshed, .guess = mapped_onto(setting, at, here, on)};
+  const State moved_on = moved(at.state, forward, step);
+  const SlidingState ahead(moved_on);
+  transition.forward = difference(mapped_onto(setting, ahead, edited(ahead), on), transition.guess);
+  transition.forward.dx /= step;
+  transition.forward.dlambda /= step;
+  return transition;
+}
+
+Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                         std::size_t segment, int elements) {
+  const SlidingContactLayout::Segment& changed = at.layout.segments()[segment];
+  return remeshed(setting, at, forward, [&changed, elements](LayoutEdit& edit) {
+    if (changed.last_point >= 0) {
+      edit.elements_before(static_cast<std::size_t>(changed.last_point)) = elements;
+    } else if (changed.first_point >= 0) {
+      edit.elements_behind(static_cast<std::size_t>(changed.first_point)) = elements;
+    } else {
+      edit.elements[static_cast<std::size_t>(changed.strand)] = {elements};
+    }
+  });
+}
+
+Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change, State guess) {
+  Transition transition{};
+  transition.change = change;
+  transition.forward = {.dx = Vector::Zero(guess.x.size()), .dlambda = 0.0};
+  transition.guess = std::move(guess);
+  transition.quantity = std::move(quantity);
+  transition.value = value;
+  return transition;
+}
+
+Transition unsupported(std::string what) {
+  return {.change = Transition::Change::unsupported, .detail = std::move(what)};
+}
+
+std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting& setting,
+                                                           const ElementsPerSegment& elements,
+                                                           std::vector<Point> points, const Vector& origin) {
+  const SlidingBody& body = setting.body;
+  if (static_cast<Index>(elements.size()) != body.strands() || static_cast<Index>(points.size()) != origin.size())
+    return nullptr;
+  Index k = 0;
+  for (Index strand = 0; strand < body.strands(); ++strand) {
+    const std::vector<int>& in_strand = elements[static_cast<std::size_t>(strand)];
+    const double most = 1000.0 + 100.0 * body.elements_between(strand, 0.0, body.length(strand));  // of a segment
+    const auto wrong = [most](int n) { return n < 1 || n > most; };
+    if (in_strand.empty() || std::any_of(in_strand.begin(), in_strand.end(), wrong)) return nullptr;
+    double before = 0.0;
+    for (std::size_t i = 0; i + 1 < in_strand.size(); ++i, ++k) {
+      if (k == origin.size() || !(origin[k] >= before && origin[k] <= body.length(strand))) return nullptr;
+      before = origin[k];
+    }
+  }
+  const auto unknown = [&](const Point& point) { return point.obstacle >= setting.obstacles.size(); };
+  if (k != origin.size() || std::any_of(points.begin(), points.end(), unknown)) return nullptr;
+  return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin);
+}
+
+Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on) {
+  Piece out(piece.size(), 0, std::move(on));
+  for (std::size_t j = 0; j < piece.size(); ++j) out[j] = piece[j];
+  return out;
+}
+
+Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at) {
+  constexpr double bent = 1e-6;  // curvature of a part that is not flat, times the length scale
+  std::vector<Point> points = at.layout.points();
+  bool changed = false;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (points[k].behind != Span::flat) continue;
+    if (std::abs(curvature_gap(setting, at, k).value) * setting.scales.length <= bent) continue;
+    points[k].behind = Span::free;
+    changed = true;
+  }
+  if (!changed) return at.state.piece;
+  return with_layout(at.state.piece, std::make_shared<SlidingContactLayout>(setting.body, at.layout.shared_mesh(),
+                                                                            std::move(points), at.now.s));
+}
+
+}  // namespace arcwall::sliding

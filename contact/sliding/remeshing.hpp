@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "contact/sliding/layout_edit.hpp"
+#include "contact/sliding/setting.hpp"
+#include "core/transition.hpp"
+
+namespace arcwall::sliding {
+
+/// The state on an edited layout: its shape interpolated, the forces of its points those of the edit, moments and
+/// forces of pressed nodes zero. `on` is layout_of(edit).
+State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
+                  const std::shared_ptr<const SlidingContactLayout>& on);
+
+/// The same point of a path on an edited layout, entered in the plane across the path's direction `forward`.
+using EditLayout = std::function<void(LayoutEdit&)>;
+Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                    const EditLayout& edit);
+
+/// That with another number of elements in one segment.
+Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                         std::size_t segment, int elements);
+
+/// A transition whose first point is where the quantity has the value.
+Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change, State guess);
+
+/// A transition to what is not modelled, or was not found.
+Transition unsupported(std::string what);
+
+/// The layout of so many elements and these points that began at these places; null if they do not belong together.
+std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting& setting,
+                                                           const ElementsPerSegment& elements,
+                                                           std::vector<SlidingContactLayout::Point> points,
+                                                           const Vector& origin);
+
+/// The piece with another layout, whose contacts have the same status.
+Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on);
+
+/// The piece in which flat parts that the state bends are free: see System::canonical_piece.
+Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at);
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/contact_scales.hpp"
+#include "contact/sliding_obstacle.hpp"
+#include "core/sliding_body.hpp"
+
+namespace arcwall {
+
+/// A free end of a strand with an obstacle that may touch it, though no tangent of the body does: a contact of its own,
+/// at the last node.
+struct FreeEnd {
+  Index strand = 0;
+  bool last = false;
+  std::size_t obstacle = 0;
+  double travel = 0.0;  ///< of the axis at rest: 1 with x, −1 against it, 0 where it stands upright
+
+  Index position(const SlidingMesh& mesh) const { return last ? mesh.nodes(strand) - 1 : 0; }
+};
+
+/// A body among obstacles: all that contact which slides depends on and that stays the same along a path. The contacts
+/// of a piece are the points that its layout tracks, then the free ends.
+struct SlidingSetting {
+  const SlidingBody& body;  ///< must outlive this
+  std::vector<SlidingObstacle> obstacles{};
+  ContactScales scales{};
+  std::vector<FreeEnd> free_ends{};
+
+  /// Of the face that looks at an obstacle from the axis, along the obstacle's normal (upwards) [length].
+  double face_offset(std::size_t obstacle, Index strand) const {
+    const SlidingObstacle& surface = obstacles[obstacle];
+    if (!surface.on_face) return 0.0;
+    return surface.side == Side::below ? -body.half_height(strand) : body.half_height(strand);
+  }
+};
+
+/// The sign of a height over an obstacle's surface that is a gap: 1 where the body lies above the surface.
+inline double sign_of(Side side) { return side == Side::below ? 1.0 : -1.0; }
+
+/// The free ends of a body that obstacles concern; `rest`: the stress-free state of a mesh of it.
+std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<SlidingObstacle>& obstacles,
+                               const SlidingMesh& mesh, const MeshState& rest);
+
+}  // namespace arcwall

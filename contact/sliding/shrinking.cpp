@@ -1,0 +1,121 @@
+#include "contact/sliding/shrinking.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "contact/sliding/bounds/curvature.hpp"
+#include "contact/sliding/bounds/length.hpp"
+#include "contact/sliding/bounds/pressure.hpp"
+#include "contact/sliding/remeshing.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+using Points = std::vector<std::size_t>;
+using Span = SlidingContactLayout::Span;
+
+// The value of a bound, by its number in the layout of the states that it is asked about.
+class BoundValue final : public Observable {
+ public:
+  BoundValue(const SlidingSetting& setting, std::size_t bound) : setting_(setting), bound_(bound) {}
+  double value(const State& state) const override {
+    const SlidingState at(state);
+    return at.layout.bounds()[bound_]->value(setting_, at);
+  }
+  Row gradient(const State& state) const override {
+    const SlidingState at(state);
+    return at.layout.bounds()[bound_]->gradient(setting_, at);
+  }
+
+ private:
+  const SlidingSetting& setting_;
+  std::size_t bound_;
+};
+
+// The coordinate of what a bound watches on an edited layout.
+double place_of(const CurvatureBound& bound, const SlidingContactLayout&, const Vector& s) {
+  return s[static_cast<Index>(bound.point())];
+}
+
+double place_of(const PressureBound& bound, const SlidingContactLayout& on, const Vector& s) {
+  const SlidingContactLayout::PressedNode& node = on.pressed_nodes()[bound.node()];
+  return on.mesh().coordinate(node.strand, node.position, s);
+}
+
+// What a transition to a bound names: the point that has formed, or the guard where parts have joined.
+Index named(const CurvatureBound& bound, Index) { return static_cast<Index>(bound.point()); }
+Index named(const PressureBound&, Index guard) { return guard; }
+
+// The number of the bound of a kind that is nearest a coordinate.
+template <class Bound>
+std::size_t nearest(const SlidingContactLayout& on, const Vector& s, double place) {
+  std::size_t nearest = on.bounds().size();
+  double least = infinity;
+  for (std::size_t i = 0; i < on.bounds().size(); ++i) {
+    const auto* bound = dynamic_cast<const Bound*>(on.bounds()[i].get());
+    if (bound == nullptr || std::abs(place_of(*bound, on, s) - place) >= least) continue;
+    least = std::abs(place_of(*bound, on, s) - place);
+    nearest = i;
+  }
+  assert(nearest < on.bounds().size());
+  return nearest;
+}
+
+// Up to the bound of the piece ahead from which the span would have grown: the nearest of its kind.
+template <class Bound>
+Transition back_to(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit, double place,
+                   Transition::Change change) {
+  const auto on = layout_of(setting.body, edit);
+  const std::size_t bound = nearest<Bound>(*on, edit.s, place);
+  State guess = mapped_onto(setting, at, edit, on);
+  const auto guard = static_cast<Index>(guess.piece.size() + bound);
+  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, bound), change, std::move(guess));
+  transition.contacts = {named(static_cast<const Bound&>(*on->bounds()[bound]), guard)};
+  return transition;
+}
+
+// Two points at the ends of each span become one in its middle.
+Transition gathered(const SlidingSetting& setting, const SlidingState& at, const Points& spans) {
+  LayoutEdit edit = edit_of(at);
+  const auto middle = [&](std::size_t k) { return 0.5 * (edit.place(k) + edit.place(k + 1)); };
+  const double place = middle(spans.front());
+  for (auto k = spans.rbegin(); k != spans.rend(); ++k) {
+    const double s = middle(*k);
+    edit.points[*k].behind = edit.points[*k + 1].behind;
+    edit.forces[*k] += edit.forces[*k + 1];
+    edit.erase(*k + 1, edit.elements_behind(*k + 1));
+    edit.place(*k) = s;
+  }
+  return back_to<CurvatureBound>(setting, at, edit, place, Transition::Change::gathers);
+}
+
+// Two pressed parts become one, or a pressed part and a point contact beside it.
+Transition joined(const SlidingSetting& setting, const SlidingState& at, const Points& gaps) {
+  LayoutEdit edit = edit_of(at);
+  const double place = edit.place(gaps.front());
+  for (auto k = gaps.rbegin(); k != gaps.rend(); ++k) {
+    const bool before = at.layout.span_before(*k) == Span::pressed;
+    const bool behind = at.layout.points()[*k + 1].behind == Span::pressed;
+    if (behind) {
+      edit.points[*k].behind = Span::pressed;
+      edit.erase(*k + 1, edit.elements_behind(*k + 1) + (before ? 0 : 1));
+    }
+    if (before) edit.erase(*k, edit.elements_before(*k) + (behind ? edit.elements_behind(*k) : 1));
+  }
+  return back_to<PressureBound>(setting, at, edit, place, Transition::Change::joins);
+}
+
+}  // namespace
+
+Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double tolerance) {
+  const auto closes_a_gap = [&](std::size_t k) { return at.layout.parts_pressed(k); };
+  Points spans;
+  for (const LengthBound* bound : reached<LengthBound>(setting, at, tolerance)) spans.push_back(bound->point());
+  if (std::find(spans.begin(), spans.end(), point) == spans.end()) spans = {point};
+  std::erase_if(spans, [&](std::size_t k) { return closes_a_gap(k) != closes_a_gap(point); });
+  return closes_a_gap(point) ? joined(setting, at, spans) : gathered(setting, at, spans);
+}
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,155 @@
+#include "contact/sliding/spreading.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/sliding/bending.hpp"
+#include "contact/sliding/bounds/curvature.hpp"
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/span_length.hpp"
+#include "contact/sliding/spans.hpp"
+#include "core/text.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+using Points = std::vector<std::size_t>;
+using Span = SlidingContactLayout::Span;
+
+std::string counted(Index count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count > 1 ? "s" : "");
+}
+
+double element_length(const SlidingState& at, Index strand, Index element) {
+  return at.mesh.coordinate(strand, element + 1, at.now.s) - at.mesh.coordinate(strand, element, at.now.s);
+}
+
+// The greatest curvature of a strand, by the turn of its elements.
+double greatest_curvature(const SlidingState& at, Index strand) {
+  double greatest = 0.0;
+  for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e) {
+    const double turn = at.mesh.node(strand, e + 1, at.now).angle - at.mesh.node(strand, e, at.now).angle;
+    greatest = std::max(greatest, std::abs(turn) / element_length(at, strand, e));
+  }
+  return greatest;
+}
+
+// Clamped ends of a point's strand, parallel to its wall, at which the body loses its curvature with the point: like
+// contacts (the first integral of the elastica), and then straight parts begin to grow there.
+Index straightened_ends(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  constexpr double parallel = 1e-9, straight = 0.1;  // [rad]; of the greatest curvature in the strand
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  const Index strand = touch.strand, last = at.mesh.nodes(strand) - 1;
+  const double angle_there = touch.axis(at).angle, greatest = greatest_curvature(at, strand);
+  Index count = 0;
+  for (const bool end : {false, true}) {
+    const Index node = end ? last : 0, e = end ? last - 1 : 0;
+    const NodeUnknowns unknowns = at.mesh.node_unknowns(strand, node);
+    if (unknowns[1] >= 0 || unknowns[2] >= 0) continue;
+    const auto angle = [&](double t) { return at.mesh.inside(strand, e, end ? 1.0 - t : t, at.now).angle; };
+    if (std::abs(angle(0.0) - angle_there) > parallel) continue;
+    const double curvature = (4.0 * angle(0.5) - 3.0 * angle(0.0) - angle(1.0)) / element_length(at, strand, e);
+    if (std::abs(curvature) <= straight * greatest) ++count;
+  }
+  return count;
+}
+
+// `lines`: of contacts that lie on walls by themselves, `ends`: of clamped ends where straight parts begin to grow.
+Transition continuum(const SlidingState& at, Index lines, Index ends) {
+  Continuum common{.energy = at.mesh.energy(at.now)};
+  for (std::size_t k = 0; k < at.layout.points().size(); ++k)
+    if (at.layout.points()[k].behind == Span::flat)
+      common.length += at.s(static_cast<Index>(k) + 1) - at.s(static_cast<Index>(k));
+  return {.change = Transition::Change::continuum,
+          .detail = counted(lines, "contact") + (ends > 0 ? " and " + counted(ends, "clamped end") : "") +
+                    " become lines together: only the sum of their lengths is determined, " +
+                    round_trip(common.length) + " here; all such equilibria have the energy " +
+                    round_trip(common.energy),
+          .continuum = common};
+}
+
+// In words: what was looked for behind points that lose their curvature, and why it may be hard to find.
+std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
+  const auto straight = [&](std::size_t k) { return obstacle_curvature(setting, at, k) == 0.0; };
+  const auto count = static_cast<Index>(points.size());
+  std::string text = counted(count, "point") + " of contact " + (count > 1 ? "become stretches" : "becomes a stretch") +
+                     ", and no equilibrium with short ones was found";
+  const bool others = points.size() < at.layout.points().size();
+  if ((count > 1 || others) && std::all_of(points.begin(), points.end(), straight))
+    text +=
+        "; the structure is nearly perfect, and of a perfect one only the sum of the lengths of all stretches is "
+        "determined";
+  return text;
+}
+
+// Each of the points, ascending, becomes two, a short way apart.
+Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, Span between,
+                  double length) {
+  LayoutEdit edit = edit_of(at);
+  for (auto k = points.rbegin(); k != points.rend(); ++k) {
+    const Span span = lies_by_itself(setting, at, *k) ? Span::flat : between;
+    const int behind = edit.elements_behind(*k);
+    double& s = edit.place(*k);
+    s -= 0.5 * length;
+    const int between_them = span == Span::flat ? 1 : elements_asked(setting.body, edit.strands[*k], s, s + length, 2);
+    edit.forces[*k] *= 0.5;
+    edit.insert({.point = edit.points[*k],
+                 .strand = edit.strands[*k],
+                 .s = s + length,
+                 .closed = true,
+                 .force = edit.forces[*k]},
+                between_them, behind);
+    edit.points[*k].behind = span;
+  }
+  Transition transition = up_to(length, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
+                                mapped_onto(setting, at, edit, layout_of(setting.body, edit)));
+  for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
+  return transition;
+}
+
+// Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
+// arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
+// begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be.
+std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
+  constexpr double shorter = 0.6;
+  const Index strand = at.mesh.breakpoint(static_cast<Index>(points.front())).first;
+  const double length = 2.0 * shortest_span(setting.body, strand);
+  const auto spread_to = [&](Span between, double factor) {
+    return spread(setting, at, points, between, factor * length);
+  };
+  const auto is_all = [&](const auto& holds) { return std::all_of(points.begin(), points.end(), holds); };
+  const auto lifts_off_straight = [&](std::size_t k) {
+    return holding_pressure(setting, at, k) < 0.0 && obstacle_curvature(setting, at, k) == 0.0;
+  };
+  std::vector<Transition> transitions;
+  if (is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); })) {
+    transitions.push_back(spread_to(Span::flat, 1.0));
+  } else if (is_all(lifts_off_straight)) {
+    transitions.push_back(spread_to(Span::free, 1.0));
+    transitions.push_back(spread_to(Span::pressed, 1.0));
+  } else {
+    for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0}) transitions.push_back(spread_to(Span::pressed, factor));
+    transitions.push_back(spread_to(Span::free, 1.0));
+    transitions.push_back(spread_to(Span::pressed, shorter));
+  }
+  transitions.push_back(unsupported(why_none_spreads(setting, at, points)));
+  return transitions;
+}
+
+}  // namespace
+
+std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+  Points points;
+  for (const CurvatureBound* bound : reached<CurvatureBound>(setting, at, tolerance))
+    if (at.is_closed(bound->point())) points.push_back(bound->point());
+  Index lines =
+      std::count_if(points.begin(), points.end(), [&](std::size_t k) { return lies_by_itself(setting, at, k); });
+  const bool new_lines = lines > 0;
+  for (const SlidingContactLayout::Point& point : at.layout.points()) lines += point.behind == Span::flat;
+  const Index ends = new_lines ? straightened_ends(setting, at, points.front()) : 0;
+  if (new_lines && lines + ends > 1) return {continuum(at, lines, ends)};
+  return spreads(setting, at, points);
+}
+
+}  // namespace arcwall::sliding

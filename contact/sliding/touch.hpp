@@ -1,0 +1,53 @@
+#pragma once
+
+#include "contact/sliding/setting.hpp"
+#include "contact/sliding/unknowns.hpp"
+
+namespace arcwall::sliding {
+
+/// A node of the body that touches an obstacle, or may.
+struct Touch {
+  Index strand, position;
+  std::size_t obstacle;
+  double offset;  ///< of the face that touches from the axis, along the obstacle's normal (upwards) [length]
+
+  AxisPlace axis(const SlidingState& at) const { return at.mesh.node(strand, position, at.now); }
+};
+
+/// The node of contact j of a piece: a tracked point's or a free end's.
+Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
+Touch touch_of_node(const SlidingSetting& setting, const SlidingContactLayout::PressedNode& node);
+
+/// 1 where the axis runs with x, −1 where it runs against it.
+double travel(const AxisPlace& axis);
+
+/// The place of the face at an offset: the section's normal looks along the obstacle's, or against it where the body
+/// travels against x.
+Vec2 face(double offset, const AxisPlace& axis);
+
+/// The gap between the face and the obstacle [length]; infinite where the obstacle has no surface.
+double face_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis);
+double face_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at);
+
+/// Gap and tilt of a touch with their derivatives by x, z and rotation of the node. Only where the obstacle has a
+/// surface.
+struct TouchGap {
+  double gap;    ///< [length]
+  double tilt;   ///< t, the angle between axis and obstacle, less whole half turns [rad]
+  double angle;  ///< the same with its winding number and the direction of travel
+  Eigen::Vector3d gap_gradient, tilt_gradient;
+  Eigen::Matrix3d gap_hessian, tilt_hessian;
+};
+TouchGap touch_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis);
+TouchGap touch_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at);
+
+/// Adds what is given by a node's x, z and rotation to the places of these in a vector; held ones are left out.
+void add_at_node(const NodeUnknowns& unknowns, const Eigen::Vector3d& values, Eigen::Ref<Vector> to);
+
+/// Slope angle of an obstacle's surface and its curvature, with derivatives by x.
+struct SurfaceBend {
+  double angle, angle_x, angle_xx, curvature, curvature_x;
+};
+SurfaceBend surface_bend(const Profile& profile, double x);
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+
+#include "contact/sliding/layout.hpp"
+#include "core/state.hpp"
+
+namespace arcwall {
+
+/// Where the unknowns of a piece of sliding contact stand in State::x, one block behind the other:
+///
+///     x   `nodes`    positions and rotations of the mesh's nodes              unknowns of the mesh
+///     p   `closed`   forces of the closed contacts, in the piece's order      multipliers, with −g = 0
+///     p   `pressed`  forces of the pressed nodes, in the layout's order       multipliers, with −g = 0
+///     m   `points`   moments that hold the tangency at the tracked points     multipliers, with −t = 0
+///     s   `points`   material coordinates of the tracked points               the border
+///
+/// All but s are unknowns of K. Equations stand in the same order; that of s_k says that the body may slide at point k.
+class SlidingUnknowns {
+ public:
+  /// `piece` must outlive this.
+  explicit SlidingUnknowns(const Piece& piece);
+
+  Index nodes = 0;    ///< entries of x
+  Index closed = 0;   ///< forces of closed contacts
+  Index pressed = 0;  ///< forces of pressed nodes
+  Index points = 0;   ///< tracked points
+
+  Index multipliers() const { return closed + pressed + points; }
+  Index of_K() const { return nodes + multipliers(); }
+  Index size() const { return of_K() + points; }
+
+  /// Index of the force of a contact in State::x; empty where it is open.
+  std::optional<Index> force(std::size_t contact) const;
+
+  Index pressed_force(std::size_t node) const { return nodes + closed + static_cast<Index>(node); }
+  Index moment(Index point) const { return nodes + closed + pressed + point; }
+  Index coordinate(Index point) const { return of_K() + point; }
+
+ private:
+  const Piece* piece_;
+};
+
+/// A state of sliding contact with its unknowns by name. A view: `state` must outlive it.
+struct SlidingState {
+  explicit SlidingState(const State& of)
+      : state(of), layout(sliding_layout(of.piece)), mesh(layout.mesh()), index(of.piece), now(mesh_state_of(of)) {}
+  SlidingState(State&&) = delete;
+
+  const State& state;
+  const SlidingContactLayout& layout;
+  const SlidingMesh& mesh;
+  SlidingUnknowns index;
+  MeshState now;  ///< x, s and λ
+
+  std::size_t contacts() const { return state.piece.size(); }
+  bool is_closed(std::size_t contact) const { return state.piece[contact] != 0; }
+  double s(Index point) const { return now.s[point]; }
+
+  /// Of a contact, 0 where it is open [force].
+  double force(std::size_t contact) const {
+    const auto at = index.force(contact);
+    return at ? state.x[*at] : 0.0;
+  }
+  double pressed_force(std::size_t node) const { return state.x[index.pressed_force(node)]; }
+  double moment(Index point) const { return state.x[index.moment(point)]; }
+
+  /// A derivative that is still zero.
+  Row no_slope() const { return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0}; }
+};
+
+}  // namespace arcwall

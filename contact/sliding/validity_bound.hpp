@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "contact/sliding/setting.hpp"
+#include "contact/sliding/unknowns.hpp"
+#include "core/transition.hpp"
+
+namespace arcwall::sliding {
+
+/// How a state came to a validity bound.
+struct Arrival {
+  const Direction& forward;  ///< of the path
+  double tolerance;          ///< bounds within this of zero are reached together
+};
+
+/// What a layout serves up to in one respect: a guard of the pieces that have the layout, with what lies behind it.
+///
+/// One class a kind of bound, with value, gradient and transitions side by side. It says which tracked point, segment,
+/// pressed node or free end it belongs to, and is the same for all states on its layout.
+class ValidityBound {
+ public:
+  virtual ~ValidityBound() = default;
+
+  /// Positive on the piece, of order 1.
+  virtual double value(const SlidingSetting& setting, const SlidingState& at) const = 0;
+
+  /// Derivative of the value by all unknowns.
+  virtual Row gradient(const SlidingSetting& setting, const SlidingState& at) const = 0;
+
+  /// What may lie behind the bound, the likeliest first; where that depends on others of its kind that are reached
+  /// together, for all of them.
+  virtual std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                              const Arrival& arrival) const = 0;
+};
+
+/// All bounds of a layout: of its tracked points, its segments, its pressed nodes and the free ends. A new kind of
+/// bound is a class and a line here.
+std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingBody& body,
+                                                                  const SlidingContactLayout& on);
+
+/// The bounds of one kind that are reached together at a state.
+template <class Bound>
+std::vector<const Bound*> reached(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+  std::vector<const Bound*> found;
+  for (const auto& bound : at.layout.bounds())
+    if (const auto* same = dynamic_cast<const Bound*>(bound.get()))
+      if (same->value(setting, at) <= std::max(1e-6, 10.0 * tolerance)) found.push_back(same);
+  return found;
+}
+
+}  // namespace arcwall::sliding

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/profile.hpp"
+
+namespace arcwall {
+
+/// A rigid surface that slender members may touch.
+struct SlidingObstacle {
+  std::string name{};
+  std::shared_ptr<const Profile> profile{};
+  Side side = Side::above;
+  bool on_face = true;                  ///< contact of the members' faces, or of their axes
+  std::vector<std::uint8_t> strands{};  ///< per strand whether it concerns it
+
+  bool concerns(Index strand) const { return strands[static_cast<std::size_t>(strand)] != 0; }
+};
+
+}  // namespace arcwall
