@@ -54,13 +54,6 @@ ARCWALL_IN_PLACE Lanes next_of(const Lanes& these, const Lanes& others) {
   return Lanes(__builtin_shufflevector(these.four, others.four, 1, 2, 3, 4));
 }
 
-/// Asks memory for numbers ahead, a cache line of 64 bytes at a time; the processor does not wait for them.
-template <bool to_write = false>
-ARCWALL_IN_PLACE void ask_ahead(const Lanes* begin, const Lanes* end) {
-  constexpr Index per_line = 2;
-  for (; begin < end; begin += per_line) __builtin_prefetch(begin, to_write);
-}
-
 #ifdef __x86_64__
 /// Whether the processor has registers of four numbers. Code for those is made beside that for any processor, by
 /// [[gnu::target("avx")]].

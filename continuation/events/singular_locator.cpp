@@ -357,7 +357,7 @@ Matrix SingularLocator::critical_modes(const Sample& sample, const Metric& metri
   constexpr double near = 50.0;  // times the least eigenvalue
   const Vector& W = metric.weights();
   const auto pairs =
-      corrector_.near_null(sample.state, W, nearest, Settled::roughly);  // (1) holds for any modes near these
+      corrector_.near_null(sample.state, W, nearest, Convergence::loose);  // (1) holds for any modes near these
   if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
   const Matrix C = W.asDiagonal() * without_fold(*pairs->vectors, metric, sample.tangent);
   const auto moved = corrector_.responses(C);

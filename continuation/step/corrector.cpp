@@ -7,7 +7,6 @@
 
 #include "continuation/stability.hpp"
 #include "core/algebra/released_border.hpp"
-#include "core/algebra/sums.hpp"
 #include "core/algebra/test_function.hpp"
 
 namespace arcwall {
@@ -67,7 +66,7 @@ CorrectorResult Corrector::inspect(const State& state, const Metric& metric, con
 }
 
 std::optional<NearNull> Corrector::near_null([[maybe_unused]] const State& here, const Vector& weights, Index count,
-                                             Settled settled) const {
+                                             Convergence convergence) const {
   assert(!here_.has_point() || here_.is_at(here));
   const Linearization& now = here_.equations();
   const BorderedSolver& solver = here_.solver();
@@ -75,11 +74,11 @@ std::optional<NearNull> Corrector::near_null([[maybe_unused]] const State& here,
   const Vector weighted = weights.head(now.K.cols());
   if (now.B.cols() > 0) {
     const ReleasedBorder border(solver, now, sliding_resistance(solver, now));
-    return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, settled)) : std::nullopt;
+    return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, convergence)) : std::nullopt;
   }
   const Matrix none, &known = here_.tracker().vectors();
   const bool followed = known.rows() == now.K.cols() && all_finite(known);
-  return arcwall::near_null(solver.inner(), now.K, weighted, count, settled, followed ? known : none);
+  return arcwall::near_null(solver.inner(), now.K, weighted, count, convergence, followed ? known : none);
 }
 
 std::optional<Index> Corrector::count_here(const State& here, const NearNull& nearest) const {
@@ -126,14 +125,10 @@ bool Corrector::find_line(const Metric& metric, const Row& border) {
 
 // Along the line, from its point nearest the state. The length of the step.
 double Corrector::take_step(const Metric& metric, double tau, State& state) const {
-  double* const x = state.x.data();
-  const double *p = line_.dx.col(0).data(), *q = line_.dx.col(1).data(), *w = metric.weights().data();
-  const Lanes off = line_.off, scale = line_.scale, along = tau;
-  const auto [squared] = sums_over<1>(state.x.size(), [&](const auto& at, auto& sums) {
-    const auto column = at(q), dx = (at(p) - at(off) * column) + at(along) * (at(scale) * column);
-    at.set(x, at(x) + dx);
-    sums[0] += at(w) * dx * dx;
-  });
+  const auto p = line_.dx.col(0), q = line_.dx.col(1);
+  const Vector dx = (p - line_.off * q) + tau * (line_.scale * q);
+  state.x += dx;
+  const double squared = (metric.weights().array() * dx.array().square()).sum();
   const double dlambda = line_.particular_dlambda() + tau * line_.tangent_dlambda();
   state.lambda += dlambda;
   return std::sqrt(squared + metric.inner_lambda(dlambda, dlambda));

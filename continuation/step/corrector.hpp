@@ -52,7 +52,7 @@ class Corrector {
   /// Eigenpairs nearest zero of K at the state reached last, which is `here`, with what a border holds let go; empty
   /// where K is singular to working precision.
   std::optional<NearNull> near_null(const State& here, const Vector& weights, Index count,
-                                    Settled settled = Settled::fully) const;
+                                    Convergence convergence = Convergence::tight) const;
 
   /// K⁻¹ times the columns, K at the state reached last; empty where it is singular to working precision.
   std::optional<Matrix> responses(Matrix columns) const;

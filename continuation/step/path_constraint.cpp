@@ -3,8 +3,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/algebra/sums.hpp"
-
 namespace arcwall {
 
 namespace {
@@ -34,26 +32,6 @@ double ChordPlaneConstraint::value(const State& state) const {
   return metric_.inner(chord, difference(state, a_)) - part_ * metric_.inner(chord, chord);
 }
 
-// As PathConstraint::advance(), in one pass.
-std::optional<ConstraintRoots> ChordPlaneConstraint::advance(const State& at, const EquilibriumLine& line) const {
-  const double *x = at.x.data(), *a = a_.x.data(), *b = b_.x.data(), *p = line.dx.col(0).data(),
-               *q = line.dx.col(1).data(), *w = metric_.weights().data();
-  auto [squared, covered, along_p, along_q] = sums_over<4>(at.x.size(), [&](const auto& entry, auto& sums) {
-    const auto chord = entry(b) - entry(a), weighted = entry(w) * chord;
-    sums[0] += weighted * chord;
-    sums[1] += weighted * (entry(x) - entry(a));
-    sums[2] += weighted * entry(p);
-    sums[3] += weighted * entry(q);
-  });
-  const double dlambda = b_.lambda - a_.lambda;
-  squared += metric_.inner_lambda(dlambda, dlambda);
-  covered += metric_.inner_lambda(dlambda, at.lambda - a_.lambda);
-  along_p += metric_.inner_lambda(dlambda, line.dlambda[0]);
-  along_q += metric_.inner_lambda(dlambda, line.dlambda[1]);
-  const double tau = -(covered - part_ * squared + along_p - line.off * along_q) / (line.scale * along_q);
-  return std::isfinite(tau) ? std::optional(ConstraintRoots{.taken = tau}) : std::nullopt;
-}
-
 double SphereConstraint::value(const State& state) const {
   const Direction chord = difference(state, origin_);
   return inner(chord, chord) - radius_ * radius_;
@@ -68,17 +46,11 @@ Row SphereConstraint::gradient(const State& state) const {
 
 // With D = X − origin + particular:  |D + τ t|² = radius²,  a τ² + 2 b τ + c = 0
 std::optional<ConstraintRoots> SphereConstraint::advance(const State& at, const EquilibriumLine& line) const {
-  const double *x = at.x.data(), *x0 = origin_.x.data(), *p = line.dx.col(0).data(), *q = line.dx.col(1).data(),
-               *previous = tangent_.dx.data(), *w = metric_.weights().data();
-  const Lanes off = line.off, scale = line.scale;
-  auto [a, b, c, along] = sums_over<4>(at.x.size(), [&](const auto& entry, auto& sums) {
-    const auto column = entry(q), t = entry(scale) * column, weighted = entry(w) * t;
-    const auto D = entry(x) - entry(x0) + (entry(p) - entry(off) * column);
-    sums[0] += weighted * t;
-    sums[1] += weighted * D;
-    sums[2] += entry(w) * D * D;
-    sums[3] += weighted * entry(previous);
-  });
+  const auto p = line.dx.col(0), q = line.dx.col(1);
+  const Vector t_x = line.scale * q, D_x = at.x - origin_.x + (p - line.off * q);
+  const auto w = metric_.weights().array(), wt = w * t_x.array();
+  double a = (wt * t_x.array()).sum(), b = (wt * D_x.array()).sum(), c = (w * D_x.array().square()).sum();
+  double along = (wt * tangent_.dx.array()).sum();
   if (form_ == Form::spherical) {
     const double D = at.lambda - origin_.lambda + line.particular_dlambda(), t = line.tangent_dlambda();
     a += metric_.inner_lambda(t, t);

@@ -76,7 +76,6 @@ class ChordPlaneConstraint final : public PathConstraint {
       : metric_(metric), a_(a), b_(b), part_(part) {}
   double value(const State& state) const override;
   Row gradient(const State&) const override { return metric_.row(difference(b_, a_)); }
-  std::optional<ConstraintRoots> advance(const State& at, const EquilibriumLine& line) const override;
 
  private:
   const Metric& metric_;

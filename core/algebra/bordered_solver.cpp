@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/algebra/bordered_residual.hpp"
-#include "core/algebra/sums.hpp"
 
 namespace arcwall {
 
@@ -20,14 +19,9 @@ constexpr int max_refinements = 3;
 constexpr double left_to_newton = 0.1;
 
 LineProducts products_of(const Vector& weights, const Matrix& X) {
-  const double *w = weights.data(), *p = X.col(0).data(), *t = X.col(1).data();
-  const auto [pp, pt, tt] = sums_over<3>(X.rows(), [&](const auto& at, auto& sums) {
-    const auto of_p = at(w) * at(p), of_t = at(w) * at(t);
-    sums[0] += of_p * at(p);
-    sums[1] += of_t * at(p);
-    sums[2] += of_t * at(t);
-  });
-  return {.pp = pp, .pt = pt, .tt = tt};
+  const auto w = weights.array();
+  const auto p = X.col(0).array(), t = X.col(1).array();
+  return {.pp = (w * p * p).sum(), .pt = (w * p * t).sum(), .tt = (w * t * t).sum()};
 }
 
 }  // namespace
@@ -115,14 +109,8 @@ bool BorderedSolver::is_suspicious(double cancelled) const {
 bool BorderedSolver::cancellation_is_small(const Row& border, const Matrix& X, const LineProducts& found) const {
   if (!std::isfinite(found.pp) || !std::isfinite(found.tt)) return false;
   if (ldlt_.pivot_ratio() >= suspicious_pivot) return true;
-  const double *b = border.dx.data(), *p = X.col(0).data(), *t = X.col(1).data();
-  const auto [bp, bt, pp, pt, tt] = sums_over<5>(X.rows(), [&](const auto& at, auto& sums) {
-    sums[0] += at(b) * at(p);
-    sums[1] += at(b) * at(t);
-    sums[2] += at(p) * at(p);
-    sums[3] += at(p) * at(t);
-    sums[4] += at(t) * at(t);
-  });
+  const auto p = X.col(0), t = X.col(1);
+  const double bp = border.dx.dot(p), bt = border.dx.dot(t), pp = p.squaredNorm(), pt = p.dot(t), tt = t.squaredNorm();
   const double off = bp / (bt + border.dlambda), left = pp - off * (2.0 * pt - off * tt);
   return pp < suspicious_cancellation * suspicious_cancellation * left;
 }

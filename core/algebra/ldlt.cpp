@@ -30,8 +30,6 @@ struct Ldlt::Implementation {
     if (auto blocks = find_blocks(A, multipliers, BlockTridiagonalLdlt::widest)) {
       if (multipliers == 0) return std::make_unique<BlockTridiagonalLdlt>(A, *blocks, translation_free);
       if (auto pressed = NullSpaceLdlt::of(A, multipliers, *blocks, translation_free)) return pressed;
-      if (insert_multipliers(A, multipliers, BlockTridiagonalLdlt::widest, *blocks))
-        return std::make_unique<BlockTridiagonalLdlt>(A, *blocks);
     }
     std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : sprung_cholesky(A);
     return large ? std::move(large) : simplicial_ldlt(A, multipliers);

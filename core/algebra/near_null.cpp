@@ -3,16 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 #include <vector>
-
-#include "core/algebra/sums.hpp"
 
 namespace arcwall {
 
@@ -22,14 +18,12 @@ constexpr int max_rounds = 100;
 constexpr Index most_followed = 2;  // that are followed
 
 // The same start every time: numbers in (−½, ½) from a linear congruence (Knuth's MMIX constants), from a seed.
-// Gives that of those that follow.
-std::uint64_t fill_with_start(Eigen::Ref<Matrix> X, std::uint64_t seed) {
+void fill_with_start(Eigen::Ref<Matrix> X, std::uint64_t seed) {
   for (Index j = 0; j < X.cols(); ++j)
     for (double *entry = &X(0, j), *end = entry + X.rows(); entry != end; ++entry) {
       seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
       *entry = double(seed >> 11) * 0x1p-53 - 0.5;
     }
-  return seed;
 }
 
 // Columns of unit length, without dependent ones growing: QR with respect to the ordinary product. In place, as what
@@ -85,7 +79,7 @@ namespace {
 
 // Inverse subspace iteration. `pairs`: how many there are.
 template <class Operator>
-NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Index count, Settled settled,
+NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Index count, Convergence convergence,
                       const Matrix& start) {
   count = std::min(count, pairs);
   const Index block = std::min(pairs, count + 3);  // guard vectors speed the last wanted pair up
@@ -118,8 +112,8 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
     values = ritz.eigenvalues()(order);
     const double scale = values.head(count).cwiseAbs().maxCoeff();
     const double change = (values - previous).head(count).cwiseAbs().maxCoeff();
-    if (settled == Settled::fully && change <= 1e-10 * scale) break;
-    if (settled == Settled::roughly &&
+    if (convergence == Convergence::tight && change <= 1e-10 * scale) break;
+    if (convergence == Convergence::loose &&
         change <= std::max(1e-6 * scale, roundoff_of_quotients(K.matrix(), X.leftCols(count))))
       break;
   }
@@ -140,66 +134,21 @@ struct Factorized {
 }  // namespace
 
 NearNull near_null(const Factorization& factorization, const SparseMatrix& K, const Vector& weights, Index count,
-                   Settled settled, const Matrix& start) {
-  return nearest_zero(Factorized{factorization, K}, weights, pair_count(weights), count, settled, start);
+                   Convergence convergence, const Matrix& start) {
+  return nearest_zero(Factorized{factorization, K}, weights, pair_count(weights), count, convergence, start);
 }
 
-NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count, Settled settled) {
+NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count, Convergence convergence) {
   const Index pairs = pair_count(weights) + static_cast<Index>(border.released().size());
-  return nearest_zero(border, weights, pairs, count, settled, {});
+  return nearest_zero(border, weights, pairs, count, convergence, {});
 }
 
 namespace {
 
-// The columns of a matrix, at the entries of `at`.
-template <class Pointer, std::size_t B, class At>
-ARCWALL_IN_PLACE auto entries_of(const std::array<Pointer, B>& columns, const At& at) {
-  std::array<decltype(at(columns[0])), B> entries;
-  for (std::size_t j = 0; j < B; ++j) entries[j] = at(columns[j]);
-  return entries;
-}
-
-template <std::size_t B, class Pointer>
-std::array<Pointer, B> columns_from(Pointer first, Index stride) {
-  std::array<Pointer, B> columns;
-  for (std::size_t j = 0; j < B; ++j) columns[j] = first + static_cast<Index>(j) * stride;
-  return columns;
-}
-
-// Those that become pairs, then the guard.
-template <std::size_t B>
-std::array<double*, B> followed_columns(Matrix& X, Vector& guard) {
-  std::array<double*, B> columns;
-  for (std::size_t j = 0; j < B; ++j)
-    columns[j] = static_cast<Index>(j) < X.cols() ? X.col(static_cast<Index>(j)).data() : guard.data();
-  return columns;
-}
-
-template <std::size_t B>
-using Small = Eigen::Matrix<double, static_cast<int>(B), static_cast<int>(B)>;
-
-// Xᵀ W Y, symmetric, in one pass.
-template <std::size_t B, class Pointer>
-Small<B> projection(const double* w, const std::array<double*, B>& X, const std::array<Pointer, B>& Y, Index n) {
-  const auto products = sums_over<B*(B + 1) / 2>(n, [&](const auto& at, auto& sums) {
-    const auto x = entries_of(X, at), y = entries_of(Y, at);
-    std::size_t k = 0;
-    for (std::size_t j = 0; j < B; ++j) {
-      const auto weighted = at(w) * y[j];
-      for (std::size_t i = 0; i <= j; ++i) sums[k++] += x[i] * weighted;
-    }
-  });
-  Small<B> A;
-  for (Index j = 0, k = 0; j < A.cols(); ++j)
-    for (Index i = 0; i <= j; ++i) A(i, j) = A(j, i) = products[static_cast<std::size_t>(k++)];
-  return A;
-}
-
 // T with (X T)ᵀ W X T = 1 for G = Xᵀ W X, by Gram and Schmidt. Columns that depend on those before them become zero.
-template <std::size_t B>
-Small<B> orthonormalising(const Small<B>& G) {
+Matrix orthonormalising(const Matrix& G) {
   constexpr double dependent = 1e-14;
-  Small<B> T = Small<B>::Identity();
+  Matrix T = Matrix::Identity(G.rows(), G.cols());
   for (Index j = 0; j < T.cols(); ++j) {
     for (Index i = 0; i < j; ++i) T.col(j) -= T.col(i).dot(G * T.col(j)) * T.col(i);
     const double squared = T.col(j).dot(G * T.col(j));
@@ -208,52 +157,23 @@ Small<B> orthonormalising(const Small<B>& G) {
   return T;
 }
 
-// X := X T with T upper triangular, and W X to `WX`.
-template <std::size_t B>
-void transform(const double* w, const std::array<double*, B>& X, const Small<B>& T, const std::array<double*, B>& WX,
-               Index n) {
-  for_entries(n, [&](const auto& at) {
-    const auto x = entries_of(X, at);
-    for (std::size_t j = 0; j < B; ++j) {
-      auto sum = T(0, static_cast<Index>(j)) * x[0];
-      for (std::size_t i = 1; i <= j; ++i) sum += T(static_cast<Index>(i), static_cast<Index>(j)) * x[i];
-      at.set(X[j], sum);
-      at.set(WX[j], at(w) * sum);
-    }
-  });
-}
-
-// Calls `code` with the number of columns as a constant.
-template <class Code>
-void with_columns(Index count, const Code& code) {
-  if (count == 1) code(std::integral_constant<std::size_t, 1>{});
-  if (count == 2) code(std::integral_constant<std::size_t, 2>{});
-  if (count == 3) code(std::integral_constant<std::size_t, 3>{});
-}
-
 }  // namespace
 
 Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   const Index n = weights.size(), block = std::min<Index>(most_followed + 1, pair_count(weights));
   const Index known = std::max<Index>(0, std::min(pairs_->cols(), block - 1));
   // Contact forces, which come and go at the end, have no weight and need no start.
-  const Index common = std::min(pairs_->rows(), n), kept = std::min(block, most_followed);
-  X_.resize(n, kept);
-  guard_.resize(block > kept ? n : 0);
-  if (known > 0) {
-    X_.topLeftCorner(common, known) = pairs_->topLeftCorner(common, known);
-    X_.bottomLeftCorner(n - common, known).setZero();
-  }
-  std::uint64_t seed = 1;
-  if (known < kept) seed = fill_with_start(X_.rightCols(kept - known), seed);
-  if (block > kept) fill_with_start(guard_, seed);
+  const Index common = std::min(pairs_->rows(), n);
+  X_.resize(n, block);
+  X_.topLeftCorner(common, known) = pairs_->topLeftCorner(common, known);
+  X_.bottomLeftCorner(n - common, known).setZero();
+  if (known < block) fill_with_start(X_.rightCols(block - known), 1);
   Matrix columns(n, front + block);
-  with_columns(block, [&](auto constant) {
-    constexpr std::size_t B = constant.value;
-    const auto X = followed_columns<B>(X_, guard_), WX = columns_from<B>(columns.col(front).data(), n);
-    const Small<B> T = orthonormalising<B>(projection(weights.data(), X, X, n));
-    transform(weights.data(), X, T, WX, n);
-  });
+  if (block == 0) return columns;
+  auto WX = columns.rightCols(block);
+  WX = weights.asDiagonal() * X_;
+  combine(X_, orthonormalising(X_.transpose() * WX));
+  WX = weights.asDiagonal() * X_;
   return columns;
 }
 
@@ -261,36 +181,25 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
 // near zero, and never to a mixture of far ones, as the least of Xᵀ K X may. y = K⁻¹ W X c has the Rayleigh quotient
 // θ/(yᵀ W y).
 NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const Matrix>& solutions) {
-  const Index n = weights.size(), count = X_.cols(), block = count + (guard_.size() > 0 ? 1 : 0);
+  const Index block = X_.cols(), count = std::min(block, most_followed);
   if (block == 0 || !all_finite(solutions)) return {};
+  for (auto column : X_.colwise()) column.array() *= weights.array();
+  const Matrix A = X_.transpose() * solutions;
+  const Eigen::SelfAdjointEigenSolver<Matrix> ritz(0.5 * (A + A.transpose()));
+  std::vector<Index> order(static_cast<std::size_t>(block));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]); });
+  order.resize(static_cast<std::size_t>(count));
+  Matrix pairs = solutions * ritz.eigenvectors()(Eigen::all, order);
+  X_.resize(0, 0);
   Vector values(count);
-  with_columns(block, [&](auto constant) {
-    constexpr std::size_t B = constant.value;
-    const double* w = weights.data();
-    const auto X = followed_columns<B>(X_, guard_);
-    const auto Y = columns_from<B>(solutions.data(), solutions.outerStride());
-    const Eigen::SelfAdjointEigenSolver<Small<B>> ritz(projection(w, X, Y, n));
-    std::array<Index, B> order;
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-      return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]);
-    });
-    for (Index j = 0; j < count; ++j) {
-      const auto c = ritz.eigenvectors().col(order[static_cast<std::size_t>(j)]);
-      double* const x = X[static_cast<std::size_t>(j)];
-      const auto [squared] = sums_over<1>(n, [&](const auto& at, auto& sums) {
-        const auto y = entries_of(Y, at);
-        auto sum = c[0] * y[0];
-        for (std::size_t i = 1; i < B; ++i) sum += c[static_cast<Index>(i)] * y[i];
-        at.set(x, sum);
-        sums[0] += at(w) * sum * sum;
-      });
-      values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
-      X_.col(j) /= std::sqrt(squared);
-    }
-  });
-  guard_.resize(0);
-  pairs_ = std::exchange(X_, Matrix());
+  for (Index j = 0; j < count; ++j) {
+    const double squared = (weights.array() * pairs.col(j).array().square()).sum();
+    values[j] = ritz.eigenvalues()[order[static_cast<std::size_t>(j)]] / squared;
+    pairs.col(j) /= std::sqrt(squared);
+  }
+  pairs_ = std::move(pairs);
   return {.values = std::move(values), .vectors = pairs_};
 }
 

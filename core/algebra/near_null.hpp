@@ -20,17 +20,18 @@ Index pair_count(const Vector& weights);
 
 /// When eigenvalues count as found: once they change by 1e-10 of the greatest that is wanted; or by 1e-6, or by no more
 /// than round-off, which on very fine meshes is more.
-enum class Settled { fully, roughly };
+enum class Convergence { tight, loose };
 
 /// `count` eigenpairs (fewer if there are no more) by inverse subspace iteration with Rayleigh-Ritz
 /// projection. The factorization is that of `lower_triangle`; a tiny shift of it will do, where the matrix itself is
 /// singular. With multipliers of weight zero these are the eigenvalues of K on the space the constraints leave free.
 /// `start`: columns that are near the vectors wanted, if such are known.
 NearNull near_null(const Factorization& factorization, const SparseMatrix& lower_triangle, const Vector& weights,
-                   Index count, Settled settled = Settled::fully, const Matrix& start = {});
+                   Index count, Convergence convergence = Convergence::tight, const Matrix& start = {});
 
 /// The same of K with what a border holds let go.
-NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count, Settled settled = Settled::fully);
+NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count,
+                   Convergence convergence = Convergence::tight);
 
 /// The pairs nearest zero, followed from matrix to matrix by one step of inverse iteration each. Near singularity one
 /// step is enough; elsewhere the values are upper bounds in magnitude that get better on the way. A vector without
@@ -52,10 +53,7 @@ class NearNullTracker {
 
  private:
   SharedMatrix pairs_;
-  // Between right_hand_sides and advance alone: the vectors that become the pairs', and one more, W-orthonormal. The
-  // first stay and the other goes: of one block for all, a hole would be left in which the next one has no room.
-  Matrix X_;
-  Vector guard_;
+  Matrix X_;  // between right_hand_sides() and advance() alone: W-orthonormal, the pairs' vectors and one more
 };
 
 }  // namespace arcwall

@@ -81,7 +81,7 @@ std::optional<Nearest> nearest_pairs(const Ldlt& ldlt, const SparseMatrix& K, co
                                      IfZero if_zero) {
   for (Index wanted = 2; wanted <= most_pairs; wanted *= 2) {
     // Roughly will do: pairs that are near converge fast, and Ψ is exact.
-    Nearest found{.pairs = near_null(ldlt, K, weights, wanted, Settled::roughly, start), .roundoff = {}};
+    Nearest found{.pairs = near_null(ldlt, K, weights, wanted, Convergence::loose, start), .roundoff = {}};
     const Index count = found.pairs.values.size();
     if (!found.pairs.vectors->allFinite()) return std::nullopt;
     for (Index j = 0; j < count; ++j) {

@@ -124,16 +124,4 @@ std::optional<Blocks> find_blocks(const SparseMatrix& A, Index multipliers, Inde
   return blocks;
 }
 
-bool insert_multipliers(const SparseMatrix& A, Index multipliers, Index widest, Blocks& blocks) {
-  const Index n = A.cols() - multipliers;
-  std::vector<std::size_t> last(static_cast<std::size_t>(multipliers), 0);
-  for (std::size_t g = 0; g < blocks.size(); ++g)
-    for (const Index unknown : blocks[g])
-      for (SparseMatrix::InnerIterator entry(A, unknown); entry; ++entry)
-        if (entry.row() >= n) last[static_cast<std::size_t>(entry.row() - n)] = g;
-  for (Index m = 0; m < multipliers; ++m) blocks[last[static_cast<std::size_t>(m)]].push_back(n + m);
-  const auto fits = [&](const std::vector<Index>& block) { return static_cast<Index>(block.size()) <= widest; };
-  return std::all_of(blocks.begin(), blocks.end(), fits) && is_tridiagonal(A, blocks);
-}
-
 }  // namespace arcwall

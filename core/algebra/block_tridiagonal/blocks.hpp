@@ -15,8 +15,4 @@ using Blocks = std::vector<std::vector<Index>>;
 /// one had more than `widest` unknowns. A chain of members has its nodes for blocks.
 std::optional<Blocks> find_blocks(const SparseMatrix& lower_triangle, Index multipliers, Index widest);
 
-/// Lets each multiplier follow the others of the last block that it touches. False if there is then one of more than
-/// `widest` unknowns, or blocks couple that are not beside each other.
-bool insert_multipliers(const SparseMatrix& lower_triangle, Index multipliers, Index widest, Blocks& blocks);
-
 }  // namespace arcwall
