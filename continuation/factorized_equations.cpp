@@ -30,7 +30,7 @@ Linearization& FactorizedEquations::workspace(const Piece& piece) {
 
 void FactorizedEquations::track_from(const NearNull& nearest) {
   tracker_.start_from(nearest.vectors);
-  if (solver_.may_use_soft()) solver_.expect_soft(nearest.soft());
+  if (solver_.may_use_near_null()) solver_.expect_near_null(nearest.least_resisted());
 }
 
 }  // namespace arcwall

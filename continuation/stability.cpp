@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/algebra/released_border.hpp"
+#include "core/algebra/sliding_stability.hpp"
 #include "core/algebra/test_function.hpp"
 
 namespace arcwall {

@@ -25,7 +25,7 @@ struct Linearization {
   std::vector<Index> holding{};            ///< y_k, one a column of B
   Vector border_rates{};                   ///< one a column of B: the rate by s_k of the equation that y_k enforces, if
                                            ///< the body slid and y_k did not hold it; 0 where it is truly held.
-                                           ///< Stability is counted with the others let go (ReleasedBorder)
+                                           ///< Stability is counted with the others let go (SlidingStabilityOperator)
   Vector F_lambda{};                       ///< ∂F/∂λ
   std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, but for
                                            ///< ground terms, by unknowns of K: true for the displacement in x of such

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "continuation/stability.hpp"
-#include "core/algebra/released_border.hpp"
+#include "core/algebra/sliding_stability.hpp"
 #include "core/algebra/test_function.hpp"
 
 namespace arcwall {
@@ -73,7 +73,7 @@ std::optional<NearNull> Corrector::near_null([[maybe_unused]] const State& here,
   if (!here_.has_point() || !solver.inner_is_regular()) return std::nullopt;
   const Vector weighted = weights.head(now.K.cols());
   if (now.B.cols() > 0) {
-    const ReleasedBorder border(solver, now, sliding_resistance(solver, now));
+    const SlidingStabilityOperator border(solver, now, sliding_resistance(solver, now));
     return border.is_finite() ? std::optional(arcwall::near_null(border, weighted, count, convergence)) : std::nullopt;
   }
   const Matrix none, &known = here_.tracker().vectors();

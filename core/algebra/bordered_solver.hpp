@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/algebra/ldlt.hpp"
-#include "core/algebra/whole_solver.hpp"
+#include "core/algebra/singular_bordered_solver.hpp"
 #include "core/equilibrium_line.hpp"
 #include "core/linearization.hpp"
 
@@ -24,12 +24,12 @@ Matrix product(const Linearization& equations, const Matrix& X);
 class BorderedSolver {
  public:
   /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves, for which a
-  /// spring may stand in K for a moment (WholeSolver).
+  /// spring may stand in K for a moment (SingularBorderedSolver).
   FactorStatus factorize(Linearization& equations, Index multipliers);
 
   /// See Ldlt.
-  void expect_soft(Matrix vectors) { ldlt_.expect_soft(std::move(vectors)); }
-  bool may_use_soft() const { return ldlt_.may_use_soft(); }
+  void expect_near_null(Matrix vectors) { ldlt_.expect_near_null(std::move(vectors)); }
+  bool may_use_near_null() const { return ldlt_.may_use_near_null(); }
 
   /// `border` closes the system where K alone is singular; the line itself does not depend on it. Its columns are the
   /// particular solution and the tangent, which is not normalised. `weights`: those of System; what they make of the
@@ -78,7 +78,7 @@ class BorderedSolver {
   Linearization* equations_ = nullptr;
   Pattern pattern_;
   Ldlt ldlt_;
-  WholeSolver whole_;
+  SingularBorderedSolver whole_;
   Index multipliers_ = 0;
   bool regular_ = false;
   Matrix border_;  // K⁻¹ B

@@ -9,9 +9,9 @@
 
 #include "core/algebra/block_tridiagonal/block_tridiagonal_ldlt.hpp"
 #include "core/algebra/block_tridiagonal/null_space_ldlt.hpp"
+#include "core/algebra/solvers/modified_cholesky.hpp"
 #include "core/algebra/solvers/pattern.hpp"
 #include "core/algebra/solvers/simplicial_ldlt.hpp"
-#include "core/algebra/solvers/sprung_cholesky.hpp"
 
 namespace arcwall {
 
@@ -31,7 +31,7 @@ struct Ldlt::Implementation {
       if (multipliers == 0) return std::make_unique<BlockTridiagonalLdlt>(A, *blocks, translation_free);
       if (auto pressed = NullSpaceLdlt::of(A, multipliers, *blocks, translation_free)) return pressed;
     }
-    std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : sprung_cholesky(A);
+    std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : modified_cholesky(A);
     return large ? std::move(large) : simplicial_ldlt(A, multipliers);
   }
 
@@ -42,7 +42,7 @@ struct Ldlt::Implementation {
     if (any && same && same_structure) return;
     others.reset();
     if (!factors || !same_structure || !factors->reuse_analysis(A, multipliers)) factors = analyse(A);
-    factors->expect_soft(soft);
+    factors->expect_near_null(soft);
     if (!same) pattern = Pattern(A);
     analysed_multipliers = multipliers;
     analysed_translations = structure_translations();
@@ -83,13 +83,15 @@ void Ldlt::set_translation_free(std::vector<bool> unknowns) { implementation_->t
 
 void Ldlt::set_ground(GroundTerms ground) { implementation_->ground = ground; }
 
-void Ldlt::expect_soft(Matrix vectors) {
+void Ldlt::expect_near_null(Matrix vectors) {
   Implementation& self = *implementation_;
   self.soft = std::move(vectors);
-  if (self.factors) self.factors->expect_soft(self.soft);
+  if (self.factors) self.factors->expect_near_null(self.soft);
 }
 
-bool Ldlt::may_use_soft() const { return !implementation_->factors || implementation_->factors->may_use_soft(); }
+bool Ldlt::may_use_near_null() const {
+  return !implementation_->factors || implementation_->factors->may_use_near_null();
+}
 
 void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
 

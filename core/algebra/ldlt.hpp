@@ -9,8 +9,8 @@
 namespace arcwall {
 
 /// LDLᵀ of a symmetric matrix given by its lower triangle, indefinite matrices included: BlockTridiagonalLdlt where the
-/// pattern is such, CHOLMOD's supernodal LLᵀ with springs (sprung_cholesky.hpp) for large structures of many couplings,
-/// its simplicial LDLᵀ elsewhere and for what those refuse.
+/// pattern is such, CHOLMOD's supernodal LLᵀ with springs (modified_cholesky.hpp) for large structures of many
+/// couplings, its simplicial LDLᵀ elsewhere and for what those refuse.
 ///
 /// Saddle points [K −Gᵀ; −G 0] keep zeros on the diagonal: each multiplier is eliminated right after the last unknown
 /// it touches, where its pivot −g S⁻¹ gᵀ is not zero, so that no pivoting is needed and no fill arises beyond that of
@@ -35,10 +35,10 @@ class Ldlt final : public Factorization {
 
   /// Columns that the matrices to come hardly resist, as far as one knows; none by default. Where they are found makes
   /// large indefinite matrices quicker; results depend on them within round-off.
-  void expect_soft(Matrix vectors);
+  void expect_near_null(Matrix vectors);
 
   /// Whether these may be of use for the pattern at hand.
-  bool may_use_soft() const;
+  bool may_use_near_null() const;
 
   /// Whether the matrices to come are known to have the pattern of the last one, so that it is not compared; false by
   /// default.

@@ -63,7 +63,7 @@ double roundoff_of_quotients(const SparseMatrix& K, const Matrix& X) {
 
 }  // namespace
 
-Matrix NearNull::soft() const {
+Matrix NearNull::least_resisted() const {
   std::vector<Index> chosen;
   for (Index j = 0; j < values.size(); ++j)
     if (j == 0 || values[j] < 0.0) chosen.push_back(j);
@@ -138,7 +138,8 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& K, co
   return nearest_zero(Factorized{factorization, K}, weights, pair_count(weights), count, convergence, start);
 }
 
-NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count, Convergence convergence) {
+NearNull near_null(const SlidingStabilityOperator& border, const Vector& weights, Index count,
+                   Convergence convergence) {
   const Index pairs = pair_count(weights) + static_cast<Index>(border.released().size());
   return nearest_zero(border, weights, pairs, count, convergence, {});
 }

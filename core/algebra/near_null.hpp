@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/algebra/factorization.hpp"
-#include "core/algebra/released_border.hpp"
 #include "core/algebra/shared_matrix.hpp"
+#include "core/algebra/sliding_stability.hpp"
 
 namespace arcwall {
 
@@ -12,7 +12,7 @@ struct NearNull {
   SharedMatrix vectors{};  ///< columns, φᵀ M φ = 1
 
   /// The vectors that K may not resist a step further: the nearest one, and those of negative values.
-  Matrix soft() const;
+  Matrix least_resisted() const;
 };
 
 /// How many eigenvalues K φ = μ M φ has: each unknown without weight is a multiplier, which holds one that has weight.
@@ -30,7 +30,7 @@ NearNull near_null(const Factorization& factorization, const SparseMatrix& lower
                    Index count, Convergence convergence = Convergence::tight, const Matrix& start = {});
 
 /// The same of K with what a border holds let go.
-NearNull near_null(const ReleasedBorder& border, const Vector& weights, Index count,
+NearNull near_null(const SlidingStabilityOperator& border, const Vector& weights, Index count,
                    Convergence convergence = Convergence::tight);
 
 /// The pairs nearest zero, followed from matrix to matrix by one step of inverse iteration each. Near singularity one

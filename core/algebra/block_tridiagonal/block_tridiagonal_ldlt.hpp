@@ -37,7 +37,7 @@ class BlockTridiagonalLdlt final : public SymmetricFactors {
     return greatest_entry_ ? pivots_.greatest / *greatest_entry_ : SymmetricFactors::growth(lower_triangle);
   }
   double weighted(const Eigen::Ref<const Vector>& v) const override;
-  bool may_use_soft() const override { return false; }
+  bool may_use_near_null() const override { return false; }
 
  private:
   // Of an entry: the block of a part to which it belongs, and where among that one's numbers.

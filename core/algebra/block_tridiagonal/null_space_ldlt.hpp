@@ -25,7 +25,7 @@ class NullSpaceLdlt final : public SymmetricFactors {
   void solve(Eigen::Ref<Matrix> X) const override;
   Pivots pivots() const override { return pivots_; }
   double weighted(const Eigen::Ref<const Vector>& v) const override;
-  bool may_use_soft() const override { return false; }
+  bool may_use_near_null() const override { return false; }
 
  private:
   static constexpr int widest = static_cast<int>(BlockTridiagonalLdlt::widest);

@@ -51,10 +51,10 @@ class SymmetricFactors {
   virtual double weighted(const Eigen::Ref<const Vector>& v) const = 0;
 
   /// Columns that the matrices to come hardly resist, as far as one knows.
-  virtual void expect_soft(const Matrix&) {}
+  virtual void expect_near_null(const Matrix&) {}
 
   /// Whether these may be of use, now or with other multipliers.
-  virtual bool may_use_soft() const { return true; }
+  virtual bool may_use_near_null() const { return true; }
 };
 
 }  // namespace arcwall

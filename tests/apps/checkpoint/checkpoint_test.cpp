@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& run) { return run.param.example + std::to_string(run.index); });
 
 // Rows of shallow arches on posts, held at their ends: 5040 unknowns, so many that springs make K definite (core/
-// sprung_cholesky.hpp), which differ with what was factorized before in the same step.
+// modified_cholesky.hpp), which differ with what was factorized before in the same step.
 std::string large_frame() {
   constexpr int side = 42;
   constexpr double rise = 0.08, bay = 1.0 / (side - 1), load = 1e4 * rise * rise * rise * bay;

@@ -26,9 +26,9 @@ namespace arcwall {
 ///
 /// Null where this way does not pay: few unknowns, or such that couple with few others. Matrices that need too many
 /// springs are refused.
-std::unique_ptr<SymmetricFactors> sprung_cholesky(const SparseMatrix& lower_triangle);
+std::unique_ptr<SymmetricFactors> modified_cholesky(const SparseMatrix& lower_triangle);
 
 /// The same, whether it pays or not.
-std::unique_ptr<SymmetricFactors> any_sprung_cholesky(const SparseMatrix& lower_triangle);
+std::unique_ptr<SymmetricFactors> any_modified_cholesky(const SparseMatrix& lower_triangle);
 
 }  // namespace arcwall

@@ -1,4 +1,4 @@
-#include "core/algebra/released_border.hpp"
+#include "core/algebra/sliding_stability.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <utility>
@@ -32,8 +32,8 @@ SlidingResistance sliding_resistance(const BorderedSolver& solver, const Lineari
   return resistance;
 }
 
-ReleasedBorder::ReleasedBorder(const BorderedSolver& solver, const Linearization& equations,
-                               SlidingResistance resistance)
+SlidingStabilityOperator::SlidingStabilityOperator(const BorderedSolver& solver, const Linearization& equations,
+                                                   SlidingResistance resistance)
     : inner_(solver.inner()), K_(equations.K), released_(std::move(resistance.released)) {
   if (released_.empty()) return;
   moved_ = Matrix::Zero(K_.cols(), static_cast<Index>(released_.size()));
@@ -42,18 +42,18 @@ ReleasedBorder::ReleasedBorder(const BorderedSolver& solver, const Linearization
   resistance_.compute(resistance.T);
 }
 
-bool ReleasedBorder::is_finite() const {
+bool SlidingStabilityOperator::is_finite() const {
   return released_.empty() || (moved_.allFinite() && resistance_.matrixLU().allFinite());
 }
 
 // K⁻¹ + K⁻¹ E T⁻¹ Eᵀ K⁻¹
-void ReleasedBorder::solve(Eigen::Ref<Matrix> X) const {
+void SlidingStabilityOperator::solve(Eigen::Ref<Matrix> X) const {
   inner_.solve(X);
   if (!released_.empty()) X += moved_ * resistance_.solve(Matrix(X(released_, Eigen::all)));
 }
 
 // Nothing is left of the moments at y.
-Matrix ReleasedBorder::product(const Matrix& X) const {
+Matrix SlidingStabilityOperator::product(const Matrix& X) const {
   Matrix Y = K_.selfadjointView<Eigen::Lower>() * X;
   for (const Index y : released_) Y.row(y).setZero();
   return Y;

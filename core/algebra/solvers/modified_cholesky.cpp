@@ -1,4 +1,4 @@
-#include "core/algebra/solvers/sprung_cholesky.hpp"
+#include "core/algebra/solvers/modified_cholesky.hpp"
 
 #include <dlfcn.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/algebra/soft_place.hpp"
+#include "core/algebra/near_null_place.hpp"
 #include "core/algebra/solvers/cholmod_factor.hpp"
 #include "core/algebra/solvers/dense_ldlt.hpp"
 
@@ -49,9 +49,9 @@ class OneThread {
   int before_ = set_levels_ != nullptr ? found<int()>("omp_get_max_active_levels")() : 0;
 };
 
-class SprungCholesky final : public SymmetricFactors {
+class ModifiedCholesky final : public SymmetricFactors {
  public:
-  explicit SprungCholesky(const SparseMatrix& A) : pattern_(A) {
+  explicit ModifiedCholesky(const SparseMatrix& A) : pattern_(A) {
     cholmod_common& common = llt_.common;
     common.supernodal = CHOLMOD_SUPERNODAL;
     cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
@@ -65,7 +65,7 @@ class SprungCholesky final : public SymmetricFactors {
   }
 
   // Springs stand from here on alone, so that results do not depend on what was done before.
-  void expect_soft(const Matrix& vectors) override {
+  void expect_near_null(const Matrix& vectors) override {
     soft_ = vectors;
     springs_.clear();
     root_is_held_ = false;
@@ -155,7 +155,7 @@ class SprungCholesky final : public SymmetricFactors {
 
   void choose_springs(const SparseMatrix& A) {
     if (soft_.rows() == A.cols())
-      for (const auto& vector : soft_.colwise()) add_spring(A, soft_place(A.diagonal(), vector));
+      for (const auto& vector : soft_.colwise()) add_spring(A, near_null_place(A.diagonal(), vector));
     soft_.resize(0, 0);
     for (Spring& spring : springs_) spring.k = stiffness_of(A, spring.at);
     std::erase_if(springs_, [](const Spring& spring) { return spring.k == 0.0; });
@@ -167,7 +167,7 @@ class SprungCholesky final : public SymmetricFactors {
       root_is_held_ = true;
       return true;
     }
-    return double(springs_.size()) < most_springs_ && add_spring(A, soft_place(A.diagonal(), unresisted()));
+    return double(springs_.size()) < most_springs_ && add_spring(A, near_null_place(A.diagonal(), unresisted()));
   }
 
   // False if there is one already, or nothing that tells how stiff it should be.
@@ -332,13 +332,13 @@ bool couples_widely(const SparseMatrix& A) {
 
 }  // namespace
 
-std::unique_ptr<SymmetricFactors> sprung_cholesky(const SparseMatrix& A) {
+std::unique_ptr<SymmetricFactors> modified_cholesky(const SparseMatrix& A) {
   if (A.cols() < large || !couples_widely(A)) return nullptr;
-  return any_sprung_cholesky(A);
+  return any_modified_cholesky(A);
 }
 
-std::unique_ptr<SymmetricFactors> any_sprung_cholesky(const SparseMatrix& A) {
-  return std::make_unique<SprungCholesky>(A);
+std::unique_ptr<SymmetricFactors> any_modified_cholesky(const SparseMatrix& A) {
+  return std::make_unique<ModifiedCholesky>(A);
 }
 
 }  // namespace arcwall

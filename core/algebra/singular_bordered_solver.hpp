@@ -19,7 +19,7 @@ namespace arcwall {
 ///     C_x x + C_s s + F_λs λ = f_s,         c_xᵀ x + c_sᵀ s + d λ = g,         p = k eᵀ x                       (1)
 ///
 /// Solutions are refined and checked; those that stay poor come by LU of the whole.
-class WholeSolver {
+class SingularBorderedSolver {
  public:
   /// `equations` must outlive the use of this factorization; the spring stands in their K while that is factorized.
   /// `soft`: a vector that is large where K's null vector is, as far as one knows. False if the whole is singular to

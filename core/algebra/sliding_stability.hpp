@@ -19,10 +19,10 @@ struct SlidingResistance {
 SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations);
 
 /// K with the y_k that a resistance names let go against it: singular where K is regular and ∂F/∂x is not.
-class ReleasedBorder {
+class SlidingStabilityOperator {
  public:
   /// `solver` has factorized `equations`, K being regular. Both must outlive this.
-  ReleasedBorder(const BorderedSolver& solver, const Linearization& equations, SlidingResistance resistance);
+  SlidingStabilityOperator(const BorderedSolver& solver, const Linearization& equations, SlidingResistance resistance);
 
   /// False where K is singular to working precision; then nothing else may be asked.
   bool is_finite() const;

@@ -1,15 +1,16 @@
-#include "core/algebra/whole_solver.hpp"
+#include "core/algebra/singular_bordered_solver.hpp"
 
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/algebra/bordered_residual.hpp"
-#include "core/algebra/soft_place.hpp"
+#include "core/algebra/near_null_place.hpp"
 
 namespace arcwall {
 
-bool WholeSolver::factorize(Linearization& equations, const Row& border, Index multipliers, const Vector& soft) {
+bool SingularBorderedSolver::factorize(Linearization& equations, const Row& border, Index multipliers,
+                                       const Vector& soft) {
   equations_ = &equations;
   border_ = border;
   has_lu_ = false;
@@ -17,7 +18,7 @@ bool WholeSolver::factorize(Linearization& equations, const Row& border, Index m
   return has_spring_ || factorize_lu();
 }
 
-std::optional<Direction> WholeSolver::solve(const Vector& f, double g) {
+std::optional<Direction> SingularBorderedSolver::solve(const Vector& f, double g) {
   if (has_spring_) {
     if (auto solution = refined_with_spring(f, g)) return solution;
     has_spring_ = false;
@@ -27,7 +28,7 @@ std::optional<Direction> WholeSolver::solve(const Vector& f, double g) {
 }
 
 // With the unknown of the last row held, and then along the line that is left where it is let go.
-std::optional<Direction> WholeSolver::solve_with_lu(const Vector& f, double g) const {
+std::optional<Direction> SingularBorderedSolver::solve_with_lu(const Vector& f, double g) const {
   const Index last = f.size();
   Matrix X = Matrix::Zero(last + 1, 2);
   X.col(0).head(last) = f;
@@ -41,12 +42,12 @@ std::optional<Direction> WholeSolver::solve_with_lu(const Vector& f, double g) c
 }
 
 // As stiff as what it is added to, in the unknown that takes most of the energy.
-bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
+bool SingularBorderedSolver::add_spring(Index multipliers, const Vector& soft) {
   SparseMatrix& K = equations_->K;
   const Index n = K.cols(), free = n - multipliers;
   if (free == 0) return false;
   const Vector diagonal = K.diagonal();
-  at_ = soft_place(diagonal.head(free), soft.head(free));
+  at_ = near_null_place(diagonal.head(free), soft.head(free));
   spring_ = std::abs(diagonal[at_]);
   if (!(spring_ > 0.0 && std::isfinite(spring_))) return false;
   ldlt_.set_multiplier_count(multipliers);
@@ -79,7 +80,7 @@ bool WholeSolver::add_spring(Index multipliers, const Vector& soft) {
 }
 
 // What the rows of the small system are of x: C_x x, c_xᵀ x, eᵀ x.
-Matrix WholeSolver::rows_of(const Matrix& x) const {
+Matrix SingularBorderedSolver::rows_of(const Matrix& x) const {
   const Index n = x.rows(), m = equations_->B.cols();
   Matrix rows(m + 2, x.cols());
   if (m > 0) rows.topRows(m) = equations_->C.leftCols(n) * x;
@@ -88,7 +89,7 @@ Matrix WholeSolver::rows_of(const Matrix& x) const {
   return rows;
 }
 
-Direction WholeSolver::solve_with_spring(const Vector& f, double g) const {
+Direction SingularBorderedSolver::solve_with_spring(const Vector& f, double g) const {
   const Index n = equations_->K.cols(), m = equations_->B.cols();
   Matrix x = f.head(n);
   ldlt_.solve(x);
@@ -102,7 +103,7 @@ Direction WholeSolver::solve_with_spring(const Vector& f, double g) const {
   return solution;
 }
 
-std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, double g) const {
+std::optional<Direction> SingularBorderedSolver::refined_with_spring(const Vector& f, double g) const {
   constexpr int most_refinements = 3;
   Direction solution = solve_with_spring(f, g);
   for (int round = 0;; ++round) {
@@ -121,7 +122,7 @@ std::optional<Direction> WholeSolver::refined_with_spring(const Vector& f, doubl
 
 // The border is a full row, with which LU takes a time and a memory like the square of the number of unknowns: in its
 // place the unknown is held in which it is greatest.
-bool WholeSolver::factorize_lu() {
+bool SingularBorderedSolver::factorize_lu() {
   const Linearization& now = *equations_;
   const Index n = now.K.cols(), m = now.B.cols(), last = n + m;
   std::vector<Eigen::Triplet<double, Index>> entries;

@@ -1,4 +1,4 @@
-#include "core/algebra/whole_solver.hpp"
+#include "core/algebra/singular_bordered_solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support/dense.hpp"
 
-namespace arcwall::whole_solver_test {
+namespace arcwall::singular_bordered_solver_test {
 
 namespace {
 
@@ -36,7 +36,8 @@ Linearization equations(const Matrix& K, const Vector& F_lambda) {
 }
 
 // Against LU with complete pivoting of the dense whole.
-void expect_solution(const Linearization& now, const Row& border, WholeSolver& solver, test::Numbers& numbers) {
+void expect_solution(const Linearization& now, const Row& border, SingularBorderedSolver& solver,
+                     test::Numbers& numbers) {
   const Index size = now.K.cols(), m = now.B.cols(), last = size + m;
   Matrix whole = Matrix::Zero(last + 1, last + 1);
   whole.topLeftCorner(size, size) = test::full(now.K);
@@ -58,20 +59,20 @@ void expect_solution(const Linearization& now, const Row& border, WholeSolver& s
 
 }  // namespace
 
-TEST(WholeSolver, SolvesWhereKIsSingular) {
+TEST(SingularBorderedSolver, SolvesWhereKIsSingular) {
   test::Numbers numbers(61);
   for (int round = 0; round < 20; ++round) {
     const Singular at(1, numbers);
     Linearization now = equations(at.K, at.nulls.col(0) + 0.3 * numbers.vector(n));
     const Row border{.dx = at.nulls.col(0) + 0.3 * numbers.vector(n), .dlambda = 0.2};
-    WholeSolver solver;
+    SingularBorderedSolver solver;
     ASSERT_TRUE(solver.factorize(now, border, 0, at.nulls.col(0)));
     expect_solution(now, border, solver, numbers);
   }
 }
 
 // Points of contact that slide stand last in x, and J is not symmetric.
-TEST(WholeSolver, SolvesWhereKIsSingularInsideABorder) {
+TEST(SingularBorderedSolver, SolvesWhereKIsSingularInsideABorder) {
   test::Numbers numbers(64);
   for (const Index m : {1, 2, 4})
     for (int round = 0; round < 10; ++round) {
@@ -83,26 +84,26 @@ TEST(WholeSolver, SolvesWhereKIsSingularInsideABorder) {
       now.C = numbers.matrix(m, n + m);
       now.C.rightCols(m) += 3.0 * Matrix::Identity(m, m);
       const Row border{.dx = numbers.vector(n + m), .dlambda = 0.2};
-      WholeSolver solver;
+      SingularBorderedSolver solver;
       ASSERT_TRUE(solver.factorize(now, border, 0, at.nulls.col(0)));
       expect_solution(now, border, solver, numbers);
     }
 }
 
 // The spring is put where it stiffens nothing.
-TEST(WholeSolver, SolvesAlsoWhereTheSoftDirectionIsMistaken) {
+TEST(SingularBorderedSolver, SolvesAlsoWhereTheSoftDirectionIsMistaken) {
   test::Numbers numbers(62);
   Matrix K = Matrix::Zero(n, n);
   K.topLeftCorner(n - 1, n - 1) = 2.0 * Matrix::Identity(n - 1, n - 1);
   K(0, 1) = K(1, 0) = 0.5;
   Linearization now = equations(K, Vector::Unit(n, n - 1) + numbers.vector(n));
   const Row border{.dx = Vector::Unit(n, n - 1) + 0.1 * numbers.vector(n), .dlambda = 0.2};
-  WholeSolver solver;
+  SingularBorderedSolver solver;
   ASSERT_TRUE(solver.factorize(now, border, 0, Vector::Unit(n, 0)));
   expect_solution(now, border, solver, numbers);
 }
 
-TEST(WholeSolver, SolvesSaddlePoints) {
+TEST(SingularBorderedSolver, SolvesSaddlePoints) {
   test::Numbers numbers(63);
   constexpr Index m = 2;
   const Singular at(1, numbers);
@@ -115,17 +116,17 @@ TEST(WholeSolver, SolvesSaddlePoints) {
   soft.head(n) = at.nulls.col(0);
   Linearization now = equations(K, soft + 0.3 * numbers.vector(n + m));
   const Row border{.dx = soft + 0.3 * numbers.vector(n + m), .dlambda = 0.2};
-  WholeSolver solver;
+  SingularBorderedSolver solver;
   ASSERT_TRUE(solver.factorize(now, border, m, soft));
   expect_solution(now, border, solver, numbers);
 }
 
-TEST(WholeSolver, SaysWhereOneBorderIsNotEnough) {
+TEST(SingularBorderedSolver, SaysWhereOneBorderIsNotEnough) {
   test::Numbers numbers(64);
   const Singular at(2, numbers);
   Linearization now = equations(at.K, numbers.vector(n));
   const Row border{.dx = numbers.vector(n), .dlambda = 0.2};
-  WholeSolver solver;
+  SingularBorderedSolver solver;
   const bool factorized = solver.factorize(now, border, 0, at.nulls.col(0));
   const Vector f = numbers.vector(n);
   const auto solution = factorized ? solver.solve(f, 0.7) : std::nullopt;
@@ -133,4 +134,4 @@ TEST(WholeSolver, SaysWhereOneBorderIsNotEnough) {
   EXPECT_GT(solution ? solution->dx.norm() : infinity, 1e9 * f.norm());
 }
 
-}  // namespace arcwall::whole_solver_test
+}  // namespace arcwall::singular_bordered_solver_test

@@ -1,4 +1,4 @@
-#include "core/algebra/released_border.hpp"
+#include "core/algebra/sliding_stability.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "core/algebra/near_null.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall::released_border_test {
+namespace arcwall::sliding_stability_test {
 
 namespace {
 
@@ -80,7 +80,7 @@ std::vector<Vector> some_springs() {
 
 }  // namespace
 
-TEST(ReleasedBorder, CountsAndFindsThePairsOfTheBodyThatSlides) {
+TEST(SlidingStabilityOperator, CountsAndFindsThePairsOfTheBodyThatSlides) {
   test::Numbers numbers(41);
   for (int round = 0; round < 20; ++round)
     for (const Vector& springs : some_springs()) {
@@ -90,7 +90,7 @@ TEST(ReleasedBorder, CountsAndFindsThePairsOfTheBodyThatSlides) {
       Vector exact = Eigen::SelfAdjointEigenSolver<Matrix>(body.sprung()).eigenvalues();
       const Index held = body.solver.inner().inertia()->negative - m;
       EXPECT_EQ(held + body.resistance().negative().value(), (exact.array() < 0.0).count());
-      const ReleasedBorder border(body.solver, body.now, body.resistance());
+      const SlidingStabilityOperator border(body.solver, body.now, body.resistance());
       ASSERT_TRUE(border.is_finite());
       std::sort(exact.begin(), exact.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
       const NearNull found = near_null(border, weights, 2);
@@ -99,10 +99,10 @@ TEST(ReleasedBorder, CountsAndFindsThePairsOfTheBodyThatSlides) {
     }
 }
 
-TEST(ReleasedBorder, SolvesWithTheMomentsOfTheSprings) {
+TEST(SlidingStabilityOperator, SolvesWithTheMomentsOfTheSprings) {
   test::Numbers numbers(42);
   const Held body(numbers, Vector{{0.7, 0.0, 0.1}});
-  const ReleasedBorder border(body.solver, body.now, body.resistance());
+  const SlidingStabilityOperator border(body.solver, body.now, body.resistance());
   Matrix right = Matrix::Zero(n + m, 2);
   right.topRows(n) = numbers.matrix(n, 2);
   Matrix X = right;
@@ -113,7 +113,7 @@ TEST(ReleasedBorder, SolvesWithTheMomentsOfTheSprings) {
 }
 
 // Whatever the border: with one motion let go and another held, det ∂F/∂x = −det K D_hh w T.
-TEST(ReleasedBorder, IsSingularWhereTheEquationsAre) {
+TEST(SlidingStabilityOperator, IsSingularWhereTheEquationsAre) {
   test::Numbers numbers(43);
   for (int round = 0; round < 20; ++round) {
     Linearization now;
@@ -135,4 +135,4 @@ TEST(ReleasedBorder, IsSingularWhereTheEquationsAre) {
   }
 }
 
-}  // namespace arcwall::released_border_test
+}  // namespace arcwall::sliding_stability_test

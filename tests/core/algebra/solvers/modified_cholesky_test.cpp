@@ -1,4 +1,4 @@
-#include "core/algebra/solvers/sprung_cholesky.hpp"
+#include "core/algebra/solvers/modified_cholesky.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/algebra/ldlt.hpp"
 #include "tests/support/dense.hpp"
 
-namespace arcwall::sprung_cholesky_test {
+namespace arcwall::modified_cholesky_test {
 
 namespace {
 
@@ -62,14 +62,14 @@ void expect_solves(const SymmetricFactors& factors, const SparseMatrix& A, doubl
 
 }  // namespace
 
-TEST(SprungCholesky, CountsAndSolvesWithNegativeEigenvalues) {
+TEST(ModifiedCholesky, CountsAndSolvesWithNegativeEigenvalues) {
   Numbers numbers(31);
   const Vector values = grid_eigenvalues(20);
   for (const Index negative : {0, 1, 2, 5}) {
     SCOPED_TRACE(negative);
     const double shift = negative == 0 ? 0.0 : shift_for(negative, values);
     const SparseMatrix A = grid(20, shift);
-    const auto factors = any_sprung_cholesky(A);
+    const auto factors = any_modified_cholesky(A);
     ASSERT_TRUE(factors->factorize(A));
     EXPECT_EQ(factors->pivots().signs.negative, below(values, shift));
     EXPECT_EQ(factors->pivots().signs.positive, A.cols() - below(values, shift));
@@ -81,7 +81,7 @@ TEST(SprungCholesky, CountsAndSolvesWithNegativeEigenvalues) {
   }
 }
 
-TEST(SprungCholesky, ServesWithASoftVectorThatIsExpected) {
+TEST(ModifiedCholesky, ServesWithASoftVectorThatIsExpected) {
   Numbers numbers(32);
   const Vector values = grid_eigenvalues(20);
   const double shift = shift_for(1, values);
@@ -89,25 +89,25 @@ TEST(SprungCholesky, ServesWithASoftVectorThatIsExpected) {
   Matrix softest(400, 1);
   for (Index i = 0; i < 400; ++i)
     softest(i, 0) = std::sin(pi * double(i / 20 + 1) / 21.0) * std::sin(pi * double(i % 20 + 1) / 21.0);
-  const auto factors = any_sprung_cholesky(A);
-  factors->expect_soft(softest);
+  const auto factors = any_modified_cholesky(A);
+  factors->expect_near_null(softest);
   ASSERT_TRUE(factors->factorize(A));
   EXPECT_EQ(factors->pivots().signs.negative, 1);
   expect_solves(*factors, A, 8.0 * values[399] / (values.array() - shift).abs().minCoeff(), numbers);
 }
 
 // Springs that were needed once do not change what follows once vectors are told again.
-TEST(SprungCholesky, ResultsDoNotDependOnWhatWasFactorizedBefore) {
+TEST(ModifiedCholesky, ResultsDoNotDependOnWhatWasFactorizedBefore) {
   Numbers numbers(33);
   const Vector values = grid_eigenvalues(20);
   const SparseMatrix harder = grid(20, shift_for(5, values)), A = grid(20, shift_for(2, values));
   const Matrix right = numbers.matrix(400, 2), soft = numbers.matrix(400, 1);
-  const auto fresh = any_sprung_cholesky(A), used = any_sprung_cholesky(A);
-  used->expect_soft(numbers.matrix(400, 2));
+  const auto fresh = any_modified_cholesky(A), used = any_modified_cholesky(A);
+  used->expect_near_null(numbers.matrix(400, 2));
   ASSERT_TRUE(used->factorize(harder));
   Matrix one = right, other = right;
   for (const auto& [factors, X] : {std::pair(fresh.get(), &one), std::pair(used.get(), &other)}) {
-    factors->expect_soft(soft);
+    factors->expect_near_null(soft);
     ASSERT_TRUE(factors->factorize(A));
     factors->solve(*X);
   }
@@ -115,7 +115,7 @@ TEST(SprungCholesky, ResultsDoNotDependOnWhatWasFactorizedBefore) {
 }
 
 // By springs alone eight negative eigenvalues of this grid would be refused.
-TEST(SprungCholesky, HoldsTheRootWhereSpringsWouldNotDo) {
+TEST(ModifiedCholesky, HoldsTheRootWhereSpringsWouldNotDo) {
   Numbers numbers(35);
   constexpr Index side = 120;
   const Vector values = grid_eigenvalues(side);
@@ -123,7 +123,7 @@ TEST(SprungCholesky, HoldsTheRootWhereSpringsWouldNotDo) {
     SCOPED_TRACE(negative);
     const double shift = shift_for(negative, values);
     const SparseMatrix A = grid(side, shift);
-    const auto factors = any_sprung_cholesky(A);
+    const auto factors = any_modified_cholesky(A);
     ASSERT_TRUE(factors->factorize(A));
     EXPECT_EQ(factors->pivots().signs.negative, below(values, shift));
     EXPECT_EQ(factors->pivots().signs.positive, A.cols() - below(values, shift));
@@ -131,29 +131,29 @@ TEST(SprungCholesky, HoldsTheRootWhereSpringsWouldNotDo) {
   }
 }
 
-TEST(SprungCholesky, SeesExactlySingularMatrices) {
+TEST(ModifiedCholesky, SeesExactlySingularMatrices) {
   const Matrix block{{1.0, 1.0}, {1.0, 1.0}};
   Matrix A = Matrix::Zero(6, 6);
   for (Index i = 0; i < 6; i += 2) A.block(i, i, 2, 2) = block;
   const SparseMatrix singular = lower_triangle(A);
-  EXPECT_FALSE(any_sprung_cholesky(singular)->factorize(singular));
+  EXPECT_FALSE(any_modified_cholesky(singular)->factorize(singular));
   const SparseMatrix nothing = grid(20, 4.0);
-  EXPECT_FALSE(any_sprung_cholesky(nothing)->factorize(nothing)) << "no diagonal tells how stiff a spring should be";
+  EXPECT_FALSE(any_modified_cholesky(nothing)->factorize(nothing)) << "no diagonal tells how stiff a spring should be";
 }
 
 // Many negative eigenvalues are left to the simplicial LDLᵀ, and few unknowns or a tree as well.
-TEST(SprungCholesky, IsChosenForLargeGridsAndReplacedWhereItRefuses) {
+TEST(ModifiedCholesky, IsChosenForLargeGridsAndReplacedWhereItRefuses) {
   Numbers numbers(34);
   constexpr Index side = 120;
   const Vector values = grid_eigenvalues(side);
-  EXPECT_EQ(sprung_cholesky(grid(60, 0.0)), nullptr);
-  EXPECT_NE(sprung_cholesky(grid(side, 0.0)), nullptr);
+  EXPECT_EQ(modified_cholesky(grid(60, 0.0)), nullptr);
+  EXPECT_NE(modified_cholesky(grid(side, 0.0)), nullptr);
   Ldlt ldlt;
   for (const Index negative : {4, 60, 1}) {
     SCOPED_TRACE(negative);
     const double shift = shift_for(negative, values);
     const SparseMatrix A = grid(side, shift);
-    ldlt.expect_soft(Matrix());
+    ldlt.expect_near_null(Matrix());
     ASSERT_EQ(ldlt.factorize(A), FactorStatus::ok);
     EXPECT_EQ(ldlt.inertia()->negative, below(values, shift));
     const Matrix expected = numbers.matrix(A.cols(), 2);
@@ -163,4 +163,4 @@ TEST(SprungCholesky, IsChosenForLargeGridsAndReplacedWhereItRefuses) {
   }
 }
 
-}  // namespace arcwall::sprung_cholesky_test
+}  // namespace arcwall::modified_cholesky_test
