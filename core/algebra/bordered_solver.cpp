@@ -137,7 +137,7 @@ std::optional<LineProducts> BorderedSolver::line(const Row& border, const Vector
     if (!is_suspicious(cancelled) && cancellation_is_small(border, X, found)) return found;
     if (make_line_good(border, out)) return products_of(weights, X);
   }
-  if (!factorize_whole(border, X)) return std::nullopt;
+  factorize_whole(border, X);
   const auto particular = whole_.solve(-now.F, 0.0), tangent = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (!particular || !tangent) return std::nullopt;
   X << particular->dx, tangent->dx;
@@ -189,9 +189,8 @@ bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns)
     out.dlambda = 1.0;
     return true;
   }
-  const bool found = factorize_whole(border, columns);
+  factorize_whole(border, columns);
   columns.resize(now.F.size(), 1);
-  if (!found) return false;
   auto solution = whole_.solve(Vector::Zero(now.F.size()), 1.0);
   if (solution) out = std::move(*solution);
   return solution.has_value();
@@ -223,14 +222,14 @@ std::optional<Direction> BorderedSolver::solve(const Row& border, const Vector& 
     if (solved && solution.dx.allFinite() && BorderedResidual(now, 1.0, f, solution.dx, dlambda).is_small())
       return solution;
   }
-  if (!factorize_whole(border, X)) return std::nullopt;
+  factorize_whole(border, X);
   return whole_.solve(f, g);
 }
 
 // K's own solutions, where there are any (the last for F_λ or for what is tracked), are mostly what K hardly resists.
-bool BorderedSolver::factorize_whole(const Row& border, const Matrix& columns) {
+void BorderedSolver::factorize_whole(const Row& border, const Matrix& columns) {
   const bool solved = regular_ && columns.cols() > 0 && columns.rows() == border.dx.size() && columns.allFinite();
-  return whole_.factorize(*equations_, border, multipliers_, solved ? Vector(columns.rightCols(1)) : border.dx);
+  whole_.factorize(*equations_, border, multipliers_, solved ? Vector(columns.rightCols(1)) : border.dx);
 }
 
 }  // namespace arcwall

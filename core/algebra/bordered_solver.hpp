@@ -73,7 +73,7 @@ class BorderedSolver {
   bool cancellation_is_small(const Row& border, const Matrix& X, const LineProducts& found) const;
   bool make_line_good(const Row& border, EquilibriumLine& line);
   bool make_tangent_good(Matrix& columns);
-  bool factorize_whole(const Row& border, const Matrix& columns);
+  void factorize_whole(const Row& border, const Matrix& columns);
 
   Linearization* equations_ = nullptr;
   Pattern pattern_;

@@ -26,33 +26,9 @@ void fill_with_start(Eigen::Ref<Matrix> X, std::uint64_t seed) {
     }
 }
 
-// Columns of unit length, without dependent ones growing: QR with respect to the ordinary product. In place, as what
-// follows: all columns together are much beside a matrix of a chain.
-void orthonormalise(Matrix& X) {
-  const Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(X);
-  Vector workspace(X.cols());
-  // Q = H_0 H_1 …, column by column from the last: H_j changes rows from j on
-  for (Index j = X.cols() - 1; j >= 0; --j) {
-    const double tau = qr.hCoeffs()[j];
-    const Index rows = X.rows() - j, behind = X.cols() - j - 1;
-    if (behind > 0)
-      X.bottomRightCorner(rows, behind).applyHouseholderOnTheLeft(X.col(j).tail(rows - 1), tau, workspace.data());
-    X.col(j).tail(rows - 1) *= -tau;
-    X(j, j) = 1.0 - tau;
-    X.col(j).head(j).setZero();
-  }
-}
-
-// X := X T
-void combine(Matrix& X, const Matrix& T) {
-  constexpr Index together = 256;
-  Matrix rows;
-  for (Index first = 0; first < X.rows(); first += together) {
-    auto some = X.middleRows(first, std::min(together, X.rows() - first));
-    rows.noalias() = some * T;
-    some.leftCols(T.cols()) = rows;
-  }
-  X.conservativeResize(X.rows(), T.cols());
+// Columns of unit length, without dependent ones growing: QR with respect to the ordinary product.
+Matrix orthonormal(const Matrix& X) {
+  return Eigen::HouseholderQR<Matrix>(X).householderQ() * Matrix::Identity(X.rows(), X.cols());
 }
 
 // Below which Rayleigh quotients do not settle: the diagonal's part of the round-off of φᵀ K φ.
@@ -92,7 +68,7 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
   for (int round = 0; round < max_rounds; ++round) {
     for (auto column : X.colwise()) column.array() *= weights.array();
     K.solve(X);
-    orthonormalise(X);
+    X = orthonormal(X);
     // Rayleigh-Ritz: the best eigenpairs in the span of X, on which M is positive definite: K⁻¹ M leaves no column of
     // multipliers alone.
     Matrix XKX(block, block), XMX(block, block);
@@ -107,7 +83,7 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
       return std::abs(ritz.eigenvalues()[a]) < std::abs(ritz.eigenvalues()[b]);
     });
-    combine(X, ritz.eigenvectors()(Eigen::all, order));
+    X *= ritz.eigenvectors()(Eigen::all, order);
     const Vector previous = values;
     values = ritz.eigenvalues()(order);
     const double scale = values.head(count).cwiseAbs().maxCoeff();
@@ -171,10 +147,8 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   if (known < block) fill_with_start(X_.rightCols(block - known), 1);
   Matrix columns(n, front + block);
   if (block == 0) return columns;
-  auto WX = columns.rightCols(block);
-  WX = weights.asDiagonal() * X_;
-  combine(X_, orthonormalising(X_.transpose() * WX));
-  WX = weights.asDiagonal() * X_;
+  X_ *= orthonormalising(X_.transpose() * weights.asDiagonal() * X_);
+  columns.rightCols(block) = weights.asDiagonal() * X_;
   return columns;
 }
 

@@ -1,5 +1,6 @@
 #include "core/algebra/singular_bordered_solver.hpp"
 
+#include <Eigen/SparseLU>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -9,13 +10,11 @@
 
 namespace arcwall {
 
-bool SingularBorderedSolver::factorize(Linearization& equations, const Row& border, Index multipliers,
+void SingularBorderedSolver::factorize(Linearization& equations, const Row& border, Index multipliers,
                                        const Vector& soft) {
   equations_ = &equations;
   border_ = border;
-  has_lu_ = false;
   has_spring_ = add_spring(multipliers, soft);
-  return has_spring_ || factorize_lu();
 }
 
 std::optional<Direction> SingularBorderedSolver::solve(const Vector& f, double g) {
@@ -23,22 +22,7 @@ std::optional<Direction> SingularBorderedSolver::solve(const Vector& f, double g
     if (auto solution = refined_with_spring(f, g)) return solution;
     has_spring_ = false;
   }
-  if (!has_lu_ && !factorize_lu()) return std::nullopt;
   return solve_with_lu(f, g);
-}
-
-// With the unknown of the last row held, and then along the line that is left where it is let go.
-std::optional<Direction> SingularBorderedSolver::solve_with_lu(const Vector& f, double g) const {
-  const Index last = f.size();
-  Matrix X = Matrix::Zero(last + 1, 2);
-  X.col(0).head(last) = f;
-  X(last, 1) = 1.0;
-  lu_.solve(X);
-  const auto column = [&](Index c) { return Direction{.dx = X.col(c).head(last), .dlambda = X(last, c)}; };
-  const Direction held = column(0), line = column(1);
-  const double along = (g - apply(border_, held)) / apply(border_, line);
-  if (!X.allFinite() || !std::isfinite(along)) return std::nullopt;
-  return Direction{.dx = held.dx + along * line.dx, .dlambda = held.dlambda + along * line.dlambda};
 }
 
 // As stiff as what it is added to, in the unknown that takes most of the energy.
@@ -120,9 +104,8 @@ std::optional<Direction> SingularBorderedSolver::refined_with_spring(const Vecto
   }
 }
 
-// The border is a full row, with which LU takes a time and a memory like the square of the number of unknowns: in its
-// place the unknown is held in which it is greatest.
-bool SingularBorderedSolver::factorize_lu() {
+// J and F_λ, and below them a row that holds one of the unknowns.
+SparseMatrix SingularBorderedSolver::with_one_held(Index held) const {
   const Linearization& now = *equations_;
   const Index n = now.K.cols(), m = now.B.cols(), last = n + m;
   std::vector<Eigen::Triplet<double, Index>> entries;
@@ -140,14 +123,31 @@ bool SingularBorderedSolver::factorize_lu() {
     for (Index i = 0; i < last; ++i) add(n + k, i, now.C(k, i));
   }
   for (Index i = 0; i < last; ++i) add(i, last, now.F_lambda[i]);
-  Index held = 0;
-  const double greatest = border_.dx.cwiseAbs().maxCoeff(&held);
-  add(last, greatest >= std::abs(border_.dlambda) ? held : last, 1.0);
+  add(last, held, 1.0);
   SparseMatrix whole(last + 1, last + 1);
   whole.setFromTriplets(entries.begin(), entries.end());
-  whole.makeCompressed();
-  has_lu_ = lu_.factorize(whole) == FactorStatus::ok;
-  return has_lu_;
+  return whole;
+}
+
+// The border is a full row, with which LU takes a time and a memory like the square of the number of unknowns: in its
+// place the unknown is held in which it is greatest. The solution lies on the line that is left where that is let go.
+std::optional<Direction> SingularBorderedSolver::solve_with_lu(const Vector& f, double g) const {
+  const Index last = f.size();
+  Index held = 0;
+  if (border_.dx.cwiseAbs().maxCoeff(&held) < std::abs(border_.dlambda)) held = last;
+  const SparseMatrix whole = with_one_held(held);
+  if (!all_finite(whole.coeffs())) return std::nullopt;
+  const Eigen::SparseLU<SparseMatrix> lu(whole);
+  if (lu.info() != Eigen::Success) return std::nullopt;
+  Matrix X = Matrix::Zero(last + 1, 2);
+  X.col(0).head(last) = f;
+  X(last, 1) = 1.0;
+  X = lu.solve(X).eval();
+  const auto column = [&](Index c) { return Direction{.dx = X.col(c).head(last), .dlambda = X(last, c)}; };
+  const Direction particular = column(0), line = column(1);
+  const double along = (g - apply(border_, particular)) / apply(border_, line);
+  if (!X.allFinite() || !std::isfinite(along)) return std::nullopt;
+  return Direction{.dx = particular.dx + along * line.dx, .dlambda = particular.dlambda + along * line.dlambda};
 }
 
 }  // namespace arcwall

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/algebra/ldlt.hpp"
-#include "core/algebra/solvers/lu.hpp"
 #include "core/linearization.hpp"
 
 namespace arcwall {
@@ -22,11 +21,10 @@ namespace arcwall {
 class SingularBorderedSolver {
  public:
   /// `equations` must outlive the use of this factorization; the spring stands in their K while that is factorized.
-  /// `soft`: a vector that is large where K's null vector is, as far as one knows. False if the whole is singular to
-  /// working precision.
-  bool factorize(Linearization& equations, const Row& border, Index multipliers, const Vector& soft);
+  /// `soft`: a vector that is large where K's null vector is, as far as one knows.
+  void factorize(Linearization& equations, const Row& border, Index multipliers, const Vector& soft);
 
-  /// Solution for a right-hand side (f, g); empty if there is none.
+  /// Solution for a right-hand side (f, g); empty if the whole is singular to working precision.
   std::optional<Direction> solve(const Vector& f, double g);
 
  private:
@@ -34,18 +32,17 @@ class SingularBorderedSolver {
   Matrix rows_of(const Matrix& x) const;
   Direction solve_with_spring(const Vector& f, double g) const;
   std::optional<Direction> refined_with_spring(const Vector& f, double g) const;
-  bool factorize_lu();
+  SparseMatrix with_one_held(Index held) const;
   std::optional<Direction> solve_with_lu(const Vector& f, double g) const;
 
   Linearization* equations_ = nullptr;
   Row border_;
-  bool has_spring_ = false, has_lu_ = false;
+  bool has_spring_ = false;
   Ldlt ldlt_;
   Index at_ = 0;         // the unknown e
   double spring_ = 0.0;  // k
   Matrix responses_;     // X_B, X_λ, −X_e
   Eigen::PartialPivLU<Matrix> small_;
-  Lu lu_;
 };
 
 }  // namespace arcwall

@@ -2,12 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "core/algebra/solvers/lu.hpp"
 
 namespace arcwall {
 
@@ -36,7 +35,6 @@ SparseMatrix bordered(const SparseMatrix& K, const Matrix& B) {
     }
   SparseMatrix whole(n + k, n + k);
   whole.setFromTriplets(entries.begin(), entries.end());
-  whole.makeCompressed();
   return whole;
 }
 
@@ -167,11 +165,13 @@ std::optional<SignCount> signs_beside(const std::optional<Nearest>& nearest, con
 
 std::optional<BorderedTestFunction> BorderedTestFunction::of(const SparseMatrix& K, const Matrix& B) {
   const Index n = K.cols(), k = B.cols();
-  Lu lu;
-  if (lu.factorize(bordered(K, B)) != FactorStatus::ok) return std::nullopt;
+  const SparseMatrix whole = bordered(K, B);
+  if (!all_finite(whole.coeffs())) return std::nullopt;
+  const Eigen::SparseLU<SparseMatrix> lu(whole);
+  if (lu.info() != Eigen::Success) return std::nullopt;
   Matrix X = Matrix::Zero(n + k, k);
   X.bottomRows(k).setIdentity();
-  lu.solve(X);
+  X = lu.solve(X).eval();
   if (!X.allFinite()) return std::nullopt;
   BorderedTestFunction function;
   function.vectors_ = X.topRows(n);

@@ -11,7 +11,6 @@
 
 #include "core/algebra/near_null_place.hpp"
 #include "core/algebra/solvers/cholmod_factor.hpp"
-#include "core/algebra/solvers/dense_ldlt.hpp"
 
 namespace arcwall {
 
@@ -68,7 +67,6 @@ class ModifiedCholesky final : public SymmetricFactors {
   void expect_near_null(const Matrix& vectors) override {
     soft_ = vectors;
     springs_.clear();
-    root_is_held_ = false;
     refuses_ = false;
   }
 
@@ -81,7 +79,7 @@ class ModifiedCholesky final : public SymmetricFactors {
         refuses_ = true;
         return false;
       }
-    return read_pivots() && release_root(A) && eliminate_springs();
+    return read_pivots() && eliminate_springs();
   }
 
   bool refused() const override { return true; }
@@ -89,7 +87,7 @@ class ModifiedCholesky final : public SymmetricFactors {
   // (1)
   void solve(Eigen::Ref<Matrix> X) const override {
     const OneThread one_thread;
-    solve_sprung(X);
+    llt_.solve(X);
     if (springs_.empty()) return;
     const Matrix forces = springs_left_.solve(at_springs(X));
     X.noalias() += responses_ * forces;
@@ -140,19 +138,6 @@ class ModifiedCholesky final : public SymmetricFactors {
             .values = static_cast<const double*>(L.x) + values[s]};
   }
 
-  // The last block: what is left when two halves are eliminated that it alone joins.
-  Block root() const {
-    const cholmod_factor& L = *llt_.factor;
-    return block(L.nsuper - 1);
-  }
-
-  Eigen::Map<const Matrix> root_factor() const {
-    const Block last = root();
-    return {last.values, last.columns, last.columns};
-  }
-
-  auto root_unknowns() const { return llt_.order().tail(root().columns); }
-
   void choose_springs(const SparseMatrix& A) {
     if (soft_.rows() == A.cols())
       for (const auto& vector : soft_.colwise()) add_spring(A, near_null_place(A.diagonal(), vector));
@@ -163,10 +148,6 @@ class ModifiedCholesky final : public SymmetricFactors {
 
   // Where the matrix fails. False if that is of no use.
   bool support_more(const SparseMatrix& A) {
-    if (!root_is_held_ && static_cast<Index>(llt_.factor->minor) >= root().first) {
-      root_is_held_ = true;
-      return true;
-    }
     return double(springs_.size()) < most_springs_ && add_spring(A, near_null_place(A.diagonal(), unresisted()));
   }
 
@@ -188,13 +169,10 @@ class ModifiedCholesky final : public SymmetricFactors {
   // False if a pivot is not positive.
   bool factorize_with_springs(const SparseMatrix& A) {
     cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
-    if (root_is_held_ || !springs_.empty()) {
+    if (!springs_.empty()) {
       sprung_.assign(A.valuePtr(), A.valuePtr() + A.nonZeros());
-      const auto add = [&](Index at, double k) { sprung_[static_cast<std::size_t>(A.outerIndexPtr()[at])] += k; };
-      for (const Spring& spring : springs_) add(spring.at, spring.k);
-      if (root_is_held_)
-        for (const Index at : root_unknowns())
-          if (const double k = stiffness_of(A, at); k > 0.0) add(at, k);
+      for (const Spring& spring : springs_)
+        sprung_[static_cast<std::size_t>(A.outerIndexPtr()[spring.at])] += spring.k;
       a.x = sprung_.data();
     }
     cholmod_l_factorize(&a, llt_.factor, &llt_.common);
@@ -226,49 +204,12 @@ class ModifiedCholesky final : public SymmetricFactors {
     if (llt_.common.status < CHOLMOD_OK || L.xtype != CHOLMOD_REAL) return false;
     pivots_ = {};
     bool usable = true;
-    const std::size_t end = root_is_held_ ? L.nsuper - 1 : L.nsuper;
-    for (std::size_t s = 0; s < end; ++s) {
+    for (std::size_t s = 0; s < L.nsuper; ++s) {
       const Block part = block(s);
       for (Index j = 0; j < part.columns; ++j)
         usable = pivots_.add(std::pow(part.values[j * part.rows + j], 2)) && usable;
     }
     return usable;
-  }
-
-  // (2)
-  bool release_root(const SparseMatrix& A) {
-    if (!root_is_held_) return true;
-    constexpr Index panel = 128;
-    const auto L = root_factor();
-    Matrix S = Matrix::Zero(L.rows(), L.rows());
-    for (Index from = 0; from < L.rows(); from += panel) {
-      const Index left = L.rows() - from, width = std::min(panel, left);
-      Matrix columns = L.block(from, from, left, width);
-      columns.topRows(width).triangularView<Eigen::StrictlyUpper>().setZero();
-      S.bottomRightCorner(left, left).selfadjointView<Eigen::Lower>().rankUpdate(columns);
-    }
-    const auto unknowns = root_unknowns();
-    for (Index j = 0; j < unknowns.size(); ++j) S(j, j) -= stiffness_of(A, unknowns[j]);
-    if (!root_.factorize(std::move(S))) return false;
-    pivots_.add(root_.pivots());
-    return true;
-  }
-
-  // X := (K + E k Eᵀ)⁻¹ X. (2)
-  void solve_sprung(Eigen::Ref<Matrix> X) const {
-    if (!root_is_held_) {
-      llt_.solve(X);
-      return;
-    }
-    const auto L = root_factor().triangularView<Eigen::Lower>();
-    Matrix y = X(llt_.order(), Eigen::all);
-    llt_.solve(y, CHOLMOD_L);
-    auto at_root = y.bottomRows(root().columns);
-    Matrix forces = L * at_root;
-    root_.solve(forces);
-    at_root = L.transpose() * forces;
-    llt_.solve(y, CHOLMOD_Lt);
-    X(llt_.order(), Eigen::all) = y;
   }
 
   // Y and S. Seen from K, each eigenvalue of k S stands for a pivot over the stiffness of a spring; it is the
@@ -283,7 +224,7 @@ class ModifiedCholesky final : public SymmetricFactors {
       responses_(spring.at, j) = 1.0;
       k[j] = spring.k;
     }
-    solve_sprung(responses_);
+    llt_.solve(responses_);
     Matrix S = -at_springs(responses_);
     S.diagonal() += k.cwiseInverse();
     if (!S.allFinite()) return false;
@@ -309,8 +250,6 @@ class ModifiedCholesky final : public SymmetricFactors {
   double most_springs_ = 0.0;
   Matrix soft_;  // vectors that have no springs yet
   bool refuses_ = false;
-  bool root_is_held_ = false;
-  DenseLdlt root_;  // S_r
   std::vector<Spring> springs_;
   std::vector<double> sprung_;                // values of K̂
   Matrix responses_;                          // Y

@@ -14,15 +14,8 @@ namespace arcwall {
 ///
 /// and K has as many negative eigenvalues as S (Haynsworth 1968). Springs stand where a soft vector that is expected
 /// has most of its energy, and where one has that shows by a pivot that fails: what this vector lacks is only K's own
-/// stiffness. A spring holds a point alone, so that some more may be needed than there are negative eigenvalues.
-///
-/// Where the pivot that fails belongs to the last dense block, the separator that joins two halves of a structure, all
-/// unknowns r of that block are held by springs k_r, and K + E k Eᵀ is solved with its indefinite rest instead:
-///
-///     K + E k Eᵀ = L [1  0; 0  L_r⁻¹ S_r L_r⁻ᵀ] Lᵀ,    S_r = L_r L_rᵀ − k_r                                   (2)
-///
-/// L of the matrix with all springs. Its negative eigenvalues are those of S_r, which has a pivoted L D Lᵀ of its own.
-/// All this stands until other soft vectors are expected.
+/// stiffness. A spring holds a point alone, so that some more may be needed than there are negative eigenvalues. Springs
+/// stand until other soft vectors are expected.
 ///
 /// Null where this way does not pay: few unknowns, or such that couple with few others. Matrices that need too many
 /// springs are refused.
