@@ -113,7 +113,7 @@ class Cholmod {
 
  private:
   cholmod_common common_{};
-  LongPattern pattern_;
+  Pattern pattern_;
   cholmod_sparse matrix_{};
   cholmod_dense right_{};
   cholmod_factor* factor_ = nullptr;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -93,7 +94,7 @@ Measured traced(const Task& task, State start_at) {
   Measured measured{.unknowns = start_at.x.size()};
   TraceOptions options = task.options;
   options.ledger = [&](const StepAttempt& attempt) { measured.tally.attempted += attempt.iterations + 1; };
-  const SolverTimes before = solver_times();
+  options.factorization = [&] { return std::make_unique<TimedFactorization>(system, measured.ldlt); };
   {
     const double start = cpu_seconds();
     Explorer explorer(system, std::move(start_at), options, task.watched, task.explore);
@@ -117,7 +118,6 @@ Measured traced(const Task& task, State start_at) {
     measured.seconds = measured.all_parts = cpu_seconds() - start;
   }
   measured.system = system.times();
-  measured.ldlt = solver_times() - before;
   return measured;
 }
 

@@ -37,6 +37,14 @@ class TimedSystem final : public System {
 
   const Times& times() const { return times_; }
 
+  /// Whether these right-hand sides are those of an iteration of Newton's method, −F foremost, at the last equations;
+  /// at each of them once.
+  bool is_newton(const Eigen::Ref<const Matrix>& X) const {
+    if (X.rows() > last_F_.size() || X.cols() == 0 || X.col(0) != -last_F_.head(X.rows())) return false;
+    last_F_.resize(0);
+    return true;
+  }
+
   Index size(const Piece& piece) const override { return inner_.size(piece); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override {
     const ScopedTimer timer(times_.assembly);
@@ -46,6 +54,7 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.assembly);
     ++times_.linearizations;
     inner_.linearize(state, out);
+    if (times_parts) last_F_ = out.F;
   }
   double energy(const State& state) const override { return inner_.energy(state); }
   Vector weights(const Piece& piece) const override {
@@ -107,6 +116,7 @@ class TimedSystem final : public System {
  private:
   const System& inner_;
   mutable Times times_;
+  mutable Vector last_F_;  // none where the iteration with it has been seen
 };
 
 }  // namespace arcwall::bench

@@ -96,8 +96,8 @@ void Explorer::look_at(const Event& event) {
 
 std::vector<Explorer::Way> Explorer::ways_off(const BranchPoint& point) {
   const Metric metric(system_.weights(point.state.piece), lambda_scale_);
-  Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first));
-  StabilityCounter counter(system_, corrector.factorized(), trace_.guard_tolerance);
+  Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first), trace_.factorization);
+  StabilityCounter counter(system_, corrector.factorized(), trace_.guard_tolerance, trace_.factorization);
   std::vector<Way> ways;
   for (const int sign : {1, -1})
     if (auto step = step_off(system_, corrector, metric, point, sign, options_.distance, trace_.guard_tolerance)) {

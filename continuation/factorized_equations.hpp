@@ -12,8 +12,9 @@ namespace arcwall {
 /// followed along. Of large structures this is most of the memory: who looks at states of one piece shares it.
 class FactorizedEquations {
  public:
-  /// `equations` must outlive this.
-  explicit FactorizedEquations(const Equations& equations) : of_(equations) {}
+  /// `equations` must outlive this. `make`: what K is factorized by.
+  explicit FactorizedEquations(const Equations& equations, const MakeFactorization& make = make_ldlt)
+      : of_(equations), solver_(make) {}
 
   /// Evaluates and factorizes; `not_finite` also where F is not.
   FactorStatus linearize_at(const State& state);

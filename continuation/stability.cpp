@@ -13,7 +13,7 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
   const Index multipliers = system.multiplier_count(state.piece);
   if (now.B.cols() == 0) {
     const Vector weights = system.weights(state.piece);
-    const auto negative = negative_count(solver.inner(), now.K, weights, multipliers, nearest);
+    const auto negative = negative_count(solver.inner(), now.K, weights, multipliers, nearest, solver.make());
     return negative ? std::optional(*negative - multipliers) : std::nullopt;
   }
   const auto inertia = solver.inner().inertia();

@@ -28,8 +28,9 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
 class StabilityCounter {
  public:
   /// `system` and `shared` must outlive this. `force_tolerance` in the scale of the guards.
-  StabilityCounter(const UnilateralSystem& system, FactorizedEquations& shared, double force_tolerance)
-      : system_(system), force_tolerance_(force_tolerance), shared_(shared), own_(system) {}
+  StabilityCounter(const UnilateralSystem& system, FactorizedEquations& shared, double force_tolerance,
+                   const MakeFactorization& make = make_ldlt)
+      : system_(system), force_tolerance_(force_tolerance), shared_(shared), own_(system, make) {}
 
   /// `negative_held`: the count with all closed contacts held, if it is known already.
   StabilityCount count(const State& state, std::optional<Index> negative_held);

@@ -13,6 +13,7 @@
 #include "continuation/step/path_constraint.hpp"
 #include "continuation/step/step_attempt.hpp"
 #include "continuation/step/step_control.hpp"
+#include "core/algebra/factorization.hpp"
 
 namespace arcwall {
 
@@ -56,6 +57,7 @@ struct TraceOptions {
   bool every_direction = false;  ///< report a change of contacts that several directions leave as a branch point also
                                  ///< where one of them alone is stable
   std::function<void(const StepAttempt&)> ledger{};  ///< is told of every attempted step
+  MakeFactorization factorization = make_ldlt;       ///< makes what stiffness matrices are factorized by
   bool stay = false;  ///< where only unstable directions leave a change of contacts: keep the old contacts if one does
 };
 

@@ -33,8 +33,9 @@ enum class Wanted { tangent, pairs };
 class Corrector {
  public:
   /// `system` must outlive this. `load_floor`: |λ| below which loads count as this large in the relative residual.
-  Corrector(const Equations& system, const CorrectorOptions& options, double load_floor)
-      : system_(system), options_(options), load_floor_(load_floor), here_(system) {}
+  Corrector(const Equations& system, const CorrectorOptions& options, double load_floor,
+            const MakeFactorization& make = make_ldlt)
+      : system_(system), options_(options), load_floor_(load_floor), here_(system, make) {}
 
   /// From `guess` to F = 0, c = 0. `length` is the distance from the guess to the last point known, `along` the tangent
   /// there, which closes the system where K is singular.

@@ -38,23 +38,18 @@ Matrix product(const Linearization& equations, const Matrix& X) {
 }
 
 FactorStatus BorderedSolver::factorize(Linearization& equations, Index multipliers) {
-  expect_pattern(equations, multipliers);
-  const FactorStatus status = ldlt_.factorize(equations.K);
-  regular_ = status == FactorStatus::ok && eliminate_border();
-  return status;
-}
-
-void BorderedSolver::expect_pattern(Linearization& equations, Index multipliers) {
   equations_ = &equations;
   multipliers_ = multipliers;
-  ldlt_.set_multiplier_count(multipliers);
   const SparseMatrix& K = equations.K;
   Pattern pattern{.rows = K.innerIndexPtr(), .nonzeros = K.nonZeros(), .piece = equations.pattern_of};
   const bool same = pattern.piece && pattern == pattern_;
-  ldlt_.trust_pattern(same);
-  if (!same) ldlt_.set_translation_free(equations.translation_free);
-  ldlt_.set_ground(equations.ground);
   pattern_ = std::move(pattern);
+  const FactorStatus status = inner_->factorize(K, {.multipliers = multipliers,
+                                                    .translation_free = &equations.translation_free,
+                                                    .ground = equations.ground,
+                                                    .same_pattern = same});
+  regular_ = status == FactorStatus::ok && eliminate_border();
+  return status;
 }
 
 // K⁻¹ B and the small matrix that is left for the border's unknowns.
@@ -63,7 +58,7 @@ bool BorderedSolver::eliminate_border() {
   const Index m = now.B.cols();
   if (m == 0) return true;
   border_ = now.B;
-  ldlt_.solve(border_);
+  inner_->solve(border_);
   reduced_ = now.C.leftCols(now.K.cols()).lazyProduct(border_) - now.C.rightCols(m);
   slides_.compute(reduced_);
   return border_.allFinite() && slides_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;
@@ -81,10 +76,10 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
   const Index n = now.K.cols(), m = now.B.cols();
   cancelled = 1.0;
   if (m == 0) {
-    ldlt_.solve(X);
+    inner_->solve(X);
     return all_finite(X);
   }
-  ldlt_.solve(X.topRows(n));
+  inner_->solve(X.topRows(n));
   const Matrix s = slides_.solve(now.C.leftCols(n).lazyProduct(X.topRows(n)) - X.bottomRows(m));
   X.bottomRows(m) = s;
   for (Index column = 0; column < X.cols(); ++column) {
@@ -101,14 +96,14 @@ bool BorderedSolver::solve_inner(Matrix& X, double& cancelled) const {
 // small beside them. Pivots of a fine mesh are far apart anyway: the whole is soft beside an element.
 bool BorderedSolver::is_suspicious(double cancelled) const {
   return !(cancelled < suspicious_cancellation) ||
-         (ldlt_.pivot_ratio() < suspicious_pivot && !(ldlt_.growth(equations_->K) < suspicious_growth));
+         (inner_->pivot_ratio() < suspicious_pivot && !(inner_->growth(equations_->K) < suspicious_growth));
 }
 
 // Where J is nearly singular, J⁻¹ F and J⁻¹ F_λ are large multiples of one vector, and the digits that they differ in
 // are lost. What is not finite shows in the products, without weight, too.
 bool BorderedSolver::cancellation_is_small(const Row& border, const Matrix& X, const LineProducts& found) const {
   if (!std::isfinite(found.pp) || !std::isfinite(found.tt)) return false;
-  if (ldlt_.pivot_ratio() >= suspicious_pivot) return true;
+  if (inner_->pivot_ratio() >= suspicious_pivot) return true;
   const auto p = X.col(0), t = X.col(1);
   const double bp = border.dx.dot(p), bt = border.dx.dot(t), pp = p.squaredNorm(), pt = p.dot(t), tt = t.squaredNorm();
   const double off = bp / (bt + border.dlambda), left = pp - off * (2.0 * pt - off * tt);
@@ -151,32 +146,22 @@ std::optional<LineProducts> BorderedSolver::line(const Row& border, const Vector
 bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
   const Linearization& now = *equations_;
   auto particular = line.dx.col(0), tangent = line.dx.col(1);
+  if (!make_tangent_good(tangent)) return false;
   double before = infinity;
-  bool tangent_is_good = false;
   for (int round = 0;; ++round) {
     const double along = border.dx.dot(tangent) + border.dlambda;
     const double off = border.dx.dot(particular) + border.dlambda * line.dlambda[0];
     particular -= off / along * tangent;
     line.dlambda[0] -= off / along;
-    Vector tangent_lacks;
-    if (!tangent_is_good) {
-      BorderedResidual of_tangent(now, -1.0, now.F_lambda, tangent, 0.0);
-      if (!std::isfinite(of_tangent.size())) return false;
-      tangent_is_good = of_tangent.is_small();
-      if (!tangent_is_good) tangent_lacks = std::move(of_tangent).r();
-    }
-    const BorderedResidual of_particular(now, -1.0, now.F, particular, line.dlambda[0]);
-    if (!std::isfinite(of_particular.size())) return false;
-    if (tangent_is_good && of_particular.is_small()) return true;
-    const double left = of_particular.size();
-    if (tangent_is_good && left > 0.1 * before && left <= left_to_newton * now.F.norm()) return true;
+    const BorderedResidual residual(now, -1.0, now.F, particular, line.dlambda[0]);
+    if (!std::isfinite(residual.size())) return false;
+    if (residual.is_small()) return true;
+    if (residual.size() > 0.1 * before && residual.size() <= left_to_newton * now.F.norm()) return true;
     if (round == max_refinements) return false;
-    before = left;
-    Matrix correction(now.F.size(), tangent_is_good ? 1 : 2);
-    correction.col(0) = of_particular.r();
-    if (!tangent_is_good) correction.col(1) = tangent_lacks;
+    before = residual.size();
+    Matrix correction = residual.r();
     if (!solve_inner(correction)) return false;
-    line.dx.leftCols(correction.cols()) += correction;
+    particular += correction;
   }
 }
 
@@ -184,7 +169,7 @@ bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns)
   const Linearization& now = *equations_;
   columns.col(0) = -now.F_lambda;
   double cancelled = 0.0;
-  if (regular_ && solve_inner(columns, cancelled) && (!is_suspicious(cancelled) || make_tangent_good(columns))) {
+  if (regular_ && solve_inner(columns, cancelled) && (!is_suspicious(cancelled) || make_tangent_good(columns.col(0)))) {
     out.dx = columns.col(0);
     out.dlambda = 1.0;
     return true;
@@ -196,16 +181,16 @@ bool BorderedSolver::tangent(const Row& border, Direction& out, Matrix& columns)
   return solution.has_value();
 }
 
-bool BorderedSolver::make_tangent_good(Matrix& columns) {
+bool BorderedSolver::make_tangent_good(Eigen::Ref<Vector> tangent) const {
   const Linearization& now = *equations_;
   for (int round = 0;; ++round) {
-    const BorderedResidual tangent(now, -1.0, now.F_lambda, columns.col(0), 0.0);
-    if (!std::isfinite(tangent.size())) return false;
-    if (tangent.is_small()) return true;
+    const BorderedResidual residual(now, -1.0, now.F_lambda, tangent, 0.0);
+    if (!std::isfinite(residual.size())) return false;
+    if (residual.is_small()) return true;
     if (round == max_refinements) return false;
-    Matrix correction = tangent.r();
+    Matrix correction = residual.r();
     if (!solve_inner(correction)) return false;
-    columns.col(0) += correction;
+    tangent += correction;
   }
 }
 

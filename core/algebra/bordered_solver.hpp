@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/algebra/ldlt.hpp"
+#include "core/algebra/factorization.hpp"
 #include "core/algebra/singular_bordered_solver.hpp"
 #include "core/equilibrium_line.hpp"
 #include "core/linearization.hpp"
@@ -23,13 +23,15 @@ Matrix product(const Linearization& equations, const Matrix& X);
 /// at worst taken from a factorization that does not need K's.
 class BorderedSolver {
  public:
+  explicit BorderedSolver(const MakeFactorization& make = make_ldlt) : make_(make), inner_(make()), whole_(make) {}
+
   /// `equations` must outlive the use of this factorization. `singular` still allows bordered solves, for which a
   /// spring may stand in K for a moment (SingularBorderedSolver).
   FactorStatus factorize(Linearization& equations, Index multipliers);
 
-  /// See Ldlt.
-  void expect_near_null(Matrix vectors) { ldlt_.expect_near_null(std::move(vectors)); }
-  bool may_use_near_null() const { return ldlt_.may_use_near_null(); }
+  /// See Factorization.
+  void expect_near_null(const Matrix& vectors) { inner_->expect_near_null(vectors); }
+  bool may_use_near_null() const { return inner_->may_use_near_null(); }
 
   /// `border` closes the system where K alone is singular; the line itself does not depend on it. Its columns are the
   /// particular solution and the tangent, which is not normalised. `weights`: those of System; what they make of the
@@ -49,7 +51,10 @@ class BorderedSolver {
   bool solve_inner(Matrix& X) const;
 
   /// The factorization of K alone.
-  const Ldlt& inner() const { return ldlt_; }
+  const Factorization& inner() const { return *inner_; }
+
+  /// What makes such factorizations.
+  const MakeFactorization& make() const { return make_; }
 
   bool inner_is_regular() const { return regular_; }
 
@@ -65,19 +70,19 @@ class BorderedSolver {
     bool operator==(const Pattern&) const = default;
   };
 
-  void expect_pattern(Linearization& equations, Index multipliers);
   bool eliminate_border();
   bool solve_inner(Matrix& X, double& cancelled) const;
   bool solve_line(EquilibriumLine& line, double& cancelled);
   bool is_suspicious(double cancelled) const;
   bool cancellation_is_small(const Row& border, const Matrix& X, const LineProducts& found) const;
   bool make_line_good(const Row& border, EquilibriumLine& line);
-  bool make_tangent_good(Matrix& columns);
+  bool make_tangent_good(Eigen::Ref<Vector> tangent) const;
   void factorize_whole(const Row& border, const Matrix& columns);
 
   Linearization* equations_ = nullptr;
   Pattern pattern_;
-  Ldlt ldlt_;
+  MakeFactorization make_;
+  std::unique_ptr<Factorization> inner_;
   SingularBorderedSolver whole_;
   Index multipliers_ = 0;
   bool regular_ = false;

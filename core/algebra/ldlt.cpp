@@ -2,130 +2,92 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdint>
-#include <limits>
-#include <utility>
-#include <vector>
 
 #include "core/algebra/block_tridiagonal/block_tridiagonal_ldlt.hpp"
 #include "core/algebra/block_tridiagonal/null_space_ldlt.hpp"
 #include "core/algebra/solvers/modified_cholesky.hpp"
-#include "core/algebra/solvers/pattern.hpp"
 #include "core/algebra/solvers/simplicial_ldlt.hpp"
 
 namespace arcwall {
 
-struct Ldlt::Implementation {
-  std::unique_ptr<SymmetricFactors> factors;  // of the pattern
-  std::unique_ptr<SymmetricFactors> others;   // of the same, for what those refuse
-  SymmetricFactors* usable = nullptr;         // which of them holds the last matrix
-  Matrix soft;
-  Pattern pattern;  // that was analysed
-  Index multipliers = 0, analysed_multipliers = 0;
-  std::vector<bool> translation_free, analysed_translations;
-  GroundTerms ground;
-  bool trusted = false;  // the pattern
+namespace {
 
-  std::unique_ptr<SymmetricFactors> analyse(const SparseMatrix& A) const {
-    if (auto blocks = find_blocks(A, multipliers, BlockTridiagonalLdlt::widest)) {
-      if (multipliers == 0) return std::make_unique<BlockTridiagonalLdlt>(A, *blocks, translation_free);
-      if (auto pressed = NullSpaceLdlt::of(A, multipliers, *blocks, translation_free)) return pressed;
-    }
-    std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : modified_cholesky(A);
-    return large ? std::move(large) : simplicial_ldlt(A, multipliers);
+std::unique_ptr<SymmetricFactors> analysed(const SparseMatrix& A, Index multipliers,
+                                           const std::vector<bool>& translation_free) {
+  if (auto blocks = find_blocks(A, multipliers, BlockTridiagonalLdlt::widest)) {
+    if (multipliers == 0) return std::make_unique<BlockTridiagonalLdlt>(A, *blocks, translation_free);
+    if (auto pressed = NullSpaceLdlt::of(A, multipliers, *blocks, translation_free)) return pressed;
   }
-
-  void ensure_analysed(const SparseMatrix& A) {
-    const bool any = factors != nullptr && multipliers == analysed_multipliers;
-    if (any && trusted && pattern.has_sizes_of(A)) return;
-    const bool same = pattern.is_of(A), same_structure = structure_translations() == analysed_translations;
-    if (any && same && same_structure) return;
-    others.reset();
-    if (!factors || !same_structure || !factors->reuse_analysis(A, multipliers)) factors = analyse(A);
-    factors->expect_near_null(soft);
-    if (!same) pattern = Pattern(A);
-    analysed_multipliers = multipliers;
-    analysed_translations = structure_translations();
-  }
-
-  // Of the unknowns that are no multipliers: these come and go.
-  std::vector<bool> structure_translations() const {
-    const auto count = static_cast<std::ptrdiff_t>(translation_free.size());
-    return {translation_free.begin(), translation_free.end() - std::min<std::ptrdiff_t>(multipliers, count)};
-  }
-
-  // Simplicial LDLᵀ serves all matrices.
-  FactorStatus factorize(const SparseMatrix& A) {
-    const auto is_finite = [&] { return all_finite(Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros())); };
-    usable = nullptr;
-    ensure_analysed(A);
-    const bool asks = !factors->sees_what_is_not_finite();
-    if (asks && !is_finite()) return FactorStatus::not_finite;
-    if (factors->factorize(A, ground)) {
-      usable = factors.get();
-    } else if (factors->refused()) {
-      if (!others) others = simplicial_ldlt(A, multipliers);
-      if (others->factorize(A, ground)) usable = others.get();
-    }
-    if (usable != nullptr) return FactorStatus::ok;
-    return asks || is_finite() ? FactorStatus::singular : FactorStatus::not_finite;
-  }
-};
-
-Ldlt::Ldlt() : implementation_(std::make_unique<Implementation>()) {}
-Ldlt::~Ldlt() = default;
-Ldlt::Ldlt(Ldlt&&) noexcept = default;
-Ldlt& Ldlt::operator=(Ldlt&&) noexcept = default;
-
-void Ldlt::set_multiplier_count(Index count) { implementation_->multipliers = count; }
-
-void Ldlt::set_translation_free(std::vector<bool> unknowns) { implementation_->translation_free = std::move(unknowns); }
-
-void Ldlt::set_ground(GroundTerms ground) { implementation_->ground = ground; }
-
-void Ldlt::expect_near_null(Matrix vectors) {
-  Implementation& self = *implementation_;
-  self.soft = std::move(vectors);
-  if (self.factors) self.factors->expect_near_null(self.soft);
+  std::unique_ptr<SymmetricFactors> large = multipliers > 0 ? nullptr : modified_cholesky(A);
+  return large ? std::move(large) : simplicial_ldlt(A, multipliers);
 }
 
-bool Ldlt::may_use_near_null() const {
-  return !implementation_->factors || implementation_->factors->may_use_near_null();
+std::vector<bool> without_multipliers(const MatrixProperties& known) {
+  if (known.translation_free == nullptr) return {};
+  const auto count = static_cast<std::ptrdiff_t>(known.translation_free->size());
+  return {known.translation_free->begin(),
+          known.translation_free->end() - std::min<std::ptrdiff_t>(known.multipliers, count)};
 }
 
-void Ldlt::trust_pattern(bool same) { implementation_->trusted = same; }
+}  // namespace
 
-FactorStatus Ldlt::factorize(const SparseMatrix& A) {
+std::unique_ptr<Factorization> make_ldlt() { return std::make_unique<Ldlt>(); }
+
+void Ldlt::ensure_analysed(const SparseMatrix& A, const MatrixProperties& known) {
+  const bool any = factors_ != nullptr && known.multipliers == multipliers_;
+  if (any && known.same_pattern && pattern_.has_sizes_of(A)) return;
+  std::vector<bool> translation_free = without_multipliers(known);
+  const bool same = pattern_.is_of(A), same_structure = translation_free == translation_free_;
+  if (any && same && same_structure) return;
+  others_.reset();
+  multipliers_ = known.multipliers;
+  translation_free_ = std::move(translation_free);
+  if (!factors_ || !same_structure || !factors_->reuse_analysis(A, multipliers_))
+    factors_ = analysed(A, multipliers_, translation_free_);
+  factors_->expect_near_null(near_null_);
+  if (!same) pattern_ = Pattern(A);
+}
+
+// Simplicial LDLᵀ serves all matrices.
+FactorStatus Ldlt::factorize(const SparseMatrix& A, const MatrixProperties& known) {
   assert(A.isCompressed() && A.rows() == A.cols());
-  return implementation_->factorize(A);
+  usable_ = nullptr;
+  ensure_analysed(A, known);
+  SymmetricFactors* factors = factors_.get();
+  FactorStatus status = factors->factorize(A, known);
+  if (status == FactorStatus::singular && factors->refused()) {
+    if (!others_) others_ = simplicial_ldlt(A, multipliers_);
+    factors = others_.get();
+    status = factors->factorize(A, known);
+  }
+  if (status == FactorStatus::ok) usable_ = factors;
+  return status;
 }
 
 void Ldlt::solve(Eigen::Ref<Matrix> X) const {
-  assert(implementation_->usable);
-  implementation_->usable->solve(X);
+  assert(usable_);
+  usable_->solve(X);
 }
 
-std::optional<Inertia> Ldlt::inertia() const {
-  const SymmetricFactors* factors = implementation_->usable;
-  return factors ? std::optional(factors->pivots().signs) : std::nullopt;
-}
+std::optional<Inertia> Ldlt::inertia() const { return usable_ ? usable_->inertia() : std::nullopt; }
 
-double Ldlt::pivot_ratio() const {
-  const SymmetricFactors* factors = implementation_->usable;
-  if (!factors) return 0.0;
-  const Pivots pivots = factors->pivots();
-  return pivots.least / pivots.greatest;
-}
+double Ldlt::pivot_ratio() const { return usable_ ? usable_->pivot_ratio() : 0.0; }
 
 double Ldlt::growth(const SparseMatrix& A) const {
-  assert(implementation_->usable);
-  return implementation_->usable->growth(A);
+  assert(usable_);
+  return usable_->growth(A);
 }
 
-// Wilkinson: K + E = L D Lᵀ with |E| ≤ γ |L| |D| |L|ᵀ. Without pivoting L may grow; |K| alone would not show it.
 double Ldlt::roundoff(const Eigen::Ref<const Vector>& v) const {
-  assert(implementation_->usable);
-  return std::numeric_limits<double>::epsilon() * implementation_->usable->weighted(v);
+  assert(usable_);
+  return usable_->roundoff(v);
 }
+
+void Ldlt::expect_near_null(const Matrix& vectors) {
+  near_null_ = vectors;
+  if (factors_) factors_->expect_near_null(near_null_);
+}
+
+bool Ldlt::may_use_near_null() const { return !factors_ || factors_->may_use_near_null(); }
 
 }  // namespace arcwall

@@ -34,14 +34,11 @@ bool SingularBorderedSolver::add_spring(Index multipliers, const Vector& soft) {
   at_ = near_null_place(diagonal.head(free), soft.head(free));
   spring_ = std::abs(diagonal[at_]);
   if (!(spring_ > 0.0 && std::isfinite(spring_))) return false;
-  ldlt_.set_multiplier_count(multipliers);
-  ldlt_.set_translation_free(equations_->translation_free);
   std::vector<GroundTerm> ground = equations_->ground;
   ground.push_back({.row = at_, .column = at_, .stiffness = spring_});
-  ldlt_.set_ground(ground);
   const double without = std::exchange(K.coeffRef(at_, at_), diagonal[at_] + spring_);
-  const FactorStatus status = ldlt_.factorize(K);
-  ldlt_.set_ground({});
+  const FactorStatus status = sprung_->factorize(
+      K, {.multipliers = multipliers, .translation_free = &equations_->translation_free, .ground = ground});
   K.coeffRef(at_, at_) = without;
   if (status != FactorStatus::ok) return false;
   const Index m = equations_->B.cols(), lambda = m, force = m + 1;
@@ -49,7 +46,7 @@ bool SingularBorderedSolver::add_spring(Index multipliers, const Vector& soft) {
   if (m > 0) responses_.leftCols(m) = equations_->B;
   responses_.col(lambda) = equations_->F_lambda.head(n);
   responses_(at_, force) = -1.0;
-  ldlt_.solve(responses_);
+  sprung_->solve(responses_);
   if (!responses_.allFinite()) return false;
   // (1) of s, λ and p, its last equation over −k; without a border B and C have no size at all
   Matrix small = rows_of(responses_);
@@ -76,7 +73,7 @@ Matrix SingularBorderedSolver::rows_of(const Matrix& x) const {
 Direction SingularBorderedSolver::solve_with_spring(const Vector& f, double g) const {
   const Index n = equations_->K.cols(), m = equations_->B.cols();
   Matrix x = f.head(n);
-  ldlt_.solve(x);
+  sprung_->solve(x);
   Vector right = -rows_of(x);
   right.head(m) += f.tail(m);
   right[m] += g;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/algebra/ldlt.hpp"
+#include "core/algebra/factorization.hpp"
 #include "core/linearization.hpp"
 
 namespace arcwall {
@@ -20,6 +20,8 @@ namespace arcwall {
 /// Solutions are refined and checked; those that stay poor come by LU of the whole.
 class SingularBorderedSolver {
  public:
+  explicit SingularBorderedSolver(const MakeFactorization& make = make_ldlt) : sprung_(make()) {}
+
   /// `equations` must outlive the use of this factorization; the spring stands in their K while that is factorized.
   /// `soft`: a vector that is large where K's null vector is, as far as one knows.
   void factorize(Linearization& equations, const Row& border, Index multipliers, const Vector& soft);
@@ -38,10 +40,10 @@ class SingularBorderedSolver {
   Linearization* equations_ = nullptr;
   Row border_;
   bool has_spring_ = false;
-  Ldlt ldlt_;
-  Index at_ = 0;         // the unknown e
-  double spring_ = 0.0;  // k
-  Matrix responses_;     // X_B, X_λ, −X_e
+  std::unique_ptr<Factorization> sprung_;  // of K with the spring
+  Index at_ = 0;                           // the unknown e
+  double spring_ = 0.0;                    // k
+  Matrix responses_;                       // X_B, X_λ, −X_e
   Eigen::PartialPivLU<Matrix> small_;
 };
 

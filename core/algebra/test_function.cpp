@@ -56,12 +56,13 @@ double greatest_value(const SparseMatrix& K, const Vector& weights) {
 }
 
 // Factorizes K, or K + shift W with the least shift that leaves no zero pivot.
-bool factorize_nearly(const SparseMatrix& K, const Vector& weights, Ldlt& ldlt) {
-  if (ldlt.factorize(K) == FactorStatus::ok) return true;
+bool factorize_nearly(const SparseMatrix& K, const Vector& weights, Index multipliers, Factorization& ldlt) {
+  if (ldlt.factorize(K, {.multipliers = multipliers}) == FactorStatus::ok) return true;
   const double greatest = greatest_value(K, weights);
   if (greatest == 0.0) return false;
   for (const double part : {64.0 * epsilon, -96.0 * epsilon, 1e-8, -1.5e-8})
-    if (ldlt.factorize(shifted(K, weights, part * greatest)) == FactorStatus::ok) return true;
+    if (ldlt.factorize(shifted(K, weights, part * greatest), {.multipliers = multipliers}) == FactorStatus::ok)
+      return true;
   return false;
 }
 
@@ -75,8 +76,8 @@ struct Nearest {
 enum class IfZero { go_on, give_up };  // within round-off: the pair nearest zero
 
 // `ldlt`: of K or nearly; `start`: of the vectors.
-std::optional<Nearest> nearest_pairs(const Ldlt& ldlt, const SparseMatrix& K, const Vector& weights, Matrix start,
-                                     IfZero if_zero) {
+std::optional<Nearest> nearest_pairs(const Factorization& ldlt, const SparseMatrix& K, const Vector& weights,
+                                     Matrix start, IfZero if_zero) {
   for (Index wanted = 2; wanted <= most_pairs; wanted *= 2) {
     // Roughly will do: pairs that are near converge fast, and Ψ is exact.
     Nearest found{.pairs = near_null(ldlt, K, weights, wanted, Convergence::loose, start), .roundoff = {}};
@@ -108,9 +109,9 @@ double separating_shift(const Nearest& nearest) {
 }
 
 // Negative eigenvalues of K + shift W, if the shift keeps clear of round-off.
-std::optional<Index> negative_at(const SparseMatrix& K, const Vector& weights, double shift, const Nearest& nearest,
-                                 Ldlt& ldlt) {
-  if (ldlt.factorize(shifted(K, weights, shift)) != FactorStatus::ok) return std::nullopt;
+std::optional<Index> negative_at(const SparseMatrix& K, const Vector& weights, Index multipliers, double shift,
+                                 const Nearest& nearest, Factorization& ldlt) {
+  if (ldlt.factorize(shifted(K, weights, shift), {.multipliers = multipliers}) != FactorStatus::ok) return std::nullopt;
   for (Index j = 0; j < nearest.pairs.values.size(); ++j)
     if (std::abs(nearest.pairs.values[j] + shift) <= clear * ldlt.roundoff(nearest.pairs.vectors->col(j)))
       return std::nullopt;
@@ -133,14 +134,13 @@ Matrix sparse_border(const Matrix& vectors, const Vector& weights) {
 // The eigenvalues near zero are those of Vᵀ K V = −Ψ; rotated to its principal axes, each is a quadratic form whose
 // round-off is known. V is off by round-off times the condition of the bordered matrix, and the form by its square.
 std::optional<SignCount> signs_beside(const std::optional<Nearest>& nearest, const SparseMatrix& K,
-                                      const Vector& weights, Index multipliers) {
+                                      const Vector& weights, Index multipliers, const MakeFactorization& make) {
   if (!nearest) return std::nullopt;
   const Index n = K.cols();
   const double shift = separating_shift(*nearest);
-  Ldlt ldlt;
-  ldlt.set_multiplier_count(multipliers);
-  const auto below = negative_at(K, weights, shift, *nearest, ldlt);
-  const auto above = negative_at(K, weights, -shift, *nearest, ldlt);
+  const auto ldlt = make();
+  const auto below = negative_at(K, weights, multipliers, shift, *nearest, *ldlt);
+  const auto above = negative_at(K, weights, multipliers, -shift, *nearest, *ldlt);
   if (!below || !above || *above - *below != nearest->near) return std::nullopt;
 
   SignCount count{.negative = *below, .positive = n - *above, .undecided = 0};
@@ -180,7 +180,7 @@ std::optional<BorderedTestFunction> BorderedTestFunction::of(const SparseMatrix&
   return function;
 }
 
-std::optional<Index> negative_by_pivots(const Ldlt& ldlt, const Vector& weights, const NearNull& nearest) {
+std::optional<Index> negative_by_pivots(const Factorization& ldlt, const Vector& weights, const NearNull& nearest) {
   const auto inertia = ldlt.inertia();
   if (!inertia) return std::nullopt;
   if (pair_count(weights) == 0) return inertia->negative;
@@ -189,23 +189,25 @@ std::optional<Index> negative_by_pivots(const Ldlt& ldlt, const Vector& weights,
   return decided ? std::optional(inertia->negative) : std::nullopt;
 }
 
-std::optional<SignCount> sign_count_near_singularity(const SparseMatrix& K, const Vector& weights, Index multipliers) {
-  Ldlt ldlt;
-  ldlt.set_multiplier_count(multipliers);
-  if (!factorize_nearly(K, weights, ldlt)) return std::nullopt;
-  return signs_beside(nearest_pairs(ldlt, K, weights, Matrix(K.cols(), 0), IfZero::go_on), K, weights, multipliers);
+std::optional<SignCount> sign_count_near_singularity(const SparseMatrix& K, const Vector& weights, Index multipliers,
+                                                     const MakeFactorization& make) {
+  const auto ldlt = make();
+  if (!factorize_nearly(K, weights, multipliers, *ldlt)) return std::nullopt;
+  const auto nearest = nearest_pairs(*ldlt, K, weights, Matrix(K.cols(), 0), IfZero::go_on);
+  return signs_beside(nearest, K, weights, multipliers, make);
 }
 
-std::optional<Index> negative_count(const Ldlt& ldlt, const SparseMatrix& K, const Vector& weights, Index multipliers,
-                                    const NearNull& nearest) {
+std::optional<Index> negative_count(const Factorization& ldlt, const SparseMatrix& K, const Vector& weights,
+                                    Index multipliers, const NearNull& nearest, const MakeFactorization& make) {
   if (const auto negative = negative_by_pivots(ldlt, weights, nearest)) return negative;
   const bool known = nearest.values.size() > 0 && nearest.vectors->allFinite();
   if (known && quadratic_form(K, nearest.vectors->col(0)).is_zero()) return std::nullopt;  // also to Ψ
   std::optional<SignCount> signs;
   if (known && ldlt.inertia())
-    signs = signs_beside(nearest_pairs(ldlt, K, weights, *nearest.vectors, IfZero::give_up), K, weights, multipliers);
+    signs =
+        signs_beside(nearest_pairs(ldlt, K, weights, *nearest.vectors, IfZero::give_up), K, weights, multipliers, make);
   else
-    signs = sign_count_near_singularity(K, weights, multipliers);
+    signs = sign_count_near_singularity(K, weights, multipliers, make);
   if (!signs || signs->undecided > 0) return std::nullopt;
   return signs->negative;
 }

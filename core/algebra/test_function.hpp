@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/algebra/ldlt.hpp"
+#include "core/algebra/factorization.hpp"
 #include "core/algebra/near_null.hpp"
 #include "core/algebra/quadratic_form.hpp"
 
@@ -40,14 +40,16 @@ struct SignCount {
 /// `weights`: W, diagonal, zero for the `multipliers` at the end, which count like other unknowns: one negative and one
 /// positive eigenvalue each. Empty if that cannot be done: no gap between eigenvalues.
 std::optional<SignCount> sign_count_near_singularity(const SparseMatrix& lower_triangle, const Vector& weights,
-                                                     Index multipliers);
+                                                     Index multipliers, const MakeFactorization& make = make_ldlt);
 
 /// Negative eigenvalues of K by the signs of the pivots, where the eigenvalue nearest zero stands clear of the
 /// round-off of the factorization; else empty. `nearest`: the pairs nearest zero, or nearly.
-std::optional<Index> negative_by_pivots(const Ldlt& factorization, const Vector& weights, const NearNull& nearest);
+std::optional<Index> negative_by_pivots(const Factorization& factorization, const Vector& weights,
+                                        const NearNull& nearest);
 
 /// The same by Ψ where pivots do not tell; empty where an eigenvalue is zero within round-off.
-std::optional<Index> negative_count(const Ldlt& factorization, const SparseMatrix& lower_triangle,
-                                    const Vector& weights, Index multipliers, const NearNull& nearest);
+std::optional<Index> negative_count(const Factorization& factorization, const SparseMatrix& lower_triangle,
+                                    const Vector& weights, Index multipliers, const NearNull& nearest,
+                                    const MakeFactorization& make = make_ldlt);
 
 }  // namespace arcwall

@@ -70,7 +70,6 @@ template <class Real>
 struct PivotScan {
   Real least = infinity, greatest = 0.0;  ///< magnitudes of 1/d
   Real sum = 0.0;                         ///< of these magnitudes: not finite where one is not
-  Real least_first = infinity;            ///< magnitude of 1/d, of pivots that are entries of the matrix
   Real negative = 0.0;                    ///< their number
 
   ARCWALL_IN_PLACE void add(const Real& reciprocal) {
@@ -79,10 +78,6 @@ struct PivotScan {
     greatest = where_less(greatest, size, size, greatest);
     sum += size;  // NaN if any is, which minima and maxima pass over
     negative += where_less(reciprocal, Real(0.0), Real(1.0), Real(0.0));
-  }
-  ARCWALL_IN_PLACE void add_first(const Real& reciprocal) {
-    const Real size = magnitude(reciprocal);
-    least_first = where_less(size, least_first, size, least_first);
   }
 };
 
@@ -127,7 +122,6 @@ struct BlockElimination {
     Triangle D;
     form_diagonal(own, D);
     factorize(D, own, pivots);
-    if (j.distance == 1) pivots.add_first(D[0]);
     const bool is_grounded = T > 0 && !all_zero(ground);
     if (is_grounded) forward<T>(D, ground);
     Rows<B> Y;

@@ -114,15 +114,14 @@ void BlockTridiagonalLdlt::set_translation_free(const std::vector<bool>& transla
   }
 }
 
-bool BlockTridiagonalLdlt::factorize(const SparseMatrix& A, GroundTerms ground) {
+FactorStatus BlockTridiagonalLdlt::factorize(const SparseMatrix& A, const MatrixProperties& known) {
   const double padding = padding_ ? A.valuePtr()[*padding_] : 0.0;
   read(A, padding);
-  if (chain_.knows_translations) find_ground_parts(ground);
-  const PivotScan<double> scan = eliminate_blocks(chain_);
-  refused_ = false;
-  if (!read_pivots(scan, padding)) return false;
-  refused_ = has_grown(A, scan.least_first);
-  return !refused_;
+  if (chain_.knows_translations) find_ground_parts(known.ground);
+  const bool usable = read_pivots(eliminate_blocks(chain_), padding);
+  refused_ = usable && has_grown(A);
+  if (usable) return refused_ ? FactorStatus::singular : FactorStatus::ok;
+  return is_finite(A) ? FactorStatus::singular : FactorStatus::not_finite;  // no pivot is spared from what is not
 }
 
 void BlockTridiagonalLdlt::read(const SparseMatrix& A, double padding) {
@@ -212,15 +211,9 @@ bool BlockTridiagonalLdlt::read_pivots(const PivotScan<double>& scan, double pad
 }
 
 // Whether a pivot is much greater than all entries: after one of δ stands one of c²/δ. Then these two are far apart.
-bool BlockTridiagonalLdlt::has_grown(const SparseMatrix& A, double least_first) {
+bool BlockTridiagonalLdlt::has_grown(const SparseMatrix& A) const {
   constexpr double much = 1e5;
-  greatest_entry_.reset();
-  if (pivots_.least * much * much >= pivots_.greatest) return false;
-  // The first pivots are entries; it takes the others only where these are small.
-  greatest_entry_ = 1.0 / least_first;
-  if (pivots_.greatest > 100.0 * *greatest_entry_)
-    greatest_entry_ = Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff();
-  return pivots_.greatest > much * *greatest_entry_;
+  return pivots_.least * much * much < pivots_.greatest && growth(A) > much;
 }
 
 void BlockTridiagonalLdlt::solve(Eigen::Ref<Matrix> X) const {

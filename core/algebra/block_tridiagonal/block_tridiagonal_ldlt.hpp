@@ -25,17 +25,12 @@ class BlockTridiagonalLdlt final : public SymmetricFactors {
   /// Which nodes are translation-free in the matrices to come; no more can be known than at first.
   void set_translation_free(const std::vector<bool>& translation_free);
 
-  bool factorize(const SparseMatrix& lower_triangle, GroundTerms ground = {}) override;
-  bool sees_what_is_not_finite() const override { return true; }
+  FactorStatus factorize(const SparseMatrix& lower_triangle, const MatrixProperties& known = {}) override;
 
   /// Where a part of the chain that is eliminated before the rest is singular, and the whole is not: what is left grows
   /// by the reciprocal, and digits are lost. Another order has other parts.
   bool refused() const override { return refused_; }
   void solve(Eigen::Ref<Matrix> X) const override;
-  Pivots pivots() const override { return pivots_; }
-  double growth(const SparseMatrix& lower_triangle) const override {
-    return greatest_entry_ ? pivots_.greatest / *greatest_entry_ : SymmetricFactors::growth(lower_triangle);
-  }
   double weighted(const Eigen::Ref<const Vector>& v) const override;
   bool may_use_near_null() const override { return false; }
 
@@ -60,7 +55,7 @@ class BlockTridiagonalLdlt final : public SymmetricFactors {
   void gather(const ShiftedLists& lists, Index record, const double* array, Index step, Lanes* to) const;
   void scatter(const ShiftedLists& lists, Index record, const Lanes* from, Index step, double* array) const;
   bool read_pivots(const PivotScan<double>& scan, double padding);
-  bool has_grown(const SparseMatrix& A, double least_first);
+  bool has_grown(const SparseMatrix& A) const;
 
   BlockChain chain_;
   Index block_count_ = 0, unknown_count_ = 0;
@@ -70,8 +65,6 @@ class BlockTridiagonalLdlt final : public SymmetricFactors {
   std::vector<std::int32_t> block_of_;  // unknowns, where translations are known
   std::vector<std::uint8_t> is_free_;   // blocks that do not resist translations, but for ground terms
   mutable std::vector<Lanes> work_;
-  Pivots pivots_;
-  std::optional<double> greatest_entry_;  // of the last matrix or nearly, where its pivots are far apart
   bool refused_ = false;
 };
 

@@ -26,26 +26,14 @@ template <class Code>
 [[gnu::target("avx")]] void by_avx(const Code& code) {
   code();
 }
-template <class Code>
-[[gnu::target("avx,fma")]] void by_avx_and_fma(const Code& code) {
-  code();
-}
 #endif
 
-// Factors are the same numbers on every processor, and a pivot that vanishes exactly does so: by fused operations
-// k − (k/k) k would not.
+// Without fused operations numbers are the same on every processor, and a pivot that vanishes exactly does so: by fused
+// ones k − (k/k) k would not.
 template <class Code>
 void in_vectors(const Code& code) {
 #ifdef __x86_64__
   if (has_wide_registers()) return by_avx(code);
-#endif
-  code();
-}
-
-template <class Code>
-void in_fused_vectors(const Code& code) {
-#ifdef __x86_64__
-  if (has_wide_registers() && __builtin_cpu_supports("fma") != 0) return by_avx_and_fma(code);
 #endif
   code();
 }
@@ -57,7 +45,6 @@ PivotScan<double> together(const PivotScan<Lanes>& lanes) {
     all.least = std::min(all.least, magnitude(lanes.least[part]));  // −0 counts as 0
     all.greatest = std::max(all.greatest, lanes.greatest[part]);
     all.sum += lanes.sum[part];
-    all.least_first = std::min(all.least_first, lanes.least_first[part]);
     all.negative += lanes.negative[part];
   }
   return all;
@@ -83,10 +70,8 @@ void eliminate_first_blocks(BlockChain& chain, PivotScan<double>& pivots) {
       }
   }
   std::fill_n(last + parts * One::size, One::triangle + 1, 0.0);
-  const double least_first = chain.length > 1 ? pivots.least_first : infinity;
   for_each_elimination(parts, [&](const EliminationStep& j) { One::eliminate(j, last, pivots); });
   One::factorize_alone(last, pivots);
-  if (chain.length > 1) pivots.least_first = least_first;
 }
 
 template <Index B, Index T>
@@ -131,13 +116,13 @@ void solve_all(const BlockChain& chain, Lanes* x) {
   const Lanes* const numbers = chain.numbers.data();
   Lanes* const end = x + chain.length * B * C;
   std::fill_n(end, B * C, Lanes(0.0));
-  in_fused_vectors([&] [[gnu::always_inline]] () {
+  in_vectors([&] [[gnu::always_inline]] () {
     for_each_elimination(chain.length, [&] [[gnu::always_inline]] (const EliminationStep& j) {
       InLanes::template forward<C>(j, numbers, x);
     });
   });
   solve_first_blocks<B, C>(chain, x, end);
-  in_fused_vectors([&] [[gnu::always_inline]] () {
+  in_vectors([&] [[gnu::always_inline]] () {
     for_each_elimination_reversed(chain.length, [&] [[gnu::always_inline]] (const EliminationStep& j) {
       InLanes::template backward<C>(j, numbers, x);
     });

@@ -116,22 +116,29 @@ void NullSpaceLdlt::set_values(const Coupling& coupling, const Small& values) {
   for (std::size_t i = 0; i < coupling.places.size(); ++i) A_.valuePtr()[coupling.places[i]] = values.data()[i];
 }
 
-// Rows are taken out only once all blocks have been turned and all rows have been kept.
-bool NullSpaceLdlt::factorize(const SparseMatrix& matrix, GroundTerms ground) {
+FactorStatus NullSpaceLdlt::factorize(const SparseMatrix& matrix, const MatrixProperties& known) {
   for (const Chunk& chunk : chunks_) std::copy_n(matrix.valuePtr() + chunk.from, chunk.count, A_.valuePtr() + chunk.to);
   pivots_ = {};
   refused_ = false;
-  ground_.assign(ground.begin(), ground.end());
+  ground_.assign(known.ground.begin(), known.ground.end());
+  if (eliminate_multipliers(matrix)) {
+    const FactorStatus status = ldlt_.factorize(A_, {.ground = ground_});
+    refused_ = ldlt_.refused();
+    pivots_.add(ldlt_.pivots());
+    if (status == FactorStatus::ok) return status;
+  }
+  return is_finite(matrix) ? FactorStatus::singular : FactorStatus::not_finite;
+}
+
+// Rows are taken out only once all blocks have been turned and all rows have been kept.
+bool NullSpaceLdlt::eliminate_multipliers(const SparseMatrix& matrix) {
   for (PressedBlock& pressed : pressed_)
     if (!read_multipliers(matrix, pressed)) return false;
   for (PressedBlock& pressed : pressed_)
     if (!keep_rows(pressed)) return false;
   for (PressedBlock& pressed : pressed_) take_out(pressed);
   tell_what_is_free();
-  const bool regular = ldlt_.factorize(A_, ground_);
-  refused_ = ldlt_.refused();
-  pivots_.add(ldlt_.pivots());
-  return regular;
+  return true;
 }
 
 // False where entries are not finite, or two multipliers hold the same.

@@ -19,11 +19,9 @@ class NullSpaceLdlt final : public SymmetricFactors {
                                            const std::vector<bool>& translation_free = {});
 
   bool reuse_analysis(const SparseMatrix& lower_triangle, Index multipliers) override;
-  bool factorize(const SparseMatrix& lower_triangle, GroundTerms ground = {}) override;
-  bool sees_what_is_not_finite() const override { return true; }
+  FactorStatus factorize(const SparseMatrix& lower_triangle, const MatrixProperties& known = {}) override;
   bool refused() const override { return refused_; }
   void solve(Eigen::Ref<Matrix> X) const override;
-  Pivots pivots() const override { return pivots_; }
   double weighted(const Eigen::Ref<const Vector>& v) const override;
   bool may_use_near_null() const override { return false; }
 
@@ -76,6 +74,7 @@ class NullSpaceLdlt final : public SymmetricFactors {
   bool find_couplings(PressedBlock& pressed, std::size_t block) const;
   Small values(const PressedBlock& pressed, const Coupling& coupling) const;
   void set_values(const Coupling& coupling, const Small& values);
+  bool eliminate_multipliers(const SparseMatrix& matrix);
   bool read_multipliers(const SparseMatrix& matrix, PressedBlock& pressed);
   bool turn(PressedBlock& pressed, const Small& Ct);
   bool keep_rows(PressedBlock& pressed) const;
@@ -97,7 +96,6 @@ class NullSpaceLdlt final : public SymmetricFactors {
   std::vector<PressedBlock> pressed_;
   std::vector<GroundTerm> ground_;    // those of the matrix and soft multipliers
   mutable std::vector<Known> known_;  // room for solve()
-  Pivots pivots_;
   bool refused_ = false;
 };
 

@@ -13,7 +13,7 @@ static_assert(sizeof(SuiteSparse_long) == sizeof(Index));
 inline SuiteSparse_long* as_long(const Index* p) { return reinterpret_cast<SuiteSparse_long*>(const_cast<Index*>(p)); }
 
 /// Of a lower triangle with this pattern.
-inline cholmod_sparse cholmod_view(const LongPattern& pattern, const double* values) {
+inline cholmod_sparse cholmod_view(const Pattern& pattern, const double* values) {
   cholmod_sparse v{};
   v.nrow = v.ncol = pattern.columns.size() - 1;
   v.nzmax = pattern.rows.size();
@@ -54,9 +54,6 @@ struct CholmodFactor {
     common.nmethods = 1;
   }
   ~CholmodFactor() {
-    cholmod_l_free_dense(&solution_, &common);
-    cholmod_l_free_dense(&workspace_y_, &common);
-    cholmod_l_free_dense(&workspace_e_, &common);
     cholmod_l_free_factor(&factor, &common);
     cholmod_l_finish(&common);
   }
@@ -70,20 +67,15 @@ struct CholmodFactor {
     return {static_cast<const SuiteSparse_long*>(factor->Perm), size()};
   }
 
-  /// X := (Pᵀ L D Lᵀ P)⁻¹ X, or with another of CHOLMOD's systems, as CHOLMOD_L.
-  void solve(Eigen::Ref<Matrix> X, int system = CHOLMOD_A) const {
+  /// X := A⁻¹ X. What changes of `common` is its own workspace.
+  void solve(Eigen::Ref<Matrix> X) const {
     if (X.cols() == 0) return;
+    auto& workspace = const_cast<cholmod_common&>(common);
     cholmod_dense b = cholmod_view(X);
-    cholmod_l_solve2(system, factor, &b, nullptr, &solution_, nullptr, &workspace_y_, &workspace_e_, &shared());
-    X = Eigen::Map<const Matrix>(static_cast<const double*>(solution_->x), X.rows(), X.cols());
+    cholmod_dense* solution = cholmod_l_solve(CHOLMOD_A, factor, &b, &workspace);
+    X = Eigen::Map<const Matrix>(static_cast<const double*>(solution->x), X.rows(), X.cols());
+    cholmod_l_free_dense(&solution, &workspace);
   }
-
- private:
-  cholmod_common& shared() const { return const_cast<cholmod_common&>(common); }  // of its own workspaces
-
-  mutable cholmod_dense* solution_ = nullptr;  // kept from call to call
-  mutable cholmod_dense* workspace_y_ = nullptr;
-  mutable cholmod_dense* workspace_e_ = nullptr;
 };
 
 }  // namespace arcwall

@@ -70,16 +70,17 @@ class ModifiedCholesky final : public SymmetricFactors {
     refuses_ = false;
   }
 
-  bool factorize(const SparseMatrix& A, GroundTerms /*ground*/) override {
-    if (llt_.factor == nullptr || refuses_) return false;
+  FactorStatus factorize(const SparseMatrix& A, const MatrixProperties& /*known*/) override {
+    if (!is_finite(A)) return FactorStatus::not_finite;
+    if (llt_.factor == nullptr || refuses_) return FactorStatus::singular;
     const OneThread one_thread;
     choose_springs(A);
     while (!factorize_with_springs(A))
       if (!support_more(A)) {
         refuses_ = true;
-        return false;
+        return FactorStatus::singular;
       }
-    return read_pivots() && eliminate_springs();
+    return read_pivots() && eliminate_springs() ? FactorStatus::ok : FactorStatus::singular;
   }
 
   bool refused() const override { return true; }
@@ -92,8 +93,6 @@ class ModifiedCholesky final : public SymmetricFactors {
     const Matrix forces = springs_left_.solve(at_springs(X));
     X.noalias() += responses_ * forces;
   }
-
-  Pivots pivots() const override { return pivots_; }
 
   // Of K̂: what springs add to the diagonal and take away again is in it.
   double weighted(const Eigen::Ref<const Vector>& v) const override {
@@ -171,8 +170,7 @@ class ModifiedCholesky final : public SymmetricFactors {
     cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
     if (!springs_.empty()) {
       sprung_.assign(A.valuePtr(), A.valuePtr() + A.nonZeros());
-      for (const Spring& spring : springs_)
-        sprung_[static_cast<std::size_t>(A.outerIndexPtr()[spring.at])] += spring.k;
+      for (const Spring& spring : springs_) sprung_[static_cast<std::size_t>(A.outerIndexPtr()[spring.at])] += spring.k;
       a.x = sprung_.data();
     }
     cholmod_l_factorize(&a, llt_.factor, &llt_.common);
@@ -254,8 +252,7 @@ class ModifiedCholesky final : public SymmetricFactors {
   std::vector<double> sprung_;                // values of K̂
   Matrix responses_;                          // Y
   Eigen::PartialPivLU<Matrix> springs_left_;  // S
-  LongPattern pattern_;
-  Pivots pivots_;
+  Pattern pattern_;
 };
 
 // Whether dense blocks pay, as CHOLMOD itself decides: in an order that costs next to nothing to find.
@@ -263,7 +260,7 @@ bool couples_widely(const SparseMatrix& A) {
   CholmodFactor simplicial;
   simplicial.common.supernodal = CHOLMOD_SIMPLICIAL;
   simplicial.common.method[0].ordering = CHOLMOD_AMD;
-  const LongPattern pattern(A);
+  const Pattern pattern(A);
   cholmod_sparse a = cholmod_view(pattern, A.valuePtr());
   simplicial.factor = cholmod_l_analyze(&a, &simplicial.common);
   return simplicial.factor != nullptr && simplicial.common.fl >= coupled * simplicial.common.lnz;

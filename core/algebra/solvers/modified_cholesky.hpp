@@ -14,8 +14,8 @@ namespace arcwall {
 ///
 /// and K has as many negative eigenvalues as S (Haynsworth 1968). Springs stand where a soft vector that is expected
 /// has most of its energy, and where one has that shows by a pivot that fails: what this vector lacks is only K's own
-/// stiffness. A spring holds a point alone, so that some more may be needed than there are negative eigenvalues. Springs
-/// stand until other soft vectors are expected.
+/// stiffness. A spring holds a point alone, so that some more may be needed than there are negative eigenvalues.
+/// Springs stand until other soft vectors are expected.
 ///
 /// Null where this way does not pay: few unknowns, or such that couple with few others. Matrices that need too many
 /// springs are refused.

@@ -7,15 +7,13 @@
 
 namespace arcwall {
 
-/// A copy of where a compressed matrix has entries. The indices are of 64 bits for the interfaces of CHOLMOD and
-/// UMFPACK, whose factors may have more entries than 32 bits count, and of 32 bits where a pattern is only recognised
-/// again.
-template <class Number>
-struct PatternCopy {
-  std::vector<Number> columns{}, rows{};  ///< where each column begins, and the rows of its entries
+/// A copy of where a compressed matrix has entries. The indices are of 64 bits for the interface of CHOLMOD, whose
+/// factors may have more entries than 32 bits count.
+struct Pattern {
+  std::vector<Index> columns{}, rows{};  ///< where each column begins, and the rows of its entries
 
-  PatternCopy() = default;
-  explicit PatternCopy(const SparseMatrix& A)
+  Pattern() = default;
+  explicit Pattern(const SparseMatrix& A)
       : columns(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1),
         rows(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros()) {}
 
@@ -29,8 +27,5 @@ struct PatternCopy {
            std::equal(rows.begin(), rows.end(), A.innerIndexPtr());
   }
 };
-
-using Pattern = PatternCopy<SparseIndex>;
-using LongPattern = PatternCopy<Index>;
 
 }  // namespace arcwall

@@ -22,16 +22,15 @@ class SimplicialLdlt final : public SymmetricFactors {
     ldlt_.factor = cholmod_l_analyze_p(&a, as_long(order.data()), nullptr, 0, &ldlt_.common);
   }
 
-  bool factorize(const SparseMatrix& A, GroundTerms /*ground*/) override {
-    if (ldlt_.factor == nullptr) return false;
+  FactorStatus factorize(const SparseMatrix& A, const MatrixProperties& /*known*/) override {
+    if (!is_finite(A)) return FactorStatus::not_finite;
+    if (ldlt_.factor == nullptr) return FactorStatus::singular;
     cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
     cholmod_l_factorize(&a, ldlt_.factor, &ldlt_.common);
-    return read_pivots();
+    return read_pivots() ? FactorStatus::ok : FactorStatus::singular;
   }
 
   void solve(Eigen::Ref<Matrix> X) const override { ldlt_.solve(X); }
-
-  Pivots pivots() const override { return pivots_; }
 
   double weighted(const Eigen::Ref<const Vector>& v) const override {
     const cholmod_factor& L = *ldlt_.factor;
@@ -54,7 +53,7 @@ class SimplicialLdlt final : public SymmetricFactors {
   std::vector<Index> structure_order(const SparseMatrix& A) {
     const Index n = A.cols() - multipliers_;
     const SparseMatrix block = A.topLeftCorner(n, n);
-    const LongPattern pattern(block);
+    const Pattern pattern(block);
     cholmod_sparse b = cholmod_view(pattern, block.valuePtr());
     ldlt_.common.method[0].ordering = CHOLMOD_AMD;
     ldlt_.common.postorder = 1;
@@ -101,9 +100,8 @@ class SimplicialLdlt final : public SymmetricFactors {
   }
 
   CholmodFactor ldlt_;
-  LongPattern pattern_;
+  Pattern pattern_;
   Index multipliers_;
-  Pivots pivots_;
 };
 
 }  // namespace

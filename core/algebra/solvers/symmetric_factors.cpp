@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arcwall {
 
@@ -19,5 +20,13 @@ void Pivots::add(const Pivots& others) {
   least = std::min(least, others.least);
   greatest = std::max(greatest, others.greatest);
 }
+
+double SymmetricFactors::growth(const SparseMatrix& A) const { return pivots_.greatest / A.coeffs().abs().maxCoeff(); }
+
+double SymmetricFactors::roundoff(const Eigen::Ref<const Vector>& v) const {
+  return std::numeric_limits<double>::epsilon() * weighted(v);
+}
+
+bool SymmetricFactors::is_finite(const SparseMatrix& A) { return all_finite(A.coeffs()); }
 
 }  // namespace arcwall

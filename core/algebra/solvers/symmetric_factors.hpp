@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/algebra/factorization.hpp"
-#include "core/ground_term.hpp"
 
 namespace arcwall {
 
@@ -17,44 +16,36 @@ struct Pivots {
   void add(const Pivots& others);
 };
 
-/// L D Lᵀ of the symmetric matrices of one pattern, by one of the ways that Ldlt chooses among.
-class SymmetricFactors {
+/// L D Lᵀ of the symmetric matrices of one pattern, by one of the ways that Ldlt chooses among. `singular` also where a
+/// pivot is zero though the matrix is regular.
+class SymmetricFactors : public Factorization {
  public:
-  virtual ~SymmetricFactors() = default;
-
-  /// The lower triangle of a matrix with the pattern analysed, its entries finite, and which parts of them are ground
-  /// terms, for who can use that. False if a pivot is zero or not finite, or the matrix is none that this way serves.
-  virtual bool factorize(const SparseMatrix& lower_triangle, GroundTerms ground = {}) = 0;
-
   /// Lets the analysis serve a pattern that differs from the last one in its multipliers alone, its last unknowns;
   /// false where that needs another one.
   virtual bool reuse_analysis(const SparseMatrix&, Index) { return false; }
 
-  /// Whether entries may be other than finite: then no pivot is spared from them, and factorize() is false.
-  virtual bool sees_what_is_not_finite() const { return false; }
-
-  /// Where factorize() was false: whether another way may serve that matrix.
+  /// Where a matrix was called singular: whether another way may serve it.
   virtual bool refused() const { return false; }
 
-  /// X := A⁻¹ X.
-  virtual void solve(Eigen::Ref<Matrix> X) const = 0;
+  /// Now, or with other multipliers.
+  bool may_use_near_null() const override { return true; }
 
-  virtual Pivots pivots() const = 0;
+  /// Of the last matrix, if that was factorized.
+  const Pivots& pivots() const { return pivots_; }
 
-  /// The greatest pivot over the greatest entry of the matrix that was factorized: digits are lost where it is large.
-  virtual double growth(const SparseMatrix& lower_triangle) const {
-    return pivots().greatest /
-           Eigen::Map<const Vector>(lower_triangle.valuePtr(), lower_triangle.nonZeros()).cwiseAbs().maxCoeff();
-  }
+  std::optional<Inertia> inertia() const final { return pivots_.signs; }
+  double pivot_ratio() const final { return pivots_.least / pivots_.greatest; }
+  double growth(const SparseMatrix& lower_triangle) const final;
 
-  /// |v|ᵀ |L| |D| |L|ᵀ |v|
-  virtual double weighted(const Eigen::Ref<const Vector>& v) const = 0;
+  /// ε times |v|ᵀ |L| |D| |L|ᵀ |v|. Wilkinson: K + E = L D Lᵀ with |E| ≤ γ |L| |D| |L|ᵀ. Without pivoting L may grow;
+  /// |K| alone would not show it.
+  double roundoff(const Eigen::Ref<const Vector>& v) const final;
+  virtual double weighted(const Eigen::Ref<const Vector>& v) const = 0;  ///< |v|ᵀ |L| |D| |L|ᵀ |v|
 
-  /// Columns that the matrices to come hardly resist, as far as one knows.
-  virtual void expect_near_null(const Matrix&) {}
+ protected:
+  static bool is_finite(const SparseMatrix& A);
 
-  /// Whether these may be of use, now or with other multipliers.
-  virtual bool may_use_near_null() const { return true; }
+  Pivots pivots_;
 };
 
 }  // namespace arcwall

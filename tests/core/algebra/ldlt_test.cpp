@@ -73,8 +73,7 @@ TEST(Ldlt, SaddlePointsHaveOneNegativePivotAMultiplierMore) {
       SCOPED_TRACE(m);
       const Matrix A = saddle_point(20, m, shift, numbers);
       Ldlt ldlt;
-      ldlt.set_multiplier_count(m);
-      ASSERT_EQ(ldlt.factorize(lower_triangle(A)), FactorStatus::ok);
+      ASSERT_EQ(ldlt.factorize(lower_triangle(A), {.multipliers = m}), FactorStatus::ok);
       expect_inertia(ldlt, A);
       expect_solves(ldlt, A, numbers);
       if (shift == 0.0) {
@@ -88,8 +87,7 @@ TEST(Ldlt, AMultiplierThatHoldsOneUnknownNeedsNoPivoting) {
   for (const double k : {1.0, 1e-30, -1.0}) {
     const Matrix A = Matrix{{k, -1.0}, {-1.0, 0.0}};
     Ldlt ldlt;
-    ldlt.set_multiplier_count(1);
-    ASSERT_EQ(ldlt.factorize(lower_triangle(A)), FactorStatus::ok);
+    ASSERT_EQ(ldlt.factorize(lower_triangle(A), {.multipliers = 1}), FactorStatus::ok);
     EXPECT_EQ(ldlt.inertia()->negative, 1);
     EXPECT_EQ(ldlt.inertia()->positive, 1);
   }
@@ -113,8 +111,7 @@ TEST(Ldlt, FollowsChangesOfPatternSizeAndMultipliers) {
   for (const Index m : {0, 2, 5, 0}) {
     for (const Index n : {10, 12, 10}) {
       const Matrix A = m > 0 ? saddle_point(n, m, 0.0, numbers) : indefinite(n, numbers);
-      ldlt.set_multiplier_count(m);
-      ASSERT_EQ(ldlt.factorize(lower_triangle(A)), FactorStatus::ok);
+      ASSERT_EQ(ldlt.factorize(lower_triangle(A), {.multipliers = m}), FactorStatus::ok);
       expect_inertia(ldlt, A);
       expect_solves(ldlt, A, numbers);
     }
@@ -148,8 +145,7 @@ TEST(Ldlt, AMultiplierThatTouchesNothingIsSingular) {
   Matrix A = Matrix::Identity(4, 4);
   A(3, 3) = 0.0;
   Ldlt ldlt;
-  ldlt.set_multiplier_count(1);
-  EXPECT_EQ(ldlt.factorize(lower_triangle(A)), FactorStatus::singular);
+  EXPECT_EQ(ldlt.factorize(lower_triangle(A), {.multipliers = 1}), FactorStatus::singular);
 }
 
 TEST(Ldlt, RecoversAfterASingularMatrix) {

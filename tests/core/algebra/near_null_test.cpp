@@ -84,8 +84,7 @@ TEST(NearNull, MultipliersOfWeightZeroLeaveTheSpaceThatTheyHold) {
   Vector weights = Vector::Ones(n + 1);
   weights[n] = 0.0;
   Ldlt ldlt;
-  ldlt.set_multiplier_count(1);
-  ASSERT_EQ(ldlt.factorize(test::lower_triangle(A)), FactorStatus::ok);
+  ASSERT_EQ(ldlt.factorize(test::lower_triangle(A), {.multipliers = 1}), FactorStatus::ok);
   const NearNull found = near_null(ldlt, test::lower_triangle(A), weights, 2);
   ASSERT_EQ(found.values.size(), 2);
   const double least = 2.0 - 2.0 * std::cos(pi / double(half + 1));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/algebra/ldlt.hpp"
 #include "tests/support/dense.hpp"
 
 namespace arcwall::test_function_test {
@@ -77,9 +78,8 @@ Case random_case(int which, Numbers& numbers) {
 std::optional<SignCount> counted(const Case& one, bool& by_pivots) {
   const SparseMatrix K = lower_triangle(one.A);
   Ldlt ldlt;
-  ldlt.set_multiplier_count(one.multipliers);
   by_pivots = false;
-  if (ldlt.factorize(K) == FactorStatus::ok) {
+  if (ldlt.factorize(K, {.multipliers = one.multipliers}) == FactorStatus::ok) {
     NearNullTracker tracker;
     Matrix columns = tracker.right_hand_sides(one.weights);
     ldlt.solve(columns);

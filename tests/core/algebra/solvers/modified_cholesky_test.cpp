@@ -70,7 +70,7 @@ TEST(ModifiedCholesky, CountsAndSolvesWithNegativeEigenvalues) {
     const double shift = negative == 0 ? 0.0 : shift_for(negative, values);
     const SparseMatrix A = grid(20, shift);
     const auto factors = any_modified_cholesky(A);
-    ASSERT_TRUE(factors->factorize(A));
+    ASSERT_EQ(factors->factorize(A, {}), FactorStatus::ok);
     EXPECT_EQ(factors->pivots().signs.negative, below(values, shift));
     EXPECT_EQ(factors->pivots().signs.positive, A.cols() - below(values, shift));
     const double nearest = (values.array() - shift).abs().minCoeff();
@@ -91,7 +91,7 @@ TEST(ModifiedCholesky, ServesWithASoftVectorThatIsExpected) {
     softest(i, 0) = std::sin(pi * double(i / 20 + 1) / 21.0) * std::sin(pi * double(i % 20 + 1) / 21.0);
   const auto factors = any_modified_cholesky(A);
   factors->expect_near_null(softest);
-  ASSERT_TRUE(factors->factorize(A));
+  ASSERT_EQ(factors->factorize(A, {}), FactorStatus::ok);
   EXPECT_EQ(factors->pivots().signs.negative, 1);
   expect_solves(*factors, A, 8.0 * values[399] / (values.array() - shift).abs().minCoeff(), numbers);
 }
@@ -104,11 +104,11 @@ TEST(ModifiedCholesky, ResultsDoNotDependOnWhatWasFactorizedBefore) {
   const Matrix right = numbers.matrix(400, 2), soft = numbers.matrix(400, 1);
   const auto fresh = any_modified_cholesky(A), used = any_modified_cholesky(A);
   used->expect_near_null(numbers.matrix(400, 2));
-  ASSERT_TRUE(used->factorize(harder));
+  ASSERT_EQ(used->factorize(harder, {}), FactorStatus::ok);
   Matrix one = right, other = right;
   for (const auto& [factors, X] : {std::pair(fresh.get(), &one), std::pair(used.get(), &other)}) {
     factors->expect_near_null(soft);
-    ASSERT_TRUE(factors->factorize(A));
+    ASSERT_EQ(factors->factorize(A, {}), FactorStatus::ok);
     factors->solve(*X);
   }
   EXPECT_EQ(one, other);
@@ -119,9 +119,10 @@ TEST(ModifiedCholesky, SeesExactlySingularMatrices) {
   Matrix A = Matrix::Zero(6, 6);
   for (Index i = 0; i < 6; i += 2) A.block(i, i, 2, 2) = block;
   const SparseMatrix singular = lower_triangle(A);
-  EXPECT_FALSE(any_modified_cholesky(singular)->factorize(singular));
+  EXPECT_EQ(any_modified_cholesky(singular)->factorize(singular, {}), FactorStatus::singular);
   const SparseMatrix nothing = grid(20, 4.0);
-  EXPECT_FALSE(any_modified_cholesky(nothing)->factorize(nothing)) << "no diagonal tells how stiff a spring should be";
+  EXPECT_EQ(any_modified_cholesky(nothing)->factorize(nothing, {}), FactorStatus::singular)
+      << "no diagonal tells how stiff a spring should be";
 }
 
 // Many negative eigenvalues are left to the simplicial LDLᵀ, and few unknowns or a tree as well.
