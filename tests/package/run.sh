@@ -57,9 +57,7 @@ look_at_packages() {
       $6 !~ "^./usr/" || $6 ~ "^./usr/local" { print; wrong = 1 } END { exit wrong }' || fail "wrong owner, mode or place"
   done
   depends arcwall libc6
-  for library in libcholmod3 libumfpack5 liblapack.so.3; do  # SuiteSparse brings BLAS and METIS
-    depends arcwall "$library"
-  done
+  depends arcwall libcholmod3  # which brings BLAS, LAPACK and METIS
   depends libarcwall-dev libsuitesparse-dev
   depends libarcwall-dev libeigen3-dev
   "$scratch/root/usr/bin/trace-path" --version
