@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "continuation/events/branch_point.hpp"
+#include "continuation/stability.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -17,6 +20,13 @@ bool nearly_equal(double a, double b, double scale) {
 }
 
 }  // namespace
+
+struct Explorer::Way {
+  int sign = 1;
+  SteppedOff step{};
+  double energy = 0.0;
+  StabilityCount count{};
+};
 
 Explorer::Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched,
                    ExploreOptions options)

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "continuation/events/branch_point.hpp"
 #include "continuation/tracer.hpp"
 #include "core/system.hpp"
 
@@ -84,13 +83,7 @@ class Explorer {
       archive(start, record);
     }
   };
-  // A way off a branch point that was tried.
-  struct Way {
-    int sign = 1;
-    SteppedOff step{};
-    double energy = 0.0;
-    StabilityCount count{};
-  };
+  struct Way;  // off a branch point, that was tried
 
   void look_at(const Event& event);
   std::vector<Way> ways_off(const BranchPoint& point);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/algebra/bordered_solver.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -16,11 +18,17 @@ constexpr int most_rounds = 100;
 
 LoadIncrements::LoadIncrements(const UnilateralSystem& system, State start, double lambda_scale,
                                std::function<void(const State&)> advance)
-    : system_(system), advance_(std::move(advance)), lambda_scale_(lambda_scale) {
+    : system_(system),
+      advance_(std::move(advance)),
+      lambda_scale_(lambda_scale),
+      solver_(std::make_unique<BorderedSolver>()) {
   last_.state = std::move(start);
   last_.guards = system_.guards(last_.state);
   last_.count = {.unstable = 0, .stability = Stability::stable};
 }
+
+LoadIncrements::LoadIncrements(LoadIncrements&&) noexcept = default;
+LoadIncrements::~LoadIncrements() = default;
 
 Arc LoadIncrements::start() {
   Event event{.kind = EventKind::start, .state = last_.state};
@@ -62,16 +70,16 @@ std::optional<LoadIncrements::Increment> LoadIncrements::solve_on(const Piece& p
   at.lambda = lambda;
   system_.linearize(at, now_);
   const Index multipliers = system_.multiplier_count(piece);
-  const FactorStatus status = solver_.factorize(now_, multipliers);
+  const FactorStatus status = solver_->factorize(now_, multipliers);
   Matrix dx = -now_.F;
-  if (status != FactorStatus::ok || !solver_.solve_inner(dx) || !dx.allFinite()) {
+  if (status != FactorStatus::ok || !solver_->solve_inner(dx) || !dx.allFinite()) {
     const bool finite = status != FactorStatus::not_finite;
     end_ = BranchEnd{.reason = finite ? EndReason::singular : EndReason::not_finite,
                      .detail = "the stiffness of an increment"};
     return std::nullopt;
   }
   increment.dx = dx.col(0);
-  increment.negative = solver_.inner().inertia().value_or(Inertia{}).negative - multipliers;
+  increment.negative = solver_->inner().inertia().value_or(Inertia{}).negative - multipliers;
   return increment;
 }
 

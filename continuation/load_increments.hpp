@@ -1,14 +1,17 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "continuation/metric.hpp"
 #include "continuation/path_point.hpp"
-#include "core/algebra/bordered_solver.hpp"
+#include "core/linearization.hpp"
 #include "core/unilateral_system.hpp"
 
 namespace arcwall {
+
+class BorderedSolver;
 
 /// Load increments without iteration, as Selke and Kikuchi take them (eqs. 11 to 14; docs/theory.md, section 10):
 ///
@@ -23,6 +26,8 @@ class LoadIncrements {
   /// reference of the next. `lambda_scale` as in Metric.
   LoadIncrements(const UnilateralSystem& system, State start, double lambda_scale,
                  std::function<void(const State&)> advance);
+  LoadIncrements(LoadIncrements&&) noexcept;
+  ~LoadIncrements();
 
   /// The state at the start, with its event.
   Arc start();
@@ -61,7 +66,7 @@ class LoadIncrements {
   double lambda_scale_;
   PathPoint last_{};
   Linearization now_;
-  BorderedSolver solver_;
+  std::unique_ptr<BorderedSolver> solver_;
   int unsettled_ = 0;
   std::optional<BranchEnd> end_;
 };

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "continuation/stability.hpp"
+#include "continuation/stability_count.hpp"
+#include "core/eigenpairs.hpp"
 #include "core/state.hpp"
 #include "core/transition.hpp"
 

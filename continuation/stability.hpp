@@ -3,19 +3,10 @@
 #include <optional>
 
 #include "continuation/factorized_equations.hpp"
+#include "continuation/stability_count.hpp"
 #include "core/unilateral_system.hpp"
 
 namespace arcwall {
-
-/// What the second variation says of an equilibrium under load control.
-enum class Stability { stable, unstable, undecided };
-
-/// Negative eigenvalues of K on {v : G_S v = 0}, S the contacts that are closed with a force above the tolerance, and
-/// what follows from it. Contacts without force hold nothing (Selke & Kikuchi's snap would be hidden if they did).
-struct StabilityCount {
-  std::optional<Index> unstable{};  ///< empty: K is singular within round-off
-  Stability stability = Stability::undecided;
-};
 
 /// Negative eigenvalues of K with all contacts of the state's piece held; what a border holds gives way. Empty where K
 /// is singular. Without a border also where the pivots do not tell: `nearest` are the eigenpairs nearest zero that were

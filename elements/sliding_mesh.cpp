@@ -72,7 +72,7 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
   for (Index r = 0; r < structure.strands(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) {
       const NodeUnknowns first = node_unknowns(r, e), second = node_unknowns(r, e + 1);
-      blocks.add({first[0], first[1], first[2], second[0], second[1], second[2]});
+      blocks.push_back({first[0], first[1], first[2], second[0], second[1], second[2]});
     }
   assembly_ = BlockAssembly(unknowns, blocks);
   number_fours();

@@ -290,7 +290,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
         number(freedom);
         freedom = unknown_of_freedom[static_cast<std::size_t>(freedom)];
       }
-      blocks.add(of_element);
+      blocks.push_back(of_element);
     }
 
   auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));

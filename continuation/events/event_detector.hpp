@@ -7,6 +7,7 @@
 
 #include "continuation/metric.hpp"
 #include "continuation/path_point.hpp"
+#include "core/equations.hpp"
 #include "core/observable.hpp"
 
 namespace arcwall {

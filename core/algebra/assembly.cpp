@@ -89,7 +89,7 @@ template <class UnknownsOf, class Visit>
 void for_each_entry(Index unknowns, std::size_t blocks, const UnknownsOf& unknowns_of, const Visit& visit) {
   for (Index i = 0; i < unknowns; ++i) visit(i, i);
   for (std::size_t b = 0; b < blocks; ++b) {
-    const auto block = unknowns_of(b);
+    const auto& block = unknowns_of(b);
     for (std::size_t i = 0; i < block.size(); ++i)
       for (std::size_t j = 0; j < block.size(); ++j)
         if (block[j] >= 0 && block[i] > block[j]) visit(block[i], block[j]);
@@ -133,7 +133,8 @@ SparseMatrix BlockAssembly::pattern() const {
 
 BlockAssembly::BlockAssembly(Index unknowns, const IndexLists& blocks) : unknown_count_(unknowns) {
   assert(unknowns < std::numeric_limits<std::int32_t>::max());
-  const SparseMatrix pattern = pattern_of(unknowns, blocks.size(), [&](std::size_t b) { return blocks[b]; });
+  const SparseMatrix pattern =
+      pattern_of(unknowns, blocks.size(), [&](std::size_t b) -> const std::vector<Index>& { return blocks[b]; });
   const auto slot = [&](Index a, Index b) -> std::int32_t {
     if (a < 0 || b < 0) return -1;
     const SparseIndex* const rows = pattern.innerIndexPtr();
@@ -143,7 +144,7 @@ BlockAssembly::BlockAssembly(Index unknowns, const IndexLists& blocks) : unknown
   std::map<std::vector<std::int32_t>, std::int32_t> known;  // shapes
   std::vector<std::int32_t> shape;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const auto block = blocks[b];
+    const std::vector<Index>& block = blocks[b];
     shape.clear();
     for (const Index unknown : block) shape.push_back(static_cast<std::int32_t>(unknown));
     const std::int32_t first_unknown = made_offsets(shape.begin(), shape.end());

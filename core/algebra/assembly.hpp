@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <span>
 #include <vector>
@@ -23,30 +22,7 @@ SparseMatrix with_rows_behind(const SparseMatrix& lower_triangle, const std::vec
 /// The values of that lower triangle into a matrix with rows behind it; zero in these.
 void copy_values(const SparseMatrix& lower_triangle, SparseMatrix& with_rows);
 
-/// Lists of indices, one behind the other.
-class IndexLists {
- public:
-  IndexLists() = default;
-  IndexLists(std::initializer_list<std::initializer_list<Index>> lists) {
-    for (const auto& list : lists) add(list);
-  }
-
-  std::size_t size() const { return ends_.size(); }
-  std::span<const Index> operator[](std::size_t i) const {
-    const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
-    return std::span(entries_).subspan(begin, ends_[i] - begin);
-  }
-
-  void add(std::span<const Index> list) {
-    entries_.insert(entries_.end(), list.begin(), list.end());
-    ends_.push_back(entries_.size());
-  }
-  void add(std::initializer_list<Index> list) { add(std::span(list.begin(), list.size())); }
-
- private:
-  std::vector<Index> entries_;
-  std::vector<std::size_t> ends_;
-};
+using IndexLists = std::vector<std::vector<Index>>;
 
 /// Indices that differ from those of other lists by a shift: of the unknowns of a block in the order of its rows, −1
 /// for one that is held, for example.

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/algebra/sliding_stability.hpp"
+
 namespace arcwall {
 
 namespace {

@@ -1,22 +1,22 @@
 #pragma once
 
 #include "core/algebra/factorization.hpp"
-#include "core/algebra/shared_matrix.hpp"
-#include "core/algebra/sliding_stability.hpp"
+#include "core/eigenpairs.hpp"
 
 namespace arcwall {
 
-/// Eigenpairs K φ = μ M φ of a symmetric matrix whose eigenvalues lie nearest zero; M diagonal, zero for multipliers.
-struct NearNull {
-  Vector values{};         ///< by increasing magnitude
-  SharedMatrix vectors{};  ///< columns, φᵀ M φ = 1
-
-  /// The vectors that K may not resist a step further: the nearest one, and those of negative values.
-  Matrix least_resisted() const;
-};
+class SlidingStabilityOperator;
 
 /// How many eigenvalues K φ = μ M φ has: each unknown without weight is a multiplier, which holds one that has weight.
 Index pair_count(const Vector& weights);
+
+/// The unknown in which a vector that a matrix hardly resists has most of its energy: where a spring holds it best.
+/// `diagonal`: the matrix's.
+inline Index near_null_place(const Vector& diagonal, const Vector& vector) {
+  Index place = 0;
+  vector.cwiseAbs2().cwiseProduct(diagonal.cwiseAbs()).maxCoeff(&place);
+  return place;
+}
 
 /// When eigenvalues count as found: once they change by 1e-10 of the greatest that is wanted; or by 1e-6, or by no more
 /// than round-off, which on very fine meshes is more.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/algebra/bordered_residual.hpp"
-#include "core/algebra/near_null_place.hpp"
+#include "core/algebra/near_null.hpp"
 
 namespace arcwall {
 

@@ -38,9 +38,9 @@ struct Row {
         elements.add(std::make_shared<ClassicBeam>(BeamReference{.chord = {1.0, 0.0}, .length = 1.0}, 100.0, 1.0));
       const Index x = e == 0 ? -1 : i, z = e == 0 ? -1 : i + 1;  // the first end is pinned
       if (bar)
-        blocks.add({x, z, i + 3, i + 4});
+        blocks.push_back({x, z, i + 3, i + 4});
       else
-        blocks.add({x, z, i + 2, i + 3, i + 4, i + 5});
+        blocks.push_back({x, z, i + 2, i + 3, i + 4, i + 5});
     }
   }
 

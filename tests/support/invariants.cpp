@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/stability.hpp"
 #include "tests/support/dense.hpp"
 
 namespace arcwall::test {

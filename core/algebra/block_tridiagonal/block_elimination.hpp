@@ -123,7 +123,7 @@ struct BlockElimination {
     form_diagonal(own, D);
     factorize(D, own, pivots);
     const bool is_grounded = T > 0 && !all_zero(ground);
-    if (is_grounded) forward<T>(D, ground);
+    if (is_grounded) forward_own<T>(D.data(), ground);
     Rows<B> Y;
     const auto condense = [&] [[gnu::always_inline]] (Real * coupling, Real * neighbour) {
       scale(D, Y, coupling);
@@ -136,11 +136,11 @@ struct BlockElimination {
       neighbour[at.ground(row, column)] -= coupling[k * B + row] * entry(ground, k, column);
     };
     Real *const with_a = own + at.before(0, 0), *const with_b = own + at.behind(0, 0);
-    load(with_a, Y);
-    forward<B>(D, Y);
+    load_entries<B>(with_a, Y);
+    forward_own<B>(D.data(), Y);
     condense(with_a, a);
-    load(with_b, Y);
-    forward<B>(D, Y);
+    load_entries<B>(with_b, Y);
+    forward_own<B>(D.data(), Y);
     Real* const to = j.before_is_next() ? a + at.behind(0, 0) : b + at.before(0, 0);
     const Index row_step = j.before_is_next() ? 1 : B, column_step = j.before_is_next() ? B : 1;
     ARCWALL_UNROLLED_FOR(row, 0, B)
@@ -188,19 +188,6 @@ struct BlockElimination {
       pivots.add(reciprocal);
     }
     ARCWALL_UNROLLED_FOR(k, 0, triangle) stored[k] = D[static_cast<std::size_t>(k)];
-  }
-
-  ARCWALL_IN_PLACE static void load(const Real* from, Rows<B>& Y) {
-    ARCWALL_UNROLLED_FOR(row, 0, B)
-    ARCWALL_UNROLLED_FOR(column, 0, B) entry(Y, row, column) = from[row * B + column];
-  }
-
-  // Y := L⁻¹ Y
-  template <Index columns>
-  ARCWALL_IN_PLACE static void forward(const Triangle& D, Rows<columns>& Y) {
-    ARCWALL_UNROLLED_FOR(c, 0, B)
-    ARCWALL_UNROLLED_FOR(r, c + 1, B)
-    ARCWALL_UNROLLED_FOR(k, 0, columns) entry(Y, r, k) -= entry(D, r, c) * entry(Y, c, k);
   }
 
   // Z = d⁻¹ Y

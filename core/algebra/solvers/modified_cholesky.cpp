@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/algebra/near_null_place.hpp"
+#include "core/algebra/near_null.hpp"
 #include "core/algebra/solvers/cholmod_factor.hpp"
 
 namespace arcwall {

@@ -53,8 +53,8 @@ TEST(BlockAssembly, PatternIsTheLowerTriangleOfAllBlocksWithTheWholeDiagonal) {
 // another order.
 TEST(BlockAssembly, KnowsBlocksThatDifferByAShift) {
   IndexLists blocks{{-1, 1, 2, 3}};
-  for (Index i = 1; i < 5; ++i) blocks.add({2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3});
-  blocks.add({11, 10, 12, 13});
+  for (Index i = 1; i < 5; ++i) blocks.push_back({2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3});
+  blocks.push_back({11, 10, 12, 13});
   const BlockAssembly assembly(14, blocks);
   EXPECT_TRUE(assembly.are_shifted(std::array<Index, 4>{1, 2, 3, 4}));
   EXPECT_FALSE(assembly.are_shifted(std::array<Index, 4>{0, 1, 2, 3}));

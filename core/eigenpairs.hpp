@@ -23,4 +23,13 @@ class SharedMatrix {
   std::shared_ptr<const Matrix> matrix_;
 };
 
+/// Eigenpairs K φ = μ M φ of a symmetric matrix whose eigenvalues lie nearest zero; M diagonal, zero for multipliers.
+struct NearNull {
+  Vector values{};         ///< by increasing magnitude
+  SharedMatrix vectors{};  ///< columns, φᵀ M φ = 1
+
+  /// The vectors that K may not resist a step further: the nearest one, and those of negative values.
+  Matrix least_resisted() const;
+};
+
 }  // namespace arcwall
