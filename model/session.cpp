@@ -44,18 +44,13 @@ bool is_whole(const Record& record) {
 
 ArchiveModel model_of(const Model& model) { return {.system = &model.system(), .sliding = model.sliding()}; }
 
-std::shared_ptr<Model> built(const RunDescription& run) {
-  return std::make_shared<Model>(deck::read_deck_text(run.deck_text, run.deck, run.assignments));
-}
-
 }  // namespace
 
-Session::Session(RunDescription description, std::shared_ptr<Model> model)
+Session::Session(RunDescription description)
     : description_(std::move(description)),
-      model_(model ? std::move(model) : built(description_)),
+      model_(std::make_unique<Model>(
+          deck::read_deck_text(description_.deck_text, description_.deck, description_.assignments))),
       record_(std::make_unique<Record>(empty_record(*model_))) {}
-
-Session::Session(RunDescription description) : Session(std::move(description), nullptr) {}
 
 Session::Session(Session&& other) noexcept = default;
 Session& Session::operator=(Session&& other) noexcept = default;
@@ -100,8 +95,7 @@ Json SessionContent::of(Session& session, const std::optional<BranchEnd>& stoppe
   return archive.json();
 }
 
-Session SessionContent::read(const Json& content, const std::string& file, Session::Resume how,
-                             std::shared_ptr<Model> model) {
+Session SessionContent::read(const Json& content, const std::string& file, Session::Resume how) {
   try {
     // What the run is of comes first: the rest can be read when its model is there.
     ArchiveReader head(content, ArchiveModel{});
@@ -112,7 +106,7 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     RunDescription description;
     std::optional<BranchEnd> stopped;
     head(description, stopped);
-    Session session(std::move(description), std::move(model));
+    Session session(std::move(description));
 
     ArchiveReader archive(content, model_of(*session.model_));
     archive(program, session.description_, stopped, session.start_);

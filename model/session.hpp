@@ -72,10 +72,9 @@ class Session {
  private:
   friend class SessionContent;
 
-  Session(RunDescription description, std::shared_ptr<Model> model);
-
   RunDescription description_;
-  std::shared_ptr<Model> model_;
+  std::unique_ptr<Model>
+      model_;  // it and the record keep their places when the session moves: the tracing refers to them
   std::unique_ptr<Record> record_;
   State start_{};
   std::string problem_{};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -13,10 +12,8 @@ class SessionContent {
  public:
   static nlohmann::json of(Session& session, const std::optional<BranchEnd>& stopped);
 
-  /// Throws OutputError, which names `file`, for content that is none of this program. A `model` is taken for what the
-  /// deck in it builds; it must not be that of another session if load increments are taken.
-  static Session read(const nlohmann::json& content, const std::string& file, Session::Resume how,
-                      std::shared_ptr<Model> model = nullptr);
+  /// Throws OutputError, which names `file`, for content that is none of this program.
+  static Session read(const nlohmann::json& content, const std::string& file, Session::Resume how);
 };
 
 }  // namespace arcwall

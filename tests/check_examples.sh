@@ -1,10 +1,25 @@
 #!/usr/bin/env bash
-# The code in docs/library.md is the code that event_detector_test.cpp compiles and runs.
+# The C++ programs that pages show are compiled and run, and print what the pages say. For the build's use:
+#
+#   bash tests/check_examples.sh extract PAGE FOLDER     # writes them as 1.cpp, 2.cpp, … and what they print as 1.txt, …
+#   bash tests/check_examples.sh run PROGRAM OUTPUT      # runs one where the examples' decks are, and compares
+#
+# A program is a block ```cpp; what it prints is the next block, ```text.
 set -euo pipefail
-root=$(cd "$(dirname "$0")/.." && pwd)
 
-in_docs=$(sed -n '/^```cpp$/,/^```$/p' "$root/docs/library.md" | sed '/^```/d')
-in_test=$(sed -n '/\/\/ example begins$/,/\/\/ example ends$/p' "$root/tests/continuation/event_detector_test.cpp" |
-  sed '/\/\/ example/d')
-[[ -n $in_docs ]] || { echo "docs/library.md has no example"; exit 1; }
-diff <(echo "$in_docs") <(echo "$in_test")
+case "$1" in
+  extract)
+    rm -rf "$3" && mkdir -p "$3"
+    awk -v folder="$3" '
+      file != "" && /^```/ { close(file); file = ""; next }
+      file != "" { print >file; next }
+      /^```cpp$/ { file = folder "/" ++programs ".cpp" }
+      /^```text$/ && programs > outputs { file = folder "/" ++outputs ".txt" }
+      END { if (programs == 0 || programs != outputs) exit 1 }
+    ' "$2" || { echo "$2 does not show a program and what it prints, as often as the other" >&2; exit 1; }
+    ;;
+  run)
+    cd "$(dirname "$0")/../examples"
+    diff <("$2") "$3"
+    ;;
+esac

@@ -35,12 +35,10 @@ Branch round_the_fold(std::vector<EventDetector> detectors) {
 
 }  // namespace
 
-// The example of docs/library.md, word for word: tests/check_examples.sh sees to that.
 TEST(EventDetector, IsAValueThatAProgramAdds) {
   const test::SmoothToy system = test::spring(1.0);
   const State start{.x = Vector::Zero(1), .lambda = 0.0};
   std::vector<double> found;
-  // example begins
   TraceOptions options;
   options.target_values = {{.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true}};
   const auto past_half = [](const PathPoint& point) { return point.state.x[0] - 0.5; };
@@ -49,7 +47,6 @@ TEST(EventDetector, IsAValueThatAProgramAdds) {
   while (const auto arc = tracer.next())
     for (const Event& event : arc->events)
       if (event.kind == EventKind::user && event.label == "halfway") found.push_back(event.state.lambda);
-  // example ends
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0], 0.5, 1e-10);
 }

@@ -36,10 +36,10 @@ struct Tally {
 
 bool is_to_go_on(std::string_view bytes) { return is_one_in(128, bytes); }
 
-void take_up(const KeptRun& kept, json content, bool go_on) try {
+void take_up(const json& kept, json content, bool go_on) try {
   if (!content.is_array() || content.size() < head_entries) return;
-  std::copy_n(kept.content.begin(), head_entries, content.begin());
-  Session run = SessionContent::read(content, "checkpoint", Session::Resume::go_on, kept.model);
+  std::copy_n(kept.begin(), head_entries, content.begin());
+  Session run = SessionContent::read(content, "checkpoint", Session::Resume::go_on);
   ++tally.taken_up;
   if (!go_on) return;
   run.next();
@@ -50,7 +50,7 @@ void take_up(const KeptRun& kept, json content, bool go_on) try {
 void read_file(std::string_view bytes) try { from_checkpoint(bytes, "checkpoint"); } catch (const OutputError&) {
 }
 
-void read_content(const KeptRun& kept, std::string_view bytes, bool go_on) try {
+void read_content(const json& kept, std::string_view bytes, bool go_on) try {
   take_up(kept, from_cbor(bytes), go_on);
 } catch (const BadArchive&) {
 }
@@ -58,14 +58,14 @@ void read_content(const KeptRun& kept, std::string_view bytes, bool go_on) try {
 void read(std::string_view bytes) {
   if (bytes.empty()) return;
   const auto first = static_cast<std::uint8_t>(bytes.front());
-  const KeptRun& kept = kept_runs()[first % kept_runs().size()];
+  const json& kept = kept_runs()[first % kept_runs().size()];
   if (bytes.starts_with("arcwall")) {
     read_file(bytes);
   } else if (first < kept_runs().size()) {
     read_content(kept, bytes.substr(1), is_to_go_on(bytes));
   } else {
     FuzzedDataProvider data(reinterpret_cast<const std::uint8_t*>(bytes.data()) + 1, bytes.size() - 1);
-    take_up(kept, edited(kept.content, data), is_to_go_on(bytes));
+    take_up(kept, edited(kept, data), is_to_go_on(bytes));
   }
 }
 

@@ -27,13 +27,13 @@ void write_decks(const fs::path& folder) {
 void write_checkpoints(const fs::path& folder) {
   fs::create_directories(folder);
   for (std::size_t i = 0; i < kept_runs().size(); ++i) {
-    nlohmann::json content = kept_runs()[i].content;
+    nlohmann::json content = kept_runs()[i];
     std::fill_n(content.begin(), head_entries, nullptr);
     std::string bytes(1, static_cast<char>(i));
     nlohmann::json::to_cbor(content, bytes);
     write_whole(folder / std::to_string(i), bytes);
   }
-  write_whole(folder / "whole", to_checkpoint(kept_runs().front().content));
+  write_whole(folder / "whole", to_checkpoint(kept_runs().front()));
 }
 
 }  // namespace

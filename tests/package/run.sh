@@ -30,7 +30,7 @@ make_packages() {
   # Only the place of the libraries depends on the prefix; nothing is compiled again.
   cmake -S ../.. -B "$build" --log-level=WARNING -DCMAKE_INSTALL_PREFIX=/usr
   cmake --build "$build" --parallel 2 --target trace-path shell_files arcwall_core arcwall_continuation \
-    arcwall_elements arcwall_contact >/dev/null
+    arcwall_elements arcwall_contact arcwall_model >/dev/null
   rm -rf "$build/packages"
   cpack --config "$build/CPackConfig.cmake" >/dev/null
   local name
@@ -47,7 +47,8 @@ look_at_packages() {
   local libraries
   libraries=/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
   for file in /usr/bin/trace-path /usr/share/man/man1/trace-path.1.gz /usr/share/bash-completion/completions/trace-path \
-    /usr/include/arcwall/core/system.hpp "$libraries/libarcwall_core.a" "$libraries/cmake/arcwall/arcwallConfig.cmake"; do
+    /usr/include/arcwall/core/system.hpp /usr/include/arcwall/model/session.hpp /usr/include/arcwall/model/deck/reader.hpp \
+    "$libraries/libarcwall_core.a" "$libraries/libarcwall_model.a" "$libraries/cmake/arcwall/arcwallConfig.cmake"; do
     has "$file"
   done
   # All below /usr, owned by root, folders and programs 755, other files 644.
@@ -60,6 +61,7 @@ look_at_packages() {
   depends arcwall libcholmod3  # which brings BLAS, LAPACK and METIS
   depends libarcwall-dev libsuitesparse-dev
   depends libarcwall-dev libeigen3-dev
+  depends libarcwall-dev zlib1g-dev
   "$scratch/root/usr/bin/trace-path" --version
 }
 
@@ -71,6 +73,9 @@ else
   prefix=$scratch/prefix
   cmake --install "$build" --prefix "$prefix" >/dev/null
 fi
-cmake -S . -B "$scratch/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix"
+bash ../check_examples.sh extract ../../docs/library.md "$scratch/examples"
+cmake -S . -B "$scratch/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
+  -DRUN_DECK="$scratch/examples/1.cpp"
 cmake --build "$scratch/build"
 "$scratch/build/limit_load"
+bash ../check_examples.sh run "$scratch/build/run_deck" "$scratch/examples/1.txt"

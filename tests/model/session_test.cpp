@@ -1,0 +1,101 @@
+#include "model/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tests/model/deck/sample_decks.hpp"
+
+namespace arcwall::session_test {
+
+namespace {
+
+struct Case {
+  std::string deck;
+  std::vector<std::string> assignments{};
+};
+
+// Contact that slides, contact at nodes with several branches, a long frame without walls, beams with a thickness.
+const std::vector<Case> runs{{"channel"},
+                            {"channel", {"contact.points = 'nodes'", "path.branches = 'all'"}},
+                            {"lee", {"member.column.elements = 400"}},
+                            {"thick"}};
+
+Session opened(const Case& run) {
+  return Session::open(std::string(EXAMPLES) + "/" + run.deck + ".toml", run.assignments);
+}
+
+// All of a run as bytes: every state, event and branch.
+std::string traced(const Case& run) {
+  Session session = opened(run);
+  while (session.next() != nullptr) {
+  }
+  EXPECT_GT(session.points().size(), 5U);
+  return session.checkpoint();
+}
+
+}  // namespace
+
+// The same to the last bit as one after the other, also beside a run of the same deck.
+TEST(Session, TwoAtOnceInTwoThreadsGiveWhatEachGivesAlone) {
+  for (const Case& first : runs)
+    for (const Case& second : runs) {
+      std::string first_beside, second_beside;
+      std::thread one([&] { first_beside = traced(first); });
+      std::thread other([&] { second_beside = traced(second); });
+      one.join();
+      other.join();
+      EXPECT_TRUE(first_beside == traced(first)) << first.deck;
+      EXPECT_TRUE(second_beside == traced(second)) << second.deck;
+    }
+}
+
+// What it was made from may go: the file, the texts, the session that it was moved from.
+TEST(Session, OwnsAllThatItNeeds) {
+  const auto folder = std::filesystem::temp_directory_path() / "arcwall_session_test";
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "column.toml").string();
+  std::ofstream(file) << deck::column_deck;
+  const std::string whole = [&] {
+    Session session = Session::open(file);
+    while (session.next() != nullptr) {
+    }
+    return session.checkpoint();
+  }();
+
+  std::vector<Session> kept;
+  {
+    Session session = Session::open(file);
+    session.next();
+    kept.push_back(std::move(session));
+  }
+  std::filesystem::remove_all(folder);
+  while (kept.front().next() != nullptr) {
+  }
+
+  EXPECT_TRUE(kept.front().checkpoint() == whole);
+  EXPECT_TRUE(kept.front().has_ended());
+  EXPECT_EQ(kept.front().description().deck_text, deck::column_deck);
+}
+
+TEST(Session, BeginsTheRunWhereNobodyHas) {
+  Session asked = opened({"truss"}), begun = opened({"truss"});
+  ASSERT_TRUE(begun.begin());
+  EXPECT_TRUE(begun.points().empty());
+  const RecordPoint* first = asked.next();
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first, &asked.points().front());
+  EXPECT_EQ(first->state.x, begun.next()->state.x);
+}
+
+TEST(Session, SaysWhatIsWrongWithADeck) {
+  EXPECT_THROW(Session::open("no such file.toml"), InputError);
+  EXPECT_THROW(opened({"truss", {"section.bar.A = -1.0", "member.left.elements = 0"}}), InputError);
+}
+
+}  // namespace arcwall::session_test
