@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/example_decks.hpp"
 #include "apps/shell/shell_files.hpp"
+#include "model/deck/key_list.hpp"
 
 namespace arcwall {
 
@@ -19,13 +21,26 @@ std::vector<std::string> names_of(const std::vector<ExampleDeck>& decks) {
   return names;
 }
 
-// How the script completes what the help calls so; empty for what cannot be guessed, as numbers and keys.
+// Each key of a deck as far as it is known: up to a name, and of lists that of the first element.
+std::vector<std::string> beginnings_of_keys() {
+  std::set<std::string> keys;
+  for (const deck::DeclaredKey& key : deck::declared_keys()) {
+    if (key.kind != deck::DeclaredKey::Kind::value) continue;
+    std::string path = key.path().substr(0, key.path().find('*'));
+    std::replace(path.begin(), path.end(), '#', '0');
+    keys.insert(path.ends_with('.') ? path : path + "=");
+  }
+  return {keys.begin(), keys.end()};
+}
+
+// How the script completes what the help calls so; empty for what cannot be guessed, as numbers.
 std::string completer(const std::string& placeholder) {
   if (placeholder == "DIR") return "_trace_path_folders";
   if (placeholder == "FILE") return "_trace_path_files";
   if (placeholder == "DECK" || placeholder == "SWEEP") return "_trace_path_decks";
   if (placeholder == "NAME")
     return "_trace_path_words '" + joined(names_of(example_decks())) + " " + joined(names_of(example_sweeps())) + "'";
+  if (placeholder == "key=value") return "_trace_path_keys '" + joined(beginnings_of_keys()) + "'";
   if (placeholder.find('|') == std::string::npos) return "";
   std::string words = placeholder;
   std::replace(words.begin(), words.end(), '|', ' ');
@@ -86,6 +101,12 @@ _trace_path_files() {
 _trace_path_decks() {
   compopt -o filenames 2>/dev/null
   mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$current"; compgen -d -- "$current")
+}
+
+# Keys of a deck, behind which no space is wanted.
+_trace_path_keys() {
+  compopt -o nospace 2>/dev/null
+  _trace_path_words "$1"
 }
 
 # Options if one has been begun; else false.

@@ -6,7 +6,7 @@
 
 #include "apps/output/load_text.hpp"
 #include "apps/output/markup.hpp"
-#include "apps/sweep/key_unit.hpp"
+#include "model/deck/key_list.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
 
@@ -76,7 +76,7 @@ std::vector<Load> loads(const Collection& collection) {
 
 // A key with the unit of what it holds.
 std::string key_title(const Collection& collection, const std::string& key) {
-  const std::string unit = unit_of_key(key, collection.deck.units);
+  const std::string unit = deck::unit_of_key(key, collection.deck.units);
   return key + (unit.empty() ? "" : " [" + unit + "]");
 }
 

@@ -1,14 +1,15 @@
 #include "model/deck/reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/text.hpp"
 #include "model/deck/cursor.hpp"
-#include "model/deck/reader_parts.hpp"
+#include "model/deck/deck_keys.hpp"
+#include "model/deck/key_list.hpp"
+#include "model/deck/key_reader.hpp"
 #include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
 
@@ -29,41 +30,28 @@ void assign_all(Value& root, const std::vector<std::string>& assignments) {
   if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
 }
 
-struct DeckPart {
-  std::string_view key, written;
-};
-
-constexpr std::array<DeckPart, 13> deck_parts{{{"title", "title"},
-                                               {"description", "description"},
-                                               {"units", "[units]"},
-                                               {"material", "[material.NAME]"},
-                                               {"section", "[section.NAME]"},
-                                               {"point", "[point]"},
-                                               {"member", "[member.NAME]"},
-                                               {"support", "[support]"},
-                                               {"load", "[[load]]"},
-                                               {"wall", "[[wall]]"},
-                                               {"contact", "[contact]"},
-                                               {"path", "[path]"},
-                                               {"monitor", "[[monitor]]"}}};
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
 
 // A part under another name leaves others without what they refer to, so this is said first.
 void report_unknown_parts(const Value& root, Findings& findings) {
-  std::vector<std::string> known;
-  std::string all;
-  for (const DeckPart& part : deck_parts) {
-    known.emplace_back(part.key);
-    all += (all.empty() ? "" : ", ") + std::string(part.written);
+  std::vector<std::string> known, all;
+  for (const DeclaredKey& part : declared_keys()) {
+    if (!part.table.empty()) continue;
+    known.push_back(part.name);
+    all.push_back(beginning(part));
   }
   for (const Value& item : root.items) {
     if (std::find(known.begin(), known.end(), item.key) != known.end()) continue;
     constexpr std::size_t longest_compared = 100;
     const std::string near = item.key.size() <= longest_compared ? nearest(item.key, known) : "";
-    const auto meant =
-        std::find_if(deck_parts.begin(), deck_parts.end(), [&](const DeckPart& part) { return part.key == near; });
+    const auto meant = std::find(known.begin(), known.end(), near) - known.begin();
     findings.add_first(
         item.key_position, key_text(item.key), in_quotes(item.key, longest_compared) + " is no part of a deck",
-        meant == deck_parts.end() ? "its parts are " + all : "did you mean " + std::string(meant->written) + "?");
+        near.empty() ? "its parts are " + joined(all) : "did you mean " + all[static_cast<std::size_t>(meant)] + "?");
   }
 }
 
@@ -72,17 +60,8 @@ Deck read_root(const Value& value, Source source) {
   Findings findings(deck.source);
   Cursor root(value, "", findings);
   const Names names = names_in(value);
-  read_labels(root, deck);
-  read_materials(root, deck);
-  read_sections(root, deck);
-  read_points(root, deck);
-  read_members(root, names, deck);
-  read_supports(root, names, deck);
-  read_loads(root, names, deck);
-  read_walls(root, names, deck);
-  read_contact(root, deck);
-  read_monitors(root, names, deck);
-  read_path(root, names, deck);
+  KeyReader reader(root, names, deck);
+  declare_keys(reader, deck);
   report_unknown_parts(value, findings);
   findings.throw_if_any();
   return deck;

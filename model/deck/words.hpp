@@ -41,19 +41,8 @@ std::vector<std::string> texts(const Words<Enum, count>& words) {
   return result;
 }
 
-enum class ShapeWord { rectangle, circle, tube, general };
-enum class ProfileWord { flat, line, circle, parabola, spline };
 enum class ImperfectionWord { sine };
 
-inline constexpr Words<ShapeWord, 4> shape_words{{{"rectangle", ShapeWord::rectangle},
-                                                  {"circle", ShapeWord::circle},
-                                                  {"tube", ShapeWord::tube},
-                                                  {"general", ShapeWord::general}}};
-inline constexpr Words<ProfileWord, 5> profile_words{{{"flat", ProfileWord::flat},
-                                                      {"line", ProfileWord::line},
-                                                      {"circle", ProfileWord::circle},
-                                                      {"parabola", ProfileWord::parabola},
-                                                      {"spline", ProfileWord::spline}}};
 inline constexpr Words<ImperfectionWord, 1> imperfection_words{{{"sine", ImperfectionWord::sine}}};
 
 inline constexpr Words<Theory, 5> theory_words{{{"classic", Theory::classic},

@@ -13,9 +13,9 @@
 #include "apps/cli/example_decks.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/deck/key_list.hpp"
 #include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
-#include "model/deck/words.hpp"
 #include "tests/fuzz/odd_numbers.hpp"
 #include "tests/model/deck/sample_decks.hpp"
 
@@ -58,17 +58,9 @@ const std::vector<Value>& base_decks() {
 // Of all choices that a deck has.
 const std::vector<std::string>& words() {
   static const std::vector<std::string> all = [] {
-    std::vector<std::string> result{"from", "to"};
-    const auto add = [&](const auto&... lists) {
-      const auto add_one = [&](const std::vector<std::string>& texts) {
-        result.insert(result.end(), texts.begin(), texts.end());
-      };
-      (add_one(deck::texts(lists)), ...);
-    };
-    add(deck::shape_words, deck::profile_words, deck::imperfection_words, deck::theory_words, deck::along_words,
-        deck::strain_words, deck::direction_words, deck::side_words, deck::acts_on_words, deck::contact_method_words,
-        deck::contact_points_words, deck::component_words, deck::path_method_words, deck::branches_words,
-        deck::events_words);
+    std::vector<std::string> result;
+    for (const deck::DeclaredKey& key : deck::declared_keys())
+      result.insert(result.end(), key.words.begin(), key.words.end());
     return result;
   }();
   return all;

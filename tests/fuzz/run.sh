@@ -15,7 +15,7 @@ targets=("$@")
 
 options_of() {
   case "$1" in
-    deck_text) echo "-max_len=4500 -dict=tests/fuzz/deck.dict" ;;
+    deck_text) echo "-max_len=4500 -dict=build/sanitize/fuzz/deck.dict" ;;
     deck_model) echo "-max_len=100" ;;
     deck_path) echo "-max_len=200" ;;
     checkpoint) echo "-max_len=6000" ;;
@@ -32,6 +32,7 @@ folder=build/sanitize
 cmake --build "$folder" --parallel 2 --target fuzz_seeds "${targets[@]/#/fuzz_}"
 mkdir -p "$folder/fuzz/findings"
 "$folder/tests/fuzz/fuzz_seeds" "$folder/fuzz/seeds"
+cat tests/fuzz/syntax.dict "$folder/fuzz/seeds/deck.dict" >"$folder/fuzz/deck.dict"
 
 # Traces of allocations and memory that is long free cost half the time; whoever repeats a finding has them.
 quick=detect_leaks=0:malloc_context_size=1:quarantine_size_mb=8:thread_local_quarantine_size_kb=256

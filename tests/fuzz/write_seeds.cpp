@@ -1,13 +1,16 @@
 // fuzz_seeds FOLDER: writes what the fuzz targets begin with into FOLDER/deck_text and FOLDER/checkpoint: the examples
-// and the sample decks of the tests, and checkpoints of short runs.
+// and the sample decks of the tests, and checkpoints of short runs; and into FOLDER/deck.dict the keys and words of a
+// deck.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <string>
 
 #include "apps/cli/example_decks.hpp"
 #include "apps/output/files.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
+#include "model/deck/key_list.hpp"
 #include "tests/fuzz/kept_runs.hpp"
 #include "tests/model/deck/sample_decks.hpp"
 
@@ -36,6 +39,35 @@ void write_checkpoints(const fs::path& folder) {
   write_whole(folder / "whole", to_checkpoint(kept_runs().front()));
 }
 
+// As libFuzzer wants it in a dictionary.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '\\';
+    result += c == '\n' ? std::string("\\x0A") : std::string(1, c);
+  }
+  return result + "\"\n";
+}
+
+void write_dictionary(const fs::path& file) {
+  using Kind = deck::DeclaredKey::Kind;
+  std::set<std::string> entries;
+  for (const deck::DeclaredKey& key : deck::declared_keys()) {
+    for (const std::string& word : key.words) entries.insert(quoted("\"" + word + "\""));
+    if (key.name == "*") continue;
+    if (key.kind == Kind::value || key.kind == Kind::inner_table) {
+      entries.insert(quoted(key.name + " = "));
+    } else if (key.kind == Kind::named_tables) {
+      entries.insert(quoted("[" + key.name + "."));
+    } else {
+      entries.insert(quoted(beginning(key) + "\n"));
+    }
+  }
+  std::string text;
+  for (const std::string& entry : entries) text += entry;
+  write_whole(file, text);
+}
+
 }  // namespace
 }  // namespace arcwall::fuzz
 
@@ -47,5 +79,6 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder(argv[1]);
   arcwall::fuzz::write_decks(folder / "deck_text");
   arcwall::fuzz::write_checkpoints(folder / "checkpoint");
+  arcwall::fuzz::write_dictionary(folder / "deck.dict");
   return 0;
 }

@@ -54,6 +54,9 @@ expect 'study' trace-path run channel.toml --out = stu
 expect 'my decks,study' trace-path run channel.toml --out =
 expect '' trace-path run channel.toml --max-points ''
 expect '--quiet' trace-path channel.toml --qu
+expect 'path.max_points=,path.max_step=' trace-path run channel.toml --set path.max
+expect 'monitor.0.at=' trace-path run channel.toml --set path.step=0.1 --set monitor.0.a
+expect 'material.' trace-path run channel.toml --set mat
 expect 'channel' trace-path examples chan
 expect 'sweep-channel' trace-path examples sw
 expect 'channel.toml,my decks,notes.txt,study' trace-path examples channel --out ''

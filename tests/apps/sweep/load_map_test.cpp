@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "apps/sweep/case_result.hpp"
-#include "apps/sweep/key_unit.hpp"
 #include "apps/sweep/map_axis.hpp"
 
 namespace arcwall::sweep::load_map_test {
@@ -96,23 +95,6 @@ TEST(LoadMap, SaysWhatItsLoadsAreTimes) {
   map.y_title = "l";
   for (MapPoint& point : map.points) point.y = 1.0;
   EXPECT_EQ(count("λ of the snap, times 2 kN</text>", svg(map)), 1u);  // the bar of colours
-}
-
-TEST(UnitOfKey, IsThatOfWhatTheKeyHolds) {
-  const deck::Units units{.length = "cm", .force = "kN"};
-  const std::pair<const char*, const char*> expected[] = {{"wall.0.profile.z", "cm"},
-                                                          {"member.column.imperfection.1.amplitude", "cm"},
-                                                          {"material.steel.E", "kN/cm²"},
-                                                          {"section.s.I", "cm⁴"},
-                                                          {"load.0.force.1", "kN"},
-                                                          {"load.0.moment", "kN cm"},
-                                                          {"load.0.distributed", "kN/cm"},
-                                                          {"point.E.0", "cm"},
-                                                          {"wall.0.profile.curvature", "1/cm"},
-                                                          {"member.column.elements", ""},
-                                                          {"path.step", ""}};
-  for (const auto& [key, unit] : expected) EXPECT_EQ(unit_of_key(key, units), unit) << key;
-  EXPECT_EQ(unit_of_key("material.steel.E", {}), "");
 }
 
 // A case that ended early has told its snap, if it had one; a limit on points may have cut it off before another.

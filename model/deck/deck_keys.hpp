@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "model/deck/deck.hpp"
+#include "model/deck/keys.hpp"
+
+/// The declarations of all keys of a deck, with the checks of what is read. Later parts look up what earlier ones have
+/// read.
+namespace arcwall::deck {
+
+void declare_keys(Keys& root, Deck& deck);
+
+// Its parts, in the order of the deck that is written.
+void declare_sections(Keys& root, Deck& deck);  ///< labels, materials, sections and points: what refers to nothing else
+void declare_members(Keys& root, Deck& deck);
+void declare_loads(Keys& root, Deck& deck);  ///< supports, too
+void declare_walls(Keys& root, Deck& deck);  ///< and the treatment of contact
+void declare_path(Keys& root, Deck& deck);   ///< and the monitors
+
+/// An array x of the keys x and z: two lists of the same length, at least 2.
+bool curve_keys(Keys& keys, std::vector<double>& x, std::vector<double>& z);
+
+/// The first of these members whose section has no height, or null.
+const Member* member_without_faces(const Deck& deck, const std::vector<const Member*>& members);
+
+}  // namespace arcwall::deck

@@ -1,0 +1,54 @@
+#include "model/deck/keys.hpp"
+
+#include "core/text.hpp"
+#include "model/deck/value.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+using Text = std::optional<std::string>;
+
+// With a point or an exponent, so that TOML takes it for a float.
+std::string float_text(double value) {
+  std::string text = round_trip(value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+// A few on a line: lines stay short however long the list is.
+template <class List, class ToText>
+std::string array_text(const List& list, ToText to_text) {
+  constexpr std::size_t most_on_a_line = 8;
+  std::string text = "[";
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i > 0) text += i % most_on_a_line == 0 ? ",\n  " : ", ";
+    text += to_text(list[i]);
+  }
+  return text + "]";
+}
+
+struct TomlText {
+  bool empty_is_none;
+
+  Text operator()(const std::optional<double>* value) const { return *value ? Text(float_text(**value)) : Text(); }
+  Text operator()(const std::optional<int>* value) const { return *value ? Text(std::to_string(**value)) : Text(); }
+  Text operator()(const bool* value) const { return *value ? "true" : "false"; }
+  Text operator()(const std::string* value) const { return in_quotes(*value); }
+  Text operator()(const Vector* value) const { return "[" + float_text(value->x) + ", " + float_text(value->z) + "]"; }
+  Text operator()(const std::vector<double>* values) const { return array_text(*values, float_text); }
+  Text operator()(const Place* value) const { return in_quotes(to_text(*value)); }
+  Text operator()(const std::optional<std::string>* word) const { return *word ? Text(in_quotes(**word)) : Text(); }
+  Text operator()(const std::vector<std::string>* texts) const {
+    if (texts->empty() && empty_is_none) return {};
+    return array_text(*texts, [](const std::string& text) { return in_quotes(text); });
+  }
+};
+
+}  // namespace
+
+Text Keys::toml_text(const Target& target, const Declared& declared) {
+  return std::visit(TomlText{declared.empty == EmptyList::refused}, target);
+}
+
+}  // namespace arcwall::deck

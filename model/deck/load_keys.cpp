@@ -1,0 +1,73 @@
+// Supports and loads.
+#include <algorithm>
+#include <string>
+
+#include "model/deck/deck_keys.hpp"
+#include "model/deck/key_reader.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+bool support_key(Keys& keys, const Key& key, Support& support, const Deck& deck) {
+  if (keys.refers(key, Named::point) && !ends_a_member(deck, support.point))
+    keys.report_key(key, "no member ends at this point", "support the end of a member");
+  keys.words(key, support.directions, direction_words, "is no direction", "the directions that are fixed");
+  return true;
+}
+
+void point_load_keys(Keys& keys, PointLoad& load) {
+  keys.place("at", load.at, "a place: load at a node, with at least one of `force` and `moment`");
+  keys.vector(optional("force"), load.force, unit::force, "`[x, z]`");
+  keys.number(optional("moment"), load.moment, unit::moment, any_number,
+              "does work on the rotation of the section, at any size");
+  keys.applies(false, "distributed", "belongs to a load on a member", "write `on` instead of `at`");
+  if (!keys.has("force") && !keys.has("moment"))
+    keys.report("force", "the load has neither force nor moment", "give at least one of them");
+}
+
+void member_load_keys(Keys& keys, MemberLoad& load) {
+  keys.name("on", load.member, Named::member, "instead of `at`: a member, with `distributed`");
+  keys.vector("distributed", load.distributed, unit::line_load, "`[x, z]`, dead, by length of the undeformed axis");
+  for (const char* key : {"force", "moment"})
+    keys.applies(false, key, "belongs to a load at a point", "write `at` instead of `on`, or give distributed");
+}
+
+void load_keys(Keys& keys, Load& load) {
+  const bool at = keys.has("at"), on = keys.has("on");
+  if (keys.reads() && at == on) {
+    keys.report(at ? "on" : "at", at ? "the load has both `at` and `on`" : "the load has neither `at` nor `on`",
+                "give `at` for a point or `on` for a member");
+    keys.give_up();
+  } else {
+    keys.alternative<PointLoad>("at", load.action, [&](PointLoad& action) { point_load_keys(keys, action); });
+    keys.alternative<MemberLoad>("on", load.action, [&](MemberLoad& action) { member_load_keys(keys, action); });
+  }
+  keys.flag(optional("constant"), load.constant, "held while λ varies, instead of multiplied by λ");
+}
+
+bool is_zero(const PointLoad& load) { return load.force == Vector{} && load.moment == 0.0; }
+bool is_zero(const MemberLoad& load) { return load.distributed == Vector{}; }
+
+bool follows_lambda(const Load& load) {
+  return !load.constant && std::visit([](const auto& action) { return !is_zero(action); }, load.action);
+}
+
+}  // namespace
+
+void declare_loads(Keys& root, Deck& deck) {
+  root.table(
+      optional("support"), Form::header,
+      [&](Keys& keys) {
+        keys.entries(deck.supports, &Support::point,
+                     [&](const Key& key, Support& support) { return support_key(keys, key, support, deck); });
+      },
+      "");
+  const bool all_right = root.tables(optional("load"), deck.loads, load_keys, "");
+  if (!all_right) return;  // what a wrong load would have been cannot be told
+  if (std::any_of(deck.loads.begin(), deck.loads.end(), follows_lambda)) return;
+  if (deck.loads.empty()) return root.report("load", "there is no load", "add a [[load]] with at and force");
+  root.report("load", "no load is multiplied by λ: all are constant or zero", "add a [[load]] that is neither");
+}
+
+}  // namespace arcwall::deck

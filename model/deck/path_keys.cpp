@@ -1,0 +1,204 @@
+// The path and the monitors.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/text.hpp"
+#include "model/deck/deck_keys.hpp"
+#include "model/deck/value.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+constexpr std::array<std::string_view, 10> reserved_names{"branch",    "step",     "arc",    "lambda",     "unstable",
+                                                          "stability", "contacts", "energy", "iterations", "event"};
+
+// --- the path -------------------------------------------------------------------------------------------------------
+
+bool bounds_key(Keys& keys, const Key& key, StopBounds& bounds) {
+  const bool known = keys.refers(key, Named::column);
+  std::vector<double> values{bounds.low, bounds.high};
+  if (!keys.numbers(key, values, unit::none, "`[low, high]`, of λ or a monitor")) return false;
+  if (values.size() != 2 || !(values[0] < values[1])) {
+    std::string found;
+    for (std::size_t i = 0; i < std::min<std::size_t>(values.size(), 3); ++i)
+      found += (i > 0 ? ", " : "") + round_trip(values[i]);
+    keys.report(key.name, "[" + found + (values.size() > 3 ? ", …" : "") + "] are no bounds",
+                "give [low, high] with low less than high");
+    return false;
+  }
+  bounds.low = values[0];
+  bounds.high = values[1];
+  return known;
+}
+
+// One word, or an array of them.
+void stop_event_key(Keys& keys, Stop& stop) {
+  const Key key = optional("event", "none");
+  const char* meaning = "the first event of this kind, or of one of an array of kinds, ends the branch";
+  if (keys.holds_array(key.name)) {
+    keys.words(key, stop.events, stop_event_words, "is not one of the words for this key", meaning);
+  } else {
+    StopEvent event{};
+    if (keys.word(key, event, stop_event_words, meaning)) stop.events.push_back(event);
+  }
+}
+
+void stop_keys(Keys& keys, Stop& stop) {
+  keys.entries(stop.bounds, &StopBounds::name,
+               [&](const Key& key, StopBounds& bounds) { return bounds_key(keys, key, bounds); },
+               {"contacts", "event"});
+  keys.integer(
+      optional("contacts", "none"), stop.contacts, {.low = 1},
+      "ends the branch at the change of contact that leaves at least so many closed, counted as in `path.csv`");
+  stop_event_key(keys, stop);
+}
+
+// Events that are not looked for end nothing.
+void check_stop_events(Keys& keys, const Path& path) {
+  for (const StopEvent event : path.stop.events) {
+    const std::string name = text_of(stop_event_words, event);
+    if (path.events == Events::none)
+      keys.report("stop", "event = " + in_quotes(name) + " never happens with events = \"none\"",
+                  "leave out events, or write events = \"detect\"");
+    else if (event == StopEvent::displacement_limit && path.watch.empty())
+      keys.report("stop", "event = " + in_quotes(name) + " never happens: no monitor is watched",
+                  "add watch = [\"MONITOR\"] to [path]");
+  }
+}
+
+void control_keys(Keys& keys, Control& control) {
+  keys.place("at", control.at, "a place");
+  keys.word("component", control.component, control_words, "");
+}
+
+void step_keys(Keys& keys, Path& path) {
+  keys.number(optional("step"), path.step, unit::none, not_zero,
+              "increment of λ of the first predictor; its sign is the direction");
+  const bool min =
+      keys.number(optional("min_step"), path.min_step, unit::none, positive, "arc length below which the branch ends");
+  const bool max =
+      keys.number(optional("max_step"), path.max_step, unit::none, positive, "greatest arc length of a step");
+  const bool both_right = min == keys.has("min_step") && max == keys.has("max_step");
+  if (both_right && path.max_step < path.min_step)
+    keys.report(keys.has("max_step") ? "max_step" : "min_step",
+                "max_step = " + round_trip(path.max_step) + " is less than min_step = " + round_trip(path.min_step),
+                "make max_step at least min_step");
+  keys.integer(optional("max_points"), path.max_points, {.low = 1}, "then the run ends with status 6");
+}
+
+void check_method(Keys& keys, const Path& path, bool lands_on_lambda) {
+  if (path.method == PathMethod::displacement && !keys.has("control"))
+    keys.report("control", "is missing: method displacement needs it",
+                "add control = { at = \"MEMBER:0.5\", component = \"z\" }");
+  if (path.method == PathMethod::incremental && !lands_on_lambda)
+    keys.report("land", "lambda is missing: method incremental takes its increments from it",
+                "add land = { lambda = [...] }");
+}
+
+void path_keys(Keys& keys, Path& path) {
+  path.position = keys.position();
+  keys.word(
+      optional("method"), path.method, path_method_words,
+      "`\"load\"`, `\"displacement\"`, `\"riks\"` (fixed normal plane), `\"normal-plane\"` (updated), "
+      "`\"cylindrical\"`, `\"spherical\"` (both after Crisfield), `\"pseudo-arclength\"`. `\"incremental\"`: load "
+      "increments without iteration through `land.lambda`, subdivided to at most `step`; results depend on them "
+      "(theory.md, section 10)");
+  bool lands_on_lambda = false;
+  keys.table(
+      optional("land", "none"), Form::dotted,
+      [&](Keys& land) {
+        lands_on_lambda = land.has("lambda");
+        land.entries(path.land, &Landing::name, [&](const Key& key, Landing& landing) {
+          const bool known = land.refers(key, Named::column);
+          return land.numbers(key, landing.values, unit::none, "") && known;
+        });
+      },
+      "values to land on, each of which is a point of `path.csv`: `{ lambda = [0.4], mid = [-0.05] }`");
+  keys.part("control", path.control, [&](Control& control) {
+    keys.table(
+        optional("control", "none"), Form::dotted, [&](Keys& of) { control_keys(of, control); },
+        "of `\"displacement\"`; the component is `\"x\"`, `\"z\"` or `\"rotation\"`");
+  });
+  step_keys(keys, path);
+  keys.word(optional("branches"), path.branches, branches_words,
+            "what is done where several ways go on: `\"primary\"`, `\"follow\"` or `\"all\"`, see below");
+  keys.integer(optional("depth"), path.depth, {}, "of `\"all\"`: branches of branches");
+  keys.names(optional("watch", "none"), path.watch, Named::monitor, EmptyList::means_none,
+             "monitors whose turning points are events (`displacement-limit`)");
+  keys.word(
+      optional("events"), path.events, events_words,
+      "`\"locate\"`: limit points and turning points become points of the path; `\"detect\"`: reported at the end "
+      "of the step that holds them; `\"none\"`: not looked for. Changes of contact are landed on always");
+  keys.table(
+      optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
+  check_method(keys, path, lands_on_lambda);
+  check_stop_events(keys, path);
+}
+
+// --- monitors -------------------------------------------------------------------------------------------------------
+
+void name_key(Keys& keys, const Deck& deck, Monitor& monitor) {
+  if (!keys.text("name", monitor.name,
+                 "not one of `branch`, `step`, `arc`, `lambda`, `unstable`, `stability`, `contacts`, `energy`, "
+                 "`iterations`, `event`"))
+    return;
+  const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), monitor.name) != reserved_names.end();
+  if (!is_name(monitor.name)) {
+    keys.report("name", in_quotes(monitor.name, 60) + " is no name", "use letters, digits, _ and - only");
+  } else if (reserved) {
+    keys.report("name", in_quotes(monitor.name) + " is the name of another column of path.csv", "choose another name");
+  } else if (find(deck.monitors, monitor.name) != nullptr) {
+    keys.report("name", in_quotes(monitor.name) + " is the name of another monitor", "give each monitor its own");
+  }
+}
+
+// The members that have a node at that place.
+std::vector<const Member*> members_at(const Deck& deck, const Place& place) {
+  std::vector<const Member*> members;
+  for (const Member& member : deck.members) {
+    const bool ends_there = member.from == place.name || member.to == place.name;
+    if (place.fraction ? member.name == place.name : ends_there) members.push_back(&member);
+  }
+  return members;
+}
+
+void check_face(Keys& keys, const Deck& deck, const Monitor& monitor) {
+  if (monitor.component != Component::face_above_z && monitor.component != Component::face_below_z) return;
+  const Member* without = member_without_faces(deck, members_at(deck, monitor.at));
+  if (without == nullptr) return;
+  keys.report("component", "section " + without->section + " of member " + without->name + " has no height, so no face",
+              "give the section a height, or monitor \"z\"");
+}
+
+void monitor_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
+  name_key(keys, deck, monitor);
+  const bool at = keys.place("at", monitor.at, "a place");
+  const bool component = keys.word("component", monitor.component, component_words, "see below");
+  if (at && component) check_face(keys, deck, monitor);
+  if (keys.integer(optional("sign"), monitor.sign, {.low = -1, .high = 1}, "1 or −1, multiplies the column") &&
+      monitor.sign == 0)
+    keys.report("sign", "0 is out of range", "give 1 or -1");
+}
+
+}  // namespace
+
+void declare_path(Keys& root, Deck& deck) {
+  root.table(
+      optional("path"), Form::header, [&](Keys& keys) { path_keys(keys, deck.path); }, "");
+  const auto keys_of_monitor = [&](Keys& keys, Monitor& monitor) { monitor_keys(keys, monitor, deck); };
+  root.tables(optional("monitor"), deck.monitors, keys_of_monitor, "");
+}
+
+void declare_keys(Keys& root, Deck& deck) {
+  declare_sections(root, deck);
+  declare_members(root, deck);
+  declare_loads(root, deck);
+  declare_walls(root, deck);
+  declare_path(root, deck);
+}
+
+}  // namespace arcwall::deck

@@ -1,0 +1,75 @@
+// Labels, materials, sections and points: what refers to nothing else.
+#include "core/text.hpp"
+#include "model/deck/deck_keys.hpp"
+#include "model/deck/value.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+constexpr Requirement poisson_ratio{[](double v) { return v > -1.0 && v < 0.5; },
+                                    "a number greater than -1 and less than 0.5"};
+
+void unit_keys(Keys& keys, Units& units) {
+  keys.text("length", units.length, "a label, e.g. `\"cm\"`");
+  keys.text("force", units.force, "a label, e.g. `\"kN\"`");
+}
+
+void material_keys(Keys& keys, Material& material) {
+  keys.number("E", material.E, unit::stress, positive, "Young's modulus, > 0");
+  keys.number(optional("nu", "none"), material.nu, unit::none, poisson_ratio,
+              "Poisson's ratio, in (−1, ½); needed by the theories `\"exact\"` and `\"essenburg\"`: G = E/(2(1 + ν))");
+}
+
+void tube_keys(Keys& keys, Tube& tube) {
+  const bool radius = keys.number("radius", tube.radius, unit::length, positive, "outer");
+  const bool thickness = keys.number("thickness", tube.thickness, unit::length, positive, "at most the radius");
+  if (radius && thickness && tube.thickness > tube.radius)
+    keys.report("thickness", round_trip(tube.thickness) + " is more than the outer radius " + round_trip(tube.radius),
+                "give at most the outer radius");
+}
+
+void section_keys(Keys& keys, Section& section) {
+  const Option<Rectangle> rectangle{"rectangle", "", [&](Rectangle& shape) {
+                                      keys.number("width", shape.width, unit::length, positive, "along y");
+                                      keys.number("height", shape.height, unit::length, positive, "along z");
+                                    }};
+  const Option<Circle> circle{"circle", "",
+                              [&](Circle& shape) { keys.number("radius", shape.radius, unit::length, positive, ""); }};
+  const Option<Tube> tube{"tube", "", [&](Tube& shape) { tube_keys(keys, shape); }};
+  const Option<General> general{
+      "general", "", [&](General& shape) {
+        keys.number("A", shape.A, unit::area, positive, "area");
+        keys.number("I", shape.I, unit::second_moment, positive, "second moment of area about y");
+        keys.number(optional("shear_area"), shape.shear_area, unit::area, positive, "");
+        keys.number(optional("height"), shape.height, unit::length, positive, "between the faces");
+      }};
+  keys.one_of("shape", section.shape, "one of the following", rectangle, circle, tube, general);
+  keys.number(optional("shear_correction", "by theory"), section.shear_correction, unit::none, positive,
+              "factor on the shear stiffness, see below");
+}
+
+bool point_key(Keys& keys, const Key& key, Point& point) {
+  if (!is_name(key.name)) keys.report_key(key, "is no name", "use letters, digits, _ and - only");
+  return keys.vector(key, point.at, unit::length, "`[x, z]`");
+}
+
+}  // namespace
+
+void declare_sections(Keys& root, Deck& deck) {
+  root.text("title", deck.title, "text");
+  root.text(optional("description"), deck.description, "text");
+  root.table(
+      optional("units"), Form::header, [&](Keys& keys) { unit_keys(keys, deck.units); }, "labels of outputs");
+  root.named_tables(optional("material"), deck.materials, material_keys, "");
+  root.named_tables(optional("section"), deck.sections, section_keys, "");
+  root.table(
+      "point", Form::header,
+      [&](Keys& keys) {
+        keys.entries(deck.points, &Point::name,
+                     [&](const Key& key, Point& point) { return point_key(keys, key, point); });
+      },
+      "");
+}
+
+}  // namespace arcwall::deck

@@ -1,0 +1,121 @@
+// Walls and the treatment of contact.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/text.hpp"
+#include "model/deck/deck_keys.hpp"
+#include "model/deck/value.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+void spline_keys(Keys& keys, SplineProfile& profile) {
+  if (!curve_keys(keys, profile.x, profile.z)) return;
+  for (std::size_t i = 1; i < profile.x.size(); ++i) {
+    if (profile.x[i] > profile.x[i - 1]) continue;
+    return keys.report("x", round_trip(profile.x[i]) + " follows " + round_trip(profile.x[i - 1]),
+                       "give x in increasing order");
+  }
+  // Between such points slopes are quotients of what is lost in the digits of the whole.
+  constexpr double least_step = 1e-9;
+  for (std::size_t i = 1; i < profile.x.size(); ++i) {
+    if (profile.x[i] - profile.x[i - 1] > least_step * (profile.x.back() - profile.x.front())) continue;
+    return keys.report("x",
+                       round_trip(profile.x[i]) + " and " + round_trip(profile.x[i - 1]) +
+                           " are the same to 9 digits of the wall's length",
+                       "remove one of them");
+  }
+}
+
+void profile_keys(Keys& keys, Wall& wall) {
+  const Option<FlatProfile> flat{
+      "flat", "z", [&](FlatProfile& profile) { keys.number("z", profile.z, unit::length, any_number, ""); }};
+  const Option<LineProfile> line{"line", "z + slope·x", [&](LineProfile& profile) {
+                                   keys.number("z", profile.z, unit::length, any_number, "");
+                                   keys.number("slope", profile.slope, unit::none, any_number, "");
+                                 }};
+  const Option<CircleProfile> circle{"circle", "the upper arc for `\"below\"`, the lower one for `\"above\"`",
+                                     [&](CircleProfile& profile) {
+                                       keys.vector("centre", profile.centre, unit::length, "");
+                                       keys.number("radius", profile.radius, unit::length, positive, "");
+                                     }};
+  const Option<ParabolaProfile> parabola{"parabola", "apex.z + ½ curvature (x − apex.x)²",
+                                         [&](ParabolaProfile& profile) {
+                                           keys.vector("apex", profile.apex, unit::length, "");
+                                           keys.number("curvature", profile.curvature, unit::curvature, any_number, "");
+                                         }};
+  const Option<SplineProfile> spline{
+      "spline", "interpolating cubic; x strictly increasing, at least 2 points; \"not a knot\" ends",
+      [&](SplineProfile& profile) { spline_keys(keys, profile); }};
+  keys.one_of("type", wall.profile, "ψ", flat, line, circle, parabola, spline);
+}
+
+void name_key(Keys& keys, const Deck& deck, Wall& wall) {
+  if (!keys.text("name", wall.name, "its name in the events")) return;
+  if (!is_name(wall.name)) {
+    keys.report("name", in_quotes(wall.name, 60) + " is no name", "use letters, digits, _ and - only");
+  } else if (find(deck.walls, wall.name) != nullptr) {
+    keys.report("name", in_quotes(wall.name) + " is the name of another wall", "give each wall its own");
+  }
+}
+
+void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
+  std::vector<const Member*> members;
+  for (const Member& member : deck.members) {
+    const bool named = std::find(wall.members.begin(), wall.members.end(), member.name) != wall.members.end();
+    if (wall.members.empty() || named) members.push_back(&member);
+  }
+  const Member* without = member_without_faces(deck, members);
+  if (wall.acts_on == ActsOn::axis || without == nullptr) return;
+  keys.report(
+      "acts_on",
+      "the wall acts on faces, but section " + without->section + " of member " + without->name + " has no height",
+      "give the section a height, or write acts_on = \"axis\"");
+}
+
+void wall_keys(Keys& keys, Wall& wall, const Deck& deck) {
+  name_key(keys, deck, wall);
+  keys.word("side", wall.side, side_words,
+            "`\"above\"`: the structure stays below it; `\"below\"`: the structure stays above it");
+  keys.word(optional("acts_on"), wall.acts_on, acts_on_words,
+            "`\"face\"`: of the two faces of the section that which, stress-free, looks at the wall (both where the "
+            "section stands upright); `\"axis\"`: the centreline. Trusses have no faces that turn");
+  keys.names(optional("members", "all"), wall.members, Named::member, EmptyList::refused, "names");
+  keys.table(
+      "profile", Form::dotted, [&](Keys& of) { profile_keys(of, wall); }, "one of the following");
+  check_faces(keys, deck, wall);
+}
+
+void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
+  keys.word(optional("method"), contact.method, contact_method_words,
+            "no penetration at all; `\"penalty\"`: springs of stiffness `penalty`, which act in compression; "
+            "`\"augmented\"`: no penetration, with springs beside the forces (theory.md, section 7.4)");
+  keys.word(optional("points", "by theory"), contact.points, contact_points_words,
+            "`\"sliding\"`: contact is where it is, and moves along the members; `\"nodes\"`: contact is looked for at "
+            "the nodes of the mesh, as springs always are");
+  // A default that depends on other keys is a comment: who reads the deck sees it, and it goes with the keys.
+  if (keys.writes() && !contact.points && !deck.walls.empty()) {
+    const PointsOfContact found = points_of_contact(deck);
+    keys.comment("points = " + in_quotes(text_of(contact_points_words, found.points)) + ": " + found.why);
+  }
+  keys.number(optional("penalty", "none"), contact.penalty, unit::stress, positive,
+              "stiffness 1/μ: force per length of axis and of gap; > 0, required by `\"penalty\"` and `\"augmented\"`");
+  keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,
+              "of `\"augmented\"`: gaps of closed contacts end far below, at round-off");
+  if (contact.method != ContactMethod::multiplier && !keys.has("penalty"))
+    keys.report("penalty", "is missing: method " + text_of(contact_method_words, contact.method) + " needs it",
+                "add penalty, a number greater than 0");
+}
+
+}  // namespace
+
+void declare_walls(Keys& root, Deck& deck) {
+  const auto keys_of_wall = [&](Keys& keys, Wall& wall) { wall_keys(keys, wall, deck); };
+  root.tables(optional("wall"), deck.walls, keys_of_wall, "");
+  root.table(
+      optional("contact"), Form::header, [&](Keys& keys) { contact_keys(keys, deck, deck.contact); }, "");
+}
+
+}  // namespace arcwall::deck
