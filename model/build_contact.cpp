@@ -15,7 +15,7 @@ namespace {
 // that stands across it.
 std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
   if (wall.acts_on == deck::ActsOn::axis) return {0.0};
-  const double up = std::cos(section.shape.angle) * (wall.side == deck::Side::above ? 1.0 : -1.0);
+  const double up = std::cos(section.shape.angle) * (wall.side == Side::above ? 1.0 : -1.0);
   const double half = 0.5 * mesh.height.value();
   constexpr double level = 1e-9;
   if (std::abs(up) <= level) return {half, -half};
@@ -32,14 +32,12 @@ struct Penetration {
 std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
   const std::string apart = "move the wall or the member apart";
   if (!found.everywhere) return apart;
-  const bool above = wall.side == deck::Side::above;
+  const bool above = wall.side == Side::above;
   return fmt::format("side = \"{}\" means that the structure stays {} the wall: is \"{}\" meant? Else {}",
                      above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
 }
 
 }  // namespace
-
-Side side_of(const deck::Wall& wall) { return wall.side == deck::Side::above ? Side::above : Side::below; }
 
 std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
   struct Maker {
@@ -54,7 +52,7 @@ std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
     }
     std::unique_ptr<Profile> operator()(const deck::SplineProfile& p) const { return spline_profile(p.x, p.z); }
   };
-  return std::visit(Maker{side_of(wall)}, wall.profile);
+  return std::visit(Maker{wall.side}, wall.profile);
 }
 
 bool concerns(const deck::Wall& wall, const std::string& member) {
@@ -65,7 +63,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   std::vector<Candidate> candidates;
   const State rest{.x = Vector::Zero(structure.size({}))};
   for (const deck::Wall& wall : deck.walls) {
-    const Side side = side_of(wall);
+    const Side side = wall.side;
     const std::shared_ptr<const Profile> profile = profile_of(wall);
     std::vector<std::pair<Index, Vec2>> taken;  // node and place: members that meet share a point
     Penetration deepest;
@@ -117,7 +115,7 @@ std::vector<SlidingObstacle> obstacles(const deck::Deck& deck, const SlidingStru
   for (const deck::Wall& wall : deck.walls) {
     SlidingObstacle obstacle{.name = wall.name,
                              .profile = profile_of(wall),
-                             .side = side_of(wall),
+                             .side = wall.side,
                              .on_face = wall.acts_on == deck::ActsOn::face};
     for (Index strand = 0; strand < structure.strands(); ++strand)
       obstacle.strands.push_back(concerns(wall, structure.label({.strand = strand, .s = 0.0}).first) ? 1 : 0);

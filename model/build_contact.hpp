@@ -11,8 +11,7 @@
 
 namespace arcwall {
 
-/// Where a wall is, and its surface.
-Side side_of(const deck::Wall& wall);
+/// The surface of a wall.
 std::unique_ptr<Profile> profile_of(const deck::Wall& wall);
 
 /// Whether a wall stands in the way of a member.

@@ -190,40 +190,6 @@ PathMethod path_method(deck::PathMethod method) {
   return PathMethod::spherical;
 }
 
-EventSearch event_search(deck::Events events) {
-  switch (events) {
-    case deck::Events::locate:
-      return EventSearch::locate;
-    case deck::Events::detect:
-      return EventSearch::detect;
-    case deck::Events::none:
-      return EventSearch::none;
-  }
-  return EventSearch::locate;
-}
-
-EventKind kind_of_stop(deck::StopEvent event) {
-  switch (event) {
-    case deck::StopEvent::contact_closes:
-      return EventKind::contact_closes;
-    case deck::StopEvent::contact_opens:
-      return EventKind::contact_opens;
-    case deck::StopEvent::contact_spreads:
-      return EventKind::contact_spreads;
-    case deck::StopEvent::contact_gathers:
-      return EventKind::contact_gathers;
-    case deck::StopEvent::limit_point:
-      return EventKind::limit_point;
-    case deck::StopEvent::contact_limit_point:
-      return EventKind::contact_limit_point;
-    case deck::StopEvent::displacement_limit:
-      return EventKind::displacement_limit;
-    case deck::StopEvent::branch_point:
-      return EventKind::branch_point;
-  }
-  return EventKind::limit_point;
-}
-
 }  // namespace
 
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& body, DeckProblems& problems) {
@@ -269,12 +235,12 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& body, const s
   const deck::Path& path = deck.path;
   TraceOptions options;
   options.method = path_method(path.method);
-  options.events = event_search(path.events);
+  options.events = path.events;
   options.step.first = path.step;
   options.step.min = path.min_step;
   options.step.max = path.max_step;
   options.max_points = path.max_points;
-  options.stay = path.branches != deck::Branches::follow;
+  options.stay = path.branches != BranchPolicy::follow;
   if (path.control) {
     options.control = observable(body, path.control->at, path.control->component);
     if (!options.control)
@@ -299,9 +265,8 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& body, const s
     mark(bounds.name, bounds.high, true);
   }
   if (path.stop.contacts) options.stop_contacts = *path.stop.contacts;
-  for (const deck::StopEvent event : path.stop.events)
-    options.stop_events.push_back(
-        {.kind = kind_of_stop(event), .label = "event = " + text_of(deck::stop_event_words, event)});
+  for (const EventKind event : path.stop.events)
+    options.stop_events.push_back({.kind = event, .label = "event = " + deck::text_of(deck::stop_event_words, event)});
   return options;
 }
 

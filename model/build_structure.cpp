@@ -30,44 +30,6 @@ std::unique_ptr<Axis> make_axis(const deck::Member& member, const Vec2& from, co
   return std::visit(Maker{from, to}, member.axis);
 }
 
-Theory theory_of(const deck::Member& member) {
-  switch (member.theory) {
-    case deck::Theory::classic:
-      return Theory::classic;
-    case deck::Theory::elastica:
-      return Theory::elastica;
-    case deck::Theory::exact:
-      return Theory::exact;
-    case deck::Theory::essenburg:
-      return Theory::essenburg;
-    case deck::Theory::truss:
-      return Theory::truss;
-  }
-  return Theory::classic;
-}
-
-QuadraticTerm quadratic_term(deck::Along along) {
-  switch (along) {
-    case deck::Along::fixed:
-      return QuadraticTerm::fixed;
-    case deck::Along::director:
-      return QuadraticTerm::director;
-  }
-  return QuadraticTerm::fixed;
-}
-
-TrussStrain strain_of(deck::Strain strain) {
-  switch (strain) {
-    case deck::Strain::green:
-      return TrussStrain::green;
-    case deck::Strain::engineering:
-      return TrussStrain::engineering;
-    case deck::Strain::log:
-      return TrussStrain::log;
-  }
-  return TrussStrain::green;
-}
-
 // Shear area over area of the exact theory: Cowper's (1966) for no lateral contraction, of which 5/6 for the rectangle
 // is the best known. A ring of the radii's ratio m has 6 (1 + m²)² / (7 (1 + m²)² + 20 m²): 6/7 for a circle, ½ for a
 // thin tube. A general section counts as a rectangle.
@@ -102,8 +64,8 @@ Section section_of(const deck::Deck& deck, const deck::Member& member) {
   const deck::Material& material = *deck::find(deck.materials, member.material);
   const deck::SectionProperties properties = deck::properties(described);
   Section section{.E = material.E, .A = properties.A, .I = properties.I, .height = properties.height};
-  const bool essenburg = member.theory == deck::Theory::essenburg;
-  if (member.theory != deck::Theory::exact && !essenburg) return section;
+  const bool essenburg = member.theory == Theory::essenburg;
+  if (member.theory != Theory::exact && !essenburg) return section;
   section.G = material.E / (2.0 * (1.0 + material.nu.value()));
   if (essenburg) {
     section.shear_area = described.shear_correction.value_or(1.0) * properties.A;
@@ -146,8 +108,8 @@ void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const 
                       DeckProblems& problems) {
   const double h = description.axis->length() / member.elements;
   const double EA = description.section.EA();
-  const double EI = member.theory == deck::Theory::truss ? EA * h * h : description.section.EI();
-  const bool shears = member.theory == deck::Theory::exact || member.theory == deck::Theory::essenburg;
+  const double EI = member.theory == Theory::truss ? EA * h * h : description.section.EI();
+  const bool shears = member.theory == Theory::exact || member.theory == Theory::essenburg;
   const double GA = shears ? description.section.GA() : EA;
   const auto far = [&](const std::string& name) {
     const deck::Vector& at = deck::find(deck.points, name)->at;
@@ -170,14 +132,14 @@ void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const 
 // As told, or with another number of elements, which is to find out what moves without strain.
 MemberDescription description_of(const deck::Deck& deck, const deck::Member& member, std::optional<int> elements,
                                  const StructureOfDeck& out) {
-  const Theory theory = theory_of(member);
+  const Theory theory = member.theory;
   MemberDescription description{.name = member.name,
                                 .from = out.places.joints.at(member.from),
                                 .to = out.places.joints.at(member.to),
                                 .theory = theory,
                                 .order = member.order.value_or(2),
-                                .quadratic = quadratic_term(member.along),
-                                .strain = strain_of(member.strain),
+                                .quadratic = member.along,
+                                .strain = member.strain,
                                 .section = section_of(deck, member),
                                 .elements = elements.value_or(member.elements),
                                 .hinge_from = member.hinge_from,
@@ -210,15 +172,14 @@ void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<i
           member.position, "member." + member.name + ".elements",
           fmt::format("a truss of {} elements is a chain of hinges that can move without strain", member.elements),
           "use elements = 1, or theory = \"classic\"");
-    if (theory_of(member) == Theory::essenburg) check_curvature(member, descriptions[i], problems);
+    if (member.theory == Theory::essenburg) check_curvature(member, descriptions[i], problems);
     out.places.members[member.name] = out.builder.add_member(std::move(descriptions[i]));
   }
 }
 
-void fix_thickness(const deck::Support& support, deck::Direction direction, DeckProblems& problems,
-                   StructureOfDeck& out) {
+void fix_thickness(const deck::Support& support, Freedom direction, DeckProblems& problems, StructureOfDeck& out) {
   const std::vector<ThicknessFreedoms> ends = out.builder.thickness(out.places.joints.at(support.point));
-  for (const ThicknessFreedoms& end : ends) out.builder.fix(direction == deck::Direction::thickness ? end.e : end.xi);
+  for (const ThicknessFreedoms& end : ends) out.builder.fix(direction == Freedom::thickness ? end.e : end.xi);
   if (ends.empty())
     problems.add(support.position, "support." + support.point,
                  "no member of theory \"essenburg\" ends at \"" + support.point + "\": there is no thickness to fix",
@@ -227,16 +188,16 @@ void fix_thickness(const deck::Support& support, deck::Direction direction, Deck
 
 void add_support(const deck::Support& support, DeckProblems& problems, StructureOfDeck& out) {
   const Index joint = out.places.joints.at(support.point);
-  for (const deck::Direction direction : support.directions) {
+  for (const Freedom direction : support.directions) {
     const std::string key = "support." + support.point;
     switch (direction) {
-      case deck::Direction::x:
+      case Freedom::x:
         out.builder.fix(out.builder.freedom(joint, Freedom::x));
         break;
-      case deck::Direction::z:
+      case Freedom::z:
         out.builder.fix(out.builder.freedom(joint, Freedom::z));
         break;
-      case deck::Direction::rotation:
+      case Freedom::rotation:
         if (const auto rotation = out.builder.shared_rotation(joint)) {
           out.builder.fix(*rotation);
         } else {
@@ -244,8 +205,8 @@ void add_support(const deck::Support& support, DeckProblems& problems, Structure
                        "leave out \"rotation\", or join a beam there without a hinge");
         }
         break;
-      case deck::Direction::thickness:
-      case deck::Direction::thickness2:
+      case Freedom::thickness:
+      case Freedom::thickness2:
         fix_thickness(support, direction, problems, out);
         break;
     }

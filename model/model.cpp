@@ -27,36 +27,12 @@ bool moves_something(const Structure& structure) {
   return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
 }
 
-BranchPolicy policy_of(deck::Branches branches) {
-  switch (branches) {
-    case deck::Branches::primary:
-      return BranchPolicy::primary;
-    case deck::Branches::follow:
-      return BranchPolicy::follow;
-    case deck::Branches::all:
-      return BranchPolicy::all;
-  }
-  return BranchPolicy::follow;
-}
-
-ContactLaw contact_law(const deck::Contact& contact) {
-  switch (contact.method) {
-    case deck::ContactMethod::multiplier:
-      return {};
-    case deck::ContactMethod::penalty:
-      return {.method = ContactLaw::Method::penalty, .stiffness = contact.penalty.value()};
-    case deck::ContactMethod::augmented:
-      return {.method = ContactLaw::Method::augmented, .stiffness = contact.penalty.value()};
-  }
-  return {};
-}
-
 bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
 
 // Whether contact points slide, which springs, increments and members of other theories do not allow.
 bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblems& problems) {
   if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
-  const bool rigid = deck.contact.method == deck::ContactMethod::multiplier;
+  const bool rigid = deck.contact.method == ContactLaw::Method::rigid;
   if (rigid && !increments_of(deck) && builder.can_slide()) return true;
   problems.add({}, "contact.points",
                "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
@@ -113,7 +89,7 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   if (!deck_.walls.empty()) {
     const ContactScales scales = contact_scales(*structure_, deck_.path.step);
     const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
-    const ContactLaw law = contact_law(deck_.contact);
+    const ContactLaw law{.method = deck_.contact.method, .stiffness = deck_.contact.penalty.value_or(0.0)};
     contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
     if (ramp)
       ramp_contact_ = std::make_unique<MultiplierContact>(
@@ -122,7 +98,7 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   }
   for (const std::string& name : deck_.path.watch)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
-  explore_.policy = policy_of(deck_.path.branches);
+  explore_.policy = deck_.path.branches;
   explore_.depth = deck_.path.depth;
   for (const MonitorColumn& monitor : monitors_) explore_.preference.push_back(monitor.raw);
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };

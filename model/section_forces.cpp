@@ -14,23 +14,23 @@ struct ElementNode {
   double angle = 0.0;  // of the section's normal
 };
 
-bool flexible_in_shear(deck::Theory theory) {
+bool flexible_in_shear(Theory theory) {
   switch (theory) {
-    case deck::Theory::exact:
-    case deck::Theory::essenburg:
+    case Theory::exact:
+    case Theory::essenburg:
       return true;
-    case deck::Theory::classic:
-    case deck::Theory::elastica:
-    case deck::Theory::truss:
+    case Theory::classic:
+    case Theory::elastica:
+    case Theory::truss:
       return false;
   }
   return false;
 }
 
 // The axis between two nodes, and its angle against the sections: shear is constant between them. A bar is straight.
-std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNode& b, deck::Theory theory) {
+std::pair<AxisCurve, double> axis_between(const ElementNode& a, const ElementNode& b, Theory theory) {
   const double angle = mean_of(a.angle, b.angle), chord = angle_near(b.position - a.position, angle);
-  if (theory == deck::Theory::truss) return {{a.position, b.position, chord, chord}, 0.0};
+  if (theory == Theory::truss) return {{a.position, b.position, chord, chord}, 0.0};
   const double shear = flexible_in_shear(theory) ? chord - angle : 0.0;
   return {{a.position, b.position, a.angle + shear, b.angle + shear}, shear};
 }
@@ -82,10 +82,10 @@ Index first_element(const Structure& structure, std::size_t member) {
 void add_stretches(const TiedMember& member, int k, const State& state, std::vector<MemberStretch>& to) {
   const Structure& structure = member.structure;
   const MemberMesh& mesh = structure.members()[member.member];
-  const deck::Theory theory = member.theory;
+  const Theory theory = member.theory;
   const ElementNodes nodes = element_nodes(structure, mesh, static_cast<std::size_t>(k), state);
   const Index e = first_element(structure, member.member) + k;
-  const Vector f = element_forces(structure, e, state, theory != deck::Theory::truss);
+  const Vector f = element_forces(structure, e, state, theory != Theory::truss);
   const std::size_t stretches = nodes.now.size() - 1;
   const auto stride = f.size() / static_cast<Index>(nodes.now.size());
   Vec2 load = Vec2::Zero();

@@ -13,7 +13,7 @@ namespace arcwall {
 struct TiedMember {
   const Structure& structure;
   std::size_t member = 0;
-  deck::Theory theory = deck::Theory::classic;
+  Theory theory = Theory::classic;
 
   int elements() const { return static_cast<int>(structure.members()[member].nodes.size()) - 1; }
 };

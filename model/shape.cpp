@@ -147,7 +147,7 @@ std::vector<WallShape> wall_shapes(const Model& model) {
     const auto first = std::find_if(line.begin(), line.end(), inside);
     const auto last = std::find_if(line.rbegin(), line.rend(), inside).base();
     walls.push_back({.name = wall.name,
-                     .side = side_of(wall),
+                     .side = wall.side,
                      .line = first == line.end() || last - first < 2 ? line : std::vector<Vec2>(first, last)});
   }
   return walls;

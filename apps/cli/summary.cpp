@@ -55,19 +55,19 @@ void add_model(const Model& model, Lines& lines) {
   lines.add("nodes", std::to_string(model.structure().node_count()));
   lines.add("unknowns", std::to_string(model.structure().size({})));
   for (const deck::Member& member : deck.members)
-    lines.add("members", fmt::format("{}: {}, {} {}", member.name, text_of(deck::theory_words, member.theory),
+    lines.add("members", fmt::format("{}: {}, {} {}", member.name, deck::text_of(deck::theory_words, member.theory),
                                      member.elements, member.elements == 1 ? "element" : "elements"));
   for (const deck::Support& support : deck.supports) {
     std::vector<std::string> directions;
-    for (const deck::Direction direction : support.directions)
-      directions.push_back(text_of(deck::direction_words, direction));
+    for (const Freedom direction : support.directions)
+      directions.push_back(deck::text_of(deck::direction_words, direction));
     lines.add("supports", fmt::format("{}: {}", support.point, fmt::join(directions, ", ")));
   }
   for (const deck::Load& load : deck.loads) {
     lines.add("loads", load_text(load, deck.units).text + (load.constant ? ", constant" : ", times λ"));
   }
   for (const deck::Wall& wall : deck.walls)
-    lines.add("walls", fmt::format("{}: {} the structure, {}", wall.name, text_of(deck::side_words, wall.side),
+    lines.add("walls", fmt::format("{}: {} the structure, {}", wall.name, deck::text_of(deck::side_words, wall.side),
                                    first_gap(model, wall)));
 }
 
@@ -87,17 +87,17 @@ void add_contact(const deck::Deck& deck, Lines& lines) {
 }
 
 void add_path(const deck::Deck& deck, Lines& lines) {
-  lines.add("path",
-            fmt::format("{}, first step {:.6g} of λ, at most {} points",
-                        text_of(deck::path_method_words, deck.path.method), deck.path.step, deck.path.max_points));
+  lines.add("path", fmt::format("{}, first step {:.6g} of λ, at most {} points",
+                                deck::text_of(deck::path_method_words, deck.path.method), deck.path.step,
+                                deck.path.max_points));
   for (const deck::StopBounds& bounds : deck.path.stop.bounds)
     lines.add("stops", fmt::format("{} at {:.6g} and {:.6g}", bounds.name, bounds.low, bounds.high));
-  for (const deck::StopEvent event : deck.path.stop.events)
-    lines.add("stops", "at the first " + text_of(deck::stop_event_words, event));
+  for (const EventKind event : deck.path.stop.events)
+    lines.add("stops", "at the first " + deck::text_of(deck::stop_event_words, event));
   if (deck.path.stop.contacts) lines.add("stops", fmt::format("at {} closed contacts", *deck.path.stop.contacts));
   for (const deck::Monitor& monitor : deck.monitors)
-    lines.add("monitors", fmt::format("{}: {} of {}", monitor.name, text_of(deck::component_words, monitor.component),
-                                      to_text(monitor.at)));
+    lines.add("monitors", fmt::format("{}: {} of {}", monitor.name,
+                                      deck::text_of(deck::component_words, monitor.component), to_text(monitor.at)));
 }
 
 }  // namespace

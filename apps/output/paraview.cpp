@@ -139,7 +139,7 @@ double gap_at(const ShapePoint& point, const MemberMesh& mesh, const std::vector
     const double half = wall.acts_on == deck::ActsOn::face ? 0.5 * mesh.height.value_or(0.0) : 0.0;
     for (const double offset : {-half, half}) {
       const Vec2 at = point.position + offset * normal;
-      if (profile->covers(at.x())) least = std::min(least, surface_gap(*profile, side_of(wall), at).value);
+      if (profile->covers(at.x())) least = std::min(least, surface_gap(*profile, wall.side, at).value);
     }
   }
   return least;

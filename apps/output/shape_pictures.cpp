@@ -284,7 +284,7 @@ std::vector<double> section_heights(const deck::Deck& deck) {
   std::vector<double> heights;
   for (const deck::Member& member : deck.members) {
     const deck::Section* section = find(deck.sections, member.section);
-    const bool beam = member.theory != deck::Theory::truss && section != nullptr;
+    const bool beam = member.theory != Theory::truss && section != nullptr;
     heights.push_back(beam ? properties(*section).height.value_or(0.0) : 0.0);
   }
   return heights;
@@ -322,11 +322,10 @@ Scene scene_of(const Model& model, const State& state) {
   }
   for (const deck::Support& support : deck.supports) {
     const auto at = position_of(deck, scene.shape, {.name = support.point});
-    const auto holds = [&](deck::Direction direction) {
+    const auto holds = [&](Freedom direction) {
       return std::find(support.directions.begin(), support.directions.end(), direction) != support.directions.end();
     };
-    const HeldPoint held{
-        .x = holds(deck::Direction::x), .z = holds(deck::Direction::z), .rotation = holds(deck::Direction::rotation)};
+    const HeldPoint held{.x = holds(Freedom::x), .z = holds(Freedom::z), .rotation = holds(Freedom::rotation)};
     if (!at || !(held.x || held.z || held.rotation)) continue;
     scene.supports.push_back(held);
     scene.supports.back().at = *at;

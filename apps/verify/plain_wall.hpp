@@ -16,7 +16,7 @@ class PlainWall {
   const deck::Wall& deck() const { return wall_; }
 
   /// +1 below the structure, −1 above it.
-  double side() const { return wall_.side == deck::Side::below ? 1.0 : -1.0; }
+  double side() const { return wall_.side == Side::below ? 1.0 : -1.0; }
 
   bool covers(double x) const;
 

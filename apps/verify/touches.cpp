@@ -94,8 +94,8 @@ Touch node_touch(const Model& model, const std::vector<PlainWall>& walls, const 
   touch.place = point.at(touch.gap.at);
   const deck::Contact& contact = model.deck().contact;
   const double spring = contact.penalty.value_or(0.0) * label.tributary;
-  if (contact.method == deck::ContactMethod::penalty) touch.compliance = 1.0 / spring;
-  if (contact.method == deck::ContactMethod::augmented) touch.stiffness = spring;
+  if (contact.method == ContactLaw::Method::penalty) touch.compliance = 1.0 / spring;
+  if (contact.method == ContactLaw::Method::augmented) touch.stiffness = spring;
   return touch;
 }
 

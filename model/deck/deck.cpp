@@ -49,7 +49,7 @@ std::string to_text(const Place& place) {
 // Sliding where contact forces are point forces. Springs and increments act at nodes.
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
-  if (deck.contact.method != ContactMethod::multiplier)
+  if (deck.contact.method != ContactLaw::Method::rigid)
     return {.points = ContactPoints::nodes,
             .why = "method " + text_of(contact_method_words, deck.contact.method) + " puts springs at nodes"};
   if (deck.path.method == PathMethod::incremental)

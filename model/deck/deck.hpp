@@ -5,12 +5,17 @@
 #include <variant>
 #include <vector>
 
+#include "contact/multiplier_contact.hpp"
+#include "contact/profile.hpp"
+#include "continuation/explorer.hpp"
+#include "continuation/trace_options.hpp"
 #include "core/error.hpp"
+#include "elements/structure.hpp"
 
 /// One deck as plain values: what the user wrote, with every default filled in and every name known to point somewhere.
 ///
-/// Numbers are in the user's own consistent units. Lists keep the order of the deck. Two decks are equal if they say
-/// the same, wherever in a file they say it.
+/// Choices that the libraries have are theirs. Numbers are in the user's own consistent units. Lists keep the order of
+/// the deck. Two decks are equal if they say the same, wherever in a file they say it.
 namespace arcwall::deck {
 
 /// Where something stands in its source; says nothing about the value, so all positions are equal.
@@ -111,10 +116,6 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
-enum class Theory { classic, essenburg, exact, elastica, truss };
-enum class Along { fixed, director };  ///< what ξ_z of the Essenburg theory is measured along
-enum class Strain { green, engineering, log };
-
 /// The axis is the chord.
 struct Straight {
   bool operator==(const Straight&) const = default;
@@ -162,9 +163,9 @@ struct Member {
   std::string material{};
   std::string section{};
   int elements = 1;
-  std::optional<int> order{};     ///< essenburg and exact: 1 or 2; elastica: 4 or 6; otherwise empty
-  Along along = Along::fixed;     ///< essenburg only
-  Strain strain = Strain::green;  ///< truss only
+  std::optional<int> order{};                  ///< essenburg and exact: 1 or 2; elastica: 4 or 6; otherwise empty
+  QuadraticTerm along = QuadraticTerm::fixed;  ///< essenburg only
+  TrussStrain strain = TrussStrain::green;     ///< truss only
   std::variant<Straight, Arc, SineAxis, Curve> axis{};
   std::vector<Imperfection> imperfections{};  ///< they add
   bool hinge_from = false;                    ///< this end transmits no moment
@@ -173,12 +174,10 @@ struct Member {
   bool operator==(const Member&) const = default;
 };
 
-enum class Direction { x, z, rotation, thickness, thickness2 };
-
 struct Support {
   std::string point{};
   Position position{};
-  std::vector<Direction> directions{};  ///< at least one, each once
+  std::vector<Freedom> directions{};  ///< at least one, each once
 
   bool operator==(const Support&) const = default;
 };
@@ -218,7 +217,6 @@ struct Load {
   bool operator==(const Load&) const = default;
 };
 
-enum class Side { above, below };
 enum class ActsOn { face, axis };
 
 struct FlatProfile {
@@ -270,11 +268,10 @@ struct Wall {
   bool operator==(const Wall&) const = default;
 };
 
-enum class ContactMethod { multiplier, penalty, augmented };
 enum class ContactPoints { nodes, sliding };
 
 struct Contact {
-  ContactMethod method = ContactMethod::multiplier;
+  ContactLaw::Method method = ContactLaw::Method::rigid;
   std::optional<ContactPoints> points{};  ///< empty: sliding for classic and elastica, else nodes
   std::optional<double> penalty{};        ///< 1/μ, there for every method that needs it [force/length²]
   double gap_tolerance = 1e-10;           ///< [length]
@@ -309,8 +306,6 @@ struct Monitor {
 };
 
 enum class PathMethod { load, displacement, riks, normal_plane, cylindrical, spherical, pseudo_arclength, incremental };
-enum class Branches { primary, follow, all };
-enum class Events { locate, detect, none };
 
 /// Values to land on exactly.
 struct Landing {
@@ -331,22 +326,10 @@ struct StopBounds {
   bool operator==(const StopBounds&) const = default;
 };
 
-/// Events that may end a branch.
-enum class StopEvent {
-  contact_closes,
-  contact_opens,
-  contact_spreads,
-  contact_gathers,
-  limit_point,
-  contact_limit_point,
-  displacement_limit,
-  branch_point
-};
-
 struct Stop {
   std::vector<StopBounds> bounds{};
   std::optional<int> contacts{};    ///< as many closed contacts end the branch
-  std::vector<StopEvent> events{};  ///< the first of any of these does
+  std::vector<EventKind> events{};  ///< the first of any of these does
 
   bool operator==(const Stop&) const = default;
 };
@@ -368,10 +351,10 @@ struct Path {
   double min_step = 1e-8;            ///< [path metric]
   double max_step = 0.2;             ///< ≥ min_step [path metric]
   int max_points = 5000;
-  Branches branches = Branches::follow;
+  BranchPolicy branches = BranchPolicy::follow;
   int depth = 2;
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
-  Events events = Events::locate;
+  EventSearch events = EventSearch::locate;
   Stop stop{};
 
   bool operator==(const Path&) const = default;

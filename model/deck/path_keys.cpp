@@ -42,7 +42,7 @@ void stop_event_key(Keys& keys, Stop& stop) {
   if (keys.holds_array(key.name)) {
     keys.words(key, stop.events, stop_event_words, "is not one of the words for this key", meaning);
   } else {
-    StopEvent event{};
+    EventKind event{};
     if (keys.word(key, event, stop_event_words, meaning)) stop.events.push_back(event);
   }
 }
@@ -59,12 +59,12 @@ void stop_keys(Keys& keys, Stop& stop) {
 
 // Events that are not looked for end nothing.
 void check_stop_events(Keys& keys, const Path& path) {
-  for (const StopEvent event : path.stop.events) {
+  for (const EventKind event : path.stop.events) {
     const std::string name = text_of(stop_event_words, event);
-    if (path.events == Events::none)
+    if (path.events == EventSearch::none)
       keys.report("stop", "event = " + in_quotes(name) + " never happens with events = \"none\"",
                   "leave out events, or write events = \"detect\"");
-    else if (event == StopEvent::displacement_limit && path.watch.empty())
+    else if (event == EventKind::displacement_limit && path.watch.empty())
       keys.report("stop", "event = " + in_quotes(name) + " never happens: no monitor is watched",
                   "add watch = [\"MONITOR\"] to [path]");
   }

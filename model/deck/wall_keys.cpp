@@ -104,7 +104,7 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
               "stiffness 1/μ: force per length of axis and of gap; > 0, required by `\"penalty\"` and `\"augmented\"`");
   keys.number(optional("gap_tolerance"), contact.gap_tolerance, unit::length, positive,
               "of `\"augmented\"`: gaps of closed contacts end far below, at round-off");
-  if (contact.method != ContactMethod::multiplier && !keys.has("penalty"))
+  if (contact.method != ContactLaw::Method::rigid && !keys.has("penalty"))
     keys.report("penalty", "is missing: method " + text_of(contact_method_words, contact.method) + " needs it",
                 "add penalty, a number greater than 0");
 }

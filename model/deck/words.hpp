@@ -50,19 +50,20 @@ inline constexpr Words<Theory, 5> theory_words{{{"classic", Theory::classic},
                                                 {"exact", Theory::exact},
                                                 {"elastica", Theory::elastica},
                                                 {"truss", Theory::truss}}};
-inline constexpr Words<Along, 2> along_words{{{"fixed", Along::fixed}, {"director", Along::director}}};
-inline constexpr Words<Strain, 3> strain_words{
-    {{"green", Strain::green}, {"engineering", Strain::engineering}, {"log", Strain::log}}};
-inline constexpr Words<Direction, 5> direction_words{{{"x", Direction::x},
-                                                      {"z", Direction::z},
-                                                      {"rotation", Direction::rotation},
-                                                      {"thickness", Direction::thickness},
-                                                      {"thickness2", Direction::thickness2}}};
+inline constexpr Words<QuadraticTerm, 2> along_words{
+    {{"fixed", QuadraticTerm::fixed}, {"director", QuadraticTerm::director}}};
+inline constexpr Words<TrussStrain, 3> strain_words{
+    {{"green", TrussStrain::green}, {"engineering", TrussStrain::engineering}, {"log", TrussStrain::log}}};
+inline constexpr Words<Freedom, 5> direction_words{{{"x", Freedom::x},
+                                                    {"z", Freedom::z},
+                                                    {"rotation", Freedom::rotation},
+                                                    {"thickness", Freedom::thickness},
+                                                    {"thickness2", Freedom::thickness2}}};
 inline constexpr Words<Side, 2> side_words{{{"above", Side::above}, {"below", Side::below}}};
 inline constexpr Words<ActsOn, 2> acts_on_words{{{"face", ActsOn::face}, {"axis", ActsOn::axis}}};
-inline constexpr Words<ContactMethod, 3> contact_method_words{{{"multiplier", ContactMethod::multiplier},
-                                                               {"penalty", ContactMethod::penalty},
-                                                               {"augmented", ContactMethod::augmented}}};
+inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier", ContactLaw::Method::rigid},
+                                                                    {"penalty", ContactLaw::Method::penalty},
+                                                                    {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"sliding", ContactPoints::sliding}}};
 inline constexpr Words<Component, 12> component_words{{{"x", Component::x},
@@ -87,18 +88,18 @@ inline constexpr Words<PathMethod, 8> path_method_words{{{"load", PathMethod::lo
                                                          {"spherical", PathMethod::spherical},
                                                          {"pseudo-arclength", PathMethod::pseudo_arclength},
                                                          {"incremental", PathMethod::incremental}}};
-inline constexpr Words<Branches, 3> branches_words{
-    {{"primary", Branches::primary}, {"follow", Branches::follow}, {"all", Branches::all}}};
-inline constexpr Words<Events, 3> events_words{
-    {{"locate", Events::locate}, {"detect", Events::detect}, {"none", Events::none}}};
+inline constexpr Words<BranchPolicy, 3> branches_words{
+    {{"primary", BranchPolicy::primary}, {"follow", BranchPolicy::follow}, {"all", BranchPolicy::all}}};
+inline constexpr Words<EventSearch, 3> events_words{
+    {{"locate", EventSearch::locate}, {"detect", EventSearch::detect}, {"none", EventSearch::none}}};
 
-inline constexpr Words<StopEvent, 8> stop_event_words{{{"contact-closes", StopEvent::contact_closes},
-                                                       {"contact-opens", StopEvent::contact_opens},
-                                                       {"contact-spreads", StopEvent::contact_spreads},
-                                                       {"contact-gathers", StopEvent::contact_gathers},
-                                                       {"limit-point", StopEvent::limit_point},
-                                                       {"contact-limit-point", StopEvent::contact_limit_point},
-                                                       {"displacement-limit", StopEvent::displacement_limit},
-                                                       {"branch-point", StopEvent::branch_point}}};
+inline constexpr Words<EventKind, 8> stop_event_words{{{"contact-closes", EventKind::contact_closes},
+                                                       {"contact-opens", EventKind::contact_opens},
+                                                       {"contact-spreads", EventKind::contact_spreads},
+                                                       {"contact-gathers", EventKind::contact_gathers},
+                                                       {"limit-point", EventKind::limit_point},
+                                                       {"contact-limit-point", EventKind::contact_limit_point},
+                                                       {"displacement-limit", EventKind::displacement_limit},
+                                                       {"branch-point", EventKind::branch_point}}};
 
 }  // namespace arcwall::deck

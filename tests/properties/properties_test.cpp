@@ -217,7 +217,7 @@ RC_GTEST_PROP(Properties, TheWayBackLeadsToTheStart, (Deck deck)) {
   WayBack way = way_back(deck);
   if (way == WayBack::stuck) {
     for (deck::Member& member : deck.members)
-      if (member.theory != deck::Theory::truss) member.elements *= 2;
+      if (member.theory != Theory::truss) member.elements *= 2;
     way = way_back(deck);
     RC_ASSERT(way != WayBack::stuck);
   }

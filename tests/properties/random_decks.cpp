@@ -12,7 +12,6 @@ namespace arcwall::test {
 namespace {
 
 using deck::Deck;
-using deck::Direction;
 
 constexpr double E = 1.0e4;
 
@@ -22,7 +21,7 @@ Deck deck_of(const char* title, double height) {
   deck.materials.push_back({.name = "steel", .E = E, .nu = 0.3});
   deck.sections.push_back({.name = "bar", .shape = deck::Rectangle{.width = 1.0, .height = height}});
   deck.path.max_points = 80;
-  deck.path.branches = deck::Branches::primary;
+  deck.path.branches = BranchPolicy::primary;
   return deck;
 }
 
@@ -30,8 +29,7 @@ void add_point(Deck& deck, const char* name, double x, double z) {
   deck.points.push_back({.name = name, .at = {.x = x, .z = z}});
 }
 
-deck::Member& add_member(Deck& deck, const char* name, const char* from, const char* to, deck::Theory theory,
-                         int elements) {
+deck::Member& add_member(Deck& deck, const char* name, const char* from, const char* to, Theory theory, int elements) {
   deck.members.push_back({.name = name,
                           .from = from,
                           .to = to,
@@ -40,14 +38,14 @@ deck::Member& add_member(Deck& deck, const char* name, const char* from, const c
                           .section = "bar",
                           .elements = elements});
   deck::Member& added = deck.members.back();
-  if (theory == deck::Theory::exact || theory == deck::Theory::essenburg) added.order = 2;
-  if (theory == deck::Theory::elastica) added.order = 6;
+  if (theory == Theory::exact || theory == Theory::essenburg) added.order = 2;
+  if (theory == Theory::elastica) added.order = 6;
   return added;
 }
 
 void support(Deck& deck, const char* point, bool clamped) {
-  deck.supports.push_back({.point = point, .directions = {Direction::x, Direction::z}});
-  if (clamped) deck.supports.back().directions.push_back(Direction::rotation);
+  deck.supports.push_back({.point = point, .directions = {Freedom::x, Freedom::z}});
+  if (clamped) deck.supports.back().directions.push_back(Freedom::rotation);
 }
 
 void load(Deck& deck, deck::Place at, double x, double z) {
@@ -60,9 +58,7 @@ void follow(Deck& deck, double step, double most = 60.0) {
   deck.path.stop.bounds.push_back({.name = "lambda", .low = -most * step, .high = most * step});
 }
 
-deck::Theory beam_theory() {
-  return *rc::gen::element(deck::Theory::classic, deck::Theory::elastica, deck::Theory::exact);
-}
+Theory beam_theory() { return *rc::gen::element(Theory::classic, Theory::elastica, Theory::exact); }
 
 // A load down and a little aside, so that nothing is symmetric.
 void push(Deck& deck, deck::Place at, double force) { load(deck, std::move(at), force * *between(-0.3, 0.3), -force); }
@@ -77,13 +73,13 @@ rc::Gen<double> between(double low, double high) {
 rc::Gen<Deck> truss_deck() {
   return rc::gen::exec([] {
     const double left = *between(5.0, 15.0), right = *between(5.0, 15.0), rise = *between(0.3, 12.0);
-    const auto strain = *rc::gen::element(deck::Strain::green, deck::Strain::engineering, deck::Strain::log);
+    const auto strain = *rc::gen::element(TrussStrain::green, TrussStrain::engineering, TrussStrain::log);
     Deck deck = deck_of("Truss", 0.1);
     add_point(deck, "left", -left, 0.0);
     add_point(deck, "top", 0.0, rise);
     add_point(deck, "right", right, 0.0);
-    add_member(deck, "west", "left", "top", deck::Theory::truss, 1).strain = strain;
-    add_member(deck, "east", "top", "right", deck::Theory::truss, 1).strain = strain;
+    add_member(deck, "west", "left", "top", Theory::truss, 1).strain = strain;
+    add_member(deck, "east", "top", "right", Theory::truss, 1).strain = strain;
     support(deck, "left", false);
     support(deck, "right", false);
     push(deck, {.name = "top"}, 1.0);
@@ -152,7 +148,7 @@ rc::Gen<Deck> portal_deck() {
     add_point(deck, "B", *between(-1.0, 1.0), left);
     add_point(deck, "C", width, right);
     add_point(deck, "D", width, 0.0);
-    const deck::Theory theory = beam_theory();
+    const Theory theory = beam_theory();
     add_member(deck, "west", "A", "B", theory, elements);
     add_member(deck, "beam", "B", "C", theory, elements).hinge_to = *rc::gen::arbitrary<bool>();
     add_member(deck, "east", "C", "D", theory, elements);
@@ -171,7 +167,7 @@ rc::Gen<Deck> walled_deck() {
   return rc::gen::exec([] {
     const double length = 20.0, height = *between(0.1, 0.4), gap = *between(0.2, 1.0);
     const int elements = 2 * *rc::gen::inRange(2, 5);
-    const deck::Theory theory = *rc::gen::element(deck::Theory::classic, deck::Theory::elastica, deck::Theory::exact);
+    const Theory theory = *rc::gen::element(Theory::classic, Theory::elastica, Theory::exact);
     Deck deck = deck_of("Beam between walls", height);
     add_point(deck, "left", 0.0, 0.0);
     add_point(deck, "right", length, 0.0);
@@ -181,7 +177,7 @@ rc::Gen<Deck> walled_deck() {
     support(deck, "right", *rc::gen::arbitrary<bool>());
     push(deck, {.name = "beam", .fraction = 0.5}, 1.0);
     const double depth = gap + 0.5 * height;
-    deck::Wall floor{.name = "floor", .side = deck::Side::below};
+    deck::Wall floor{.name = "floor", .side = Side::below};
     if (*rc::gen::arbitrary<bool>()) {
       const double slope = *between(-0.02, 0.02);
       floor.profile = deck::LineProfile{.z = -depth - std::max(0.0, slope * length), .slope = slope};
@@ -191,7 +187,7 @@ rc::Gen<Deck> walled_deck() {
     }
     deck.walls.push_back(floor);
     if (*rc::gen::arbitrary<bool>())
-      deck.walls.push_back({.name = "roof", .side = deck::Side::above, .profile = deck::LineProfile{.z = depth}});
+      deck.walls.push_back({.name = "roof", .side = Side::above, .profile = deck::LineProfile{.z = depth}});
     if (*rc::gen::arbitrary<bool>()) deck.contact.points = deck::ContactPoints::nodes;
     // It bends first; then it is a rope.
     const double EA = E * height, EI = E * std::pow(height, 3.0) / 12.0;

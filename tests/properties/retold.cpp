@@ -54,7 +54,7 @@ deck::LineProfile moved(const deck::LineProfile& line, const Isometry& isometry)
 }
 
 void move(deck::Wall& wall, const Isometry& isometry) {
-  if (isometry.mirrored) wall.side = wall.side == deck::Side::above ? deck::Side::below : deck::Side::above;
+  if (isometry.mirrored) wall.side = wall.side == Side::above ? Side::below : Side::above;
   if (auto* line = std::get_if<deck::LineProfile>(&wall.profile)) *line = moved(*line, isometry);
   if (auto* circle = std::get_if<deck::CircleProfile>(&wall.profile)) circle->centre = isometry.moved(circle->centre);
 }

@@ -166,13 +166,13 @@ TEST(PlainWall, HasTheGapsOfTheWallsThatAreTraced) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> x(-1.9, 1.9), z(-1.0, 1.0);
   for (const auto& profile : profiles)
-    for (const deck::Side side : {deck::Side::above, deck::Side::below}) {
+    for (const Side side : {Side::above, Side::below}) {
       const deck::Wall wall{.name = "wall", .side = side, .profile = profile};
       const PlainWall plain(wall);
       for (int i = 0; i < 50; ++i) {
         const Vec2 at(x(generator), z(generator));
         const Height height = profile_of(wall)->at(at.x());
-        EXPECT_NEAR(plain.gap(at), surface_gap(*profile_of(wall), side_of(wall), at).value, 1e-13);
+        EXPECT_NEAR(plain.gap(at), surface_gap(*profile_of(wall), wall.side, at).value, 1e-13);
         EXPECT_NEAR(plain.curvature(at.x()), height.second / std::pow(1.0 + height.first * height.first, 1.5), 1e-11);
       }
     }

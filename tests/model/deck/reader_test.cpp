@@ -72,7 +72,7 @@ TEST(DeckReader, ReadsMembersOfEveryTheory) {
   EXPECT_TRUE(column.hinge_to && !column.hinge_from);
   const Member& arch = deck.members.at(1);
   EXPECT_EQ(arch.order, 1);
-  EXPECT_EQ(arch.along, Along::director);
+  EXPECT_EQ(arch.along, QuadraticTerm::director);
   EXPECT_EQ(std::get<Arc>(arch.axis), (Arc{{3.0, 0.9}}));
   const Member& wave = deck.members.at(2);
   EXPECT_EQ(wave.order, 2);
@@ -80,7 +80,7 @@ TEST(DeckReader, ReadsMembersOfEveryTheory) {
   EXPECT_EQ(wave.imperfections.size(), 1u);
   EXPECT_EQ(deck.members.at(3).order, 4);
   EXPECT_EQ(std::get<Curve>(deck.members.at(3).axis).z.at(2), 2.0);
-  EXPECT_EQ(deck.members.at(4).strain, Strain::log);
+  EXPECT_EQ(deck.members.at(4).strain, TrussStrain::log);
 }
 
 TEST(DeckReader, ReadsSupportsAndLoads) {
@@ -88,7 +88,7 @@ TEST(DeckReader, ReadsSupportsAndLoads) {
 
   EXPECT_EQ(deck.supports.at(1).point, "D");
   EXPECT_EQ(deck.supports.at(1).directions,
-            (std::vector<Direction>{Direction::z, Direction::thickness, Direction::thickness2}));
+            (std::vector<Freedom>{Freedom::z, Freedom::thickness, Freedom::thickness2}));
   const auto& end = std::get<PointLoad>(deck.loads.at(0).action);
   EXPECT_EQ(end.at, (Place{.name = "B"}));
   EXPECT_EQ(end.force, (Vector{-1.0, 0.5}));
@@ -112,7 +112,7 @@ TEST(DeckReader, ReadsWallsAndContact) {
   EXPECT_EQ(std::get<CircleProfile>(deck.walls[2].profile), (CircleProfile{{1.0, -9.0}, 4.9}));
   EXPECT_EQ(std::get<ParabolaProfile>(deck.walls[3].profile), (ParabolaProfile{{1.0, -4.0}, 0.1}));
   EXPECT_EQ(std::get<SplineProfile>(deck.walls[4].profile).x.size(), 10u);
-  EXPECT_EQ(deck.contact, (Contact{ContactMethod::augmented, ContactPoints::nodes, 1e5, 1e-9}));
+  EXPECT_EQ(deck.contact, (Contact{ContactLaw::Method::augmented, ContactPoints::nodes, 1e5, 1e-9}));
 }
 
 TEST(DeckReader, ReadsPathAndMonitors) {
@@ -124,9 +124,9 @@ TEST(DeckReader, ReadsPathAndMonitors) {
   EXPECT_EQ(deck.path.control->at, (Place{.name = "column", .fraction = 0.5}));
   EXPECT_EQ(deck.path.control->component, Component::x);
   EXPECT_EQ(deck.path.step, -0.5);
-  EXPECT_EQ(deck.path.branches, Branches::all);
+  EXPECT_EQ(deck.path.branches, BranchPolicy::all);
   EXPECT_EQ(deck.path.watch, (std::vector<std::string>{"mid", "end"}));
-  EXPECT_EQ(deck.path.events, Events::detect);
+  EXPECT_EQ(deck.path.events, EventSearch::detect);
   EXPECT_EQ(deck.path.stop.bounds.at(0).low, -0.16);
   EXPECT_EQ(deck.path.stop.contacts, 40);
   EXPECT_EQ(deck.monitors.at(0).component, Component::face_below_z);
