@@ -48,7 +48,8 @@ Row SphereConstraint::gradient(const State& state) const {
 std::optional<ConstraintRoots> SphereConstraint::advance(const State& at, const EquilibriumLine& line) const {
   const auto p = line.dx.col(0), q = line.dx.col(1);
   const Vector t_x = line.scale * q, D_x = at.x - origin_.x + (p - line.off * q);
-  const auto w = metric_.weights().array(), wt = w * t_x.array();
+  const auto w = metric_.weights().array();
+  const auto wt = w * t_x.array();
   double a = (wt * t_x.array()).sum(), b = (wt * D_x.array()).sum(), c = (w * D_x.array().square()).sum();
   double along = (wt * tangent_.dx.array()).sum();
   if (form_ == Form::spherical) {

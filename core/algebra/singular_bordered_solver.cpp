@@ -1,6 +1,6 @@
 #include "core/algebra/singular_bordered_solver.hpp"
 
-#include <Eigen/SparseLU>
+#include <Eigen/UmfPackSupport>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -134,7 +134,7 @@ std::optional<Direction> SingularBorderedSolver::solve_with_lu(const Vector& f, 
   if (border_.dx.cwiseAbs().maxCoeff(&held) < std::abs(border_.dlambda)) held = last;
   const SparseMatrix whole = with_one_held(held);
   if (!all_finite(whole.coeffs())) return std::nullopt;
-  const Eigen::SparseLU<SparseMatrix> lu(whole);
+  const Eigen::UmfPackLU<SparseMatrix> lu(whole);
   if (lu.info() != Eigen::Success) return std::nullopt;
   Matrix X = Matrix::Zero(last + 1, 2);
   X.col(0).head(last) = f;

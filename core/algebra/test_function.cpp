@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SparseLU>
+#include <Eigen/UmfPackSupport>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -167,7 +167,7 @@ std::optional<BorderedTestFunction> BorderedTestFunction::of(const SparseMatrix&
   const Index n = K.cols(), k = B.cols();
   const SparseMatrix whole = bordered(K, B);
   if (!all_finite(whole.coeffs())) return std::nullopt;
-  const Eigen::SparseLU<SparseMatrix> lu(whole);
+  const Eigen::UmfPackLU<SparseMatrix> lu(whole);
   if (lu.info() != Eigen::Success) return std::nullopt;
   Matrix X = Matrix::Zero(n + k, k);
   X.bottomRows(k).setIdentity();

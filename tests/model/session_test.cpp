@@ -22,9 +22,9 @@ struct Case {
 
 // Contact that slides, contact at nodes with several branches, a long frame without walls, beams with a thickness.
 const std::vector<Case> runs{{"channel"},
-                            {"channel", {"contact.points = 'nodes'", "path.branches = 'all'"}},
-                            {"lee", {"member.column.elements = 400"}},
-                            {"thick"}};
+                             {"channel", {"contact.points = 'nodes'", "path.branches = 'all'"}},
+                             {"lee", {"member.column.elements = 400"}},
+                             {"thick"}};
 
 Session opened(const Case& run) {
   return Session::open(std::string(EXAMPLES) + "/" + run.deck + ".toml", run.assignments);

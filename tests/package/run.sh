@@ -58,7 +58,9 @@ look_at_packages() {
       $6 !~ "^./usr/" || $6 ~ "^./usr/local" { print; wrong = 1 } END { exit wrong }' || fail "wrong owner, mode or place"
   done
   depends arcwall libc6
-  depends arcwall libcholmod3  # which brings BLAS, LAPACK and METIS
+  # SuiteSparse brings BLAS, LAPACK and METIS.
+  depends arcwall libcholmod3
+  depends arcwall libumfpack5
   depends libarcwall-dev libsuitesparse-dev
   depends libarcwall-dev libeigen3-dev
   depends libarcwall-dev zlib1g-dev

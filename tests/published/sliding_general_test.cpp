@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/algebra/bordered_solver.hpp"
 #include "tests/support/branch.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/invariants.hpp"

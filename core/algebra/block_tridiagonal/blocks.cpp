@@ -91,14 +91,14 @@ class Levels {
 
 // Whether all entries of unknowns that have a block are in blocks or between blocks beside each other.
 bool is_tridiagonal(const SparseMatrix& A, const Blocks& blocks) {
-  constexpr Index none = -1;
-  std::vector<Index> block(static_cast<std::size_t>(A.cols()), none);
+  constexpr Index in_no_block = -1;
+  std::vector<Index> block(static_cast<std::size_t>(A.cols()), in_no_block);
   for (std::size_t g = 0; g < blocks.size(); ++g)
     for (const Index unknown : blocks[g]) block[static_cast<std::size_t>(unknown)] = static_cast<Index>(g);
   for (Index column = 0; column < A.cols(); ++column)
     for (SparseMatrix::InnerIterator entry(A, column); entry; ++entry)
       if (const Index other = block[static_cast<std::size_t>(entry.row())];
-          other != none && std::abs(other - block[static_cast<std::size_t>(column)]) > 1)
+          other != in_no_block && std::abs(other - block[static_cast<std::size_t>(column)]) > 1)
         return false;
   return true;
 }
