@@ -10,7 +10,6 @@ namespace arcwall {
 
 namespace {
 
-constexpr Index parts = BlockChain::parts;
 constexpr Index displacements = 2;  // of a node, its first unknowns
 constexpr Index none = -1;
 
@@ -55,7 +54,7 @@ void BlockTridiagonalLdlt::find_values(const SparseMatrix& A, const Blocks& bloc
       row_of[static_cast<std::size_t>(blocks[b][k])] = static_cast<std::int32_t>(k);
     }
   const Index count = chain_.layout().size(), length = chain_.length;
-  std::vector<std::int32_t> value_at(static_cast<std::size_t>(parts * length * count), none);
+  std::vector<std::int32_t> value_at(static_cast<std::size_t>(BlockChain::parts * length * count), none);
   const Index first = blocks[blocks.size() > 1 ? 1 : 0].front();  // its pivot is an entry of A
   std::int32_t value = 0;
   for (Index column = 0; column < A.cols(); ++column)
@@ -68,7 +67,7 @@ void BlockTridiagonalLdlt::find_values(const SparseMatrix& A, const Blocks& bloc
     }
   // Blocks of even number have no couplings of their own before the first elimination.
   std::vector<Index> list;
-  for (Index block = 0; block < parts * length; ++block) {
+  for (Index block = 0; block < BlockChain::parts * length; ++block) {
     const Index record = block % length;
     const bool couples = record % 2 == 1 || record + 1 == length;
     const auto from = value_at.begin() + block * count;
@@ -80,7 +79,7 @@ void BlockTridiagonalLdlt::find_values(const SparseMatrix& A, const Blocks& bloc
 }
 
 void BlockTridiagonalLdlt::find_unknowns(const Blocks& blocks) {
-  for (Index block = 0; block < parts * chain_.length; ++block) {
+  for (Index block = 0; block < BlockChain::parts * chain_.length; ++block) {
     std::vector<Index> list;
     if (block < block_count_) list = blocks[static_cast<std::size_t>(block)];
     const auto size = static_cast<Index>(list.size());
@@ -105,7 +104,7 @@ bool BlockTridiagonalLdlt::is_node_with_translations(Index block, const std::vec
 // A block is free where it and its neighbours are nodes that are translation-free: only then Σ_b A_ab T is zero for it.
 void BlockTridiagonalLdlt::set_translation_free(const std::vector<bool>& translation_free) {
   if (!chain_.knows_translations) return;
-  is_free_.assign(static_cast<std::size_t>(parts * chain_.length), 0);
+  is_free_.assign(static_cast<std::size_t>(BlockChain::parts * chain_.length), 0);
   bool before = true, own = is_node_with_translations(0, translation_free);
   for (Index block = 0; block < block_count_; ++block) {
     const bool behind = block + 1 == block_count_ || is_node_with_translations(block + 1, translation_free);
@@ -146,7 +145,7 @@ void BlockTridiagonalLdlt::gather(const ShiftedLists& lists, Index record, const
 
 void BlockTridiagonalLdlt::scatter(const ShiftedLists& lists, Index record, const Lanes* from, Index step,
                                    double* array) const {
-  for (Index part = 0; part < parts; ++part) {
+  for (Index part = 0; part < BlockChain::parts; ++part) {
     const ShiftedIndices to = lists[part * chain_.length + record];
     for (std::size_t k = 0; k < to.size(); ++k)
       if (to[k] >= 0) array[to[k]] = from[static_cast<Index>(k) * step][static_cast<int>(part)];
@@ -164,7 +163,7 @@ void BlockTridiagonalLdlt::find_ground_parts(GroundTerms ground) {
         for (Index row = 0; row < chain_.width; ++row) chain_.block(record)[at.ground(row, column)] = 0.0;
       continue;
     }
-    for (Index part = 0; part < parts; ++part) find_ground_part(part * length + record, is_free(part));
+    for (Index part = 0; part < BlockChain::parts; ++part) find_ground_part(part * length + record, is_free(part));
   }
   for (const GroundTerm& term : ground) {
     const Index block = block_of_[static_cast<std::size_t>(term.row)];
@@ -186,7 +185,7 @@ void BlockTridiagonalLdlt::find_ground_part(Index block, bool is_free) {
       R = is_free ? 0.0 : number(block, at.diagonal(std::max(row, column), std::min(row, column)));
       if (is_free) continue;
       for (const Index other : {block - 1, block + 1}) {
-        if (other < 0 || other >= parts * length) continue;
+        if (other < 0 || other >= BlockChain::parts * length) continue;
         const Spot spot = spot_of(block, row, other, column);
         R += number(std::min(block, other) / length * length + spot.record, spot.place);
       }
@@ -201,7 +200,7 @@ double& BlockTridiagonalLdlt::number(Index block, Index place) {
 // False for a pivot that is zero, or so near that it is what rounding has left of rounding errors, or not finite. Where
 // there is no unknown, the padding is a pivot: one of those seen elsewhere.
 bool BlockTridiagonalLdlt::read_pivots(const PivotScan<double>& scan, double padding) {
-  const Index padded = parts * chain_.length * chain_.width - unknown_count_;
+  const Index padded = BlockChain::parts * chain_.length * chain_.width - unknown_count_;
   const Index negative = static_cast<Index>(scan.negative) - (padding < 0.0 ? padded : 0);
   pivots_ = {.signs = {.negative = negative, .positive = unknown_count_ - negative},
              .least = 1.0 / scan.greatest,

@@ -8,8 +8,6 @@ namespace arcwall {
 
 namespace {
 
-constexpr int parts = BlockChain::parts;
-
 // Widths with code of their own, and those of them that nodes with two displacements have.
 using Widths = std::integer_sequence<Index, 1, 2, 3, 4, 5, 6, 8>;
 constexpr bool may_know_translations(Index width) { return width >= 2 && width <= 5; }
@@ -41,7 +39,7 @@ void in_vectors(const Code& code) {
 // Of lanes together.
 PivotScan<double> together(const PivotScan<Lanes>& lanes) {
   PivotScan<double> all;
-  for (int part = 0; part < parts; ++part) {
+  for (int part = 0; part < BlockChain::parts; ++part) {
     all.least = std::min(all.least, magnitude(lanes.least[part]));  // −0 counts as 0
     all.greatest = std::max(all.greatest, lanes.greatest[part]);
     all.sum += lanes.sum[part];
@@ -56,7 +54,7 @@ void eliminate_first_blocks(BlockChain& chain, PivotScan<double>& pivots) {
   using One = BlockElimination<B, T, double>;
   const Lanes *first = chain.block(0), *end = chain.block(chain.length);
   double* const last = chain.last.data();
-  for (int part = 0; part < parts; ++part) {
+  for (int part = 0; part < BlockChain::parts; ++part) {
     double* const own = last + part * One::size;
     for (Index k = 0; k <= One::triangle; ++k) own[k] = first[k][part] + (part > 0 ? end[k][part - 1] : 0.0);
     // Those of odd number have the couplings.
@@ -64,13 +62,13 @@ void eliminate_first_blocks(BlockChain& chain, PivotScan<double>& pivots) {
       for (Index column = 0; column < B; ++column) {
         const double coupling = first[One::at.behind(row, column)][part];
         if (part % 2 == 1)
-          own[One::at.behind(row, column)] = part + 1 < parts ? coupling : 0.0;
-        else if (part + 1 < parts)
+          own[One::at.behind(row, column)] = part + 1 < BlockChain::parts ? coupling : 0.0;
+        else if (part + 1 < BlockChain::parts)
           (own + One::size)[One::at.before(column, row)] = coupling;
       }
   }
-  std::fill_n(last + parts * One::size, One::triangle + 1, 0.0);
-  for_each_elimination(parts, [&](const EliminationStep& j) { One::eliminate(j, last, pivots); });
+  std::fill_n(last + BlockChain::parts * One::size, One::triangle + 1, 0.0);
+  for_each_elimination(BlockChain::parts, [&](const EliminationStep& j) { One::eliminate(j, last, pivots); });
   One::factorize_alone(last, pivots);
 }
 
@@ -95,18 +93,20 @@ template <Index B, Index C>
 void solve_first_blocks(const BlockChain& chain, Lanes* first, Lanes* end) {
   using One = BlockElimination<B, 0, double>;
   const double* const numbers = chain.last.data();
-  std::array<double, static_cast<std::size_t>((parts + 1) * B * C)> x{};
+  std::array<double, static_cast<std::size_t>((BlockChain::parts + 1) * B * C)> x{};
   const auto entry = [&x](int part, Index k) -> double& { return x[static_cast<std::size_t>(part * B * C + k)]; };
   for (Index k = 0; k < B * C; ++k)
-    for (int part = 0; part < parts; ++part) entry(part, k) = first[k][part] + (part > 0 ? end[k][part - 1] : 0.0);
-  for_each_elimination(parts, [&](const EliminationStep& j) { One::template forward<C>(j, numbers, x.data()); });
+    for (int part = 0; part < BlockChain::parts; ++part)
+      entry(part, k) = first[k][part] + (part > 0 ? end[k][part - 1] : 0.0);
+  for_each_elimination(BlockChain::parts,
+                       [&](const EliminationStep& j) { One::template forward<C>(j, numbers, x.data()); });
   One::template solve_alone<C>(numbers, x.data());
-  for_each_elimination_reversed(parts,
+  for_each_elimination_reversed(BlockChain::parts,
                                 [&](const EliminationStep& j) { One::template backward<C>(j, numbers, x.data()); });
   for (Index k = 0; k < B * C; ++k)
-    for (int part = 0; part < parts; ++part) {
+    for (int part = 0; part < BlockChain::parts; ++part) {
       first[k].set(part, entry(part, k));
-      end[k].set(part, part + 1 < parts ? entry(part + 1, k) : 0.0);
+      end[k].set(part, part + 1 < BlockChain::parts ? entry(part + 1, k) : 0.0);
     }
 }
 
@@ -133,11 +133,12 @@ template <Index B>
 double weighted_first_blocks(const BlockChain& chain, const Lanes* first) {
   using One = BlockElimination<B, 0, double>;
   const double* const numbers = chain.last.data();
-  std::array<double, static_cast<std::size_t>((parts + 1) * B)> v{};
+  std::array<double, static_cast<std::size_t>((BlockChain::parts + 1) * B)> v{};
   for (Index k = 0; k < B; ++k)
-    for (int part = 0; part < parts; ++part) v[static_cast<std::size_t>(part * B + k)] = first[k][part];
+    for (int part = 0; part < BlockChain::parts; ++part) v[static_cast<std::size_t>(part * B + k)] = first[k][part];
   double sum = 0.0;
-  for_each_elimination(parts, [&](const EliminationStep& j) { sum += One::weighted(j, numbers, v.data(), {}); });
+  for_each_elimination(BlockChain::parts,
+                       [&](const EliminationStep& j) { sum += One::weighted(j, numbers, v.data(), {}); });
   for (Index r = 0; r < B; ++r) {
     double u = std::abs(v[static_cast<std::size_t>(r)]);
     for (Index k = r + 1; k < B; ++k) u += std::abs(numbers[packed(k, r)] * v[static_cast<std::size_t>(k)]);
@@ -155,7 +156,7 @@ double weighted_all(const BlockChain& chain, const std::vector<Index>& grounded_
   for_each_elimination(chain.length, [&](const EliminationStep& j) {
     std::array<Lanes, static_cast<std::size_t>(B)> common;
     common.fill(0.0);
-    for (int part = 0; part < parts && !grounded_before.empty(); ++part) {
+    for (int part = 0; part < BlockChain::parts && !grounded_before.empty(); ++part) {
       const Index a = part * chain.length + j.before(), b = part * chain.length + j.behind();
       if (grounded_before[static_cast<std::size_t>(b)] > grounded_before[static_cast<std::size_t>(a + 1)]) continue;
       for (std::size_t c = 0; c < std::min<std::size_t>(B, 2); ++c)
@@ -169,9 +170,9 @@ double weighted_all(const BlockChain& chain, const std::vector<Index>& grounded_
 }  // namespace
 
 BlockChain::BlockChain(Index of_width, Index blocks, bool knows)
-    : width(of_width), length((blocks + parts - 1) / parts), knows_translations(knows) {
+    : width(of_width), length((blocks + BlockChain::parts - 1) / BlockChain::parts), knows_translations(knows) {
   numbers.assign(static_cast<std::size_t>((length + 1) * layout().size()), Lanes(0.0));
-  last.assign(static_cast<std::size_t>((parts + 1) * layout().size()), 0.0);
+  last.assign(static_cast<std::size_t>((BlockChain::parts + 1) * layout().size()), 0.0);
 }
 
 Index elimination_width(Index greatest) {
