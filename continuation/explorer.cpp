@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "continuation/events/branch_point.hpp"
@@ -19,14 +20,78 @@ bool nearly_equal(double a, double b, double scale) {
   return std::abs(a - b) <= same_value * std::max(scale, std::abs(a) + std::abs(b));
 }
 
-}  // namespace
-
-struct Explorer::Way {
+// A way off a branch point that was tried.
+struct WayOff {
   int sign = 1;
   SteppedOff step{};
   double energy = 0.0;
   StabilityCount count{};
 };
+
+std::vector<WayOff> ways_off(const System& system, const TraceOptions& trace, const BranchPoint& point,
+                             double lambda_scale, double distance) {
+  const Metric metric(system.weights(point.state.piece), lambda_scale);
+  Corrector corrector(system, trace.corrector, std::abs(trace.step.first), trace.factorization);
+  StabilityCounter counter(system, corrector.factorized(), trace.guard_tolerance, trace.factorization);
+  std::vector<WayOff> ways;
+  for (const int sign : {1, -1})
+    if (auto step = step_off(system, corrector, metric, point, sign, distance, trace.guard_tolerance)) {
+      WayOff way{.sign = sign, .step = std::move(*step)};
+      way.energy = system.energy(way.step.state);
+      way.count = counter.count(way.step.state, std::nullopt);
+      ways.push_back(std::move(way));
+    }
+  return ways;
+}
+
+// Both sides of a symmetric branch point at the same distance have the same load and energy.
+bool mirror_images(const std::vector<WayOff>& ways) {
+  if (ways.size() != 2) return false;
+  const State &a = ways[0].step.state, &b = ways[1].step.state;
+  return nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(ways[0].energy, ways[1].energy, 0.0);
+}
+
+// The side on which the first of the quantities that changes increases.
+int preferred_sign(const std::vector<std::shared_ptr<const Observable>>& preference, const BranchPoint& point,
+                   const std::vector<WayOff>& ways, const Metric& metric) {
+  constexpr double changes = 1e-6;  // of the distance stepped
+  for (const auto& quantity : preference) {
+    const Row row = quantity->gradient(point.state);
+    const double norm = metric.dual_norm(row);
+    const double rate = norm > 0.0 ? row.dx.dot(point.other.dx) / norm : 0.0;
+    if (std::abs(rate) > changes) return rate > 0.0 ? 1 : -1;
+  }
+  return ways.front().sign;  // along the mode, whose largest component is positive
+}
+
+BranchStart start_along(const Event& event, const WayOff& way) {
+  const BranchPoint& point = *event.branching;
+  BranchStart start{.state = point.state};
+  start.state.piece = way.step.state.piece;
+  start.forward = way.sign > 0 ? point.other : reversed(point.other);
+  start.mode = way.sign > 0 ? point.mode : reversed(point.mode);
+  if (event.unstable_before && event.unstable_after)
+    start.unstable = std::min(*event.unstable_before, *event.unstable_after);
+  return start;
+}
+
+BranchStart start_along(const System& system, const Event& event, const BranchPoint::Way& way) {
+  BranchStart start{.state = system.with_piece(event.branching->state, way.piece)};
+  start.forward = start.mode = way.direction;
+  start.unstable = event.unstable_before;
+  return start;
+}
+
+bool is_known(const System& system, const std::vector<KnownPoint>& known, const BranchPoint& point,
+              double lambda_scale) {
+  return std::any_of(known.begin(), known.end(), [&](const KnownPoint& other) {
+    if (other.state.piece != point.state.piece) return false;
+    const Metric metric(system.weights(point.state.piece), lambda_scale);
+    return metric.distance(other.state, point.state) <= same_branch_point;
+  });
+}
+
+}  // namespace
 
 Explorer::Explorer(const System& system, State start, TraceOptions trace, std::vector<Watch> watched,
                    ExploreOptions options)
@@ -68,7 +133,7 @@ void Explorer::stop(const BranchEnd& end) {
 // A branch point was located on the branch under way: decide who goes on.
 void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
-  if (event.suspected || known(point)) return;
+  if (event.suspected || is_known(system_, known_, point, lambda_scale_)) return;
   known_.push_back({.state = point.state, .branch = current_});
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
@@ -77,87 +142,38 @@ void Explorer::look_at(const Event& event) {
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
   if (!point.ways.empty()) {
     if (options_.policy == BranchPolicy::all)
-      for (const BranchPoint::Way& way : point.ways) enqueue_one_sided(event, way);
+      for (const BranchPoint::Way& way : point.ways) enqueue(event, start_along(system_, event, way), 1, false);
     return;  // the tracer has taken the one that `follow` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0};
   if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
 
-  std::vector<Way> ways = ways_off(point);
+  const std::vector<WayOff> ways = ways_off(system_, trace_, point, lambda_scale_, options_.distance);
   if (ways.empty()) return;
   const bool mirrored = mirror_images(ways);
-  const int preferred = preferred_sign(point, ways);
+  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+  const int preferred = preferred_sign(options_.preference, point, ways, metric);
   if (options_.policy == BranchPolicy::all) {
-    for (const Way& way : ways)
-      if (!mirrored || way.sign == preferred) enqueue(event, way, mirrored);
+    for (const WayOff& way : ways)
+      if (!mirrored || way.sign == preferred) enqueue(event, start_along(event, way), way.sign, mirrored);
     return;
   }
   // follow: the way with fewest unstable directions; of equals the preferred side
-  const auto rank = [&](const Way& way) {
+  const auto rank = [&](const WayOff& way) {
     return std::pair(way.count.unstable.value_or(std::numeric_limits<Index>::max()), way.sign == preferred ? 0 : 1);
   };
-  const Way& best =
-      *std::min_element(ways.begin(), ways.end(), [&](const Way& a, const Way& b) { return rank(a) < rank(b); });
-  enqueue(event, best, mirrored);
+  const WayOff& best =
+      *std::min_element(ways.begin(), ways.end(), [&](const WayOff& a, const WayOff& b) { return rank(a) < rank(b); });
+  enqueue(event, start_along(event, best), best.sign, mirrored);
   const auto next = static_cast<int>(branches_.size());
   tracer_->stop(
       {.reason = EndReason::branched, .detail = "goes on as branch " + std::to_string(next), .partner = next});
 }
 
-std::vector<Explorer::Way> Explorer::ways_off(const BranchPoint& point) {
-  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
-  Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first), trace_.factorization);
-  StabilityCounter counter(system_, corrector.factorized(), trace_.guard_tolerance, trace_.factorization);
-  std::vector<Way> ways;
-  for (const int sign : {1, -1})
-    if (auto step = step_off(system_, corrector, metric, point, sign, options_.distance, trace_.guard_tolerance)) {
-      Way way{.sign = sign, .step = std::move(*step)};
-      way.energy = system_.energy(way.step.state);
-      way.count = counter.count(way.step.state, std::nullopt);
-      ways.push_back(std::move(way));
-    }
-  return ways;
-}
-
-// Both sides of a symmetric branch point at the same distance have the same load and energy.
-bool Explorer::mirror_images(const std::vector<Way>& ways) const {
-  if (ways.size() != 2) return false;
-  const State &a = ways[0].step.state, &b = ways[1].step.state;
-  return nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(ways[0].energy, ways[1].energy, 0.0);
-}
-
-int Explorer::preferred_sign(const BranchPoint& point, const std::vector<Way>& ways) const {
-  constexpr double changes = 1e-6;  // of the distance stepped
-  for (const auto& quantity : options_.preference) {
-    const Row row = quantity->gradient(point.state);
-    const double norm = Metric(system_.weights(point.state.piece), lambda_scale_).dual_norm(row);
-    const double rate = norm > 0.0 ? row.dx.dot(point.other.dx) / norm : 0.0;
-    if (std::abs(rate) > changes) return rate > 0.0 ? 1 : -1;
-  }
-  return ways.front().sign;  // along the mode, whose largest component is positive
-}
-
-void Explorer::enqueue_one_sided(const Event& event, const BranchPoint::Way& way) {
+void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mirrored) {
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
-  BranchStart start{.state = system_.with_piece(event.branching->state, way.piece), .lambda_scale = lambda_scale_};
-  start.forward = start.mode = way.direction;
+  start.lambda_scale = lambda_scale_;
   start.distance = options_.distance;
-  start.unstable = event.unstable_before;
-  queue_.push_back(
-      {.start = std::move(start), .record = {.parent = current_, .origin = event.branching, .depth = here.depth + 1}});
-}
-
-void Explorer::enqueue(const Event& event, const Way& way, bool mirrored) {
-  const BranchPoint& point = *event.branching;
-  const int sign = way.sign;
-  BranchStart start{.state = point.state, .lambda_scale = lambda_scale_};
-  start.state.piece = way.step.state.piece;
-  start.forward = sign > 0 ? point.other : reversed(point.other);
-  start.mode = sign > 0 ? point.mode : reversed(point.mode);
-  if (event.unstable_before && event.unstable_after)
-    start.unstable = std::min(*event.unstable_before, *event.unstable_after);
-  start.distance = options_.distance;
-  const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   queue_.push_back({.start = std::move(start),
                     .record = {.parent = current_,
                                .origin = event.branching,
@@ -181,14 +197,6 @@ void Explorer::drop_arrived_at(int other) {
     if (length > metric.norm(step) + arriving) return false;  // not in this step
     const double cosine = metric.inner(arrival, *queued.start.forward) / length;
     return cosine < -0.5 || (queued.record.mirrored && cosine > 0.5);
-  });
-}
-
-bool Explorer::known(const BranchPoint& point) const {
-  return std::any_of(known_.begin(), known_.end(), [&](const KnownPoint& other) {
-    if (other.state.piece != point.state.piece) return false;
-    const Metric metric(system_.weights(point.state.piece), lambda_scale_);
-    return metric.distance(other.state, point.state) <= same_branch_point;
   });
 }
 

@@ -83,15 +83,9 @@ class Explorer {
       archive(start, record);
     }
   };
-  struct Way;  // off a branch point, that was tried
 
   void look_at(const Event& event);
-  std::vector<Way> ways_off(const BranchPoint& point);
-  bool mirror_images(const std::vector<Way>& ways) const;
-  int preferred_sign(const BranchPoint& point, const std::vector<Way>& ways) const;
-  void enqueue(const Event& event, const Way& way, bool mirrored);
-  void enqueue_one_sided(const Event& event, const BranchPoint::Way& way);
-  bool known(const BranchPoint& point) const;
+  void enqueue(const Event& event, BranchStart start, int sign, bool mirrored);
   void drop_arrived_at(int other);
 
   const System& system_;

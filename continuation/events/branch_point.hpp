@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "continuation/events/singular_locator.hpp"
+#include "continuation/events/singular_place.hpp"
 #include "continuation/path_point.hpp"
 #include "continuation/step/corrector.hpp"
 #include "core/system.hpp"

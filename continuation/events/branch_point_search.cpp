@@ -5,6 +5,7 @@
 
 #include "continuation/events/branch_point.hpp"
 #include "continuation/events/eigenvalue_touch.hpp"
+#include "continuation/events/singular_locator.hpp"
 #include "continuation/step/point_on_path.hpp"
 
 namespace arcwall {
@@ -42,14 +43,13 @@ SingularPoint singular_at(TraceTools& tools, const StepOrigin& origin, const Sin
 SingularSearch find_branch_points(TraceTools& tools, const StepOrigin& origin, const PathPoint& to) {
   const Segment segment(origin.metric, origin.point(), to);
   const Index before = *origin.from.negative_eigenvalues, after = *to.negative_eigenvalues;
-  SingularLocator locator(tools.corrector);
   std::vector<SingularPlace> places;
   if (after != before) {
-    places = locator.changes(segment, origin.metric, before, after);
+    places = find_count_changes(tools.corrector, segment, origin.metric, before, after);
     if (places.empty()) return {.clear = false};
   } else if (may_touch_zero(tools, origin, segment)) {
-    auto touches = locator.touches(segment, origin.metric, SingularLocator::What::eigenvalue,
-                                   origin.from.zero_eigenvalues > 0, 0.0);
+    auto touches = find_touches(tools.corrector, segment, origin.metric, Vanishing::eigenvalue,
+                                origin.from.zero_eigenvalues > 0, 0.0);
     if (!touches) return {.clear = segment.length() <= shortest_telling_step};
     places = std::move(*touches);
   }

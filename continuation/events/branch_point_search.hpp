@@ -1,5 +1,6 @@
 #pragma once
 
+#include "continuation/events/singular_place.hpp"
 #include "continuation/events/singular_search.hpp"
 
 namespace arcwall {

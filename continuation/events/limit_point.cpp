@@ -6,6 +6,7 @@
 
 #include "continuation/events/branch_point.hpp"
 #include "continuation/events/branch_point_search.hpp"
+#include "continuation/events/singular_locator.hpp"
 #include "continuation/events/zero_search.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
@@ -134,9 +135,8 @@ SingularSearch find_limit_point(TraceTools& tools, const StepOrigin& origin, con
 
 SingularSearch find_touching_limit(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
   if (!hides_two_zeros(tools.detectors, segment, deep_turn)) return {};
-  SingularLocator locator(tools.corrector);
-  const auto places = locator.touches(segment, origin.metric, SingularLocator::What::turning,
-                                      origin.from.zero_eigenvalues > 0, detector_noise);
+  const auto places = find_touches(tools.corrector, segment, origin.metric, Vanishing::turning,
+                                   origin.from.zero_eigenvalues > 0, detector_noise);
   if (!places || places->size() == 2) return {.clear = segment.length() <= shortest_telling_step};
   if (places->empty()) return {};
   const SingularPlace& place = places->front();

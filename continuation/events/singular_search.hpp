@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "continuation/events/singular_locator.hpp"
 #include "continuation/events/singular_point.hpp"
 #include "continuation/segment.hpp"
 #include "continuation/trace_tools.hpp"

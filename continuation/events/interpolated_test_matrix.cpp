@@ -1,0 +1,146 @@
+#include "continuation/events/interpolated_test_matrix.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall {
+
+namespace {
+
+constexpr std::size_t nodes = InterpolatedTestMatrix::nodes;
+
+// Directions that Q of (1) makes of columns, with t_λ taken not negative.
+Matrix without_fold(const Matrix& columns, const Metric& metric, const Direction& t) {
+  const double along = std::abs(t.dlambda) / metric.lambda_scale();
+  return columns - t.dx * (metric.weights().cwiseProduct(t.dx).transpose() * columns) / (1.0 + along);
+}
+
+// The modes at the sample reached last whose eigenvalues, with Q of (1), are near zero.
+Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
+  constexpr Index nearest = 4;
+  constexpr double near = 50.0;  // times the least eigenvalue
+  const Vector& W = on.metric.weights();
+  const auto pairs =
+      on.corrector.near_null(sample.state, W, nearest, Convergence::loose);  // (1) holds for any modes near these
+  if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
+  const Matrix C = W.asDiagonal() * without_fold(*pairs->vectors, on.metric, sample.tangent);
+  const auto moved = on.corrector.responses(C);
+  if (!moved) return {};
+  const Matrix inverse = C.transpose() * *moved;
+  const Eigen::SelfAdjointEigenSolver<Matrix> axes(0.5 * (inverse + inverse.transpose()));
+  const Vector size = axes.eigenvalues().cwiseAbs();
+  std::vector<Index> critical;
+  for (Index j = 0; j < size.size(); ++j)
+    if (near * size[j] >= size.maxCoeff()) critical.push_back(j);
+  return *pairs->vectors * axes.eigenvectors()(Eigen::all, critical);
+}
+
+// S of (1) at the sample reached last; `modes` are set if they are empty.
+std::optional<Matrix> test_matrix(const SegmentSamples& on, const PathSample& sample, Vanishing what, Index order,
+                                  Matrix& modes) {
+  if (what == Vanishing::turning) return Matrix::Constant(1, 1, sample.tangent.dlambda / on.metric.lambda_scale());
+  if (on.corrector.factorized().equations().B.cols() > 0) {
+    // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least
+    // positive.
+    constexpr Index nearest = 4;
+    const auto eigen = on.corrector.near_null(sample.state, on.metric.weights(), nearest);
+    if (!eigen || !sample.negative) return std::nullopt;
+    const bool negative = *sample.negative >= order;
+    double value = 0.0;
+    for (const double candidate : eigen->values)
+      if ((candidate < 0.0) == negative && (value == 0.0 || std::abs(candidate) < std::abs(value))) value = candidate;
+    if (value == 0.0) return std::nullopt;
+    return Matrix::Constant(1, 1, value);
+  }
+  if (modes.cols() == 0) modes = critical_modes(on, sample);
+  if (modes.cols() == 0) return std::nullopt;
+  const Matrix C = on.metric.weights().asDiagonal() * without_fold(modes, on.metric, sample.tangent);
+  const auto moved = on.corrector.responses(C);
+  if (!moved) return std::nullopt;
+  const Matrix inverse = C.transpose() * *moved;
+  return Matrix((0.5 * (inverse + inverse.transpose())).inverse());
+}
+
+}  // namespace
+
+// The path across the chord at t. A point far from the interpolated one lies on another branch.
+std::optional<PathSample> sample_at(SegmentSamples& on, double t) {
+  const double L = on.segment.length();
+  const ChordPlaneConstraint plane(on.metric, on.segment.from().state, on.segment.to().state, t);
+  const State guess = on.segment.at(t);
+  const Direction& forward = on.segment.from().tangent;
+  CorrectorResult at = on.corrector.correct(guess, plane, on.metric, forward, 1e-2 * L);
+  if (!at.converged() || on.metric.distance(at.state, guess) > 0.05 * L) return std::nullopt;
+  if (!at.negative) at.negative = on.corrector.count_here(at.state, at.nearest);
+  if (on.metric.inner(at.tangent, forward) < 0.0) at.tangent = reversed(std::move(at.tangent));
+  PathSample sample{.t = t,
+                    .state = std::move(at.state),
+                    .tangent = std::move(at.tangent),
+                    .iterations = at.iterations,
+                    .negative = at.negative};
+  on.seen.push_back(sample);
+  return sample;
+}
+
+Vector InterpolatedTestMatrix::eigenvalues(double t) const {
+  const auto weight = weights(t);
+  Matrix S = weight[0] * values_[0];
+  for (std::size_t i = 1; i < nodes; ++i) S += weight[i] * values_[i];
+  return Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+PathPoint InterpolatedTestMatrix::point(double t, const Metric& metric) const {
+  const auto weight = weights(t);
+  PathPoint point;
+  point.state = samples_[0].state;
+  point.tangent = samples_[0].tangent;
+  point.state.x *= weight[0];
+  point.state.lambda *= weight[0];
+  point.tangent.dx *= weight[0];
+  point.tangent.dlambda *= weight[0];
+  for (std::size_t i = 1; i < nodes; ++i) {
+    point.state.x += weight[i] * samples_[i].state.x;
+    point.state.lambda += weight[i] * samples_[i].state.lambda;
+    point.tangent.dx += weight[i] * samples_[i].tangent.dx;
+    point.tangent.dlambda += weight[i] * samples_[i].tangent.dlambda;
+  }
+  for (const PathSample& sample : samples_) point.iterations = std::max(point.iterations, sample.iterations);
+  point.tangent = unit(metric, std::move(point.tangent));
+  return point;
+}
+
+// Values of Lagrange's polynomials on the nodes.
+std::array<double, InterpolatedTestMatrix::nodes> InterpolatedTestMatrix::weights(double t) const {
+  std::array<double, nodes> value;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    value[i] = 1.0;
+    for (std::size_t j = 0; j < nodes; ++j)
+      if (j != i) value[i] *= (t - samples_[j].t) / (samples_[i].t - samples_[j].t);
+  }
+  return value;
+}
+
+std::optional<InterpolatedTestMatrix> test_matrix_around(SegmentSamples& on, double centre, double spread,
+                                                         Vanishing what, Index order) {
+  constexpr double margin = 2e-3;  // the ends may be singular
+  const double half = 1.5 * spread + margin, middle = std::clamp(centre, half, 1.0 - half);
+  const std::array<double, nodes> offsets{-1.5, -0.5, 0.5, 1.5};
+  const std::array<std::size_t, nodes> inner_first{1, 2, 0, 3};  // the modes are those of the first
+  std::vector<std::optional<PathSample>> samples(nodes);
+  std::array<Matrix, nodes> values;
+  Matrix modes;
+  for (const std::size_t i : inner_first) {
+    samples[i] = sample_at(on, middle + spread * offsets[i]);
+    if (!samples[i]) return std::nullopt;
+    const auto value = test_matrix(on, *samples[i], what, order, modes);
+    if (!value || !value->allFinite()) return std::nullopt;
+    values[i] = *value;
+  }
+  std::vector<PathSample> all;
+  for (auto& sample : samples) all.push_back(std::move(*sample));
+  return InterpolatedTestMatrix(middle, spread, std::move(all), std::move(values));
+}
+
+}  // namespace arcwall
