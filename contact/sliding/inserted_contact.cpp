@@ -54,7 +54,7 @@ Elements elements_beside(const SlidingSetting& setting, const SlidingState& at,
           .behind = std::max(elements - first, at_least(start.at.s, b))};
 }
 
-// Whether an inserted point would be let go at once: its least gap is shallow, or it is cramped beside the end of the
+// Whether an inserted point would be given up at once: its least gap is shallow, or it is cramped beside the end of the
 // member, a load or a contact with another wall.
 bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t point) {
   const SlidingState at(state);

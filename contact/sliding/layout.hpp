@@ -11,8 +11,8 @@ namespace sliding {
 class ValidityBound;
 }
 
-/// What the unknowns of sliding contact mean: the mesh, which of its breakpoints touch what, where the body lies on a
-/// wall between two of them, and up to what the layout serves.
+/// What the unknowns of sliding contact mean: the mesh, which of its breakpoints touch what, and where the body lies on
+/// a wall between two of them. The layout also knows the bounds within which it is valid.
 class SlidingContactLayout final : public SlidingLayout {
  public:
   /// How the body runs on behind a point.
@@ -41,7 +41,8 @@ class SlidingContactLayout final : public SlidingLayout {
     Span span;
   };
 
-  /// `s` where the layout begins: meshes that are too fine from the start are let be.
+  /// `s`: the material coordinates of the points where the layout begins. A mesh that is too fine already there is not
+  /// made coarser.
   SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh, std::vector<Point> points,
                        const Vector& s);
   ~SlidingContactLayout() override;
@@ -52,7 +53,7 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::vector<PressedNode>& pressed_nodes() const { return pressed_nodes_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
-  /// What it serves up to: guards behind those of the contacts.
+  /// The bounds within which the layout is valid: guards behind those of the contacts.
   const std::vector<std::unique_ptr<const sliding::ValidityBound>>& bounds() const { return bounds_; }
 
   /// `s` where it began.

@@ -16,10 +16,11 @@ struct Arrival {
   double tolerance;          ///< bounds within this of zero are reached together
 };
 
-/// What a layout serves up to in one respect: a guard of the pieces that have the layout, with what lies behind it.
+/// A condition without which a layout is not valid: a guard of the pieces that have the layout, with what lies behind
+/// it.
 ///
-/// One class a kind of bound, with value, gradient and transitions side by side. It says which tracked point, segment,
-/// pressed node or free end it belongs to, and is the same for all states on its layout.
+/// Each kind of bound is one class, with its value, its gradient and its transitions side by side. An object of it
+/// belongs to one tracked point, segment, pressed node or free end of a layout, and serves all states on that layout.
 class ValidityBound {
  public:
   virtual ~ValidityBound() = default;
@@ -36,8 +37,8 @@ class ValidityBound {
                                               const Arrival& arrival) const = 0;
 };
 
-/// All bounds of a layout: of its tracked points, its segments, its pressed nodes and the free ends. A new kind of
-/// bound is a class and a line here.
+/// All bounds of a layout: of its tracked points, its segments, its pressed nodes and the free ends. To add a kind of
+/// bound, write a class for it and add a line here.
 std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingBody& body,
                                                                   const SlidingContactLayout& on);
 

@@ -27,7 +27,7 @@ void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std
   add_if<StraightBound>(flat && segment.elements > 1, to, i);
   if (flat || on.points().empty()) return;
   add_if<CoarseBound>(true, to, i);
-  add_if<FineBound>(FineBound::serves(body, on, segment), to, i);
+  add_if<FineBound>(FineBound::is_needed(body, on, segment), to, i);
 }
 
 }  // namespace

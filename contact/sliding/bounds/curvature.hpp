@@ -6,7 +6,7 @@ namespace arcwall::sliding {
 
 /// The curvature gap (8.5) of a tracked point beside which the body does not lie on the wall. Closed: behind the bound
 /// the point contact becomes a line. Open: the least gap that the point follows becomes shallow, and before it vanishes
-/// the point must be let go, as nothing would say where it is.
+/// the point must be given up, as nothing would say where it is.
 class CurvatureBound final : public ValidityBound {
  public:
   explicit CurvatureBound(std::size_t point) : point_(point) {}

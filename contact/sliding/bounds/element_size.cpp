@@ -44,8 +44,8 @@ std::vector<Transition> CoarseBound::transitions(const SlidingSetting& setting, 
   return {with_elements(setting, at, arrival.forward, segment_, 2 * elements_of(at, segment_))};
 }
 
-bool FineBound::serves(const SlidingBody& body, const SlidingContactLayout& on,
-                       const SlidingContactLayout::Segment& segment) {
+bool FineBound::is_needed(const SlidingBody& body, const SlidingContactLayout& on,
+                          const SlidingContactLayout::Segment& segment) {
   const auto [from, to] = on.ends(body, segment, on.origin());
   return segment.elements > 1 && body.elements_between(segment.strand, from, to) > 1.2 * finest * segment.elements;
 }

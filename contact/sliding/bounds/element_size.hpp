@@ -24,9 +24,10 @@ class FineBound final : public ValidityBound {
  public:
   explicit FineBound(std::size_t segment) : segment_(segment) {}
 
-  /// Not where there is one element, or where elements are that short from the start.
-  static bool serves(const SlidingBody& body, const SlidingContactLayout& on,
-                     const SlidingContactLayout::Segment& segment);
+  /// Whether a segment has this bound: not where it has one element, or where its elements are that short from the
+  /// start.
+  static bool is_needed(const SlidingBody& body, const SlidingContactLayout& on,
+                        const SlidingContactLayout::Segment& segment);
 
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
