@@ -79,10 +79,11 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   if (is_followed(setting, from, *start)) return std::nullopt;
   const auto* segment = segment_of(setting, from, start->at);
   if (segment == nullptr) return std::nullopt;
-  const auto [before, behind] = elements_beside(setting, from, *segment, *start, *violated);
+  const auto elements = elements_beside(setting, from, *segment, *start, *violated);
   std::size_t point = 0;
   Transition transition = remeshed(setting, from, forward, [&](LayoutEdit& edit) {
-    point = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = start->at.s}, before, behind);
+    point = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = start->at.s}, elements.before,
+                        elements.behind);
   });
   if (is_unfit(setting, transition.guess, point)) return std::nullopt;
   return transition;
