@@ -144,12 +144,12 @@ Matrix NearNullTracker::right_hand_sides(const Vector& weights, Index front) {
   // Contact forces, which come and go at the end, have no weight and need no start.
   const Index common = std::min(pairs_->rows(), n);
   X_.resize(n, block);
+  if (block == 0) return Matrix(n, front);
   X_.topLeftCorner(common, known) = pairs_->topLeftCorner(common, known);
   X_.bottomLeftCorner(n - common, known).setZero();
   if (known < block) fill_with_start(X_.rightCols(block - known), 1);
-  Matrix columns(n, front + block);
-  if (block == 0) return columns;
   X_ *= orthonormalising(X_.transpose() * weights.asDiagonal() * X_);
+  Matrix columns(n, front + block);
   columns.rightCols(block) = weights.asDiagonal() * X_;
   return columns;
 }
