@@ -91,7 +91,9 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
       for (Index b = 0; b < static_cast<Index>(unknowns.size()); ++b) {
         const Index row = unknowns[static_cast<std::size_t>(b)];
         const double stiffness = r * gap.gradient[b] * gap.gradient[a] - t * gap.hessian(b, a);
-        if (row >= column && stiffness != 0.0) entry(out.K, row, column) += stiffness;
+        if (row < column || stiffness == 0.0) continue;
+        entry(out.K, row, column) += stiffness;
+        out.ground.push_back({.row = row, .column = column, .stiffness = stiffness});
       }
     }
   });

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/algebra/bordered_solver.hpp"
 #include "core/derivative_check.hpp"
 #include "tests/contact/contact_models.hpp"
 #include "tests/support/dense.hpp"
@@ -51,6 +52,32 @@ TEST(MultiplierContact, DerivativesAreConsistentWithEveryLaw) {
         EXPECT_LE(check_derivatives(model.system(), random_state(model.system(), piece, numbers)).worst(), 1e-9);
       }
     }
+}
+
+// Springs softer than the beam leave a node its translations, which curved walls resist besides: what is factorized is
+// K all the same.
+TEST(MultiplierContact, IsSolvedForWithEveryLawAndStiffness) {
+  Numbers numbers(70);
+  for (const auto method : {ContactLaw::Method::rigid, ContactLaw::Method::penalty, ContactLaw::Method::augmented})
+    for (const double stiffness : {1.0, 10.0, 1e3, 1e6})
+      for (const bool on_axis : {false, true})
+        for (test::TestWall& wall : test::all_walls(on_axis)) {
+          SCOPED_TRACE(stiffness);
+          const ContactModel model(
+              test::contact_beam({.section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2}, .elements = 16}), {wall},
+              0.1, {.method = method, .stiffness = stiffness});
+          const MultiplierContact& system = model.system();
+          const State state = random_state(system, closed_every(system.contact_count(), 3), numbers);
+          Linearization now;
+          system.linearize(state, now);
+          BorderedSolver solver;
+          ASSERT_EQ(solver.factorize(now, system.multiplier_count(state.piece)), FactorStatus::ok);
+          const Matrix right = numbers.matrix(state.x.size(), 2);
+          Matrix X = right;
+          ASSERT_TRUE(solver.solve_inner(X));
+          const Matrix terms = test::full(now.K).cwiseAbs() * X.cwiseAbs();
+          EXPECT_LE((product(now, X) - right).norm(), 1e-12 * terms.norm());
+        }
 }
 
 TEST(MultiplierContact, APenaltySpringHasItsTributaryLength) {
