@@ -1,12 +1,12 @@
 #include "core/algebra/singular_bordered_solver.hpp"
 
-#include <Eigen/UmfPackSupport>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/algebra/bordered_residual.hpp"
 #include "core/algebra/near_null.hpp"
+#include "core/algebra/solvers/lu.hpp"
 
 namespace arcwall {
 
@@ -110,11 +110,7 @@ SparseMatrix SingularBorderedSolver::with_one_held(Index held) const {
   const auto add = [&](Index row, Index column, double value) {
     if (value != 0.0) entries.emplace_back(row, column, value);
   };
-  for (Index column = 0; column < n; ++column)
-    for (SparseMatrix::InnerIterator entry(now.K, column); entry; ++entry) {
-      add(entry.row(), column, entry.value());
-      if (entry.row() != column) add(column, entry.row(), entry.value());
-    }
+  for_each_of_both_triangles(now.K, add);
   for (Index k = 0; k < m; ++k) {
     for (Index i = 0; i < n; ++i) add(i, n + k, now.B(i, k));
     for (Index i = 0; i < last; ++i) add(n + k, i, now.C(k, i));
@@ -132,18 +128,15 @@ std::optional<Direction> SingularBorderedSolver::solve_with_lu(const Vector& f, 
   const Index last = f.size();
   Index held = 0;
   if (border_.dx.cwiseAbs().maxCoeff(&held) < std::abs(border_.dlambda)) held = last;
-  const SparseMatrix whole = with_one_held(held);
-  if (!all_finite(whole.coeffs())) return std::nullopt;
-  const Eigen::UmfPackLU<SparseMatrix> lu(whole);
-  if (lu.info() != Eigen::Success) return std::nullopt;
-  Matrix X = Matrix::Zero(last + 1, 2);
-  X.col(0).head(last) = f;
-  X(last, 1) = 1.0;
-  X = lu.solve(X).eval();
-  const auto column = [&](Index c) { return Direction{.dx = X.col(c).head(last), .dlambda = X(last, c)}; };
+  Matrix right = Matrix::Zero(last + 1, 2);
+  right.col(0).head(last) = f;
+  right(last, 1) = 1.0;
+  const auto X = solve_by_lu(with_one_held(held), right);
+  if (!X) return std::nullopt;
+  const auto column = [&](Index c) { return Direction{.dx = X->col(c).head(last), .dlambda = (*X)(last, c)}; };
   const Direction particular = column(0), line = column(1);
   const double along = (g - apply(border_, particular)) / apply(border_, line);
-  if (!X.allFinite() || !std::isfinite(along)) return std::nullopt;
+  if (!std::isfinite(along)) return std::nullopt;
   return Direction{.dx = particular.dx + along * line.dx, .dlambda = particular.dlambda + along * line.dlambda};
 }
 

@@ -2,11 +2,12 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/UmfPackSupport>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "core/algebra/solvers/lu.hpp"
 
 namespace arcwall {
 
@@ -22,11 +23,8 @@ SparseMatrix bordered(const SparseMatrix& K, const Matrix& B) {
   const Index n = K.cols(), k = B.cols();
   std::vector<Eigen::Triplet<double, Index>> entries;
   entries.reserve(static_cast<std::size_t>(2 * K.nonZeros() + 2 * n * k));
-  for (Index column = 0; column < n; ++column)
-    for (SparseMatrix::InnerIterator entry(K, column); entry; ++entry) {
-      entries.emplace_back(entry.row(), column, entry.value());
-      if (entry.row() != column) entries.emplace_back(column, entry.row(), entry.value());
-    }
+  for_each_of_both_triangles(K,
+                             [&](Index row, Index column, double value) { entries.emplace_back(row, column, value); });
   for (Index j = 0; j < k; ++j)
     for (Index i = 0; i < n; ++i) {
       if (B(i, j) == 0.0) continue;
@@ -165,17 +163,13 @@ std::optional<SignCount> signs_beside(const std::optional<Nearest>& nearest, con
 
 std::optional<BorderedTestFunction> BorderedTestFunction::of(const SparseMatrix& K, const Matrix& B) {
   const Index n = K.cols(), k = B.cols();
-  const SparseMatrix whole = bordered(K, B);
-  if (!all_finite(whole.coeffs())) return std::nullopt;
-  const Eigen::UmfPackLU<SparseMatrix> lu(whole);
-  if (lu.info() != Eigen::Success) return std::nullopt;
-  Matrix X = Matrix::Zero(n + k, k);
-  X.bottomRows(k).setIdentity();
-  X = lu.solve(X).eval();
-  if (!X.allFinite()) return std::nullopt;
+  Matrix right = Matrix::Zero(n + k, k);
+  right.bottomRows(k).setIdentity();
+  const auto X = solve_by_lu(bordered(K, B), right);
+  if (!X) return std::nullopt;
   BorderedTestFunction function;
-  function.vectors_ = X.topRows(n);
-  const Matrix psi = X.bottomRows(k);
+  function.vectors_ = X->topRows(n);
+  const Matrix psi = X->bottomRows(k);
   function.psi_ = 0.5 * (psi + psi.transpose());
   return function;
 }
