@@ -104,13 +104,20 @@ bool BlockTridiagonalLdlt::is_node_with_translations(Index block, const std::vec
 // A block is free where it and its neighbours are nodes that are translation-free: only then Σ_b A_ab T is zero for it.
 void BlockTridiagonalLdlt::set_translation_free(const std::vector<bool>& translation_free) {
   if (!chain_.knows_translations) return;
-  is_free_.assign(static_cast<std::size_t>(BlockChain::parts * chain_.length), 0);
+  grounded_before_.assign(1, 0);
   bool before = true, own = is_node_with_translations(0, translation_free);
-  for (Index block = 0; block < block_count_; ++block) {
-    const bool behind = block + 1 == block_count_ || is_node_with_translations(block + 1, translation_free);
-    is_free_[static_cast<std::size_t>(block)] = before && own && behind;
+  for (Index block = 0; block < BlockChain::parts * chain_.length; ++block) {
+    const bool behind = block + 1 >= block_count_ || is_node_with_translations(block + 1, translation_free);
+    const bool is_free = block < block_count_ && before && own && behind;
+    grounded_before_.push_back(grounded_before_.back() + (is_free ? 0 : 1));
     before = std::exchange(own, behind);
   }
+}
+
+// Whether nothing but ground terms resists a block's translations.
+bool BlockTridiagonalLdlt::is_free(Index block) const {
+  const auto i = static_cast<std::size_t>(block);
+  return grounded_before_[i + 1] == grounded_before_[i];
 }
 
 FactorStatus BlockTridiagonalLdlt::factorize(const SparseMatrix& A, const MatrixProperties& known) {
@@ -157,17 +164,17 @@ void BlockTridiagonalLdlt::find_ground_parts(GroundTerms ground) {
   const BlockLayout at = chain_.layout();
   const Index length = chain_.length;
   for (Index record = 0; record < length; ++record) {
-    const auto is_free = [&](Index part) { return is_free_[static_cast<std::size_t>(part * length + record)] != 0; };
-    if (is_free(0) && is_free(1) && is_free(2) && is_free(3)) {
+    const auto is_free_in = [&](Index part) { return is_free(part * length + record); };
+    if (is_free_in(0) && is_free_in(1) && is_free_in(2) && is_free_in(3)) {
       for (Index column = 0; column < displacements; ++column)
         for (Index row = 0; row < chain_.width; ++row) chain_.block(record)[at.ground(row, column)] = 0.0;
       continue;
     }
-    for (Index part = 0; part < BlockChain::parts; ++part) find_ground_part(part * length + record, is_free(part));
+    for (Index part = 0; part < BlockChain::parts; ++part) find_ground_part(part * length + record, is_free_in(part));
   }
   for (const GroundTerm& term : ground) {
     const Index block = block_of_[static_cast<std::size_t>(term.row)];
-    if (is_free_[static_cast<std::size_t>(block)] == 0) continue;  // K's own entries count there
+    if (!is_free(block)) continue;  // K's own entries count there
     const auto row = static_cast<Index>(unknowns_[block].place_of(term.row));
     const auto column = static_cast<Index>(unknowns_[block].place_of(term.column));
     if (column < displacements) number(block, at.ground(row, column)) += term.stiffness;
@@ -212,7 +219,9 @@ bool BlockTridiagonalLdlt::read_pivots(const PivotScan<double>& scan, double pad
 // Whether a pivot is much greater than all entries: after one of δ stands one of c²/δ. Then these two are far apart.
 bool BlockTridiagonalLdlt::has_grown(const SparseMatrix& A) const {
   constexpr double much = 1e5;
-  return pivots_.least * much * much < pivots_.greatest && growth(A) > much;
+  // On fine meshes pivots always differ that much, but the greatest is no greater than what one entry tells already.
+  const double one = padding_ ? std::abs(A.valuePtr()[*padding_]) : 0.0;
+  return pivots_.least * much * much < pivots_.greatest && pivots_.greatest > much * one && growth(A) > much;
 }
 
 void BlockTridiagonalLdlt::solve(Eigen::Ref<Matrix> X) const {
@@ -231,12 +240,7 @@ void BlockTridiagonalLdlt::solve(Eigen::Ref<Matrix> X) const {
 double BlockTridiagonalLdlt::weighted(const Eigen::Ref<const Vector>& v) const {
   for (Index record = 0; record < chain_.length; ++record)
     gather(unknowns_, record, v.data(), 1, work_.data() + record * chain_.width);
-  std::vector<Index> grounded_before;
-  if (chain_.knows_translations) {
-    grounded_before.push_back(0);
-    for (const std::uint8_t is_free : is_free_) grounded_before.push_back(grounded_before.back() + (is_free == 0));
-  }
-  return weighted_by_blocks(chain_, grounded_before, work_.data());
+  return weighted_by_blocks(chain_, grounded_before_, work_.data());
 }
 
 }  // namespace arcwall

@@ -47,6 +47,7 @@ class BlockTridiagonalLdlt final : public SymmetricFactors {
   Spot spot_of(Index block, Index row, Index other, Index other_row) const;
   void find_values(const SparseMatrix& A, const Blocks& blocks);
   void find_unknowns(const Blocks& blocks);
+  bool is_free(Index block) const;
   bool is_node_with_translations(Index block, const std::vector<bool>& translation_free) const;
   void read(const SparseMatrix& A, double padding);
   void find_ground_parts(GroundTerms ground);
@@ -63,7 +64,7 @@ class BlockTridiagonalLdlt final : public SymmetricFactors {
   std::vector<Narrow> narrow_;
   std::optional<Index> padding_;        // the value of the matrix that stands on the diagonal where no unknown does
   std::vector<std::int32_t> block_of_;  // unknowns, where translations are known
-  std::vector<std::uint8_t> is_free_;   // blocks that do not resist translations, but for ground terms
+  std::vector<Index> grounded_before_;  // blocks before block i that resist translations, if only by K's own entries
   mutable std::vector<Lanes> work_;
   bool refused_ = false;
 };

@@ -8,9 +8,15 @@ namespace arcwall {
 
 namespace {
 
-// Widths with code of their own, and those of them that nodes with two displacements have.
+// Widths with code of their own.
 using Widths = std::integer_sequence<Index, 1, 2, 3, 4, 5, 6, 8>;
-constexpr bool may_know_translations(Index width) { return width >= 2 && width <= 5; }
+
+template <Index... widths>
+Index least_width(Index greatest, std::integer_sequence<Index, widths...>) {
+  for (const Index width : {widths...})
+    if (greatest <= width) return width;
+  return 0;
+}
 
 // Calls `code` with the width as a constant.
 template <class Code, Index... widths>
@@ -175,18 +181,12 @@ BlockChain::BlockChain(Index of_width, Index blocks, bool knows)
   last.assign(static_cast<std::size_t>((BlockChain::parts + 1) * layout().size()), 0.0);
 }
 
-Index elimination_width(Index greatest) {
-  for (const Index width : {1, 2, 3, 4, 5, 6, 8})
-    if (greatest <= width) return width;
-  return 0;
-}
-
-bool can_know_translations(Index width) { return may_know_translations(width); }
+Index elimination_width(Index greatest) { return least_width(greatest, Widths{}); }
 
 PivotScan<double> eliminate_blocks(BlockChain& chain) {
   PivotScan<double> pivots;
   const auto eliminate = [&](auto width) {
-    constexpr Index B = width.value, T = may_know_translations(B) ? 2 : 0;
+    constexpr Index B = width.value, T = can_know_translations(B) ? 2 : 0;
     pivots = chain.knows_translations ? eliminate_all<B, T>(chain) : eliminate_all<B, 0>(chain);
   };
   with_width(chain.width, eliminate, Widths{});

@@ -30,7 +30,7 @@ struct BlockChain {
 Index elimination_width(Index greatest);
 
 /// Whether translations can be known of blocks of a width that elimination_width() gave.
-bool can_know_translations(Index width);
+constexpr bool can_know_translations(Index width) { return width >= 2 && width <= 5; }
 
 /// Eliminates all blocks. What there is to fill up blocks and lanes counts among the pivots.
 PivotScan<double> eliminate_blocks(BlockChain& chain);

@@ -26,8 +26,7 @@ Index place_of(const SparseMatrix& A, Index one, Index other) {
 std::unique_ptr<NullSpaceLdlt> NullSpaceLdlt::of(const SparseMatrix& matrix, Index multipliers, const Blocks& blocks,
                                                  const std::vector<bool>& translation_free) {
   const Index n = matrix.cols() - multipliers;
-  SparseMatrix A = matrix.topLeftCorner(n, n);
-  A.makeCompressed();
+  const SparseMatrix A = matrix.topLeftCorner(n, n);
   std::unique_ptr<NullSpaceLdlt> ldlt(new NullSpaceLdlt(A, blocks, translation_free));
   return ldlt->reuse_analysis(matrix, multipliers) ? std::move(ldlt) : nullptr;
 }
@@ -58,6 +57,7 @@ bool NullSpaceLdlt::find_chunks(const SparseMatrix& matrix, Index multipliers) {
 
 bool NullSpaceLdlt::find_pressed_blocks(const SparseMatrix& matrix, Index multipliers) {
   pressed_.clear();
+  turned_.reset();
   if (multipliers == 0) return true;
   const Index n = matrix.cols() - multipliers;
   const SparseIndex *start = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
@@ -231,11 +231,15 @@ void NullSpaceLdlt::take_out(PressedBlock& pressed) {
 // Nodes whose unknowns have been turned are not free, nor do they have translations as first unknowns.
 void NullSpaceLdlt::tell_what_is_free() {
   if (translation_free_.empty()) return;
+  std::vector<bool> turned;
+  for (const PressedBlock& pressed : pressed_) turned.push_back(pressed.is_turned);
+  if (turned_ == turned) return;
   std::vector<bool> translation_free = translation_free_;
   for (const PressedBlock& pressed : pressed_)
     for (const Index unknown : *pressed.unknowns)
       if (pressed.is_turned) translation_free[static_cast<std::size_t>(unknown)] = false;
   ldlt_.set_translation_free(translation_free);
+  turned_ = std::move(turned);
 }
 
 // A block's entries of a long vector, and back. Eigen's x(unknowns) would copy the list to the heap each time, and so

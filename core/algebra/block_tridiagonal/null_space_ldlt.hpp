@@ -94,8 +94,9 @@ class NullSpaceLdlt final : public SymmetricFactors {
   BlockTridiagonalLdlt ldlt_;
   std::vector<Chunk> chunks_;
   std::vector<PressedBlock> pressed_;
-  std::vector<GroundTerm> ground_;    // those of the matrix and soft multipliers
-  mutable std::vector<Known> known_;  // room for solve()
+  std::optional<std::vector<bool>> turned_;  // which of them were so when the chain was told what is free
+  std::vector<GroundTerm> ground_;           // those of the matrix and soft multipliers
+  mutable std::vector<Known> known_;         // room for solve()
   bool refused_ = false;
 };
 
