@@ -17,11 +17,11 @@ constexpr int most_rounds = 100;
 }  // namespace
 
 LoadIncrements::LoadIncrements(const UnilateralSystem& system, State start, double lambda_scale,
-                               std::function<void(const State&)> advance)
+                               std::function<void(const State&)> advance, const MakeFactorization& make)
     : system_(system),
       advance_(std::move(advance)),
       lambda_scale_(lambda_scale),
-      solver_(std::make_unique<BorderedSolver>()) {
+      solver_(std::make_unique<BorderedSolver>(make)) {
   last_.state = std::move(start);
   last_.guards = system_.guards(last_.state);
   last_.count = {.unstable = 0, .stability = Stability::stable};

@@ -6,6 +6,7 @@
 
 #include "continuation/metric.hpp"
 #include "continuation/path_point.hpp"
+#include "core/algebra/factorization.hpp"
 #include "core/linearization.hpp"
 #include "core/unilateral_system.hpp"
 
@@ -23,9 +24,9 @@ class BorderedSolver;
 class LoadIncrements {
  public:
   /// `system` must outlive this; `advance` tells it that an increment has led to a state, whose configuration is the
-  /// reference of the next. `lambda_scale` as in Metric.
+  /// reference of the next. `lambda_scale` as in Metric; `make`: what K is factorized by.
   LoadIncrements(const UnilateralSystem& system, State start, double lambda_scale,
-                 std::function<void(const State&)> advance);
+                 std::function<void(const State&)> advance, const MakeFactorization& make = make_ldlt);
   LoadIncrements(LoadIncrements&&) noexcept;
   ~LoadIncrements();
 

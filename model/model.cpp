@@ -131,9 +131,10 @@ const System& Model::system() const {
 LoadIncrements Model::increments(State start) {
   const double scale = Tracer(system(), start, options_).lambda_scale();
   const Index n = structure_->size({});
-  return {system(), std::move(start), scale, [this, n](const State& state) {
-            incremental_structure_->advance({.x = state.x.head(n), .lambda = state.lambda});
-          }};
+  const auto advance = [this, n](const State& state) {
+    incremental_structure_->advance({.x = state.x.head(n), .lambda = state.lambda});
+  };
+  return {system(), std::move(start), scale, advance, options_.factorization};
 }
 
 std::optional<State> Model::start(std::string& reason) const {
