@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <vector>
 
 #include "core/algebra/near_null.hpp"
@@ -25,8 +26,8 @@ constexpr double worth_springs = 32.0;
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 // CHOLMOD asks for four threads for loops over single blocks, whatever the machine has; waiting for each other takes
-// them longer than the work. Where no region of OpenMP may be active, one thread does all. Only if CHOLMOD has loaded
-// that library there is something to be told.
+// them longer than the work. Where no region of OpenMP may be active, one thread does all. This serves programs other
+// than trace-path, which has no teams at all (apps/one_thread.cpp).
 class OneThread {
  public:
   OneThread() {
@@ -54,7 +55,10 @@ class ModifiedCholesky final : public SymmetricFactors {
     cholmod_common& common = llt_.common;
     common.supernodal = CHOLMOD_SUPERNODAL;
     cholmod_sparse a = cholmod_view(pattern_, A.valuePtr());
-    // Nested dissection where the library has it.
+    // Nested dissection where the library has it. METIS draws from rand(), whose numbers threads share: orders that are
+    // found at once would not be those that are found alone.
+    static std::mutex drawing;
+    const std::lock_guard<std::mutex> alone(drawing);
     for (const int ordering : {CHOLMOD_METIS, CHOLMOD_AMD}) {
       common.method[0].ordering = ordering;
       llt_.factor = cholmod_l_analyze(&a, &common);
