@@ -29,8 +29,7 @@ struct WayOff {
 };
 
 std::vector<WayOff> ways_off(const System& system, const TraceOptions& trace, const BranchPoint& point,
-                             double lambda_scale, double distance) {
-  const Metric metric(system.weights(point.state.piece), lambda_scale);
+                             const Metric& metric, double distance) {
   Corrector corrector(system, trace.corrector, std::abs(trace.step.first), trace.factorization);
   StabilityCounter counter(system, corrector.factorized(), trace.guard_tolerance, trace.factorization);
   std::vector<WayOff> ways;
@@ -82,12 +81,9 @@ BranchStart start_along(const System& system, const Event& event, const BranchPo
   return start;
 }
 
-bool is_known(const System& system, const std::vector<KnownPoint>& known, const BranchPoint& point,
-              double lambda_scale) {
+bool is_known(const std::vector<KnownPoint>& known, const BranchPoint& point, const Metric& metric) {
   return std::any_of(known.begin(), known.end(), [&](const KnownPoint& other) {
-    if (other.state.piece != point.state.piece) return false;
-    const Metric metric(system.weights(point.state.piece), lambda_scale);
-    return metric.distance(other.state, point.state) <= same_branch_point;
+    return other.state.piece == point.state.piece && metric.distance(other.state, point.state) <= same_branch_point;
   });
 }
 
@@ -133,7 +129,9 @@ void Explorer::stop(const BranchEnd& end) {
 // A branch point was located on the branch under way: decide who goes on.
 void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
-  if (event.suspected || is_known(system_, known_, point, lambda_scale_)) return;
+  if (event.suspected) return;
+  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+  if (is_known(known_, point, metric)) return;
   known_.push_back({.state = point.state, .branch = current_});
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
@@ -148,10 +146,9 @@ void Explorer::look_at(const Event& event) {
   const bool ahead_is_stable = event.unstable_after == Index{0};
   if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
 
-  const std::vector<WayOff> ways = ways_off(system_, trace_, point, lambda_scale_, options_.distance);
+  const std::vector<WayOff> ways = ways_off(system_, trace_, point, metric, options_.distance);
   if (ways.empty()) return;
   const bool mirrored = mirror_images(ways);
-  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
   const int preferred = preferred_sign(options_.preference, point, ways, metric);
   if (options_.policy == BranchPolicy::all) {
     for (const WayOff& way : ways)

@@ -3,16 +3,9 @@
 namespace arcwall {
 
 FactorStatus FactorizedEquations::linearize_at(const State& state) {
-  if (!evaluate(state)) return FactorStatus::not_finite;
+  of_.linearize(state, workspace(state.piece));
+  if (!all_finite(now_.F)) return FactorStatus::not_finite;
   return solver_.factorize(now_, of_.multiplier_count(state.piece));
-}
-
-// False where F is not finite.
-bool FactorizedEquations::evaluate(const State& state) {
-  arrived_ = false;
-  if (!is_on(state.piece)) piece_ = state.piece;
-  of_.linearize(state, now_);
-  return all_finite(now_.F);
 }
 
 FactorStatus FactorizedEquations::set_point(const State& state) {

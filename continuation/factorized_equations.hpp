@@ -45,8 +45,6 @@ class FactorizedEquations {
   void track_from(const NearNull& nearest);
 
  private:
-  bool evaluate(const State& state);
-
   const Equations& of_;
   Linearization now_;
   BorderedSolver solver_;

@@ -14,7 +14,6 @@ namespace arcwall {
 struct alignas(32) Lanes {
   static constexpr int count = 4;
   using Four [[gnu::vector_size(32)]] = double;  // aligned to 16 or 32 by the target: so Lanes says it
-  typedef double AnyFour __attribute__((vector_size(32), aligned(8), may_alias));
 
   Four four;
 
@@ -28,14 +27,6 @@ struct alignas(32) Lanes {
   ARCWALL_IN_PLACE Lanes(double all) : four{all, all, all, all} {}  // NOLINT: constants stand in formulas
   ARCWALL_IN_PLACE Lanes(double a, double b, double c, double d) : four{a, b, c, d} {}
   ARCWALL_IN_PLACE explicit Lanes(const Four& numbers) : four(numbers) {}
-
-  /// Four numbers that follow each other, of any alignment.
-  ARCWALL_IN_PLACE static Lanes load(const double* from) {
-    Lanes loaded;
-    loaded.four = *reinterpret_cast<const AnyFour*>(from);
-    return loaded;
-  }
-  ARCWALL_IN_PLACE void store(double* to) const { *reinterpret_cast<AnyFour*>(to) = four; }
 
   double operator[](int lane) const { return four[lane]; }
   void set(int lane, double number) { four[lane] = number; }

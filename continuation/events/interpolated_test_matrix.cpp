@@ -17,19 +17,25 @@ Matrix without_fold(const Matrix& columns, const Metric& metric, const Direction
   return columns - t.dx * (metric.weights().cwiseProduct(t.dx).transpose() * columns) / (1.0 + along);
 }
 
+// Cᵀ W K⁻¹ W C, C = Q B, of columns B at the sample reached last: on critical modes the inverse of S of (1).
+std::optional<Matrix> flexibility(const SegmentSamples& on, const PathSample& sample, const Matrix& B) {
+  const Matrix C = on.metric.weights().asDiagonal() * without_fold(B, on.metric, sample.tangent);
+  const auto moved = on.corrector.responses(C);
+  if (!moved) return std::nullopt;
+  const Matrix product = C.transpose() * *moved;
+  return Matrix(0.5 * (product + product.transpose()));
+}
+
 // The modes at the sample reached last whose eigenvalues, with Q of (1), are near zero.
 Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
   constexpr Index nearest = 4;
   constexpr double near = 50.0;  // times the least eigenvalue
-  const Vector& W = on.metric.weights();
-  const auto pairs =
-      on.corrector.near_null(sample.state, W, nearest, Convergence::loose);  // (1) holds for any modes near these
+  // (1) holds for any modes near these.
+  const auto pairs = on.corrector.near_null(sample.state, on.metric.weights(), nearest, Convergence::loose);
   if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
-  const Matrix C = W.asDiagonal() * without_fold(*pairs->vectors, on.metric, sample.tangent);
-  const auto moved = on.corrector.responses(C);
-  if (!moved) return {};
-  const Matrix inverse = C.transpose() * *moved;
-  const Eigen::SelfAdjointEigenSolver<Matrix> axes(0.5 * (inverse + inverse.transpose()));
+  const auto inverse = flexibility(on, sample, *pairs->vectors);
+  if (!inverse) return {};
+  const Eigen::SelfAdjointEigenSolver<Matrix> axes(*inverse);
   const Vector size = axes.eigenvalues().cwiseAbs();
   std::vector<Index> critical;
   for (Index j = 0; j < size.size(); ++j)
@@ -56,11 +62,9 @@ std::optional<Matrix> test_matrix(const SegmentSamples& on, const PathSample& sa
   }
   if (modes.cols() == 0) modes = critical_modes(on, sample);
   if (modes.cols() == 0) return std::nullopt;
-  const Matrix C = on.metric.weights().asDiagonal() * without_fold(modes, on.metric, sample.tangent);
-  const auto moved = on.corrector.responses(C);
-  if (!moved) return std::nullopt;
-  const Matrix inverse = C.transpose() * *moved;
-  return Matrix((0.5 * (inverse + inverse.transpose())).inverse());
+  const auto inverse = flexibility(on, sample, modes);
+  if (!inverse) return std::nullopt;
+  return Matrix(inverse->inverse());
 }
 
 }  // namespace
@@ -128,19 +132,18 @@ std::optional<InterpolatedTestMatrix> test_matrix_around(SegmentSamples& on, dou
   const double half = 1.5 * spread + margin, middle = std::clamp(centre, half, 1.0 - half);
   const std::array<double, nodes> offsets{-1.5, -0.5, 0.5, 1.5};
   const std::array<std::size_t, nodes> inner_first{1, 2, 0, 3};  // the modes are those of the first
-  std::vector<std::optional<PathSample>> samples(nodes);
+  std::vector<PathSample> samples(nodes);
   std::array<Matrix, nodes> values;
   Matrix modes;
   for (const std::size_t i : inner_first) {
-    samples[i] = sample_at(on, middle + spread * offsets[i]);
-    if (!samples[i]) return std::nullopt;
-    const auto value = test_matrix(on, *samples[i], what, order, modes);
+    auto sample = sample_at(on, middle + spread * offsets[i]);
+    if (!sample) return std::nullopt;
+    samples[i] = std::move(*sample);
+    const auto value = test_matrix(on, samples[i], what, order, modes);
     if (!value || !value->allFinite()) return std::nullopt;
     values[i] = *value;
   }
-  std::vector<PathSample> all;
-  for (auto& sample : samples) all.push_back(std::move(*sample));
-  return InterpolatedTestMatrix(middle, spread, std::move(all), std::move(values));
+  return InterpolatedTestMatrix(middle, spread, std::move(samples), std::move(values));
 }
 
 }  // namespace arcwall

@@ -33,9 +33,6 @@ class ShiftedIndices {
   std::size_t size() const { return offsets_.size(); }
   Index operator[](std::size_t i) const { return offsets_[i] < 0 ? -1 : first_ + offsets_[i]; }
 
-  Index front() const { return (*this)[0]; }
-  Index back() const { return (*this)[size() - 1]; }
-
   /// Where an index stands; size() if it does not.
   std::size_t place_of(Index index) const {
     std::size_t i = 0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <utility>
 
 #include "core/linearization.hpp"
 
@@ -18,8 +17,7 @@ class BorderedResidual {
   BorderedResidual(const Linearization& equations, double sign, const Vector& f, const Eigen::Ref<const Vector>& dx,
                    double dlambda);
 
-  const Vector& r() const& { return r_; }
-  Vector r() && { return std::move(r_); }
+  const Vector& r() const { return r_; }
   double size() const { return size_; }  ///< ‖r‖
   bool is_small() const { return size_ <= small_; }
 

@@ -147,9 +147,9 @@ bool BorderedSolver::make_line_good(const Row& border, EquilibriumLine& line) {
   const Linearization& now = *equations_;
   auto particular = line.dx.col(0), tangent = line.dx.col(1);
   if (!make_tangent_good(tangent)) return false;
+  const double along = border.dx.dot(tangent) + border.dlambda;
   double before = infinity;
   for (int round = 0;; ++round) {
-    const double along = border.dx.dot(tangent) + border.dlambda;
     const double off = border.dx.dot(particular) + border.dlambda * line.dlambda[0];
     particular -= off / along * tangent;
     line.dlambda[0] -= off / along;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -15,6 +16,16 @@
 namespace arcwall {
 
 namespace {
+
+// The places of values by their magnitude, equal ones as they stand.
+template <class Before>
+std::vector<Index> by_magnitude(const Vector& values, const Before& before) {
+  std::vector<Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return before(std::abs(values[a]), std::abs(values[b])); });
+  return order;
+}
 
 constexpr int max_rounds = 100;
 constexpr Index most_followed = 2;  // that are followed
@@ -80,11 +91,7 @@ NearNull nearest_zero(const Operator& K, const Vector& weights, Index pairs, Ind
     }
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ritz(XKX, XMX);
     if (ritz.info() != Eigen::Success || !ritz.eigenvalues().allFinite()) break;
-    std::vector<Index> order(static_cast<std::size_t>(block));
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-      return std::abs(ritz.eigenvalues()[a]) < std::abs(ritz.eigenvalues()[b]);
-    });
+    const std::vector<Index> order = by_magnitude(ritz.eigenvalues(), std::less<>{});
     X *= ritz.eigenvectors()(Eigen::all, order);
     const Vector previous = values;
     values = ritz.eigenvalues()(order);
@@ -163,10 +170,7 @@ NearNull NearNullTracker::advance(const Vector& weights, const Eigen::Ref<const 
   for (auto column : X_.colwise()) column.array() *= weights.array();
   const Matrix A = X_.transpose() * solutions;
   const Eigen::SelfAdjointEigenSolver<Matrix> ritz(0.5 * (A + A.transpose()));
-  std::vector<Index> order(static_cast<std::size_t>(block));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return std::abs(ritz.eigenvalues()[a]) > std::abs(ritz.eigenvalues()[b]); });
+  std::vector<Index> order = by_magnitude(ritz.eigenvalues(), std::greater<>{});
   order.resize(static_cast<std::size_t>(count));
   Matrix pairs = solutions * ritz.eigenvectors()(Eigen::all, order);
   X_.resize(0, 0);

@@ -52,7 +52,7 @@ TEST(Lanes, ArcTangentsOfFourAreThoseOfEach) {
       y[lane] = std::sin(angle + lane);
       x[lane] = (1.0 + lane) * std::cos(angle + lane);
     }
-    const Lanes four = arc_tangent(Lanes::load(y), Lanes::load(x));
+    const Lanes four = arc_tangent(Lanes(y[0], y[1], y[2], y[3]), Lanes(x[0], x[1], x[2], x[3]));
     for (int lane = 0; lane < 4; ++lane) ASSERT_EQ(four[lane], arc_tangent(y[lane], x[lane]));
   }
 }
@@ -80,7 +80,7 @@ TEST(Lanes, CosineAndSineAreExactToTwoUnitsInTheLastPlace) {
 TEST(Lanes, CosinesAndSinesOfFourAreThoseOfEach) {
   for (int i = 0; i < 4000; ++i) {
     const double angle[4]{0.01 * i, -0.37 * i, 13.1 * i, 1e-9 * i};
-    const auto four = cosine_and_sine(Lanes::load(angle));
+    const auto four = cosine_and_sine(Lanes(angle[0], angle[1], angle[2], angle[3]));
     for (int lane = 0; lane < 4; ++lane) {
       ASSERT_EQ(four.cosine[lane], cosine_and_sine(angle[lane]).cosine);
       ASSERT_EQ(four.sine[lane], cosine_and_sine(angle[lane]).sine);
