@@ -44,8 +44,8 @@ std::string sweep_help() {
   for (const Command& command : sweep_commands())
     rows.emplace_back(last_word(command.description.name), command.description.summary);
   return fmt::format(
-      "  trace-path sweep plan sweep.toml --out model\n  trace-path sweep run model --jobs 4\n"
-      "  trace-path sweep collect model\n\n{}\nusage: trace-path sweep COMMAND …\n{}\n"
+      "  trace-path sweep plan sweep.toml --out study\n  trace-path sweep run study --jobs 4\n"
+      "  trace-path sweep collect study\n\n{}\nusage: trace-path sweep COMMAND …\n{}\n"
       "trace-path sweep COMMAND --help says more.\n",
       sweep_summary, listed(rows));
 }

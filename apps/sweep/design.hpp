@@ -7,7 +7,7 @@
 
 #include "model/deck/deck.hpp"
 
-/// Which values a parameter model gives to the keys that it varies.
+/// Which values a parameter study gives to the keys that it varies.
 namespace arcwall::sweep {
 
 /// A value as JSON has it: a number, a text, true or false, or an array or object of such.

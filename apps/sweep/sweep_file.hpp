@@ -22,7 +22,7 @@ struct Tie {
   double offset = 0.0;
 };
 
-/// A parameter model: one deck, and in each case other values for some of its keys.
+/// A parameter study: one deck, and in each case other values for some of its keys.
 struct Sweep {
   deck::Source source{};
   std::string title{};

@@ -63,7 +63,7 @@ NodeFunction node_unknowns(const Structure& structure, const MemberSection& sect
   return function;
 }
 
-// Which face touches is part of the model: of both the one that the model names.
+// Which face touches is a choice of the model's: where both could, the one that its candidate has.
 double offset_of(const Model& model, const PlainWall& wall, Index j, SectionPoint point) {
   if (wall.deck().acts_on == deck::ActsOn::axis) return 0.0;
   const Candidate& candidate = model.contact()->candidate(j);

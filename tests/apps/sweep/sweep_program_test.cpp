@@ -18,16 +18,16 @@ class SweepProgramTest : public ProgramTest {
  protected:
   void plan(const std::string& text) const {
     put(work() / "sweep.toml", text);
-    const Outcome outcome = run("sweep plan sweep.toml --out model");
+    const Outcome outcome = run("sweep plan sweep.toml --out study");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
 
   Outcome plan_wrong(const std::string& text) const {
     put(work() / "sweep.toml", text);
-    return run("sweep plan sweep.toml --out model");
+    return run("sweep plan sweep.toml --out study");
   }
 
-  fs::path model() const { return work() / "model"; }
+  fs::path study() const { return work() / "study"; }
 
   // A program for the cases in place of trace-path.
   fs::path stand_in(const std::string& script) const {
@@ -38,22 +38,22 @@ class SweepProgramTest : public ProgramTest {
 
   RunCounts run_by(const std::string& script, std::optional<double> most_seconds = {}) const {
     const RunRequest request{
-        .folder = model(), .program = stand_in(script), .jobs = 2, .most_seconds = most_seconds, .patience = 0.2};
-    return run_cases(request, read_cases(model()), [](const RunCounts&) {});
+        .folder = study(), .program = stand_in(script), .jobs = 2, .most_seconds = most_seconds, .patience = 0.2};
+    return run_cases(request, read_cases(study()), [](const RunCounts&) {});
   }
 };
 
 // The first peak of the truss is 2 EA h³/(3 √3 L³), half its rise 0.5 and L² = 25.25.
 TEST_F(SweepProgramTest, LimitLoadsOfAllCasesAreCollected) {
   plan(stiffness_sweep);
-  ASSERT_EQ(run("sweep run model --jobs 2").status, 0);
-  const Outcome outcome = run("sweep collect model");
+  ASSERT_EQ(run("sweep run study --jobs 2").status, 0);
+  const Outcome outcome = run("sweep collect study");
   EXPECT_EQ(outcome.status, 0);
   expect_in("3 cases, 3 as their deck says", outcome.out);
 
-  const auto rows = table(content(model() / "cases.csv"));
+  const auto rows = table(content(study() / "cases.csv"));
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(content(model() / "cases.csv").substr(0, 37), "case,material.bar.E,status,reason,det");
+  EXPECT_EQ(content(study() / "cases.csv").substr(0, 37), "case,material.bar.E,status,reason,det");
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double peak = 2.0 * std::stod(rows[i][1]) * 0.125 / (3.0 * std::sqrt(3.0) * std::pow(25.25, 1.5));
     EXPECT_EQ(rows[i][0], std::to_string(i - 1));
@@ -62,15 +62,15 @@ TEST_F(SweepProgramTest, LimitLoadsOfAllCasesAreCollected) {
     EXPECT_NEAR(std::stod(rows[i][7]), peak, 1e-9 * peak);  // snap_load
   }
   // start, two limit points and end of each case.
-  EXPECT_EQ(table(content(model() / "sweep.csv")).size(), 13u);
+  EXPECT_EQ(table(content(study() / "sweep.csv")).size(), 13u);
 }
 
 TEST_F(SweepProgramTest, APlannedFolderStandsAlone) {
   plan(stiffness_sweep);
-  EXPECT_EQ(names_in(model()), (std::set<std::string>{"cases.jsonl", "sweep.toml", "truss.toml"}));
-  EXPECT_TRUE(content(model() / "cases.jsonl")
+  EXPECT_EQ(names_in(study()), (std::set<std::string>{"cases.jsonl", "sweep.toml", "truss.toml"}));
+  EXPECT_TRUE(content(study() / "cases.jsonl")
                   .starts_with("{\"case\":0,\"set\":{\"material.bar.E\":50000.0},\"deck\":\"truss.toml\"}\n"));
-  ASSERT_EQ(shell("mv model elsewhere; rm truss.toml sweep.toml; \"$PROGRAM\" sweep run elsewhere").status, 0);
+  ASSERT_EQ(shell("mv study elsewhere; rm truss.toml sweep.toml; \"$PROGRAM\" sweep run elsewhere").status, 0);
   EXPECT_EQ(run("sweep collect elsewhere").status, 0);
   // A case is what `run` writes for its values.
   ASSERT_EQ(run("run elsewhere/truss.toml --set material.bar.E=5e4").status, 0);
@@ -79,9 +79,9 @@ TEST_F(SweepProgramTest, APlannedFolderStandsAlone) {
 
 TEST_F(SweepProgramTest, PlanningAgainChangesNothingAndAnotherSweepIsKept) {
   plan(stiffness_sweep);
-  ASSERT_EQ(run("sweep run model --quiet").status, 0);
+  ASSERT_EQ(run("sweep run study --quiet").status, 0);
   plan(stiffness_sweep);
-  EXPECT_TRUE(fs::exists(model() / "cases" / "00002"));
+  EXPECT_TRUE(fs::exists(study() / "cases" / "00002"));
   const Outcome refused = plan_wrong(std::string(stiffness_sweep) + "section.bar.A = [1.0]\n");
   EXPECT_EQ(refused.status, 5);
   expect_in("name another folder with --out", refused.err);
@@ -97,7 +97,7 @@ TEST_F(SweepProgramTest, WrongKeysAndValuesOfAnyCaseAreToldBeforeAnythingRuns) {
       "greater than 0\n"
       "error: sweep.toml:5:13: member.left.elemnts: \"elemnts\" is not a key of this table (4 cases, the first is "
       "case 0); did you mean elements?\n");
-  EXPECT_FALSE(fs::exists(model()));
+  EXPECT_FALSE(fs::exists(study()));
 
   const Outcome gone = plan_wrong("title = \"t\"\ndeck = \"gone.toml\"\n[grid]\npath.step = [1.0]\n");
   EXPECT_EQ(gone.status, 2);
@@ -106,23 +106,23 @@ TEST_F(SweepProgramTest, WrongKeysAndValuesOfAnyCaseAreToldBeforeAnythingRuns) {
 
 TEST_F(SweepProgramTest, CompleteCasesAreNotRunAgain) {
   plan(stiffness_sweep);
-  ASSERT_EQ(run("sweep run model --case 1").status, 0);
-  EXPECT_EQ(names_in(model() / "cases"), std::set<std::string>{"00001"});
-  put(model() / "cases" / "00001" / "mark", "");
-  expect_in("3 of 3 cases have results, 2 of them new", run("sweep run model").out);
-  EXPECT_TRUE(fs::exists(model() / "cases" / "00001" / "mark"));
-  expect_in("1 of 1 cases have results, 1 of them new", run("sweep run model --case 1 --force").out);
-  EXPECT_FALSE(fs::exists(model() / "cases" / "00001" / "mark"));
+  ASSERT_EQ(run("sweep run study --case 1").status, 0);
+  EXPECT_EQ(names_in(study() / "cases"), std::set<std::string>{"00001"});
+  put(study() / "cases" / "00001" / "mark", "");
+  expect_in("3 of 3 cases have results, 2 of them new", run("sweep run study").out);
+  EXPECT_TRUE(fs::exists(study() / "cases" / "00001" / "mark"));
+  expect_in("1 of 1 cases have results, 1 of them new", run("sweep run study --case 1 --force").out);
+  EXPECT_FALSE(fs::exists(study() / "cases" / "00001" / "mark"));
 }
 
 TEST_F(SweepProgramTest, OptionsBehindTwoDashesAreThoseOfRun) {
   plan(stiffness_sweep);
-  EXPECT_EQ(run("sweep run model -- --max-points 3").status, 3);
-  const Outcome outcome = run("sweep collect model");
+  EXPECT_EQ(run("sweep run study -- --max-points 3").status, 3);
+  const Outcome outcome = run("sweep collect study");
   expect_in("max_points      3  0, 1, 2", outcome.out);
-  EXPECT_EQ(run("sweep run model --failed").status, 0);
+  EXPECT_EQ(run("sweep run study --failed").status, 0);
   for (const char* wrong : {"--forse", "--out x", "--force", "--max-time 1", "other.toml", "--json", "--help"}) {
-    const Outcome refused = run("sweep run model -- " + std::string(wrong));
+    const Outcome refused = run("sweep run study -- " + std::string(wrong));
     EXPECT_EQ(refused.status, 2) << wrong;
     EXPECT_EQ(refused.out, "") << wrong;
   }
@@ -133,8 +133,8 @@ TEST_F(SweepProgramTest, ACrashCostsOneCase) {
   const RunCounts counts = run_by("case $* in *E=1e+05*) kill -SEGV $$;; esac; exec '" TRACE_PATH_PROGRAM "' \"$@\"");
   EXPECT_EQ(counts.ran, 3);
   EXPECT_EQ(counts.failed, 1);
-  expect_in("crash       1  1", run("sweep collect model").out);
-  expect_in("\n1,1e+05,,crash,signal 11 (Segmentation fault),", content(model() / "cases.csv"));
+  expect_in("crash       1  1", run("sweep collect study").out);
+  expect_in("\n1,1e+05,,crash,signal 11 (Segmentation fault),", content(study() / "cases.csv"));
 }
 
 TEST_F(SweepProgramTest, ACaseThatDoesNotStopIsKilled) {
@@ -143,65 +143,65 @@ TEST_F(SweepProgramTest, ACaseThatDoesNotStopIsKilled) {
       run_by("case $* in *E=1e+05*) exec sleep 60;; esac; exec '" TRACE_PATH_PROGRAM "' \"$@\"", 0.3);
   EXPECT_EQ(counts.ran, 3);
   EXPECT_EQ(counts.failed, 1);
-  ASSERT_EQ(run("sweep collect model").status, 0);
-  expect_in("\n1,1e+05,,max_time,did not stop and was killed,", content(model() / "cases.csv"));
+  ASSERT_EQ(run("sweep collect study").status, 0);
+  expect_in("\n1,1e+05,,max_time,did not stop and was killed,", content(study() / "cases.csv"));
 }
 
 TEST_F(SweepProgramTest, AProgramThatCannotBeStartedIsAnError) {
   plan(stiffness_sweep);
-  const RunRequest request{.folder = model(), .program = work() / "gone"};
-  EXPECT_THROW(run_cases(request, read_cases(model()), [](const RunCounts&) {}), OutputError);
-  EXPECT_EQ(names_in(model() / "cases"), std::set<std::string>{});
+  const RunRequest request{.folder = study(), .program = work() / "gone"};
+  EXPECT_THROW(run_cases(request, read_cases(study()), [](const RunCounts&) {}), OutputError);
+  EXPECT_EQ(names_in(study() / "cases"), std::set<std::string>{});
 }
 
 TEST_F(SweepProgramTest, CasesWithoutResultsAreListedAsNotRun) {
   plan(stiffness_sweep);
-  const Outcome outcome = run("sweep collect model");
+  const Outcome outcome = run("sweep collect study");
   EXPECT_EQ(outcome.status, 0);
   expect_in("not_run      3  0, 1, 2", outcome.out);
-  expect_in("\n2,2e+05,,not_run,,,,,,,,\n", content(model() / "cases.csv"));
+  expect_in("\n2,2e+05,,not_run,,,,,,,,\n", content(study() / "cases.csv"));
 }
 
 TEST_F(SweepProgramTest, FailuresWithoutResultsHaveTheirReason) {
   plan("title = \"t\"\ndeck = \"truss.toml\"\n[[list]]\nload.0.force = [0.0, -1.0]\n");
-  ASSERT_EQ(run("sweep run model -- --set material.bar.E=-1").status, 3);
-  expect_in("wrong_input      1  0", run("sweep collect model").out);
-  expect_in("material.bar.E: -1 is out of range", content(model() / "cases.csv"));
+  ASSERT_EQ(run("sweep run study -- --set material.bar.E=-1").status, 3);
+  expect_in("wrong_input      1  0", run("sweep collect study").out);
+  expect_in("material.bar.E: -1 is out of range", content(study() / "cases.csv"));
 }
 
 TEST_F(SweepProgramTest, AnInterruptStopsCleanlyAndTheNextCallGoesOn) {
   plan("title = \"t\"\ndeck = \"truss.toml\"\n[grid]\nmaterial.bar.E = [1e5, 2e5]\n");
   // Steps so small that a case would take minutes.
   const Outcome outcome = shell(
-      "\"$PROGRAM\" sweep run model --jobs 2 -- --set path.max_step=1e-8 --set path.min_step=1e-12 "
+      "\"$PROGRAM\" sweep run study --jobs 2 -- --set path.max_step=1e-8 --set path.min_step=1e-12 "
       "--set path.max_points=100000000 & child=$!; sleep 0.5; kill -INT $child; wait $child");
   EXPECT_EQ(outcome.status, 130);
-  EXPECT_EQ(names_in(model() / "cases"), std::set<std::string>{});
-  expect_in("2 of 2 cases have results, 2 of them new", run("sweep run model").out);
+  EXPECT_EQ(names_in(study() / "cases"), std::set<std::string>{});
+  expect_in("2 of 2 cases have results, 2 of them new", run("sweep run study").out);
 }
 
 TEST_F(SweepProgramTest, ACaseThatAnotherProcessRunsIsLeftToIt) {
   plan("title = \"t\"\ndeck = \"truss.toml\"\n[[list]]\npath.step = 1.0\n");
   const Outcome outcome = shell(
-      "\"$PROGRAM\" sweep run model --quiet -- --set path.max_step=1e-8 --set path.min_step=1e-12 "
+      "\"$PROGRAM\" sweep run study --quiet -- --set path.max_step=1e-8 --set path.min_step=1e-12 "
       "--set path.max_points=100000000 & child=$!; "
-      "until [ -e model/cases/.00000/messages.txt ]; do sleep 0.05; done; "
-      "\"$PROGRAM\" sweep run model; "
+      "until [ -e study/cases/.00000/messages.txt ]; do sleep 0.05; done; "
+      "\"$PROGRAM\" sweep run study; "
       // The process of the case holds it as well.
       "grep -l cases/.00000 --include=cmdline -r /proc/[0-9]*/cmdline 2>/dev/null | while read -r cmdline; do "
-      "readlink ${cmdline%cmdline}fd/* | grep 'cases/.00000$' | sed 's/.*model/held: model/'; done; "
+      "readlink ${cmdline%cmdline}fd/* | grep 'cases/.00000$' | sed 's/.*study/held: study/'; done; "
       "kill -TERM $child; wait $child");
   expect_in("0 of 1 cases have results, 0 of them new; another process is running 1", outcome.out);
-  expect_in("held: model/cases/.00000", outcome.out);
+  expect_in("held: study/cases/.00000", outcome.out);
 }
 
 // As when a sweep was killed while the process of a case waits for the disk.
 TEST_F(SweepProgramTest, ACaseIsBegunAnewOnceItsOldProcessHasEnded) {
   plan("title = \"t\"\ndeck = \"truss.toml\"\n[[list]]\npath.step = 1.0\n");
   const Outcome outcome = shell(
-      "mkdir -p model/cases/.00000; flock model/cases/.00000 sleep 0.2 & "
-      "until ! flock --nonblock model/cases/.00000 true; do sleep 0.01; done; "
-      "\"$PROGRAM\" sweep run model; wait");
+      "mkdir -p study/cases/.00000; flock study/cases/.00000 sleep 0.2 & "
+      "until ! flock --nonblock study/cases/.00000 true; do sleep 0.01; done; "
+      "\"$PROGRAM\" sweep run study; wait");
   expect_in("1 of 1 cases have results, 1 of them new", outcome.out);
 }
 
@@ -209,10 +209,10 @@ TEST_F(SweepProgramTest, TheReportIsOnePageWithoutNetworkThatTrustsNoText) {
   plan(
       "title = \"<script>alert(1)</script>\"\ndeck = \"truss.toml\"\n[grid]\nmaterial.bar.E = [1e5, 2e5]\n"
       "section.bar.A = [1.0, 2.0]\n");
-  ASSERT_EQ(run("sweep run model --quiet").status, 0);
-  ASSERT_EQ(run("sweep collect model --over section.bar.A").status, 0);
-  ASSERT_EQ(run("sweep collect model").status, 0);
-  const std::string page = content(model() / "report.html");
+  ASSERT_EQ(run("sweep run study --quiet").status, 0);
+  ASSERT_EQ(run("sweep collect study --over section.bar.A").status, 0);
+  ASSERT_EQ(run("sweep collect study").status, 0);
+  const std::string page = content(study() / "report.html");
   expect_in("&lt;script&gt;alert(1)&lt;/script&gt;", page);
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org/2000/svg"));
@@ -220,7 +220,7 @@ TEST_F(SweepProgramTest, TheReportIsOnePageWithoutNetworkThatTrustsNoText) {
   expect_in("<figcaption>λ of the snap</figcaption>", page);
   // The policy knows the script by its hash.
   const Outcome hash = shell(
-      "python3 -c 'import re, hashlib, base64; page = open(\"model/report.html\").read(); "
+      "python3 -c 'import re, hashlib, base64; page = open(\"study/report.html\").read(); "
       "script = re.search(r\"<script>(.*)</script>\", page, re.S).group(1).encode(); "
       "print(base64.b64encode(hashlib.sha256(script).digest()).decode(), end=\"\")'");
   ASSERT_EQ(hash.status, 0) << hash.err;
@@ -229,15 +229,15 @@ TEST_F(SweepProgramTest, TheReportIsOnePageWithoutNetworkThatTrustsNoText) {
 
 TEST_F(SweepProgramTest, ScriptsForEnginesQuoteAnyName) {
   plan(stiffness_sweep);
-  const std::string name = "it's {} \"a\" $(model) \\";
-  fs::rename(model(), work() / name);
+  const std::string name = "it's {} \"a\" $(study) \\";
+  fs::rename(study(), work() / name);
   const Outcome slurm = shell(
-      "\"$PROGRAM\" sweep emit *model* --engine slurm --jobs 2 >job.sh && "
+      "\"$PROGRAM\" sweep emit *study* --engine slurm --jobs 2 >job.sh && "
       "for i in 0 1 2; do SLURM_ARRAY_TASK_ID=$i sh job.sh || exit 1; done; cat job.sh");
   EXPECT_EQ(slurm.status, 0) << slurm.err;
   expect_in("#SBATCH --array=0-2%2\n", slurm.out);
   EXPECT_EQ(names_in(work() / name / "cases").size(), 3u);
-  EXPECT_EQ(shell("\"$PROGRAM\" sweep emit *model* --engine parallel --jobs 2 >job.sh && sh -n job.sh").status, 0);
+  EXPECT_EQ(shell("\"$PROGRAM\" sweep emit *study* --engine parallel --jobs 2 >job.sh && sh -n job.sh").status, 0);
 }
 
 TEST_F(SweepProgramTest, WrongCommandLinesAreErrorsThatProposeTheNearest) {
@@ -253,14 +253,14 @@ TEST_F(SweepProgramTest, WrongCommandLinesAreErrorsThatProposeTheNearest) {
   expect_error("sweep pln", "did you mean plan?");
   expect_error("sweep --out x", "stands before the command");
   expect_error("sweep plan", "usage: trace-path sweep plan SWEEP");
-  expect_error("sweep run model --job 2", "did you mean --jobs?");
-  expect_error("sweep run model --case 3", "has the cases 0 to 2");
-  expect_error("sweep run model --case -1", "must be a whole number from 0");
+  expect_error("sweep run study --job 2", "did you mean --jobs?");
+  expect_error("sweep run study --case 3", "has the cases 0 to 2");
+  expect_error("sweep run study --case -1", "must be a whole number from 0");
   expect_error("sweep run .", "is no planned sweep");
   expect_error("sweep run gone", "is no planned sweep");
-  expect_error("sweep emit model", "--engine is missing; it is parallel or slurm");
-  expect_error("sweep emit model --engine paralel", "did you mean parallel?");
-  expect_error("sweep collect model --over material.bar.nu", "varied are material.bar.E");
+  expect_error("sweep emit study", "--engine is missing; it is parallel or slurm");
+  expect_error("sweep emit study --engine paralel", "did you mean parallel?");
+  expect_error("sweep collect study --over material.bar.nu", "varied are material.bar.E");
 }
 
 TEST_F(SweepProgramTest, TheExampleIsListedAndRight) {
@@ -284,13 +284,13 @@ TEST_F(SweepProgramTest, HelpBeginsWithAnExample) {
 
 TEST_F(SweepProgramTest, DamagedFoldersAreErrors) {
   plan(stiffness_sweep);
-  ASSERT_EQ(run("sweep run model --quiet").status, 0);
-  put(model() / "cases" / "00001" / "events.json", "{\"events\": 1");
-  const Outcome damaged = run("sweep collect model");
+  ASSERT_EQ(run("sweep run study --quiet").status, 0);
+  put(study() / "cases" / "00001" / "events.json", "{\"events\": 1");
+  const Outcome damaged = run("sweep collect study");
   EXPECT_EQ(damaged.status, 5);
   expect_in("00001/events.json: is damaged; run the case again with --force", damaged.err);
-  put(model() / "cases.jsonl", "{\"case\":0,\"set\":{},\"deck\":\"truss.toml\"}\nnonsense\n");
-  const Outcome list = run("sweep run model");
+  put(study() / "cases.jsonl", "{\"case\":0,\"set\":{},\"deck\":\"truss.toml\"}\nnonsense\n");
+  const Outcome list = run("sweep run study");
   EXPECT_EQ(list.status, 2);
   expect_in("cases.jsonl:2: is not the line of case 1", list.err);
 }
