@@ -61,6 +61,7 @@ Session Session::open(const std::string& file, std::vector<std::string> assignme
 }
 
 bool Session::begin() {
+  if (tracing_) return true;
   std::optional<State> start = model_->start(problem_);
   if (!start) return false;
   start_ = std::move(*start);
@@ -69,13 +70,15 @@ bool Session::begin() {
 }
 
 const RecordPoint* Session::next() {
-  if (!tracing_ && (!problem_.empty() || !begin())) return nullptr;
+  if (!problem_.empty() || !begin()) return nullptr;
   return tracing_->advance() ? &record_->points.back() : nullptr;
 }
 
 bool Session::has_ended() const { return tracing_ && tracing_->has_ended(); }
 
-void Session::stop(const BranchEnd& end) { tracing_->stop(end); }
+void Session::stop(const BranchEnd& end) {
+  if (tracing_) tracing_->stop(end);
+}
 
 std::string Session::checkpoint(const std::optional<BranchEnd>& stopped) {
   return to_checkpoint(SessionContent::of(*this, stopped));

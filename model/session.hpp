@@ -33,6 +33,7 @@ class Session {
   ~Session();
 
   /// Finds the equilibrium at which the paths start, without a point of them yet. False if there is none.
+  /// A run that has begun goes on as it is.
   bool begin();
 
   /// Why begin() found no equilibrium; empty if it found one, or has not been called.
@@ -46,7 +47,7 @@ class Session {
   bool has_ended() const;
 
   /// Ends every branch where it is; the next call of next() records that. A checkpoint does not know of it but for its
-  /// argument.
+  /// argument. A run that has not begun has no branches, so that nothing happens.
   void stop(const BranchEnd& end);
 
   const RunDescription& description() const { return description_; }

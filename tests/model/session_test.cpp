@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -91,6 +92,45 @@ TEST(Session, BeginsTheRunWhereNobodyHas) {
   ASSERT_NE(first, nullptr);
   EXPECT_EQ(first, &asked.points().front());
   EXPECT_EQ(first->state.x, begun.next()->state.x);
+}
+
+TEST(Session, BeginsOnce) {
+  const std::string alone = traced({"truss"});
+  Session session = opened({"truss"});
+  ASSERT_TRUE(session.begin());
+  EXPECT_TRUE(session.begin());
+  session.next();
+  EXPECT_TRUE(session.begin());
+  EXPECT_EQ(session.points().size(), 1U);
+  Session again = Session::from(session.checkpoint(), "checkpoint", Session::Resume::go_on);
+  EXPECT_TRUE(again.begin());
+  while (again.next() != nullptr) {
+  }
+  EXPECT_TRUE(again.checkpoint() == alone);
+}
+
+TEST(Session, HasNoPointsWhereItFindsNoStart) {
+  std::ostringstream deck;
+  deck << std::ifstream(std::string(EXAMPLES) + "/truss.toml").rdbuf()
+       << "[[load]]\nat = \"top\"\nforce = [0.0, -1e300]\nconstant = true\n";
+  Session session({.deck = "heavy.toml", .deck_text = deck.str()});
+  EXPECT_FALSE(session.begin());
+  const std::string problem = session.problem();
+  EXPECT_NE(problem.find("find no equilibrium"), std::string::npos) << problem;
+  EXPECT_EQ(session.next(), nullptr);
+  EXPECT_FALSE(session.begin());
+  EXPECT_EQ(session.problem(), problem);
+  EXPECT_TRUE(session.points().empty());
+  EXPECT_FALSE(session.has_ended());
+}
+
+TEST(Session, IsNotStoppedBeforeItBegins) {
+  Session session = opened({"truss"});
+  session.stop({.reason = EndReason::max_points, .detail = ""});
+  EXPECT_FALSE(session.has_ended());
+  while (session.next() != nullptr) {
+  }
+  EXPECT_TRUE(session.checkpoint() == traced({"truss"}));
 }
 
 TEST(Session, SaysWhatIsWrongWithADeck) {
