@@ -5,6 +5,7 @@
 
 #include "core/text.hpp"
 #include "elements/member_point.hpp"
+#include "model/deck/key_list.hpp"
 #include "model/deck/words.hpp"
 #include "model/member_force.hpp"
 
@@ -60,26 +61,26 @@ std::optional<Freedom> reaction_freedom(deck::Component component) {
   return std::nullopt;
 }
 
-std::string unit_of(const deck::Deck& deck, deck::Component component) {
+std::string unit_of(deck::Component component, const deck::Units& units) {
   switch (component) {
     case deck::Component::rotation:
       return "rad";
+    case deck::Component::thickness:
+      return "-";
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
     case deck::Component::axial_force:
-      return deck.units.force;
+      return unit_text(deck::unit::force, units);
     case deck::Component::reaction_moment:
     case deck::Component::moment:
-      return deck.units.force + " " + deck.units.length;
+      return unit_text(deck::unit::moment, units);
     case deck::Component::x:
     case deck::Component::z:
     case deck::Component::face_above_z:
     case deck::Component::face_below_z:
-      return deck.units.length;
-    case deck::Component::thickness:
-      return "-";
+      return unit_text(deck::unit::length, units);
     case deck::Component::thickness2:
-      return "1/" + deck.units.length;
+      return unit_text(deck::unit::curvature, units);
   }
   return {};
 }
@@ -208,8 +209,10 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
     }
     const auto raw = quantity;
     if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(raw, -1.0);
-    columns.push_back(
-        {.name = monitor.name, .unit = unit_of(deck, monitor.component), .quantity = std::move(quantity), .raw = raw});
+    columns.push_back({.name = monitor.name,
+                       .unit = unit_of(monitor.component, deck.units),
+                       .quantity = std::move(quantity),
+                       .raw = raw});
   }
   return columns;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "model/deck/key_list.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
@@ -38,10 +39,9 @@ std::vector<double> mode_rates(const std::vector<MonitorColumn>& monitors, const
 
 Record empty_record(const Model& model) {
   const deck::Deck& deck = model.deck();
-  const std::string between = deck.units.force.empty() || deck.units.length.empty() ? "" : " ";
   Record record{.deck = std::filesystem::path(deck.source.file).filename().string(),
                 .title = deck.title,
-                .energy_unit = deck.units.force + between + deck.units.length,
+                .energy_unit = unit_text(deck::unit::energy, deck.units),
                 .length_unit = deck.units.length,
                 .force_unit = deck.units.force,
                 .has_walls = !deck.walls.empty()};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "model/deck/key_list.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -14,7 +16,7 @@ std::string pair_text(const deck::Vector& v) { return fmt::format("({:.6g}, {:.6
 bool acts_nowhere(const deck::Vector& v) { return v.x == 0.0 && v.z == 0.0; }
 
 LoadText load_words(const deck::PointLoad& load, const deck::Units& units) {
-  const std::string moment_unit = units.force.empty() ? "" : units.force + " " + units.length;
+  const std::string moment_unit = unit_text(deck::unit::moment, units);
   const bool pushes = !acts_nowhere(load.force), turns = load.moment != 0.0;
   LoadText result{.text = "at " + to_text(load.at)};
   if (pushes) result.text += " force " + with_unit(pair_text(load.force), units.force);
@@ -26,7 +28,7 @@ LoadText load_words(const deck::PointLoad& load, const deck::Units& units) {
 }
 
 LoadText load_words(const deck::MemberLoad& load, const deck::Units& units) {
-  const std::string unit = units.force.empty() || units.length.empty() ? "" : units.force + "/" + units.length;
+  const std::string unit = unit_text(deck::unit::line_load, units);
   LoadText result{.text = "on " + load.member + " " + with_unit(pair_text(load.distributed), unit)};
   if (!unit.empty()) result.size = with_unit(short_number(std::hypot(load.distributed.x, load.distributed.z)), unit);
   return result;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/deck/cursor.hpp"
+#include "model/deck/words.hpp"
 #include "model/deck/toml_source.hpp"
 
 namespace arcwall::sweep {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -277,10 +279,11 @@ const Value* Cursor::lookup(std::string_view key) {
 }
 
 void Cursor::finish() {
+  if (std::find(is_known_.begin(), is_known_.end(), false) == is_known_.end()) return;
+  std::set<std::string_view> seen;
   std::vector<std::string> known;
-  for (const std::string& key : known_) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
-  }
+  for (const std::string& key : known_)
+    if (seen.insert(key).second) known.push_back(key);
   for (std::size_t i = 0; i < value_.items.size(); ++i) {
     const Value& item = value_.items[i];
     if (is_known_[i]) continue;

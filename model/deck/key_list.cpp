@@ -136,6 +136,9 @@ std::string beginning(const DeclaredKey& part) {
 }
 
 std::string unit_text(const Dimension& dimension, const Units& units) {
+  const bool lacks_length = dimension.length != 0 && units.length.empty();
+  const bool lacks_force = dimension.force != 0 && units.force.empty();
+  if (lacks_length || lacks_force) return {};
   if (dimension.length == 0) return dimension.force == 0 ? std::string() : units.force;
   const std::string length = power(units.length, dimension.length);
   if (dimension.force == 0) return dimension.length > 0 ? length : "1/" + length;
@@ -143,7 +146,6 @@ std::string unit_text(const Dimension& dimension, const Units& units) {
 }
 
 std::string unit_of_key(const std::string& key, const Units& units) {
-  if (units.length.empty() || units.force.empty()) return {};
   for (const DeclaredKey& declared : declared_keys())
     if (declared.kind == Kind::value && declared.is(key)) return unit_text(declared.unit, units);
   return {};

@@ -44,7 +44,7 @@ std::string beginning(const DeclaredKey& part);
 /// What the number of a key as of `--set` is measured in: `kN/cm²`; empty where it has no unit, or the deck names none.
 std::string unit_of_key(const std::string& key, const Units& units);
 
-/// A dimension in the deck's units: `cm`, `kN cm`, `1/cm`; empty without one.
+/// A dimension in the deck's units: `cm`, `kN cm`, `1/cm`; empty without one, or where the deck does not name both.
 std::string unit_text(const Dimension& dimension, const Units& units);
 
 }  // namespace arcwall::deck

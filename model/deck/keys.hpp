@@ -28,7 +28,7 @@ struct Dimension {
 };
 
 namespace unit {
-inline constexpr Dimension none{}, force{1, 0}, moment{1, 1}, line_load{1, -1}, stress{1, -2};
+inline constexpr Dimension none{}, force{1, 0}, moment{1, 1}, energy{1, 1}, line_load{1, -1}, stress{1, -2};
 inline constexpr Dimension length{0, 1}, area{0, 2}, second_moment{0, 4}, curvature{0, -1};
 }  // namespace unit
 
