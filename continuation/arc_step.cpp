@@ -1,21 +1,37 @@
 #include "continuation/arc_step.hpp"
 
 #include <algorithm>
-#include <string>
+#include <iterator>
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
 #include "continuation/events/eigenvalue_touch.hpp"
 #include "continuation/events/step_events.hpp"
+#include "continuation/events/value_before_change.hpp"
 #include "continuation/known_places.hpp"
+#include "continuation/path_tolerances.hpp"
+#include "continuation/stops.hpp"
 
 namespace arcwall {
 
 namespace {
 
-// A step to the first of the singular points that were located with the last one.
-StepTried step_to_pending(const StepOrigin& origin) {
-  return {.result = StepEnd{.point = origin.from.pending_singular.front().at}};
+// A step of length s, or to where it ends if that is known already: the bound that has been passed, the first of the
+// singular points that were located with the last one, the first point of a piece that was entered.
+StepTried next_step(TraceTools& tools, const StepOrigin& origin, double s) {
+  const Departure& from = origin.from;
+  if (from.passed_bound) return {.result = StepEnd{.point = from.point, .landing = from.passed_bound}};
+  if (!from.pending_singular.empty()) return {.result = StepEnd{.point = from.pending_singular.front().at}};
+  if (from.known_end) return {.result = StepEnd{.point = *from.known_end}};
+  return try_step_clear_of_singular(tools, origin, s);
+}
+
+// The events inside a step; one of no length has none.
+ArcEndSearch events_of(TraceTools& tools, const StepOrigin& origin, StepEnd step) {
+  if (origin.metric.distance(step.point.state, origin.point().state) > 0.0)
+    return locate_events(tools, origin, std::move(step));
+  step.point.arc = origin.point().arc;
+  return {.end = ArcEnd{.point = std::move(step.point), .landing = step.landing, .turn = step.turn}};
 }
 
 // The count at an arc's end.
@@ -49,14 +65,6 @@ std::optional<BranchEnd> bound_at(const std::vector<TargetValue>& targets, const
   return met;
 }
 
-std::optional<BranchEnd> stop_at_events(const std::vector<StopEvent>& stops, const std::vector<Event>& events) {
-  std::optional<BranchEnd> met;
-  for (const StopEvent& stop : stops)
-    if (std::any_of(events.begin(), events.end(), [&](const Event& event) { return event.kind == stop.kind; }))
-      met = {.reason = EndReason::stop, .detail = stop.label};
-  return met;
-}
-
 // What is known just behind an arc's end if contacts do not change there.
 Departure leave_smoothly(const TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
                          const StabilityCount& behind) {
@@ -73,6 +81,11 @@ Departure leave_smoothly(const TraceTools& tools, const StepOrigin& origin, cons
     leave.zero_eigenvalues = has_count ? 0 : 1;
   }
   leave.signs = signs_behind(tools, origin, end);
+  leave.passed_bound = end.passed_bound;
+  // Where an event on the way there ends the arc, the end that was known is that of the next step.
+  const bool on_the_way = from.known_end && end.event && !end.landing && !end.passed_bound;
+  if (on_the_way && origin.metric.distance(end.point.state, from.known_end->state) > coincidence_tolerance)
+    leave.known_end = from.known_end;
   return leave;
 }
 
@@ -94,10 +107,10 @@ CornerPassed pass_corner(TraceTools& tools, const TracerState& state, const ArcE
 // What is known just behind a change of contacts.
 void leave_corner(const TraceTools& tools, const CornerPassed& passed, Departure& leave) {
   if (passed.end) return;
-  const PathPoint& next = passed.ahead ? *passed.ahead : passed.at;
+  const PathPoint& next = passed.ahead();
   const std::vector<int> signs = signs_at(tools.detectors, next);
   for (std::size_t i = 0; i < signs.size(); ++i)
-    if (signs[i] != 0 || passed.ahead) leave.signs[i] = signs[i];
+    if (signs[i] != 0 || passed.entered) leave.signs[i] = signs[i];
   leave.negative_eigenvalues = next.negative_eigenvalues;
   leave.count_after = next.count;
 }
@@ -112,9 +125,36 @@ void begin_next(const StepOrigin& origin, const PathPoint& next, bool smooth, De
   leave.before->nearest = {};
 }
 
+// Ends an arc at a target value that lies between it and the piece ahead: on the piece that ends, on the one ahead, or
+// else where it ends; no value is jumped over. Where the arc does not reach the piece ahead `passed` becomes empty.
+void land_before_piece_ahead(TraceTools& tools, const StepOrigin& origin, const ValueBetween& value, ArcEnd& end,
+                             std::optional<CornerPassed>& passed) {
+  if (auto beyond = land_beyond_bound(tools, origin, end, value)) {
+    end = std::move(*beyond);
+    end.point.count = count_at(tools, origin, end);
+    passed.reset();
+    return;
+  }
+  end.event = EventPlace{.what = EventPlace::What::target_value, .which = value.which, .t = 1.0};
+  if (!passed->entered) land_piece_ahead(tools, origin.metric.lambda_scale(), value, passed->at);
+}
+
+// A change of contacts at an arc's end is left; empty where there is none.
+std::optional<CornerPassed> leave_piece(TraceTools& tools, const TracerState& state, const StepOrigin& origin,
+                                        ArcEnd& end) {
+  std::optional<CornerPassed> passed;
+  end.point.count = count_at(tools, origin, end);
+  if (!end.landing) return passed;
+  passed = pass_corner(tools, state, end, signs_behind(tools, origin, end));
+  if (passed->end) return passed;
+  if (const auto value = first_value_between(tools.options.target_values, end.point, passed->ahead().state))
+    land_before_piece_ahead(tools, origin, *value, end, passed);
+  return passed;
+}
+
 Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& origin, ArcEnd end, double s) {
   Accepted accepted{.corners_without_progress = state.corners_without_progress};
-  end.point.count = count_at(tools, origin, end);
+  std::optional<CornerPassed> passed = leave_piece(tools, state, origin, end);
   accepted.end = end_at_crossed_pitchfork(tools, origin, end);
   const StabilityCount behind = count_behind(tools, origin, end);
   accepted.arc.events = events_at(tools, origin, end, behind);
@@ -122,26 +162,24 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   if (auto bound = bound_at(tools.options.target_values, end)) accepted.end = std::move(bound);
   if (!end.landing && !accepted.end)
     if (auto known = passed_known_place(tools, origin, end.point)) accepted.end = std::move(known->end);
-  accepted.progress = {
-      .iterations = end.point.iterations, .turn = end.turn, .taken = end.landing || end.event ? end.length : s};
-
-  bool smooth = !end.landing && end.length > 0.0;
-  if (end.landing) accepted.leave.count_after = origin.from.count_after;
-  if (end.landing && !accepted.end) {
-    CornerPassed passed = pass_corner(tools, state, end, accepted.leave.signs);
-    leave_corner(tools, passed, accepted.leave);
-    accepted.corners_without_progress = passed.without_progress;
-    for (Event& event : passed.events) accepted.arc.events.push_back(std::move(event));
-    accepted.visit = std::move(passed.visit);
-    accepted.end = std::move(passed.end);
-    end.point = std::move(passed.at);
-    if (passed.ahead) accepted.pending = Arc{.to = std::move(*passed.ahead)};
-    const Index closed = end.point.state.piece.closed_count();
-    if (!accepted.end && tools.options.stop_contacts && closed >= *tools.options.stop_contacts)
-      accepted.end = {.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
+  if (!state.from.known_end && !state.from.passed_bound)
+    accepted.progress = StepProgress{
+        .iterations = end.point.iterations, .turn = end.turn, .taken = end.landing || end.event ? end.length : s};
+  const bool smooth = !end.landing && end.length > 0.0 && !state.from.known_end;
+  const bool new_contacts = end.landing || state.from.known_end;
+  if (passed) {
+    accepted.leave.count_after = origin.from.count_after;
+    leave_corner(tools, *passed, accepted.leave);
+    accepted.corners_without_progress = passed->without_progress;
+    std::move(passed->events.begin(), passed->events.end(), std::back_inserter(accepted.arc.events));
+    accepted.visit = std::move(passed->visit);
+    if (!accepted.end) accepted.end = std::move(passed->end);
+    end.point = std::move(passed->at);
   }
-  if (!accepted.end) accepted.end = stop_at_events(tools.options.stop_events, accepted.arc.events);
-  begin_next(origin, accepted.pending ? accepted.pending->to : end.point, smooth, accepted.leave);
+  if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.piece);
+  if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
+  begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
+  if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
   accepted.arc.to = std::move(end.point);
   return accepted;
 }
@@ -153,8 +191,7 @@ ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s) {
                           .start = state.start,
                           .metric = tools.metric_on(state.from.point.state.piece, state.lambda_scale),
                           .leaves_branch_point = state.points == 1 && state.start.forward};
-  StepTried step =
-      state.from.pending_singular.empty() ? try_step_clear_of_singular(tools, origin, s) : step_to_pending(origin);
+  StepTried step = next_step(tools, origin, s);
   ArcAttempt attempt{.ledger = std::move(step.attempt)};
   attempt.ledger.arc = state.from.point.arc;
   attempt.ledger.radius = s;
@@ -168,7 +205,7 @@ ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s) {
     return attempt;
   }
   if (const auto* const why = std::get_if<Rejected>(&step.result)) return rejected(*why);
-  ArcEndSearch located = locate_events(tools, origin, std::get<StepEnd>(std::move(step.result)));
+  ArcEndSearch located = events_of(tools, origin, std::get<StepEnd>(std::move(step.result)));
   if (!located.end) return rejected({.outcome = StepOutcome::events_unclear, .failure = located.failure});
   attempt.result = accept(tools, state, origin, std::move(*located.end), s);
   return attempt;

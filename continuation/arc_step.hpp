@@ -19,12 +19,11 @@ struct StepProgress {
 /// An arc that is taken, and where it leads.
 struct Accepted {
   Arc arc{};
-  Departure leave{};             ///< where the next step begins: at the arc's end, or at the pending point
-  std::optional<Arc> pending{};  ///< the first point of the piece ahead, where it lies beyond the arc's end
+  Departure leave{};  ///< where the next step begins: at the arc's end, or near the beginning of a piece entered there
   std::optional<BranchEnd> end{};
   std::optional<CornerVisit> visit{};  ///< to be remembered
   int corners_without_progress = 0;
-  StepProgress progress{};
+  std::optional<StepProgress> progress{};  ///< empty where the step's end was known before
 };
 
 /// An attempt at the next arc.
@@ -34,7 +33,8 @@ struct ArcAttempt {
 };
 
 /// One arc by a step of length s: predict and correct, land on the first change of contacts, then on the first event
-/// before it; leave the change.
+/// before it; leave the change. Where the step's end is known already, the first point of a piece that was just entered
+/// among such, the arc passes the same checks from there on.
 ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s);
 
 }  // namespace arcwall

@@ -7,10 +7,15 @@
 
 #include "continuation/arc_step.hpp"
 #include "continuation/branch_start.hpp"
+#include "continuation/stops.hpp"
 
 namespace arcwall {
 
 namespace {
+
+// A step is tried again with one contact more at its start so often; from then on it is made shorter, so that the
+// attempts at an arc come to an end whatever the system inserts.
+constexpr int most_insertions = 50;
 
 // Why the attempts at an arc ended without one; `why` is what became of them.
 BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejected>& why) {
@@ -52,10 +57,10 @@ void tell_ledger(const TraceOptions& options, const ArcAttempt& attempt) {
 
 // Goes on from an accepted arc, which is given.
 Arc take(Accepted accepted, TracerState& state) {
-  state.step.succeeded(accepted.progress.iterations, accepted.progress.turn, accepted.progress.taken);
-  state.points += accepted.pending ? 2 : 1;
+  if (const auto& progress = accepted.progress)
+    state.step.succeeded(progress->iterations, progress->turn, progress->taken);
+  ++state.points;
   state.from = std::move(accepted.leave);
-  state.pending_arc = std::move(accepted.pending);
   if (accepted.visit) remember(state.visited, std::move(*accepted.visit));
   state.corners_without_progress = accepted.corners_without_progress;
   state.end = std::move(accepted.end);
@@ -82,7 +87,6 @@ Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, st
 Tracer::~Tracer() = default;
 
 std::optional<Arc> Tracer::next() {
-  if (state_.pending_arc) return std::exchange(state_.pending_arc, std::nullopt);
   if (state_.end) return std::nullopt;
   if (state_.points == 0) return begin();
   if (state_.points >= tools_->options.max_points) {
@@ -90,6 +94,7 @@ std::optional<Arc> Tracer::next() {
     return std::nullopt;
   }
   std::optional<Rejected> why;
+  int insertions = 0;
   while (!state_.step.too_short()) {
     const double s = state_.step.length();
     // What is followed begins where the point says, so that the path does not depend on what was tried before.
@@ -98,12 +103,14 @@ std::optional<Arc> Tracer::next() {
     ArcAttempt attempt = attempt_arc(*tools_, state_, s);
     tell_ledger(tools_->options, attempt);
     if (auto* const accepted = std::get_if<Accepted>(&attempt.result)) return take(std::move(*accepted), state_);
-    state_.from.pending_singular.clear();  // where these could not be reached, a step is taken anew
-    if (auto* const retry = std::get_if<Retry>(&attempt.result)) {
+    state_.from.pending_singular.clear();  // where what was known could not be reached, a step is taken anew
+    state_.from.known_end.reset();
+    auto* const retry = std::get_if<Retry>(&attempt.result);
+    if (retry && ++insertions <= most_insertions) {
       state_.from = std::move(retry->finer);
       continue;
     }
-    why = telling(why, std::get<Rejected>(attempt.result));
+    why = telling(why, retry ? Rejected{.outcome = StepOutcome::penetrates} : std::get<Rejected>(attempt.result));
     state_.step.failed(s);
   }
   state_.end = end_of_attempts(tools_->options, why);
@@ -118,7 +125,10 @@ std::optional<Arc> Tracer::begin() {
   state_.from = std::move(begun.from);
   state_.step.restart(begun.step_length);
   if (begun.visit) remember(state_.visited, std::move(*begun.visit));
-  ++state_.points;
+  const bool contacts_change = begun.arc.events.size() > 1;
+  if (contacts_change) state_.end = stop_at_contacts(tools_->options, begun.arc.to.state.piece);
+  if (!state_.end) state_.end = stop_at_events(tools_->options, begun.arc.events);
+  state_.points = 1;
   return std::move(begun.arc);
 }
 

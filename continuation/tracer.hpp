@@ -38,7 +38,7 @@ class Tracer {
   /// λ₀ of the path metric.
   double lambda_scale() const { return state_.lambda_scale; }
 
-  /// The last accepted point.
+  /// The point that the next step leaves: the last accepted one, or one near the beginning of a piece entered there.
   const PathPoint& here() const { return state_.from.point; }
 
   /// The one before it on the same smooth arc, without its eigenpairs; empty behind a change of contacts and at the

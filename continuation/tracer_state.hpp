@@ -5,11 +5,13 @@
 
 #include "continuation/corners/visited_corner.hpp"
 #include "continuation/events/singular_point.hpp"
+#include "continuation/step/landed_guard.hpp"
 #include "continuation/trace_options.hpp"
 
 namespace arcwall {
 
-/// A point that the next step leaves, and what is known just behind it.
+/// A point that the next step leaves, and what is known just behind it. It is the last accepted one; behind a
+/// transition to a piece that begins with a new span it lies near the beginning of that piece.
 struct Departure {
   PathPoint point{};
   std::optional<PathPoint> before{};              ///< the last point on the same smooth arc, without its eigenpairs
@@ -20,6 +22,8 @@ struct Departure {
   StabilityCount count_after{};                   ///< just behind `point`
   Index zero_eigenvalues = 0;                     ///< at `point`
   std::vector<SingularPoint> pending_singular{};  ///< located with `point` and just behind it: the next points
+  std::optional<Landing> passed_bound{};          ///< `point` lies a little beyond this validity bound of its piece
+  std::optional<PathPoint> known_end{};           ///< of the next step: the first point of a piece that was entered
 
   /// The eigenpairs nearest zero that were known last.
   const NearNull& nearest() const { return point.nearest.values.size() > 0 ? point.nearest : last_pairs; }
@@ -27,7 +31,7 @@ struct Departure {
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(point, before, eigenvalues_before, last_pairs, signs, negative_eigenvalues, count_after, zero_eigenvalues,
-            pending_singular);
+            pending_singular, passed_bound, known_end);
     archive.require(!before || eigenvalues_before.size() == point.nearest.values.size());
   }
 };
@@ -39,15 +43,14 @@ struct TracerState {
   BranchStart start{};
   StepControl step{StepOptions{}, StepOptions{}.max};
   Departure from{};
-  std::optional<Arc> pending_arc{};  ///< the first point of a piece, behind a transition that was just passed
   std::vector<VisitedCorner> visited{};
   std::optional<BranchEnd> end{};
-  int points = 0;                    ///< accepted, those that are pending included
+  int points = 0;                    ///< accepted
   int corners_without_progress = 0;  ///< changes of contacts in a row at one place
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(lambda_scale, start, step, from, pending_arc, visited, end, points, corners_without_progress);
+    archive(lambda_scale, start, step, from, visited, end, points, corners_without_progress);
   }
 };
 

@@ -175,7 +175,7 @@ std::string_view explanation(EndReason reason) {
     case EndReason::not_finite:
       return "the numbers are not finite";
     case EndReason::no_ray:
-      return "no equilibrium leaves a corner";
+      return "no equilibrium leaves a change of contact";
     case EndReason::turning_control:
       return "the controlled quantity turns back";
     case EndReason::wall_end:

@@ -19,14 +19,23 @@ struct Corner {
   bool begins_branch = false;  ///< the branch begins here: nothing has turned before
 };
 
+/// A piece that was entered behind a transition that makes a span: its first point has one of some length.
+struct EnteredPiece {
+  PathPoint begin{};  ///< on the same piece with a small part of that length: where the step to the first point begins
+  PathPoint first{};
+};
+
 /// Where a corner leads.
 struct CornerPassed {
-  PathPoint at{};                      ///< the same place on the piece ahead; where that begins elsewhere, still behind
-  std::optional<PathPoint> ahead{};    ///< the first point of the piece ahead where that is another place
-  std::vector<Event> events{};         ///< at `at`
-  std::optional<BranchEnd> end{};      ///< why nothing can be followed, where that is so
-  std::optional<CornerVisit> visit{};  ///< to be remembered
+  PathPoint at{};  ///< the same place on the piece ahead; behind, if the piece begins with a span
+  std::optional<EnteredPiece> entered{};  ///< that begins with a span
+  std::vector<Event> events{};            ///< at `at`
+  std::optional<BranchEnd> end{};         ///< why nothing can be followed, where that is so
+  std::optional<CornerVisit> visit{};     ///< to be remembered
   int without_progress = 0;
+
+  /// The nearest point known of the piece ahead.
+  const PathPoint& ahead() const { return entered ? entered->begin : at; }
 };
 
 /// Leaves a corner where contacts close or open, by one of its outgoing directions. `landed`: the guard that was landed

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
+#include "continuation/events/target_values.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
 
@@ -56,11 +57,128 @@ bool begins_with_length(Transition::Change change) {
   return change == Transition::Change::spreads || change == Transition::Change::splits;
 }
 
+// The piece ahead: its metric, and a direction in which it is entered.
+struct Ahead {
+  Metric metric;
+  Direction along{};
+};
+
+Ahead ahead_of(const TraceTools& tools, const Transition& transition, double lambda_scale) {
+  const State& guess = transition.guess;
+  Ahead ahead{.metric = tools.metric_on(guess.piece, lambda_scale), .along = transition.forward};
+  if (ahead.metric.norm(transition.forward) == 0.0) ahead.along = {.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
+  return ahead;
+}
+
+// A target value that a change of mesh moves the path over, or off.
+const TargetValue* value_moved_over(const std::vector<TargetValue>& targets, const State& behind, const State& ahead) {
+  const auto moved_over = [&](const TargetValue& target) {
+    return lies_between(target, behind, ahead) || is_left(target, behind, ahead);
+  };
+  const auto found = std::find_if(targets.begin(), targets.end(), moved_over);
+  return found == targets.end() ? nullptr : &*found;
+}
+
+// From a transition's guess to an equilibrium of the piece ahead. A new mesh moves the path by the error of its
+// elements: where that would move it over a target value, or off one, the point is the one at which that quantity has
+// the value of before. So what lay ahead still does, and what was met is met no more.
+CorrectorResult arrive(TraceTools& tools, const Transition& transition, const PathPoint& from, const Ahead& ahead,
+                       Effort effort) {
+  constexpr double distance = 0.1;  // a generous guess [path metric]
+  const auto corrected = [&](const State& guess, const PathConstraint& constraint) {
+    return effort == Effort::patient
+               ? tools.corrector.correct_patiently(guess, constraint, ahead.metric, ahead.along, distance)
+               : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
+  };
+  const State& guess = transition.guess;
+  CorrectorResult result = transition.quantity
+                               ? corrected(guess, ValueConstraint(*transition.quantity, transition.value))
+                               : corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0));
+  if (!result.converged() || transition.change != Transition::Change::remeshed) return result;
+  const TargetValue* const kept = value_moved_over(tools.options.target_values, from.state, result.state);
+  if (!kept) return result;
+  CorrectorResult moved_back =
+      corrected(result.state, ValueConstraint(*kept->quantity, kept->quantity->value(from.state)));
+  return moved_back.converged() ? moved_back : result;
+}
+
+// Whether the side conditions hold at the first point of a piece.
+bool holds(const System& system, const Transition& transition, const State& state) {
+  constexpr double slack = 1e-6;  // of guards that were near zero on the piece behind, too
+  if (!system.admissible(state, -penetration_tolerance)) return false;
+  return transition.change == Transition::Change::remeshed || !(system.guards(state).array() < -slack).any();
+}
+
+// What the corrector arrived at, with its count.
+PathPoint entered_point(TraceTools& tools, const Transition& transition, const Ahead& ahead, CorrectorResult result,
+                        double arc) {
+  if (transition.quantity && apply(transition.quantity->gradient(result.state), result.tangent) < 0.0)
+    result.tangent = reversed(std::move(result.tangent));
+  const Direction forward = transition.quantity ? result.tangent : ahead.along;
+  PathPoint to = path_point(tools.system, ahead.metric, std::move(result), forward);
+  to.arc = arc;
+  decide_count(tools, to);
+  to.count = tools.counter.count(to.state, to.negative_eigenvalues);
+  return to;
+}
+
 // A transition and the first point behind it.
 struct Entered {
   const Transition* transition;
   PathPoint at;
 };
+
+// A point of the piece ahead at which its new span has another length, reached from a point of that piece. Empty where
+// it is farther off the tangent than may be trusted: there it may lie on another branch.
+std::optional<PathPoint> with_span(TraceTools& tools, const Transition& transition, const Metric& metric,
+                                   const PathPoint& from, double length) {
+  constexpr double sure = 0.25;  // of the step
+  const double rate = apply(transition.quantity->gradient(from.state), from.tangent);
+  const double s = (length - transition.quantity->value(from.state)) / rate;
+  const State guess = moved(from.state, from.tangent, s);
+  CorrectorResult result =
+      tools.corrector.correct(guess, ValueConstraint(*transition.quantity, length), metric, from.tangent, std::abs(s));
+  if (!result.converged() || !(metric.distance(result.state, guess) <= sure * std::abs(s))) return std::nullopt;
+  PathPoint at = path_point(tools.system, metric, std::move(result), from.tangent);
+  at.arc = from.arc;
+  return at;
+}
+
+// Where a piece begins whose first point has a new span of some length: the piece is followed back towards spans of no
+// length as long as it is followed surely, to a sixteenth, and beyond that until no target value is left between there
+// and the bound. So the first point is reached by a step like any other.
+PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
+                   double lambda_scale) {
+  constexpr double counted = 1.0 / 16.0, least = 1e-5;  // of the first length; of shorter spans counts are not sure
+  constexpr double most_kept = 0.95;                    // of a length in one go
+  const Metric metric = tools.metric_on(first.state.piece, lambda_scale);
+  PathPoint begin = first;
+  begin.arc = from.arc;
+  if (!transition.quantity) return begin;
+  const auto value_is_nearer = [&] {
+    const std::vector<TargetValue>& targets = tools.options.target_values;
+    return std::any_of(targets.begin(), targets.end(),
+                       [&](const TargetValue& target) { return lies_between(target, from.state, begin.state); });
+  };
+  double part = 1.0, kept = 0.5;
+  while (kept < most_kept && (part > counted || (part > least && value_is_nearer()))) {
+    auto nearer = with_span(tools, transition, metric, begin, kept * part * transition.value);
+    if (!nearer) {
+      kept = 0.5 * (1.0 + kept);
+      continue;
+    }
+    part *= kept;
+    if (part >= counted) {
+      decide_count(tools, *nearer);
+      nearer->count = tools.counter.count(nearer->state, nearer->negative_eigenvalues);
+    } else {
+      nearer->negative_eigenvalues = begin.negative_eigenvalues;
+      nearer->count = begin.count;
+    }
+    begin = std::move(*nearer);
+  }
+  return begin;
+}
 
 // The first of the transitions behind which a point is found; all are tried again with patience where none is.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
@@ -84,15 +202,15 @@ std::optional<Index> shifted_bound(const PathPoint& at, double tolerance) {
   return contacts + bound;
 }
 
-// The corner's events: the transition's own, and what turns with it.
+// The corner's events: the transition's own, and what turns with it. `ahead` is the nearest point of the piece ahead.
 void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& at, const Entered& entered,
-                std::vector<Event>& events) {
+                const PathPoint& ahead, std::vector<Event>& events) {
   const Transition& transition = *entered.transition;
   Event event{.state = at.state,
               .arc = at.arc,
               .residual = at.residual,
               .unstable_before = corner.before.unstable,
-              .unstable_after = entered.at.count.unstable,
+              .unstable_after = ahead.count.unstable,
               .guards = transition.contacts};
   if (transition.change != Transition::Change::remeshed) {
     event.kind = kind_of(transition.change);
@@ -103,7 +221,7 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
     events.push_back(event);
     event.guards.clear();
   }
-  add_turns(tools, corner.signs, entered.at, event, events);
+  add_turns(tools, corner.signs, ahead, event, events);
 }
 
 }  // namespace
@@ -119,11 +237,13 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       passed.end = end_before(transitions);
       return passed;
     }
-    add_events(tools, corner, passed.at, *entered, passed.events);
     if (begins_with_length(entered->transition->change)) {
-      passed.ahead = std::move(entered->at);
+      const PathPoint begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
+      add_events(tools, corner, passed.at, *entered, begin, passed.events);
+      passed.entered = EnteredPiece{.begin = begin, .first = std::move(entered->at)};
       return passed;
     }
+    add_events(tools, corner, passed.at, *entered, entered->at, passed.events);
     passed.at = std::move(entered->at);
     if (entered->transition->change != Transition::Change::remeshed) return passed;
     const auto next = shifted_bound(passed.at, tools.options.guard_tolerance);
@@ -139,31 +259,10 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
 
 std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                double lambda_scale, Effort effort) {
-  constexpr double distance = 0.1;  // a generous guess [path metric]
-  constexpr double slack = 1e-6;    // of guards that were near zero on the piece behind, too
-  const System& system = tools.system;
-  const State& guess = transition.guess;
-  const Metric metric = tools.metric_on(guess.piece, lambda_scale);
-  const bool oriented = metric.norm(transition.forward) > 0.0;
-  const Direction along = oriented ? transition.forward : Direction{.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
-  const auto corrected = [&](const PathConstraint& constraint) {
-    return effort == Effort::patient ? tools.corrector.correct_patiently(guess, constraint, metric, along, distance)
-                                     : tools.corrector.correct(guess, constraint, metric, along, distance);
-  };
-  CorrectorResult result = transition.quantity ? corrected(ValueConstraint(*transition.quantity, transition.value))
-                                               : corrected(PlaneConstraint(metric, guess, along, 0.0));
-  if (!result.converged() || !system.admissible(result.state, -penetration_tolerance)) return std::nullopt;
-  if (transition.change != Transition::Change::remeshed && (system.guards(result.state).array() < -slack).any())
-    return std::nullopt;
-  if (transition.quantity && apply(transition.quantity->gradient(result.state), result.tangent) < 0.0)
-    result.tangent = reversed(std::move(result.tangent));
-  const Direction forward = transition.quantity ? result.tangent : along;
-  PathPoint to = path_point(system, metric, std::move(result), forward);
-  to.arc = from.arc +
-           (begins_with_length(transition.change) ? std::abs(to.state.lambda - from.state.lambda) / lambda_scale : 0.0);
-  decide_count(tools, to);
-  to.count = tools.counter.count(to.state, to.negative_eigenvalues);
-  return to;
+  const Ahead ahead = ahead_of(tools, transition, lambda_scale);
+  CorrectorResult result = arrive(tools, transition, from, ahead, effort);
+  if (!result.converged() || !holds(tools.system, transition, result.state)) return std::nullopt;
+  return entered_point(tools, transition, ahead, std::move(result), from.arc);
 }
 
 std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,

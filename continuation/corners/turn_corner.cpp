@@ -119,8 +119,8 @@ void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, co
                std::vector<Event>& events) {
   const std::vector<int> now = signs_at(tools.detectors, behind);
   for (std::size_t i = 0; i < tools.detectors.size(); ++i) {
-    if (now[i] * signs_before[i] >= 0) continue;
     const EventDetector& detector = tools.detectors[i];
+    if (!triggers(detector, signs_before[i], now[i])) continue;
     event.kind = detector.kind == EventKind::limit_point ? EventKind::contact_limit_point : detector.kind;
     event.label = detector.label;
     events.push_back(event);

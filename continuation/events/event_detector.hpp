@@ -26,6 +26,12 @@ struct EventDetector {
   std::function<double(const PathPoint&)> integral{};
 };
 
+/// Whether a change of sign is one of the detector's events.
+inline bool triggers(const EventDetector& detector, int before, int after) {
+  const bool wanted = detector.crossing == Crossing::any || (after > 0) == (detector.crossing == Crossing::rising);
+  return before * after < 0 && wanted;
+}
+
 /// λ′ of the unit tangent, scaled to [−1, 1]: its zeros are limit points.
 EventDetector limit_point_detector(const Metric& metric);
 

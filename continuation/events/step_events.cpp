@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/events/singular_search.hpp"
+#include "continuation/events/target_values.hpp"
 #include "continuation/events/zero_search.hpp"
 #include "continuation/segment.hpp"
 
@@ -24,17 +25,14 @@ std::optional<EventPlace> earliest(const TraceTools& tools, const std::vector<in
   for (std::size_t i = 0; i < tools.detectors.size(); ++i) {
     const EventDetector& detector = tools.detectors[i];
     const double v0 = detector.value(segment.from()), v1 = detector.value(segment.to());
-    const int sign = sign_of(v1);
-    if (signs[i] * sign >= 0) continue;
-    if (detector.crossing != Crossing::any && (sign > 0) != (detector.crossing == Crossing::rising)) continue;
+    if (!triggers(detector, signs[i], sign_of(v1))) continue;
     consider(EventPlace::What::detector, i, signs[i] * v0 > 0.0 ? v0 / (v0 - v1) : 0.0);
   }
   for (std::size_t i = 0; i < tools.options.target_values.size(); ++i) {
     const TargetValue& target = tools.options.target_values[i];
-    const auto value = [&](const PathPoint& p) { return target.quantity->value(p.state) - target.value; };
     const auto rate = [&](const PathPoint& p) { return apply(target.quantity->gradient(p.state), p.tangent); };
-    const double v0 = value(segment.from()), v1 = value(segment.to());
-    const double noise = 1e-11 * std::max({std::abs(target.value), std::abs(v0), std::abs(v1)});
+    const double v0 = excess(target, segment.from().state), v1 = excess(target, segment.to().state);
+    const double noise = excess_noise(target, v0, v1);
     // A step may end on the value to the last digit but one.
     if (std::abs(v1) <= noise && std::abs(v0) > noise)
       consider(EventPlace::What::target_value, i, 1.0);
@@ -93,7 +91,8 @@ ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd 
   end.singular = origin.from.pending_singular;
   if (end.singular.empty() && tools.options.events != EventSearch::none) {
     SingularSearch search = find_singular(tools, origin, end.point);
-    if (!search.clear) return {.end = std::nullopt, .failure = search.failure};
+    // Of spans that are too short for their unknowns counts are not sure: then the first point's own one is trusted.
+    if (!search.clear && !origin.from.known_end) return {.end = std::nullopt, .failure = search.failure};
     end.singular = std::move(search.points);
   }
   if (!end.singular.empty()) end_at(end, end.singular.front().place, end.singular.front().at);
@@ -107,6 +106,9 @@ ArcEndSearch locate_events(TraceTools& tools, const StepOrigin& origin, StepEnd 
     if (!located.point) return {.end = std::nullopt, .failure = located.failure};
     end.singular.clear();
     end_at(end, located.place, std::move(*located.point));
+    // Nothing singular lies before a value, and the count of a short span is not sure.
+    if (origin.from.known_end && next->what == EventPlace::What::target_value)
+      end.point.negative_eigenvalues = origin.from.negative_eigenvalues;
   }
   end.point.arc = origin.point().arc + end.length;
   return {.end = std::move(end)};

@@ -24,10 +24,14 @@ std::optional<GuardCrossing> first_crossing(const StepOrigin& origin, double tol
   const double L = segment.length();
   // Branch points are interpolated: guards that are zero there (a flat part buckles off its wall) are known no better.
   const double unsure = origin.leaves_branch_point ? singular_point_accuracy : tolerance;
+  const auto contacts = static_cast<Index>(to.state.piece.size());
   std::optional<GuardCrossing> first;
   for (Index j = 0; j < to.guards.size(); ++j) {
     const double v0 = from.guards[j], r0 = from.guard_rates[j], v1 = to.guards[j], r1 = to.guard_rates[j];
     const bool touches = v0 <= tolerance && v0 >= -unsure;
+    // A piece may be entered a little before one of its validity bounds, on the way to where it is valid.
+    const bool rises_from_below = j >= contacts && v0 < -unsure && r0 > 0.0 && v1 > v0;
+    if (rises_from_below) continue;
     if (v1 >= -tolerance && least_cubic_value(touches ? 0.0 : v0, r0 * L, v1, r1 * L) >= -tolerance) continue;
     const double t = segment.first_zero(v0, r0, v1, r1, tolerance).value_or(0.0);
     if (!first || t < first->t) first = GuardCrossing{.guard = j, .t = t};

@@ -1,15 +1,9 @@
 #pragma once
 
+#include "continuation/step/landed_guard.hpp"
 #include "continuation/trace_tools.hpp"
 
 namespace arcwall {
-
-/// Where a step ends because a guard is zero there: the active set changes.
-struct Landing {
-  Index guard = 0;
-  double slack = 0.0;      ///< by how much other guards are violated there: those within it belong to the change
-  bool continuum = false;  ///< whether a continuum of equilibria lies behind
-};
 
 /// The end of a step.
 struct StepEnd {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuation/trace_options.hpp"
+
+namespace arcwall {
+
+/// The quantity less the target value.
+inline double excess(const TargetValue& target, const State& state) {
+  return target.quantity->value(state) - target.value;
+}
+
+/// Differences below this are round-off: the value is met. `v0`, `v1`: excesses at both ends of a stretch.
+inline double excess_noise(const TargetValue& target, double v0, double v1) {
+  return 1e-11 * std::max({std::abs(target.value), std::abs(v0), std::abs(v1)});
+}
+
+/// Whether the value lies between two states, or at the second one; one that is met at the first does not count.
+inline bool lies_between(const TargetValue& target, const State& first, const State& second) {
+  const double v0 = excess(target, first), v1 = excess(target, second), noise = excess_noise(target, v0, v1);
+  return std::abs(v0) > noise && (std::abs(v1) <= noise || v0 * v1 < 0.0);
+}
+
+/// Whether the value is met at the first of two states and not at the second one.
+inline bool is_left(const TargetValue& target, const State& first, const State& second) {
+  const double v0 = excess(target, first), v1 = excess(target, second), noise = excess_noise(target, v0, v1);
+  return std::abs(v0) <= noise && std::abs(v1) > noise;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "continuation/events/step_events.hpp"
+
+namespace arcwall {
+
+/// A target value between the last point of a piece, at a validity bound, and the nearest point known of the piece
+/// behind that bound. Between the two there is the last stretch of the one piece or the first stretch of the other,
+/// both too short for their unknowns, or nothing but the errors of two meshes.
+struct ValueBetween {
+  std::size_t which = 0;  ///< of the target values
+  double part = 0.0;      ///< of the way between the two points
+  double distance = 0.0;  ///< from the last point of the piece, along its tangent [path metric]
+};
+
+/// The first one on the way. A value that the path has passed does not count where the mesh alone moves back over it.
+std::optional<ValueBetween> first_value_between(const std::vector<TargetValue>& targets, const PathPoint& behind,
+                                                const State& ahead);
+
+/// The arc's end on the value, on the piece that ends, a little beyond its bound, which is passed from there: the two
+/// pieces differ there by the third power of a stretch at most, less than the error of the elements. Empty where no
+/// such point is found.
+std::optional<ArcEnd> land_beyond_bound(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                                        const ValueBetween& value);
+
+/// Moves the first point of the piece ahead onto the value: where a span has all but vanished its piece is of no use.
+/// False where no such point is found.
+bool land_piece_ahead(TraceTools& tools, double lambda_scale, const ValueBetween& value, PathPoint& ahead);
+
+}  // namespace arcwall

@@ -1,0 +1,22 @@
+#include "continuation/stops.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace arcwall {
+
+std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const Piece& piece) {
+  const Index closed = piece.closed_count();
+  if (!options.stop_contacts || closed < *options.stop_contacts) return std::nullopt;
+  return BranchEnd{.reason = EndReason::stop, .detail = "contacts = " + std::to_string(closed)};
+}
+
+std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::vector<Event>& events) {
+  std::optional<BranchEnd> met;
+  for (const StopEvent& stop : options.stop_events)
+    if (std::any_of(events.begin(), events.end(), [&](const Event& event) { return event.kind == stop.kind; }))
+      met = {.reason = EndReason::stop, .detail = stop.label};
+  return met;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "continuation/trace_options.hpp"
+
+namespace arcwall {
+
+/// The end of a branch at the first point behind a change of contacts, if so many are closed there.
+std::optional<BranchEnd> stop_at_contacts(const TraceOptions& options, const Piece& piece);
+
+/// The end of a branch at a point with such events.
+std::optional<BranchEnd> stop_at_events(const TraceOptions& options, const std::vector<Event>& events);
+
+}  // namespace arcwall
