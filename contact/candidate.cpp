@@ -3,27 +3,29 @@
 namespace arcwall {
 
 double Candidate::gap(const State& state) const {
-  const Vec2 at = point_->position(state);
-  return wall_->covers(at.x()) ? surface_slope(*wall_, side_, at).value : infinity;
+  return obstacle_->gap_slope(point_->position(state), state.lambda).value;
 }
 
 void Candidate::gap(const State& state, Gap& out) const {
   PointKinematics at;
   point_->kinematics(state, at);
-  const SurfaceGap g = surface_gap(*wall_, side_, at.position);
+  const QuadraticField g = obstacle_->gap(at.position, state.lambda);
+  const auto by_x = at.jacobian.row(0), by_z = at.jacobian.row(1);
   out.value = g.value;
-  out.gradient = g.x * at.jacobian.row(0).transpose() + g.z * at.jacobian.row(1).transpose();
+  out.gradient = g.x * by_x.transpose() + g.z * by_z.transpose();
   out.hessian = g.x * at.curvature[0] + g.z * at.curvature[1];
-  out.hessian.noalias() += g.xx * at.jacobian.row(0).transpose() * at.jacobian.row(0);
-  out.hessian.noalias() += g.xz * at.jacobian.row(0).transpose() * at.jacobian.row(1);
-  out.hessian.noalias() += g.xz * at.jacobian.row(1).transpose() * at.jacobian.row(0);
+  out.hessian.noalias() += g.xx * by_x.transpose() * by_x;
+  out.hessian.noalias() += g.xz * by_x.transpose() * by_z;
+  out.hessian.noalias() += g.xz * by_z.transpose() * by_x;
+  out.hessian.noalias() += g.zz * by_z.transpose() * by_z;
+  out.rate = g.rate;
+  out.gradient_rate = g.x_rate * by_x.transpose() + g.z_rate * by_z.transpose();
 }
 
 double Candidate::gap_rate(const State& state, const Direction& direction) const {
   const PointMotion at = point_->motion(state, direction);
-  if (!wall_->covers(at.position.x())) return 0.0;
-  const SurfaceSlope g = surface_slope(*wall_, side_, at.position);
-  return g.x * at.velocity.x() + g.z * at.velocity.y();
+  const LinearField g = obstacle_->gap_slope(at.position, state.lambda);
+  return g.x * at.velocity.x() + g.z * at.velocity.y() + g.rate * direction.dlambda;
 }
 
 }  // namespace arcwall

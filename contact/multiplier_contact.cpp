@@ -83,10 +83,12 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
     candidates_[j].gap(state, gap);
     const double t = p - r * gap.value;
     out.F[n + k] = -gap.value - c * p;
+    out.F_lambda[n + k] = -gap.rate;
     entry(out.K, n + k, n + k) = -c;
     for (Index a = 0; a < static_cast<Index>(unknowns.size()); ++a) {
       const Index column = unknowns[static_cast<std::size_t>(a)];
       out.F[column] -= t * gap.gradient[a];
+      out.F_lambda[column] += r * gap.rate * gap.gradient[a] - t * gap.gradient_rate[a];
       entry(out.K, n + k, column) = -gap.gradient[a];
       for (Index b = 0; b < static_cast<Index>(unknowns.size()); ++b) {
         const Index row = unknowns[static_cast<std::size_t>(b)];
@@ -154,6 +156,7 @@ Row MultiplierContact::guard_gradient(const State& state, Index j) const {
     const auto& unknowns = candidate(j).point().unknowns();
     for (std::size_t i = 0; i < unknowns.size(); ++i)
       row.dx[unknowns[i]] = gap.gradient[static_cast<Index>(i)] / scales_.length;
+    row.dlambda = gap.rate / scales_.length;
   }
   return row;
 }

@@ -1,5 +1,6 @@
 #include "contact/profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/cubic_spline.hpp"
@@ -44,6 +45,11 @@ class CircleProfile final : public Profile {
   // The arc ends where its normal is level to 1e-6: there the height says nothing about the distance any more.
   bool covers(double x) const override { return std::abs(x - centre_.x()) < radius_ * (1.0 - 1e-6); }
 
+  std::pair<double, double> extent() const override {
+    const double reach = radius_ * (1.0 - 2e-6);
+    return {centre_.x() - reach, centre_.x() + reach};
+  }
+
  private:
   Vec2 centre_;
   double radius_, sign_;
@@ -57,6 +63,7 @@ class SplineProfile final : public Profile {
     return {v[0], v[1], v[2], v[3]};
   }
   bool covers(double x) const override { return x >= spline_.first() && x <= spline_.last(); }
+  std::pair<double, double> extent() const override { return {spline_.first(), spline_.last()}; }
 
  private:
   CubicSpline spline_;
@@ -65,35 +72,78 @@ class SplineProfile final : public Profile {
 // Of a slope; most walls are level.
 double cosine(double slope) { return slope == 0.0 ? 1.0 : 1.0 / std::sqrt(1.0 + slope * slope); }
 
+class ProfileObstacle final : public Obstacle {
+ public:
+  ProfileObstacle(std::shared_ptr<const Profile> profile, Side side) : profile_(std::move(profile)), side_(side) {}
+
+  Side side() const override { return side_; }
+  bool faces(const Vec2& position, double) const override { return profile_->covers(position.x()); }
+
+  // g = ± d c with d = z − ψ, c = (1 + ψ′²)^(−½):  c′ = −ψ′ψ″ c³,  c″ = −(ψ″² + ψ′ψ‴) c³ + 3 (ψ′ψ″)² c⁵
+  //
+  //   g_x = ±(d c′ − ψ′ c),  g_z = ± c,  g_xx = ±(d c″ − 2 ψ′ c′ − ψ″ c),  g_xz = ± c′,  g_zz = 0
+  QuadraticField gap(const Vec2& position, double) const override {
+    const Height psi = profile_->at(position.x());
+    const double sign = sign_of(side_);
+    const double c = cosine(psi.first), c3 = c * c * c, bend = psi.first * psi.second;
+    const double c1 = -bend * c3;
+    const double c2 = -(psi.second * psi.second + psi.first * psi.third) * c3 + 3.0 * bend * bend * c3 * c * c;
+    const double d = position.y() - psi.value;
+    return {.value = sign * d * c,
+            .x = sign * (d * c1 - psi.first * c),
+            .z = sign * c,
+            .xx = sign * (d * c2 - 2.0 * psi.first * c1 - psi.second * c),
+            .xz = sign * c1};
+  }
+
+  LinearField gap_slope(const Vec2& position, double) const override {
+    if (!profile_->covers(position.x())) return {.value = infinity};
+    const Height psi = profile_->at(position.x());
+    const double sign = sign_of(side_);
+    const double c = cosine(psi.first), d = position.y() - psi.value;
+    return {.value = sign * d * c, .x = -sign * psi.first * c * (1.0 + d * psi.second * c * c), .z = sign * c};
+  }
+
+  // φ = arctan ψ′
+  QuadraticField direction(const Vec2& position, double) const override {
+    const Height psi = profile_->at(position.x());
+    const double w = 1.0 + psi.first * psi.first;
+    return {.value = std::atan(psi.first),
+            .x = psi.second / w,
+            .xx = psi.third / w - 2.0 * psi.first * psi.second * psi.second / (w * w)};
+  }
+
+  // ψ″ / (1 + ψ′²)^(3/2)
+  LinearField curvature(const Vec2& position, double) const override {
+    const Height psi = profile_->at(position.x());
+    const double w = 1.0 + psi.first * psi.first, root = std::sqrt(w);
+    return {.value = psi.second / (w * root),
+            .x = psi.third / (w * root) - 3.0 * psi.first * psi.second * psi.second / (w * w * root)};
+  }
+
+  // Points are closer together towards the ends, where a circle is steep.
+  std::vector<Vec2> outline(double from, double to, double) const override {
+    constexpr int parts = 400;
+    const auto [first, last] = profile_->extent();
+    const bool apart = last <= from || first >= to;
+    const double low = apart ? first : std::max(first, from), high = apart ? last : std::min(last, to);
+    std::vector<Vec2> line;
+    for (int i = 0; i <= parts; ++i) {
+      const double x = std::clamp(0.5 * (low + high) - 0.5 * (high - low) * std::cos(pi * i / parts), low, high);
+      line.emplace_back(x, profile_->at(x).value);
+    }
+    return line;
+  }
+
+ private:
+  std::shared_ptr<const Profile> profile_;
+  Side side_;
+};
+
 }  // namespace
 
-// g = ± d c with d = z − ψ, c = (1 + ψ′²)^(−½):  c′ = −ψ′ψ″ c³,  c″ = −(ψ″² + ψ′ψ‴) c³ + 3 (ψ′ψ″)² c⁵
-//
-//   g_x = ±(d c′ − ψ′ c),  g_z = ± c,  g_xx = ±(d c″ − 2 ψ′ c′ − ψ″ c),  g_xz = ± c′
-SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point) {
-  const Height psi = profile.at(point.x());
-  const double sign = side == Side::below ? 1.0 : -1.0;
-  const double c = cosine(psi.first), c3 = c * c * c, bend = psi.first * psi.second;
-  const double c1 = -bend * c3;
-  const double c2 = -(psi.second * psi.second + psi.first * psi.third) * c3 + 3.0 * bend * bend * c3 * c * c;
-  const double d = point.y() - psi.value;
-  return {.value = sign * d * c,
-          .x = sign * (d * c1 - psi.first * c),
-          .z = sign * c,
-          .xx = sign * (d * c2 - 2.0 * psi.first * c1 - psi.second * c),
-          .xz = sign * c1};
-}
-
-SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point) {
-  const Height psi = profile.at(point.x());
-  const double sign = side == Side::below ? 1.0 : -1.0;
-  const double c = cosine(psi.first), d = point.y() - psi.value;
-  return {.value = sign * d * c, .x = -sign * psi.first * c * (1.0 + d * psi.second * c * c), .z = sign * c};
-}
-
-Vec2 surface_normal(const Profile& profile, Side side, const Vec2& point) {
-  const SurfaceGap gap = surface_gap(profile, side, point);
-  return Vec2(gap.x, gap.z).normalized();
+std::shared_ptr<const Obstacle> obstacle(std::shared_ptr<const Profile> profile, Side side) {
+  return std::make_shared<ProfileObstacle>(std::move(profile), side);
 }
 
 std::unique_ptr<Profile> flat_profile(double z) { return std::make_unique<LineProfile>(z, 0.0); }

@@ -1,24 +1,19 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "core/types.hpp"
+#include "contact/obstacle.hpp"
 
 namespace arcwall {
-
-/// On which side of its surface an obstacle is.
-enum class Side {
-  above,  ///< the structure stays below the surface
-  below,  ///< the structure stays above it
-};
 
 /// Height of a surface and its derivatives at one x.
 struct Height {
   double value, first, second, third;
 };
 
-/// The surface z = ψ(x) of a rigid obstacle.
+/// The surface z = ψ(x) of a rigid obstacle that stands still.
 class Profile {
  public:
   virtual ~Profile() = default;
@@ -28,26 +23,15 @@ class Profile {
 
   /// Whether there is a surface at this x.
   virtual bool covers(double) const { return true; }
+
+  /// From which x to which the surface is drawn.
+  virtual std::pair<double, double> extent() const { return {-infinity, infinity}; }
 };
 
-/// Gap between a point and a surface, with its derivatives by the point's x and z (∂²g/∂z² = 0):
+/// An obstacle with such a surface, which runs with x and is faced from straight above or below:
 ///
 ///     g = ±(z − ψ(x)) / √(1 + ψ′(x)²)                                       + below, − above the structure
-struct SurfaceGap {
-  double value, x, z, xx, xz;
-};
-
-/// The same without second derivatives.
-struct SurfaceSlope {
-  double value, x, z;
-};
-
-/// Only where the profile covers the point.
-SurfaceSlope surface_slope(const Profile& profile, Side side, const Vec2& point);
-SurfaceGap surface_gap(const Profile& profile, Side side, const Vec2& point);
-
-/// The unit vector along which the gap grows fastest.
-Vec2 surface_normal(const Profile& profile, Side side, const Vec2& point);
+std::shared_ptr<const Obstacle> obstacle(std::shared_ptr<const Profile> profile, Side side);
 
 std::unique_ptr<Profile> flat_profile(double z);
 std::unique_ptr<Profile> line_profile(double z, double slope);                  ///< z + slope·x

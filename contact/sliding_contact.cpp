@@ -109,8 +109,9 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
   }
   const sliding::Touch touch = sliding::touch_of_contact(*setting_, at.layout, static_cast<std::size_t>(j));
   if (!std::isfinite(sliding::face_gap(*setting_, touch, at))) return row;
-  sliding::add_at_node(at.mesh.node_unknowns(touch.strand, touch.position),
-                       sliding::touch_gap(*setting_, touch, at).gap_gradient / scales().length, row.dx);
+  const sliding::NodeFunction gap = sliding::touch_gap(*setting_, touch, at).gap;
+  sliding::add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), gap.gradient / scales().length, row.dx);
+  row.dlambda = gap.rate / scales().length;
   return row;
 }
 

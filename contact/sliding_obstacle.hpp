@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "contact/profile.hpp"
+#include "contact/obstacle.hpp"
 
 namespace arcwall {
 
-/// A rigid surface that slender members may touch.
+/// An obstacle that slender members may touch.
 struct SlidingObstacle {
   std::string name{};
-  std::shared_ptr<const Profile> profile{};
-  Side side = Side::above;
+  std::shared_ptr<const Obstacle> surface{};
   bool on_face = true;                  ///< contact of the members' faces, or of their axes
   std::vector<std::uint8_t> strands{};  ///< per strand whether it concerns it
 

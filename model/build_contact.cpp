@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/profile.hpp"
 #include "core/text.hpp"
 #include "elements/member_point.hpp"
 
@@ -37,8 +38,6 @@ std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
                      above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
 }
 
-}  // namespace
-
 std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
   struct Maker {
     Side side;
@@ -55,6 +54,10 @@ std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
   return std::visit(Maker{wall.side}, wall.profile);
 }
 
+}  // namespace
+
+std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall) { return obstacle(profile_of(wall), wall.side); }
+
 bool concerns(const deck::Wall& wall, const std::string& member) {
   return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
 }
@@ -63,8 +66,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   std::vector<Candidate> candidates;
   const State rest{.x = Vector::Zero(structure.size({}))};
   for (const deck::Wall& wall : deck.walls) {
-    const Side side = wall.side;
-    const std::shared_ptr<const Profile> profile = profile_of(wall);
+    const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall);
     std::vector<std::pair<Index, Vec2>> taken;  // node and place: members that meet share a point
     Penetration deepest;
     for (const MemberMesh& mesh : structure.members()) {
@@ -85,7 +87,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           taken.emplace_back(section.node, place);
           const bool movable = !point->unknowns().empty();
           Candidate candidate(
-              std::move(point), profile, side,
+              std::move(point), obstacle,
               {.wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
           const double gap = candidate.gap(rest);
           deepest.everywhere = deepest.everywhere && gap < 0.0;
@@ -110,13 +112,11 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
                      [&](const deck::Wall& wall) { return concerns(wall, a) == concerns(wall, b); });
 }
 
-std::vector<SlidingObstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
+std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
   std::vector<SlidingObstacle> obstacles;
   for (const deck::Wall& wall : deck.walls) {
-    SlidingObstacle obstacle{.name = wall.name,
-                             .profile = profile_of(wall),
-                             .side = wall.side,
-                             .on_face = wall.acts_on == deck::ActsOn::face};
+    SlidingObstacle obstacle{
+        .name = wall.name, .surface = obstacle_of(wall), .on_face = wall.acts_on == deck::ActsOn::face};
     for (Index strand = 0; strand < structure.strands(); ++strand)
       obstacle.strands.push_back(concerns(wall, structure.label({.strand = strand, .s = 0.0}).first) ? 1 : 0);
     obstacles.push_back(std::move(obstacle));

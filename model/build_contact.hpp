@@ -11,8 +11,8 @@
 
 namespace arcwall {
 
-/// The surface of a wall.
-std::unique_ptr<Profile> profile_of(const deck::Wall& wall);
+/// What stands in the way where the deck has a wall.
+std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall);
 
 /// Whether a wall stands in the way of a member.
 bool concerns(const deck::Wall& wall, const std::string& member);
@@ -25,6 +25,6 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
 bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b);
 
 /// The walls for contact points that slide.
-std::vector<SlidingObstacle> obstacles(const deck::Deck& deck, const SlidingStructure& structure);
+std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const SlidingStructure& structure);
 
 }  // namespace arcwall

@@ -113,7 +113,7 @@ std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilde
 
 void Model::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
   const auto on = [&](const SlidingStructure& structure) {
-    return std::make_unique<SlidingContact>(structure, obstacles(deck_, structure), scales);
+    return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck_, structure), scales);
   };
   sliding_ = on(*sliding_structure_);
   if (!ramp) return;

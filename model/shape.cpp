@@ -12,8 +12,6 @@ namespace arcwall {
 
 namespace {
 
-double mean(double a, double b) { return 0.5 * (a + b); }
-
 std::vector<double> sample_fractions(int elements);
 std::vector<ShapePoint> points_on_nodes(const Model& model, const State& state, std::size_t member);
 std::vector<ShapePoint> points_between_breakpoints(const Model& model, const State& state, std::size_t member);
@@ -112,37 +110,15 @@ Eigen::AlignedBox2d reach(const Model& model) {
   return {box.min() - Vec2::Constant(margin), box.max() + Vec2::Constant(margin)};
 }
 
-// Where a wall has a surface, within x.
-std::pair<double, double> covered(const deck::Wall& wall, std::pair<double, double> x) {
-  const auto within = [&](double low, double high) {
-    if (high <= x.first || low >= x.second) return std::pair(low, high);
-    return std::pair(std::max(low, x.first), std::min(high, x.second));
-  };
-  if (const auto* circle = std::get_if<deck::CircleProfile>(&wall.profile)) {
-    const double radius = circle->radius * (1.0 - 2e-6);
-    return within(circle->centre.x - radius, circle->centre.x + radius);
-  }
-  if (const auto* spline = std::get_if<deck::SplineProfile>(&wall.profile))
-    return within(spline->x.front(), spline->x.back());
-  return x;
-}
-
 }  // namespace
 
 // Of a wall that climbs out of the structure's reach only what lies between its first and last place within; all of one
 // that is nowhere within.
 std::vector<WallShape> wall_shapes(const Model& model) {
-  constexpr int parts = 400;  // closer together towards the ends, where a circle is steep
   const Eigen::AlignedBox2d box = reach(model);
   std::vector<WallShape> walls;
   for (const deck::Wall& wall : model.deck().walls) {
-    const auto profile = profile_of(wall);
-    const auto [low, high] = covered(wall, {box.min().x(), box.max().x()});
-    std::vector<Vec2> line;
-    for (int i = 0; i <= parts; ++i) {
-      const double x = std::clamp(mean(low, high) - 0.5 * (high - low) * std::cos(pi * i / parts), low, high);
-      line.emplace_back(x, profile->at(x).value);
-    }
+    const std::vector<Vec2> line = obstacle_of(wall)->outline(box.min().x(), box.max().x(), 0.0);
     const auto inside = [&](const Vec2& point) { return box.contains(point); };
     const auto first = std::find_if(line.begin(), line.end(), inside);
     const auto last = std::find_if(line.rbegin(), line.rend(), inside).base();

@@ -121,12 +121,14 @@ class PolyLines {
 // Walls with what a gap to them needs.
 struct Surface {
   const deck::Wall& wall;
-  std::unique_ptr<Profile> profile;
+  std::shared_ptr<const Obstacle> obstacle;
+  double lambda;  // at which gaps are asked for
 };
 
-std::vector<Surface> surfaces(const deck::Deck& deck) {
+std::vector<Surface> surfaces(const deck::Deck& deck, double lambda) {
   std::vector<Surface> all;
-  for (const deck::Wall& wall : deck.walls) all.push_back({.wall = wall, .profile = profile_of(wall)});
+  for (const deck::Wall& wall : deck.walls)
+    all.push_back({.wall = wall, .obstacle = obstacle_of(wall), .lambda = lambda});
   return all;
 }
 
@@ -134,12 +136,11 @@ std::vector<Surface> surfaces(const deck::Deck& deck) {
 double gap_at(const ShapePoint& point, const MemberMesh& mesh, const std::vector<Surface>& surfaces, double most) {
   const Vec2 normal(-std::sin(point.angle), std::cos(point.angle));
   double least = most;
-  for (const auto& [wall, profile] : surfaces) {
+  for (const auto& [wall, obstacle, lambda] : surfaces) {
     if (!concerns(wall, mesh.name)) continue;
     const double half = wall.acts_on == deck::ActsOn::face ? 0.5 * mesh.height.value_or(0.0) : 0.0;
     for (const double offset : {-half, half}) {
-      const Vec2 at = point.position + offset * normal;
-      if (profile->covers(at.x())) least = std::min(least, surface_gap(*profile, wall.side, at).value);
+      least = std::min(least, obstacle->gap_slope(point.position + offset * normal, lambda).value);
     }
   }
   return least;
@@ -176,7 +177,7 @@ struct ContactArrays {
 }  // namespace
 
 std::string shape_vtu(const Model& model, const RecordPoint& point, const Shape& shape) {
-  const std::vector<Surface> walls = surfaces(model.deck());
+  const std::vector<Surface> walls = surfaces(model.deck(), point.lambda);
   PolyLines lines;
   std::vector<double> displacement, rotation, axial_force, moment;
   ContactArrays contact;

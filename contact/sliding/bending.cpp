@@ -25,32 +25,34 @@ void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index)
   row.dlambda += factor * dlambda;
 }
 
-// ± (κ − λ κ̂): κ the body's curvature and λ its stretch by stress-free length, κ̂ the curvature of the curve at the
+// ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve at the
 // face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
 CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Touch touch = touch_of_contact(setting, at.layout, point);
   const AxisPlace axis = touch.axis(at);
   const double along = travel(axis), offset = along * touch.offset;
-  const SlidingObstacle& obstacle = setting.obstacles[touch.obstacle];
-  const double side = sign_of(obstacle.side);
+  const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
+  const double side = sign_of(obstacle.side());
   const AxisStrain strain = free_strain(at, point);
-  const SurfaceBend wall = surface_bend(*obstacle.profile, (axis.position + offset * normal(axis.angle)).x());
-  const double shrink = 1.0 / (1.0 + touch.offset * wall.curvature);
-  const double parallel = wall.curvature * shrink, parallel_x = wall.curvature_x * shrink * shrink;
+  const LinearField wall = obstacle.curvature(face(touch.offset, axis), at.now.lambda);
+  const double shrink = 1.0 / (1.0 + touch.offset * wall.value);
+  const double parallel = wall.value * shrink;
 
   CurvatureGap out{.value = side * (along * strain.curvature - strain.stretch * parallel)};
   out.dx = side * (along * strain.curvature_dx - parallel * strain.stretch_dx);
   out.ds = side * (along * strain.curvature_ds - parallel * strain.stretch_ds);
   out.dlambda = side * (along * strain.curvature_dlambda - parallel * strain.stretch_dlambda);
-  const NodeUnknowns unknowns = at.mesh.node_unknowns(touch.strand, touch.position);
-  out.dx[unknowns[0]] -= side * strain.stretch * parallel_x;
-  out.dx[unknowns[2]] += side * strain.stretch * parallel_x * offset * std::cos(axis.angle);
+  const double by_wall = -side * strain.stretch * shrink * shrink;
+  const double by_angle = -offset * (wall.x * std::cos(axis.angle) + wall.z * std::sin(axis.angle));
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_wall * Eigen::Vector3d(wall.x, wall.z, by_angle),
+              out.dx);
+  out.dlambda += by_wall * wall.rate;
   return out;
 }
 
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Touch touch = touch_of_contact(setting, at.layout, point);
-  return surface_bend(*setting.obstacles[touch.obstacle].profile, touch.axis(at).position.x()).curvature;
+  return setting.obstacles[touch.obstacle].surface->curvature(touch.axis(at).position, at.now.lambda).value;
 }
 
 // ± [EI (κ̂″ − κ₀″) + P κ̂ − q·n], q the load along the body. Its sign says whether the body lies on the wall there,
@@ -61,20 +63,19 @@ double holding_pressure(const SlidingSetting& setting, const SlidingState& at, s
   const AxisPlace axis = touch.axis(at);
   const double along = travel(axis);
   const double L = body.length(touch.strand), step = 0.01 * L, S = at.s(static_cast<Index>(point));
-  const SlidingObstacle& obstacle = setting.obstacles[touch.obstacle];
-  const Profile& profile = *obstacle.profile;
+  const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
   const auto second = [step](const auto& f) { return (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (step * step); };
   const double natural =
       second([&](double i) { return body.natural_curvature({.strand = touch.strand, .s = S + i * step}); });
   const auto wall = [&](double i) {
-    const double x_there = axis.position.x() + i * step * std::cos(axis.angle);
-    return profile.covers(x_there) ? surface_bend(profile, x_there).curvature : 0.0;
+    const Vec2 there = axis.position + i * step * Vec2(std::cos(axis.angle), std::sin(axis.angle));
+    return obstacle.faces(there, at.now.lambda) ? obstacle.curvature(there, at.now.lambda).value : 0.0;
   };
   const double EI = body.bending_stiffness(touch.strand), EA = body.axial_stiffness(touch.strand);
   const double thrust = -EA * (free_strain(at, point).stretch - 1.0);
   const Vec2 up = along * normal(axis.angle);
-  const double q = sign_of(obstacle.side) * (EI * (second(wall) - along * natural) + thrust * wall(0.0) -
-                                             body.load(touch.strand, at.now.lambda).dot(up));
+  const double q = sign_of(obstacle.side()) * (EI * (second(wall) - along * natural) + thrust * wall(0.0) -
+                                               body.load(touch.strand, at.now.lambda).dot(up));
   const double noise = 1e-7 * EI / (L * L * L);
   return std::abs(q) > noise ? q : 0.0;
 }
@@ -94,8 +95,8 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
     const AxisPlace axis = touch.axis(at);
     const Vec2 along = strain.stretch * Vec2(std::cos(axis.angle), std::sin(axis.angle));
     const double rate =
-        touch_gap(setting, touch, at).tilt_gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
-    const double opening = sign_of(setting.obstacles[touch.obstacle].side) * travel(axis) * rate;
+        touch_gap(setting, touch, at).tilt.gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
+    const double opening = sign_of(setting.obstacles[touch.obstacle].surface->side()) * travel(axis) * rate;
     if (opening * setting.scales.length > touching) rates[k] = -rate;
   }
   return rates;

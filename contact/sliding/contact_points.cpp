@@ -14,12 +14,12 @@ ContactLabel label_of(const SlidingSetting& setting, std::size_t obstacle, const
 }
 
 ContactPoint at_node(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, double force) {
-  const SlidingObstacle& obstacle = setting.obstacles[touch.obstacle];
+  const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
   const double s = at.mesh.coordinate(touch.strand, touch.position, at.now.s);
   ContactPoint contact{.label = label_of(setting, touch.obstacle, {.strand = touch.strand, .s = s}),
                        .place = face(touch.offset, touch.axis(at)),
                        .force = force};
-  if (force != 0.0) contact.force_vector = force * surface_normal(*obstacle.profile, obstacle.side, contact.place);
+  if (force != 0.0) contact.force_vector = force * obstacle.normal(contact.place, at.now.lambda);
   return contact;
 }
 

@@ -27,16 +27,16 @@ NodeUnknowns unknowns_of(const SlidingState& at, const Touch& touch) {
 // The forces of contact on the body, and the equations −g = 0, −t = 0 and m = 0 or EI (κ̂ − κ) = m.
 void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
   for_each_force(setting, at, [&](const Touch& touch, Index p) {
-    const TouchGap gap = touch_gap(setting, touch, at);
-    add_at_node(unknowns_of(at, touch), -at.state.x[p] * gap.gap_gradient, F);
-    F[p] = -gap.gap;
+    const TouchGap touching = touch_gap(setting, touch, at);
+    add_at_node(unknowns_of(at, touch), -at.state.x[p] * touching.gap.gradient, F);
+    F[p] = -touching.gap.value;
   });
   for (Index k = 0; k < at.index.points; ++k) {
     const auto point = static_cast<std::size_t>(k);
     const Touch touch = touch_of_contact(setting, at.layout, point);
-    const TouchGap gap = touch_gap(setting, touch, at);
-    add_at_node(unknowns_of(at, touch), -at.moment(k) * gap.tilt_gradient, F);
-    F[at.index.moment(k)] = -gap.tilt;
+    const TouchGap touching = touch_gap(setting, touch, at);
+    add_at_node(unknowns_of(at, touch), -at.moment(k) * touching.tilt.gradient, F);
+    F[at.index.moment(k)] = -touching.tilt.value;
     F[at.index.coordinate(k)] = at.layout.lies_pressed(point) ? setting.body.bending_stiffness(touch.strand) *
                                                                     curvature_gap(setting, at, point).value
                                                               : at.moment(k);
@@ -57,6 +57,16 @@ void add_hessian(const NodeUnknowns& unknowns, const Eigen::Matrix3d& hessian, d
       const double h = hessian(static_cast<Index>(i), static_cast<Index>(j));
       if (h != 0.0) K.coeffRef(std::max(unknowns[i], unknowns[j]), std::min(unknowns[i], unknowns[j])) -= force * h;
     }
+}
+
+// The row of a constraint, and what its multiplier adds to K and F_λ at the constraint's node.
+void add_constraint(const NodeFunction& constraint, const NodeUnknowns& unknowns, Index multiplier,
+                    const SlidingState& at, Linearization& out) {
+  const double force = at.state.x[multiplier];
+  set_row(unknowns, constraint.gradient, multiplier, out.K);
+  add_hessian(unknowns, constraint.hessian, force, out.K);
+  add_at_node(unknowns, -force * constraint.gradient_rate, out.F_lambda);
+  out.F_lambda[multiplier] = -constraint.rate;
 }
 
 // The pattern of K: that of the mesh with rows of forces and moments behind it.
@@ -107,17 +117,13 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
   add_contact(setting, at, out.F);
   out.border_rates = border_rates(setting, at);
   for_each_force(setting, at, [&](const Touch& touch, Index p) {
-    const TouchGap gap = touch_gap(setting, touch, at);
-    set_row(unknowns_of(at, touch), gap.gap_gradient, p, out.K);
-    add_hessian(unknowns_of(at, touch), gap.gap_hessian, at.state.x[p], out.K);
+    add_constraint(touch_gap(setting, touch, at).gap, unknowns_of(at, touch), p, at, out);
   });
   out.C.setZero(at.index.points, at.index.size());
   for (Index k = 0; k < at.index.points; ++k) {
     const auto point = static_cast<std::size_t>(k);
     const Touch touch = touch_of_contact(setting, at.layout, point);
-    const TouchGap gap = touch_gap(setting, touch, at);
-    set_row(unknowns_of(at, touch), gap.tilt_gradient, at.index.moment(k), out.K);
-    add_hessian(unknowns_of(at, touch), gap.tilt_hessian, at.moment(k), out.K);
+    add_constraint(touch_gap(setting, touch, at).tilt, unknowns_of(at, touch), at.index.moment(k), at, out);
     if (at.layout.lies_pressed(point)) {
       const double EI = setting.body.bending_stiffness(touch.strand);
       const CurvatureGap bend = curvature_gap(setting, at, point);

@@ -69,12 +69,11 @@ struct Sample {
   double rate = 0.0;
 };
 
-Sample sampled(const SlidingObstacle& obstacle, double offset, const Placed& node) {
+Sample sampled(const SlidingObstacle& obstacle, double offset, const Placed& node, double lambda) {
   const auto& [place, t] = node;
   const double o = t.x() >= 0.0 ? offset : -offset;
   Sample out{.face = place + o * perp(t)};
-  if (!obstacle.profile->covers(out.face.x())) return out;
-  const SurfaceSlope g = surface_slope(*obstacle.profile, obstacle.side, out.face);
+  const LinearField g = obstacle.surface->gap_slope(out.face, lambda);
   out.gap = g.value;
   out.rate = g.x * t.x() + g.z * t.y();
   return out;
@@ -105,9 +104,9 @@ void for_each_on_strand(const SlidingSetting& setting, const SlidingState& at, I
   const double offset = setting.face_offset(obstacle, strand);
   std::vector<std::uint8_t> watched(nodes.size(), 0);
   if (which == Which::unwatched) watched = watched_elements(at, strand, obstacle);
-  Sample before = sampled(setting.obstacles[obstacle], offset, nodes[0]);
+  Sample before = sampled(setting.obstacles[obstacle], offset, nodes[0], at.now.lambda);
   for (std::size_t e = 0; e + 1 < nodes.size(); ++e) {
-    const Sample after = sampled(setting.obstacles[obstacle], offset, nodes[e + 1]);
+    const Sample after = sampled(setting.obstacles[obstacle], offset, nodes[e + 1], at.now.lambda);
     const double length = (after.face - before.face).norm();
     const double r0 = before.rate * length, r1 = after.rate * length;
     const bool far = std::min(before.gap, after.gap) > 0.5 * (std::abs(r0) + std::abs(r1));
@@ -163,8 +162,8 @@ double sampled_least_gap(const SlidingSetting& setting, const SlidingState& at, 
       const double offset = setting.face_offset(w, strand);
       for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e)
         for (int i = 0; i <= places; ++i)
-          least = std::min(
-              least, face_gap(setting.obstacles[w], offset, at.mesh.inside(strand, e, double(i) / places, at.now)));
+          least = std::min(least, face_gap(setting.obstacles[w], offset,
+                                           at.mesh.inside(strand, e, double(i) / places, at.now), at.now.lambda));
     }
   return least;
 }

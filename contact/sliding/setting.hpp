@@ -29,14 +29,10 @@ struct SlidingSetting {
 
   /// Of the face that looks at an obstacle from the axis, along the obstacle's normal (upwards) [length].
   double face_offset(std::size_t obstacle, Index strand) const {
-    const SlidingObstacle& surface = obstacles[obstacle];
-    if (!surface.on_face) return 0.0;
-    return surface.side == Side::below ? -body.half_height(strand) : body.half_height(strand);
+    if (!obstacles[obstacle].on_face) return 0.0;
+    return -sign_of(obstacles[obstacle].surface->side()) * body.half_height(strand);
   }
 };
-
-/// The sign of a height over an obstacle's surface that is a gap: 1 where the body lies above the surface.
-inline double sign_of(Side side) { return side == Side::below ? 1.0 : -1.0; }
 
 /// The free ends of a body that obstacles concern; `rest`: the stress-free state of a mesh of it.
 std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<SlidingObstacle>& obstacles,

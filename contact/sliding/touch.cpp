@@ -4,6 +4,35 @@
 
 namespace arcwall::sliding {
 
+namespace {
+
+// A function of the place of the face, r + o n(θ), by the node: with the tangent t, ∂n/∂θ = −t and ∂²n/∂θ² = −n.
+NodeFunction at_face(const QuadraticField& f, double offset, const AxisPlace& axis) {
+  const Vec2 t(std::cos(axis.angle), std::sin(axis.angle)), n(-t.y(), t.x());
+  const double o = t.x() >= 0.0 ? offset : -offset;
+  NodeFunction out{.value = f.value, .rate = f.rate};
+  out.gradient << f.x, f.z, -o * (f.x * t.x() + f.z * t.y());
+  out.gradient_rate << f.x_rate, f.z_rate, -o * (f.x_rate * t.x() + f.z_rate * t.y());
+  out.hessian(0, 0) = f.xx;
+  out.hessian(1, 1) = f.zz;
+  out.hessian(0, 1) = out.hessian(1, 0) = f.xz;
+  out.hessian(0, 2) = out.hessian(2, 0) = -o * (f.xx * t.x() + f.xz * t.y());
+  out.hessian(1, 2) = out.hessian(2, 1) = -o * (f.xz * t.x() + f.zz * t.y());
+  out.hessian(2, 2) = o * o * (f.xx * t.x() * t.x() + 2.0 * f.xz * t.x() * t.y() + f.zz * t.y() * t.y()) -
+                      o * (f.x * n.x() + f.z * n.y());
+  return out;
+}
+
+NodeFunction opposite(const NodeFunction& f) {
+  return {.value = -f.value,
+          .gradient = -f.gradient,
+          .hessian = -f.hessian,
+          .rate = -f.rate,
+          .gradient_rate = -f.gradient_rate};
+}
+
+}  // namespace
+
 Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact) {
   if (contact < layout.points().size()) {
     const auto [strand, position] = layout.mesh().breakpoint(static_cast<Index>(contact));
@@ -32,60 +61,31 @@ Vec2 face(double offset, const AxisPlace& axis) {
   return axis.position + (std::cos(axis.angle) >= 0.0 ? offset : -offset) * normal;
 }
 
-double face_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis) {
-  const Vec2 at = face(offset, axis);
-  return obstacle.profile->covers(at.x()) ? surface_gap(*obstacle.profile, obstacle.side, at).value : infinity;
+double face_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis, double lambda) {
+  return obstacle.surface->gap_slope(face(offset, axis), lambda).value;
 }
 
 double face_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at) {
-  return face_gap(setting.obstacles[touch.obstacle], touch.offset, touch.axis(at));
+  return face_gap(setting.obstacles[touch.obstacle], touch.offset, touch.axis(at), at.now.lambda);
 }
 
-// The face r + o n(θ) with ∂n/∂θ = −t; the tilt is θ − φ(x of the face), φ the wall's slope.
-TouchGap touch_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis) {
-  const Vec2 t(std::cos(axis.angle), std::sin(axis.angle)), n(-t.y(), t.x());
-  const double o = t.x() >= 0.0 ? offset : -offset;
-  const Vec2 face = axis.position + o * n;
-  const SurfaceGap g = surface_gap(*obstacle.profile, obstacle.side, face);
-  const SurfaceBend wall = surface_bend(*obstacle.profile, face.x());
-  const double sway = o * t.x();  // of the face against x, by angle
-
-  TouchGap out;
-  out.gap = g.value;
-  out.angle = axis.angle - wall.angle;
-  out.tilt = std::remainder(out.angle, pi);
-  out.gap_gradient << g.x, g.z, -o * (g.x * t.x() + g.z * t.y());
-  out.tilt_gradient << -wall.angle_x, 0.0, 1.0 + wall.angle_x * o * t.x();
-  out.tilt_hessian.setZero();
-  out.tilt_hessian(0, 0) = -wall.angle_xx;
-  out.tilt_hessian(0, 2) = out.tilt_hessian(2, 0) = wall.angle_xx * sway;
-  out.tilt_hessian(2, 2) = -wall.angle_xx * sway * sway + wall.angle_x * o * n.x();
-  out.gap_hessian.setZero();
-  out.gap_hessian(0, 0) = g.xx;
-  out.gap_hessian(0, 1) = out.gap_hessian(1, 0) = g.xz;
-  out.gap_hessian(0, 2) = out.gap_hessian(2, 0) = -o * (g.xx * t.x() + g.xz * t.y());
-  out.gap_hessian(1, 2) = out.gap_hessian(2, 1) = -o * g.xz * t.x();
-  out.gap_hessian(2, 2) = o * o * (g.xx * t.x() * t.x() + 2.0 * g.xz * t.x() * t.y()) - o * (g.x * n.x() + g.z * n.y());
-  return out;
-}
-
+// The tilt is θ − φ(face, λ), φ the direction of the obstacle's surface.
 TouchGap touch_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at) {
-  return touch_gap(setting.obstacles[touch.obstacle], touch.offset, touch.axis(at));
+  const AxisPlace axis = touch.axis(at);
+  const Obstacle& surface = *setting.obstacles[touch.obstacle].surface;
+  const Vec2 place = face(touch.offset, axis);
+  const QuadraticField gap = surface.gap(place, at.now.lambda), direction = surface.direction(place, at.now.lambda);
+  TouchGap out{.gap = at_face(gap, touch.offset, axis),
+               .tilt = opposite(at_face(direction, touch.offset, axis)),
+               .angle = axis.angle - direction.value};
+  out.tilt.value = std::remainder(out.angle, pi);
+  out.tilt.gradient[2] += 1.0;
+  return out;
 }
 
 void add_at_node(const NodeUnknowns& unknowns, const Eigen::Vector3d& values, Eigen::Ref<Vector> to) {
   for (std::size_t i = 0; i < 3; ++i)
     if (unknowns[i] >= 0) to[unknowns[i]] += values[static_cast<Index>(i)];
-}
-
-SurfaceBend surface_bend(const Profile& profile, double x) {
-  const Height psi = profile.at(x);
-  const double w = 1.0 + psi.first * psi.first, root = std::sqrt(w);
-  return {.angle = std::atan(psi.first),
-          .angle_x = psi.second / w,
-          .angle_xx = psi.third / w - 2.0 * psi.first * psi.second * psi.second / (w * w),
-          .curvature = psi.second / (w * root),
-          .curvature_x = psi.third / (w * root) - 3.0 * psi.first * psi.second * psi.second / (w * w * root)};
 }
 
 }  // namespace arcwall::sliding

@@ -26,28 +26,27 @@ double travel(const AxisPlace& axis);
 Vec2 face(double offset, const AxisPlace& axis);
 
 /// The gap between the face and the obstacle [length]; infinite where the obstacle has no surface.
-double face_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis);
+double face_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis, double lambda);
 double face_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at);
 
-/// Gap and tilt of a touch with their derivatives by x, z and rotation of the node. Only where the obstacle has a
-/// surface.
-struct TouchGap {
-  double gap;    ///< [length]
-  double tilt;   ///< t, the angle between axis and obstacle, less whole half turns [rad]
-  double angle;  ///< the same with its winding number and the direction of travel
-  Eigen::Vector3d gap_gradient, tilt_gradient;
-  Eigen::Matrix3d gap_hessian, tilt_hessian;
+/// A function of a node's x, z and rotation and of λ: its value and derivatives.
+struct NodeFunction {
+  double value = 0.0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  double rate = 0.0;                                        ///< by λ
+  Eigen::Vector3d gradient_rate = Eigen::Vector3d::Zero();  ///< of the gradient, by λ
 };
-TouchGap touch_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis);
+
+/// Gap and tilt of a touch. Only where the obstacle has a surface.
+struct TouchGap {
+  NodeFunction gap{};   ///< [length]
+  NodeFunction tilt{};  ///< t, the angle between axis and obstacle, less whole half turns [rad]
+  double angle = 0.0;   ///< the same with its winding number and the direction of travel
+};
 TouchGap touch_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at);
 
 /// Adds what is given by a node's x, z and rotation to the places of these in a vector; held ones are left out.
 void add_at_node(const NodeUnknowns& unknowns, const Eigen::Vector3d& values, Eigen::Ref<Vector> to);
-
-/// Slope angle of an obstacle's surface and its curvature, with derivatives by x.
-struct SurfaceBend {
-  double angle, angle_x, angle_xx, curvature, curvature_x;
-};
-SurfaceBend surface_bend(const Profile& profile, double x);
 
 }  // namespace arcwall::sliding

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/multiplier_contact.hpp"
-#include "contact/profile.hpp"
+#include "contact/obstacle.hpp"
 #include "continuation/explorer.hpp"
 #include "continuation/trace_options.hpp"
 #include "core/error.hpp"

@@ -30,7 +30,8 @@ class FreePoint final : public TrackedPoint {
 };
 
 Candidate at_wall(std::unique_ptr<Profile> profile, Side side) {
-  return {std::make_unique<FreePoint>(), std::move(profile), side, {.wall = "w", .member = "m", .fraction = 0.5}};
+  return {
+      std::make_unique<FreePoint>(), obstacle(std::move(profile), side), {.wall = "w", .member = "m", .fraction = 0.5}};
 }
 
 State place(double x, double z) { return {.x = Vec2(x, z)}; }

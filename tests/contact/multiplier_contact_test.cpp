@@ -80,6 +80,41 @@ TEST(MultiplierContact, IsSolvedForWithEveryLawAndStiffness) {
         }
 }
 
+// What is told of a contact is what acts in the equations: on the axis of a beam, whose nodes have displacements in x
+// and z, the equations of a node miss the force vector that is told where its force is left out.
+TEST(MultiplierContact, TellsTheForcesThatActInTheEquations) {
+  Numbers numbers(69);
+  const auto walls = test::all_walls(true);
+  const ContactModel model(test::contact_beam(), {walls[1], walls[6]}, 0.1);  // inclined
+  const MultiplierContact& system = model.system();
+  const State state = random_state(system, closed_every(system.contact_count(), 2), numbers);
+  Vector with(state.x.size()), without(state.x.size());
+  system.residual(state, with);
+  const auto closed = system.closed_contacts(state);
+  ASSERT_EQ(static_cast<Index>(closed.size()), state.piece.closed_count());
+  std::size_t k = 0;
+  for (Index j = 0; j < system.contact_count(); ++j) {
+    const ContactPoint contact = system.contact(state, j);
+    const TrackedPoint& point = system.candidate(j).point();
+    EXPECT_EQ(contact.label.wall, "wall");
+    EXPECT_EQ(contact.place, point.position(state));
+    EXPECT_EQ(contact.force, system.force(state, j));
+    const auto multiplier = system.multiplier_index(state.piece, j);
+    if (!multiplier) {
+      EXPECT_EQ(contact.force_vector, Vec2(0.0, 0.0));
+      continue;
+    }
+    EXPECT_EQ(closed[k++].force_vector, contact.force_vector);
+    EXPECT_EQ(*contact.pressure(), contact.force / contact.label.tributary);
+    State less = state;
+    less.x[*multiplier] = 0.0;
+    system.residual(less, without);
+    ASSERT_EQ(point.unknowns().size(), 2U);
+    EXPECT_NEAR(without[point.unknowns()[0]] - with[point.unknowns()[0]], contact.force_vector.x(), 1e-12);
+    EXPECT_NEAR(without[point.unknowns()[1]] - with[point.unknowns()[1]], contact.force_vector.y(), 1e-12);
+  }
+}
+
 TEST(MultiplierContact, APenaltySpringHasItsTributaryLength) {
   const ContactModel model(test::contact_beam(),
                            {{.name = "floor", .side = Side::below, .profile = flat_profile(-1.0)}}, 0.1,

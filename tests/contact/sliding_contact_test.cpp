@@ -84,7 +84,7 @@ const std::vector<Layouts>& layouts() {
 }
 
 // A beam of height 0.2 from (0, 0) to (2, 0.1), curved and wavy, clamped and loaded at both ends.
-StructureBuilder wavy_beam(bool reversed) {
+StructureBuilder wavy_beam(bool reversed, Theory theory = Theory::classic) {
   StructureBuilder builder;
   const Vec2 a(0.0, 0.0), b(2.0, 0.1);
   builder.add_joint(reversed ? b : a);
@@ -94,6 +94,8 @@ StructureBuilder wavy_beam(bool reversed) {
                       .to = 1,
                       .axis = reversed ? arc_axis(b, {1.0, 0.2}, a) : arc_axis(a, {1.0, 0.2}, b),
                       .imperfection = {{.amplitude = 0.02, .waves = 2}},
+                      .theory = theory,
+                      .order = 4,
                       .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
                       .elements = 7});
   builder.fix(builder.freedom(0, Freedom::x));
@@ -132,6 +134,46 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
         }
       }
   }
+}
+
+namespace {
+
+// λ moves walls by some tenths. Differences of step 1e-3: round-off 1e-10, ten times that with a step of
+// 1e-4; truncation is less.
+void expect_rates(const SlidingContact& system, const State& state) {
+  constexpr double step = 1e-3;
+  EXPECT_LE(check_derivatives(system, state, step).F_lambda, 1e-9);
+  for (Index j = 0; j < system.guard_count(state.piece); ++j) {
+    const auto guard = [&](double by) {
+      State moved = state;
+      moved.lambda += by;
+      return system.guard(moved, j);
+    };
+    const double near = guard(step) - guard(-step), far = guard(2.0 * step) - guard(-2.0 * step);
+    const double rate = system.guard_gradient(state, j).dlambda;
+    EXPECT_NEAR(rate, (8.0 * near - far) / (12.0 * step), 1e-9 * (1.0 + std::abs(rate))) << j;
+  }
+}
+
+}  // namespace
+
+// Among walls that λ moves and turns.
+TEST(SlidingContact, KnowsTheRatesOfWallsThatMove) {
+  Numbers numbers(78);
+  for (const Theory theory : {Theory::classic, Theory::elastica})
+    for (const bool on_axis : {false, true}) {
+      auto walls = test::all_walls(on_axis);
+      for (test::TestWall& wall : walls) wall.motion = {.way = {0.1, -0.2}, .turn = 0.1, .about = {1.0, 0.0}};
+      for (std::size_t kind = 0; kind < walls.size() / 2; ++kind) {
+        const SlidingModel model(wavy_beam(false, theory), two_of(walls, kind), 0.1);
+        for (const Layouts& on : layouts()) {
+          SCOPED_TRACE(on.name + ", wall " + std::to_string(kind));
+          const State state = random_state(model, piece_of(model, on), numbers);
+          EXPECT_LE(check_derivatives(model.system(), state, 1e-6).K, 1e-9);
+          expect_rates(model.system(), state);
+        }
+      }
+    }
 }
 
 TEST(SlidingContact, OneLinearizationServesChangingLayouts) {
@@ -204,6 +246,48 @@ TEST(SlidingContact, GuardsAreGapsAndForcesInTheirScales) {
   const AxisPlace at = mesh_of(state).node(0, mesh_of(state).breakpoint(0).second, mesh_state_of(state));
   EXPECT_NEAR(guards[0], (at.position.y() - 0.05 * std::cos(at.angle) + 0.2) / system.scales().length, 1e-14);
   EXPECT_DOUBLE_EQ(guards[1], system.force(state, 1) / system.scales().force);
+}
+
+// What is told of a contact is what acts in the equations: where a force of an inclined wall on the axis is left out,
+// the equations of its node miss the force vector that is told.
+TEST(SlidingContact, TellsTheForcesThatActInTheEquations) {
+  Numbers numbers(79);
+  const SlidingModel model(wavy_beam(false), two_of(test::all_walls(true), 1), 0.1);
+  const SlidingContact& system = model.system();
+  const State state = random_state(model, piece_of(model, layouts()[8]), numbers);  // a pressed part on the lower wall
+  const MeshState now = mesh_state_of(state);
+  const SlidingMesh& mesh = mesh_of(state);
+  Vector with(state.x.size()), without(state.x.size());
+  system.residual(state, with);
+  const auto expect_force = [&](const ContactPoint& contact, Index position, Index force) {
+    EXPECT_EQ(contact.label.wall, "wall");
+    EXPECT_EQ(contact.label.member, "beam");
+    EXPECT_EQ(contact.force, state.x[force]);
+    EXPECT_LE((contact.place - mesh.node(0, position, now).position).norm(), 1e-15);
+    State less = state;
+    less.x[force] = 0.0;
+    system.residual(less, without);
+    const NodeUnknowns unknowns = mesh.node_unknowns(0, position);
+    EXPECT_NEAR(without[unknowns[0]] - with[unknowns[0]], contact.force_vector.x(), 1e-12);
+    EXPECT_NEAR(without[unknowns[1]] - with[unknowns[1]], contact.force_vector.y(), 1e-12);
+    EXPECT_GT(contact.force_vector.y() * contact.force, 0.0);
+  };
+  const auto closed = system.closed_contacts(state), pressed = system.pressed_nodes(state);
+  ASSERT_EQ(closed.size(), 2U);
+  ASSERT_EQ(pressed.size(), 3U);
+  const Index n = mesh.unknowns(), first = mesh.breakpoint(0).second;
+  for (const Index k : {0, 1}) {
+    expect_force(closed[static_cast<std::size_t>(k)], mesh.breakpoint(k).second, n + k);
+    EXPECT_EQ(system.contact(state, k).force_vector, closed[static_cast<std::size_t>(k)].force_vector);
+    EXPECT_FALSE(closed[static_cast<std::size_t>(k)].pressure());
+  }
+  const double element = (now.s[1] - now.s[0]) / 4.0;
+  for (Index i = 0; i < 3; ++i) {
+    const ContactPoint& node = pressed[static_cast<std::size_t>(i)];
+    expect_force(node, first + 1 + i, n + 2 + i);
+    EXPECT_NEAR(node.label.tributary, element, 1e-15);
+    EXPECT_NEAR(*node.pressure(), node.force / element, 1e-12);
+  }
 }
 
 // A path may begin where one on the same body under other loads has ended.

@@ -55,18 +55,27 @@ std::vector<test::TestWall> smooth_walls() {
 
 ContactLaw law_of(ContactLaw::Method method) { return {.method = method, .stiffness = 100.0}; }
 
-// The greatest error of K at `count` random states, some contacts closed with forces of either sign.
+// The same walls, each moved and turned by λ.
+std::vector<test::TestWall> moving_walls() {
+  std::vector<test::TestWall> walls = smooth_walls();
+  for (test::TestWall& wall : walls) wall.motion = {.way = {0.2, -0.3}, .turn = 0.1, .about = {1.0, 0.0}};
+  return walls;
+}
+
+// A random state, some contacts closed with forces of either sign.
+State random_state(const MultiplierContact& system, Numbers& numbers) {
+  Piece piece = system.open_piece();
+  for (std::size_t j = 0; j < piece.size(); ++j) piece[j] = numbers() > 0.4 ? 1 : 0;
+  return {.x = 0.2 * numbers.vector(system.size(piece)), .lambda = numbers(), .piece = piece};
+}
+
+// The greatest error of K at `count` random states.
 double worst_tangent(const Beam& beam, ContactLaw::Method method, int count, std::uint32_t seed) {
   const ContactModel model(cantilever(beam), smooth_walls(), 0.1, law_of(method));
-  const MultiplierContact& system = model.system();
   Numbers numbers(seed);
   double worst = 0.0;
-  for (int i = 0; i < count; ++i) {
-    Piece piece = system.open_piece();
-    for (std::size_t j = 0; j < piece.size(); ++j) piece[j] = numbers() > 0.4 ? 1 : 0;
-    const State state{.x = 0.2 * numbers.vector(system.size(piece)), .lambda = numbers(), .piece = piece};
-    worst = std::max(worst, check_derivatives(system, state).K);
-  }
+  for (int i = 0; i < count; ++i)
+    worst = std::max(worst, check_derivatives(model.system(), random_state(model.system(), numbers)).K);
   return worst;
 }
 
@@ -83,6 +92,29 @@ void expect_tangents(int count) {
 
 // Central differences of fourth order, step 1e-4: 1e-12 by round-off. K is compared as a whole, so it is symmetric too.
 TEST(Tangents, AreDerivativesForEveryTheoryWallAndLaw) { expect_tangents(40); }
+
+// What moves with λ has rates: of the gaps in F_λ and in the guards, and of the directions of the forces in F_λ.
+TEST(Tangents, KnowTheRatesOfWallsThatMove) {
+  std::uint32_t seed = 200;
+  for (const Beam& beam : beams)
+    for (const ContactLaw::Method method : methods) {
+      SCOPED_TRACE(beam.name + ", law " + std::to_string(static_cast<int>(method)));
+      const ContactModel model(cantilever(beam), moving_walls(), 0.1, law_of(method));
+      const MultiplierContact& system = model.system();
+      Numbers numbers(seed++);
+      for (int i = 0; i < 10; ++i) {
+        const State state = random_state(system, numbers);
+        const DerivativeReport report = check_derivatives(system, state);
+        EXPECT_LE(report.K, 1e-9);
+        EXPECT_LE(report.F_lambda, 1e-9);
+        EXPECT_LE(report.guard_gradient, 1e-9);
+        const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
+        const Vector rates = system.guard_rates(state, direction);
+        for (Index j = 0; j < rates.size(); ++j)
+          EXPECT_NEAR(rates[j], apply(system.guard_gradient(state, j), direction), 1e-12 * (1.0 + std::abs(rates[j])));
+      }
+    }
+}
 
 TEST(Tangents, AreDerivativesAtAThousandStatesSlow) { expect_tangents(1000); }
 

@@ -72,9 +72,9 @@ double tilt_spring(const SlidingContact& system, const State& state, Index k) {
   const AxisPlace axis = on.mesh().node(strand, position, now);
   const AxisStrain strain = on.mesh().strain(k, SlidingMesh::At::before, now);
   const Vec2 face = system.contact(state, k).place;
-  const Height wall = system.obstacles()[on.points()[point].obstacle].profile->at(face.x());
+  const Obstacle& wall = *system.obstacles()[on.points()[point].obstacle].surface;
   const double travel = std::cos(axis.angle) >= 0.0 ? 1.0 : -1.0;
-  const double wall_curvature = travel * wall.second / std::pow(1.0 + wall.first * wall.first, 1.5);
+  const double wall_curvature = travel * wall.curvature(face, state.lambda).value;
   const double offset = (face - axis.position).dot(Vec2(-std::sin(axis.angle), std::cos(axis.angle)));
   const double stretch = strain.stretch - offset * strain.curvature;
   const double bends = std::abs(strain.curvature - stretch * wall_curvature);

@@ -221,6 +221,12 @@ std::vector<Watch> PathModel::watched() const {
   return {{.quantity = displacement(*structure, loaded, Freedom::z), .label = "z"}};
 }
 
+std::shared_ptr<const Obstacle> TestWall::obstacle() const {
+  auto at_rest = arcwall::obstacle(profile, side);
+  if (motion.is_none()) return at_rest;
+  return std::make_shared<MovingObstacle>(std::move(at_rest), motion);
+}
+
 std::vector<Candidate> candidates(const Structure& structure, const std::vector<TestWall>& walls) {
   std::vector<Candidate> all;
   for (const TestWall& wall : walls)
@@ -232,7 +238,7 @@ std::vector<Candidate> candidates(const Structure& structure, const std::vector<
         auto point = std::make_unique<MemberPoint>(structure, section, offset);
         if (point->unknowns().empty()) continue;
         all.emplace_back(
-            std::move(point), wall.profile, wall.side,
+            std::move(point), wall.obstacle(),
             ContactLabel{
                 .wall = wall.name, .member = mesh.name, .fraction = section.fraction, .tributary = section.tributary});
       }

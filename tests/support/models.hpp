@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "contact/multiplier_contact.hpp"
+#include "contact/profile.hpp"
 #include "elements/member_point.hpp"
 #include "elements/structure.hpp"
 #include "tests/support/beam_theories.hpp"
 #include "tests/support/branch.hpp"
+#include "tests/support/moving_obstacle.hpp"
 
 /// Structures that several suites use; all numbers that matter are arguments or stand in the comments. Theories that
 /// are flexible in shear take GA, the others leave it out.
@@ -131,6 +133,9 @@ struct TestWall {
   Side side = Side::above;
   std::shared_ptr<const Profile> profile{};
   bool on_axis = false;
+  RigidMotion motion{};  ///< of the wall, by λ
+
+  std::shared_ptr<const Obstacle> obstacle() const;
 };
 
 /// Every section that carries contact against every wall.

@@ -15,8 +15,7 @@ SlidingModel::SlidingModel(const StructureBuilder& builder, const std::vector<Te
   std::vector<SlidingObstacle> obstacles;
   for (const TestWall& wall : walls)
     obstacles.push_back({.name = wall.name,
-                         .profile = wall.profile,
-                         .side = wall.side,
+                         .surface = wall.obstacle(),
                          .on_face = !wall.on_axis,
                          .strands = std::vector<std::uint8_t>(static_cast<std::size_t>(structure_->strands()), 1)});
   contact_ = std::make_unique<SlidingContact>(*structure_, std::move(obstacles),

@@ -8,7 +8,7 @@ namespace arcwall::sliding {
 
 namespace {
 
-constexpr double flatness = 0.5;  // curvature of an open point over its gap, both scaled, below which it is let go
+constexpr double flatness = 0.5;  // curvature of an open point over its gap, both scaled, below which it is given up
 
 }  // namespace
 
@@ -24,8 +24,10 @@ Row CurvatureBound::gradient(const SlidingSetting& setting, const SlidingState& 
   curvature_gap(setting, at, point_).add_to(row, setting.scales.length, at.index);
   if (at.is_closed(point_)) return row;
   const Touch touch = touch_of_contact(setting, at.layout, point_);
-  const Eigen::Vector3d by_gap = flatness / setting.scales.length * touch_gap(setting, touch, at).gap_gradient;
-  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), -by_gap, row.dx);
+  const NodeFunction gap = touch_gap(setting, touch, at).gap;
+  const double by_gap = -flatness / setting.scales.length;
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_gap * gap.gradient, row.dx);
+  row.dlambda += by_gap * gap.rate;
   return row;
 }
 

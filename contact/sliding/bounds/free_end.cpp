@@ -39,7 +39,7 @@ double outward(Side side, bool last) { return (side == Side::below) == last ? -1
 double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto touching = touching_end(setting, at, strand_, last_);
   if (!touching) return out_of_reach;
-  return outward(setting.obstacles[touching->end.obstacle].side, last_) *
+  return outward(setting.obstacles[touching->end.obstacle].surface->side(), last_) *
          std::sin(touch_gap(setting, touching->touch, at).angle);
 }
 
@@ -48,9 +48,11 @@ Row LiesDownBound::gradient(const SlidingSetting& setting, const SlidingState& a
   const auto touching = touching_end(setting, at, strand_, last_);
   if (!touching) return row;
   const TouchGap gap = touch_gap(setting, touching->touch, at);
-  const Eigen::Vector3d by_node =
-      outward(setting.obstacles[touching->end.obstacle].side, last_) * std::cos(gap.angle) * gap.tilt_gradient;
-  add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), by_node, row.dx);
+  const double by_tilt =
+      outward(setting.obstacles[touching->end.obstacle].surface->side(), last_) * std::cos(gap.angle);
+  add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), by_tilt * gap.tilt.gradient,
+              row.dx);
+  row.dlambda = by_tilt * gap.tilt.rate;
   return row;
 }
 

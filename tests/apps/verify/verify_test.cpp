@@ -169,11 +169,12 @@ TEST(PlainWall, HasTheGapsOfTheWallsThatAreTraced) {
     for (const Side side : {Side::above, Side::below}) {
       const deck::Wall wall{.name = "wall", .side = side, .profile = profile};
       const PlainWall plain(wall);
+      const auto traced = obstacle_of(wall);
       for (int i = 0; i < 50; ++i) {
         const Vec2 at(x(generator), z(generator));
-        const Height height = profile_of(wall)->at(at.x());
-        EXPECT_NEAR(plain.gap(at), surface_gap(*profile_of(wall), wall.side, at).value, 1e-13);
-        EXPECT_NEAR(plain.curvature(at.x()), height.second / std::pow(1.0 + height.first * height.first, 1.5), 1e-11);
+        EXPECT_NEAR(plain.gap(at), traced->gap(at, 0.0).value, 1e-13);
+        EXPECT_NEAR(plain.slope_angle(at.x()), traced->direction(at, 0.0).value, 1e-13);
+        EXPECT_NEAR(plain.curvature(at.x()), traced->curvature(at, 0.0).value, 1e-11);
       }
     }
 }

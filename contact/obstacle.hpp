@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace arcwall {
+
+/// On which side of its surface an obstacle is, seen in the direction in which the surface runs.
+enum class Side {
+  above,  ///< to the left: the structure stays to the right of the surface, below one that runs with x
+  below,  ///< to the right: the structure stays to the left of it, above one that runs with x
+};
+
+/// The sign of a distance to the left of a surface that is a gap.
+constexpr double sign_of(Side side) { return side == Side::below ? 1.0 : -1.0; }
+
+/// A function of a position and λ at one place: its value, its derivatives by x and z of the position, and its rate by
+/// λ at a fixed position.
+struct LinearField {
+  double value = 0.0, x = 0.0, z = 0.0;
+  double rate = 0.0;
+};
+
+/// The same with second derivatives, and the rates of the first ones by λ.
+struct QuadraticField {
+  double value = 0.0, x = 0.0, z = 0.0;
+  double xx = 0.0, xz = 0.0, zz = 0.0;
+  double rate = 0.0, x_rate = 0.0, z_rate = 0.0;
+};
+
+/// A rigid obstacle in the plane, which λ may move. Its surface is a curve that has a direction, and the body stays on
+/// one side of it: where the gap is not negative. All that contact asks is asked at a position and at λ.
+///
+/// Must hold: derivatives are those of the values, gap_slope() agrees with gap(), and where the gap vanishes its
+/// gradient is the unit normal of the surface into the free side.
+class Obstacle {
+ public:
+  virtual ~Obstacle() = default;
+
+  virtual Side side() const = 0;
+
+  /// Whether there is a surface that a point at this position may touch.
+  virtual bool faces(const Vec2& position, double lambda) const = 0;
+
+  /// The gap [length]: positive where the body may be, negative inside. Only where faces().
+  virtual QuadraticField gap(const Vec2& position, double lambda) const = 0;
+
+  /// The same without second derivatives. Where the obstacle does not face the position the value is infinite and its
+  /// derivatives are 0.
+  virtual LinearField gap_slope(const Vec2& position, double lambda) const = 0;
+
+  /// The angle from the x-axis to the surface where it faces the position [rad]. Only where faces().
+  virtual QuadraticField direction(const Vec2& position, double lambda) const = 0;
+
+  /// The curvature of the surface there, > 0 where it turns to the left [1/length]. Only where faces().
+  virtual LinearField curvature(const Vec2& position, double lambda) const = 0;
+
+  /// Points along the surface between two values of x, for pictures; along all of it if it has no part between them.
+  virtual std::vector<Vec2> outline(double from, double to, double lambda) const = 0;
+
+  /// The unit vector along which the obstacle presses on a point that it faces.
+  Vec2 normal(const Vec2& position, double lambda) const {
+    const QuadraticField g = gap(position, lambda);
+    return Vec2(g.x, g.z).normalized();
+  }
+};
+
+}  // namespace arcwall

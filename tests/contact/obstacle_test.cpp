@@ -1,0 +1,152 @@
+#include "contact/obstacle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/contact/contact_models.hpp"
+
+namespace arcwall::obstacle_test {
+
+namespace {
+
+constexpr double step = 1e-3;
+
+struct Named {
+  std::string name;
+  std::shared_ptr<const Obstacle> obstacle;
+};
+
+// All kinds of walls on both sides: at rest, and moved and turned by λ.
+std::vector<Named> all_obstacles() {
+  std::vector<Named> all;
+  for (const bool moves : {false, true})
+    for (std::size_t kind = 0; test::TestWall wall : test::all_walls(false)) {
+      if (moves) wall.motion = {.way = {0.3, -0.4}, .turn = 0.2, .about = {0.5, -0.1}};
+      all.push_back({"wall " + std::to_string(kind++) + (moves ? " that moves" : " at rest"), wall.obstacle()});
+    }
+  return all;
+}
+
+// Places that all of them face, off the surface on either side; none is at the knots of the splines.
+std::vector<Vec2> places() { return {{0.13, 0.2}, {0.87, -0.35}, {1.71, 0.9}, {1.21, -1.4}, {2.2, 1.3}}; }
+
+// The central difference of fourth order of a function at 0.
+template <typename Function>
+double difference(const Function& f) {
+  return (8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step);
+}
+
+// Those of a function of x, z and λ.
+struct Differences {
+  double x, z, rate;
+};
+
+template <typename Function>
+Differences differences(const Function& f, const Vec2& at, double lambda) {
+  const Vec2 dx(1.0, 0.0), dz(0.0, 1.0);
+  return {.x = difference([&](double by) { return f(at + by * dx, lambda); }),
+          .z = difference([&](double by) { return f(at + by * dz, lambda); }),
+          .rate = difference([&](double by) { return f(at, lambda + by); })};
+}
+
+// Differences of fourth order and step 1e-3: truncation 1e-12 by thirty times the fifth derivatives, round-off 1e-12.
+constexpr double tolerance = 1e-9;
+
+// `ask` gives the field at a position and λ.
+template <typename Ask>
+void expect_derivatives(const Ask& ask, const Vec2& at, double lambda) {
+  const QuadraticField field = ask(at, lambda);
+  const auto of = [&](auto member) {
+    return differences([&](const Vec2& r, double l) { return ask(r, l).*member; }, at, lambda);
+  };
+  const Differences value = of(&QuadraticField::value), x = of(&QuadraticField::x), z = of(&QuadraticField::z);
+  EXPECT_NEAR(value.x, field.x, tolerance);
+  EXPECT_NEAR(value.z, field.z, tolerance);
+  EXPECT_NEAR(value.rate, field.rate, tolerance);
+  EXPECT_NEAR(x.x, field.xx, tolerance);
+  EXPECT_NEAR(x.z, field.xz, tolerance);
+  EXPECT_NEAR(z.x, field.xz, tolerance);
+  EXPECT_NEAR(z.z, field.zz, tolerance);
+  EXPECT_NEAR(x.rate, field.x_rate, tolerance);
+  EXPECT_NEAR(z.rate, field.z_rate, tolerance);
+}
+
+}  // namespace
+
+TEST(Obstacle, DerivativesAreThoseOfTheValues) {
+  for (const auto& [name, obstacle] : all_obstacles())
+    for (const Vec2& at : places()) {
+      SCOPED_TRACE(name);
+      const double lambda = 0.7;
+      ASSERT_TRUE(obstacle->faces(at, lambda));
+      expect_derivatives([&o = obstacle](const Vec2& r, double l) { return o->gap(r, l); }, at, lambda);
+      expect_derivatives([&o = obstacle](const Vec2& r, double l) { return o->direction(r, l); }, at, lambda);
+      const LinearField bend = obstacle->curvature(at, lambda);
+      const Differences found =
+          differences([&o = obstacle](const Vec2& r, double l) { return o->curvature(r, l).value; }, at, lambda);
+      EXPECT_NEAR(found.x, bend.x, tolerance);
+      EXPECT_NEAR(found.z, bend.z, tolerance);
+      EXPECT_NEAR(found.rate, bend.rate, tolerance);
+    }
+}
+
+TEST(Obstacle, TheSlopeOfTheGapIsThatOfTheGap) {
+  for (const auto& [name, obstacle] : all_obstacles())
+    for (const Vec2& at : places()) {
+      SCOPED_TRACE(name);
+      const QuadraticField gap = obstacle->gap(at, 0.7);
+      const LinearField slope = obstacle->gap_slope(at, 0.7);
+      EXPECT_EQ(slope.value, gap.value);
+      EXPECT_NEAR(slope.x, gap.x, 1e-14);
+      EXPECT_NEAR(slope.z, gap.z, 1e-14);
+      EXPECT_NEAR(slope.rate, gap.rate, 1e-14);
+    }
+}
+
+// On the surface the gradient is the unit normal to the surface's direction on the free side, and the direction turns
+// by the curvature with the length of the surface.
+TEST(Obstacle, GradientDirectionAndCurvatureBelongTogetherOnTheSurface) {
+  for (const auto& [name, obstacle] : all_obstacles())
+    for (Vec2 at : places()) {
+      SCOPED_TRACE(name);
+      const double lambda = 0.7;
+      for (int i = 0; i < 30; ++i) at -= obstacle->gap(at, lambda).value * obstacle->normal(at, lambda);
+      const QuadraticField gap = obstacle->gap(at, lambda);
+      ASSERT_NEAR(gap.value, 0.0, 1e-14);
+      const double angle = obstacle->direction(at, lambda).value;
+      const Vec2 along(std::cos(angle), std::sin(angle));
+      const Vec2 into_the_free = sign_of(obstacle->side()) * perp(along);
+      EXPECT_LE((Vec2(gap.x, gap.z) - into_the_free).norm(), 1e-13);
+      EXPECT_LE((obstacle->normal(at, lambda) - into_the_free).norm(), 1e-13);
+      const auto turned = [&](double s) { return obstacle->direction(at + s * along, lambda).value; };
+      EXPECT_NEAR(difference(turned), obstacle->curvature(at, lambda).value, tolerance);
+    }
+}
+
+TEST(Obstacle, OutlinesLieOnTheSurfaceWithinTheirReach) {
+  for (const auto& [name, obstacle] : all_obstacles()) {
+    SCOPED_TRACE(name);
+    if (name.ends_with("moves")) continue;
+    const std::vector<Vec2> line = obstacle->outline(0.1, 2.4, 0.0);
+    ASSERT_GE(line.size(), 2U);
+    EXPECT_NEAR(line.front().x(), 0.1, 1e-15);
+    EXPECT_NEAR(line.back().x(), 2.4, 1e-15);
+    for (const Vec2& point : line) EXPECT_NEAR(obstacle->gap(point, 0.0).value, 0.0, 1e-14);
+  }
+  // A circle has none at x = 9; all of it is shown then.
+  const auto disc = obstacle(circle_profile({1.0, 0.0}, 2.0, Side::below), Side::below);
+  EXPECT_NEAR(disc->outline(8.0, 9.0, 0.0).front().x(), -1.0, 1e-5);
+  EXPECT_NEAR(disc->outline(8.0, 9.0, 0.0).back().x(), 3.0, 1e-5);
+}
+
+TEST(Obstacle, BeyondItsEndThereIsNoGap) {
+  const auto disc = obstacle(circle_profile({1.0, 0.0}, 2.0, Side::below), Side::below);
+  const LinearField beyond = disc->gap_slope({3.5, 1.0}, 0.0);
+  EXPECT_FALSE(disc->faces({3.5, 1.0}, 0.0));
+  EXPECT_EQ(beyond.value, infinity);
+  EXPECT_EQ(beyond.x, 0.0);
+  EXPECT_EQ(beyond.z, 0.0);
+}
+
+}  // namespace arcwall::obstacle_test
