@@ -18,8 +18,12 @@ void Candidate::gap(const State& state, Gap& out) const {
   out.hessian.noalias() += g.xz * by_x.transpose() * by_z;
   out.hessian.noalias() += g.xz * by_z.transpose() * by_x;
   out.hessian.noalias() += g.zz * by_z.transpose() * by_z;
-  out.rate = g.rate;
-  out.gradient_rate = g.x_rate * by_x.transpose() + g.z_rate * by_z.transpose();
+  // Both the obstacle and the point may move with λ.
+  const double x_rate = at.rate.x(), z_rate = at.rate.y();
+  out.rate = g.rate + g.x * x_rate + g.z * z_rate;
+  out.gradient_rate = (g.x_rate + g.xx * x_rate + g.xz * z_rate) * by_x.transpose();
+  out.gradient_rate += (g.z_rate + g.xz * x_rate + g.zz * z_rate) * by_z.transpose();
+  out.gradient_rate += g.x * at.jacobian_rate.row(0).transpose() + g.z * at.jacobian_rate.row(1).transpose();
 }
 
 double Candidate::gap_rate(const State& state, const Direction& direction) const {

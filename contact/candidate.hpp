@@ -9,7 +9,7 @@
 namespace arcwall {
 
 /// A gap with its derivatives by the tracked point's unknowns (sizes as in PointKinematics), and the rates of the gap
-/// and of its gradient by λ where the point stays.
+/// and of its gradient by λ at fixed unknowns: obstacles may move, and so may supports on which the point hangs.
 struct Gap {
   using Gradient = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, PointKinematics::max_unknowns, 1>;
 

@@ -30,7 +30,7 @@ struct AxisStrain {
   double stretch = 1.0;    ///< d deformed arc length / d stress-free arc length
   Vector curvature_dx{}, curvature_ds{};
   Vector stretch_dx{}, stretch_ds{};
-  double curvature_dlambda = 0.0, stretch_dlambda = 0.0;  ///< of loads along the element
+  double curvature_dlambda = 0.0, stretch_dlambda = 0.0;  ///< of loads along the element, and of ends that are moved
 };
 
 /// Where the nodes of a sliding mesh and its breakpoints are, and the parameter: all that its equations depend on. A
@@ -75,6 +75,9 @@ class SlidingMesh {
   virtual NodeUnknowns node_unknowns(Index strand, Index position) const = 0;
   virtual AxisPlace node(Index strand, Index position, const MeshState& now) const = 0;
 
+  /// The rates of x, z and angle of a node by λ at fixed unknowns: 0 except at ends whose supports move.
+  virtual Eigen::Vector3d node_rate(Index strand, Index position) const = 0;
+
   /// Run and position of breakpoint k.
   virtual std::pair<Index, Index> breakpoint(Index k) const = 0;
 
@@ -94,9 +97,10 @@ class SlidingMesh {
   /// Any place, by interpolation consistent with the elements.
   virtual AxisPlace place(const MaterialPoint& point, const MeshState& now) const = 0;
 
-  /// Derivatives of x, z and angle of a place: rows by x, rows by s.
+  /// Derivatives of x, z and angle of a place: rows by x, rows by s, and by λ at fixed x and s.
   struct PlaceGradient {
     Eigen::Matrix<double, 3, Eigen::Dynamic> dx{}, ds{};
+    Eigen::Vector3d dlambda = Eigen::Vector3d::Zero();
   };
   virtual PlaceGradient place_gradient(const MaterialPoint& point, const MeshState& now) const = 0;
 

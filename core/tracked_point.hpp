@@ -18,6 +18,9 @@ struct PointKinematics {
   Vec2 position{};
   Local<2> jacobian{};                     ///< ∂position/∂unknowns
   std::array<LocalSquare, 2> curvature{};  ///< second derivatives of x and of z
+
+  Vec2 rate = Vec2::Zero();  ///< of the position by λ at fixed unknowns: not 0 where supports move the point
+  Local<2> jacobian_rate{};  ///< of the jacobian by λ, likewise
 };
 
 /// Where a body point is and how it moves.

@@ -4,6 +4,18 @@
 
 namespace arcwall {
 
+double DrivenLoad::evaluate_at(const double* u, double lambda, double* f, double* K, double* f_lambda) const {
+  const int n = unknown_count();
+  double unit[max_unknowns];
+  const double V = load_->evaluate(u, f != nullptr || f_lambda != nullptr ? unit : nullptr, K);
+  const double factor = factor_.at(lambda);
+  for (int i = 0; i < n && f != nullptr; ++i) f[i] = factor * unit[i];
+  for (int i = 0; i < n && f_lambda != nullptr; ++i) f_lambda[i] = factor_.proportional * unit[i];
+  for (int j = 0; j < n && K != nullptr; ++j)
+    for (int i = j; i < n; ++i) K[i + n * j] *= factor;
+  return factor * V;
+}
+
 double BeamDistributedLoad::evaluate(const double* u, double* f, double* K) const {
   const double h = reference_.length;
   const Vec2 chord = reference_.chord + Vec2(u[3] - u[0], u[4] - u[1]);

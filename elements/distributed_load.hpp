@@ -1,10 +1,28 @@
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "elements/classic_beam.hpp"
+#include "elements/driven.hpp"
 #include "elements/element.hpp"
 #include "elements/slender_beam.hpp"
 
 namespace arcwall {
+
+/// The potential of a load that λ drives: factor(λ) · V(u).
+class DrivenLoad final : public DrivenElement {
+ public:
+  /// `load`: V, which does not depend on λ.
+  DrivenLoad(std::unique_ptr<const Element> load, const Driven& factor) : load_(std::move(load)), factor_(factor) {}
+
+  int unknown_count() const override { return load_->unknown_count(); }
+  double evaluate_at(const double* u, double lambda, double* f, double* K, double* f_lambda) const override;
+
+ private:
+  std::unique_ptr<const Element> load_;
+  Driven factor_;
+};
 
 /// Potential of a dead load q per length of the undeformed axis on a classic beam element:
 ///

@@ -4,12 +4,17 @@
 
 namespace arcwall {
 
-ElementOrder element_order(const ElementList& elements, const BlockAssembly& assembly) {
+ElementOrder element_order(const ElementList& elements, const BlockAssembly& assembly,
+                           const std::function<bool(Index)>& is_displaced) {
   ElementOrder order;
   std::array<std::int32_t, Lanes::count> waiting{};
   std::array<const ClassicBeam*, Lanes::count> beams{}, last{};
   std::size_t count = 0;
   for (Index e = 0; e < static_cast<Index>(elements.size()); ++e) {
+    if (elements[e].depends_on_lambda() || is_displaced(e)) {
+      order.driven.push_back(e);
+      continue;
+    }
     const auto* beam = dynamic_cast<const ClassicBeam*>(&elements[e]);
     if (beam == nullptr) {
       order.others.push_back(e);

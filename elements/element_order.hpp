@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/algebra/assembly.hpp"
@@ -11,7 +12,7 @@
 namespace arcwall {
 
 /// The order in which the elements of a structure are added up: classic beams four at a time, then the others. It is
-/// always the same, so that the sums are the same to the last bit.
+/// always the same, so that the sums are the same to the last bit. Elements that λ drives stand apart.
 struct ElementOrder {
   struct Four {
     std::array<std::int32_t, Lanes::count> elements;
@@ -22,8 +23,11 @@ struct ElementOrder {
   std::vector<Four> fours;              ///< classic beams side by side
   std::vector<ClassicBeamLanes> beams;  ///< what these are: fours that are alike share it
   std::vector<Index> others;            ///< elements one by one
+  std::vector<Index> driven;  ///< one by one, too: those that depend on λ, or whose held freedoms are not at 0
 };
 
-ElementOrder element_order(const ElementList& elements, const BlockAssembly& assembly);
+/// `is_displaced(e)`: whether a support gives a freedom of element e another value than 0.
+ElementOrder element_order(const ElementList& elements, const BlockAssembly& assembly,
+                           const std::function<bool(Index)>& is_displaced);
 
 }  // namespace arcwall

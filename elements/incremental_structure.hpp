@@ -12,8 +12,7 @@ namespace arcwall {
 class IncrementalStructure final : public System {
  public:
   /// Stress-free, as `structure` is; every element must have an updated form: see can_be_updated().
-  explicit IncrementalStructure(const Structure& structure)
-      : present_(structure.updated({.x = Vector::Zero(structure.size({}))})) {}
+  explicit IncrementalStructure(const Structure& structure) : present_(structure.updated()) {}
 
   Index size(const Piece& piece) const override { return present_->size(piece); }
   void residual(const State& state, Eigen::Ref<Vector> F) const override { present_->residual(state, F); }

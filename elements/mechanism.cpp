@@ -117,7 +117,8 @@ struct Motions {
   }
 };
 
-// Conditions C q = 0: bars keep their lengths, bodies hold together at their joints, and supports do not move.
+// Conditions C q = 0: bars keep their lengths, bodies hold together at their joints, and what supports or springs join
+// to the ground does not move.
 class Conditions {
  public:
   explicit Conditions(const Motions& motions) : motions_(motions) {
@@ -164,7 +165,10 @@ class Conditions {
   void hold_supports() {
     const Structure& structure = motions_.structure;
     std::set<Index> seen;
-    const auto holds = [&](Index freedom) { return seen.insert(freedom).second && !structure.unknown(freedom); };
+    const auto holds = [&](Index freedom) {
+      const bool grounded = !structure.unknown(freedom) || structure.nodal_terms().ground_stiffness(freedom) != 0.0;
+      return grounded && seen.insert(freedom).second;
+    };
     for (const MemberMesh& mesh : structure.members())
       for (const Index node : mesh.nodes) {
         if (holds(structure.freedom(node, Freedom::x))) add(motions_.of_node(node, Vec2::UnitX()));

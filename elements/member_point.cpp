@@ -24,22 +24,22 @@ double offset_of(const MemberMesh& mesh, MemberObservable::Component component) 
 
 MemberPoint::MemberPoint(const Structure& structure, const MemberSection& section, double offset)
     : structure_(structure), node_(section.node), section_(section.kinematics()), offset_(offset) {
-  const auto column = [&](Index freedom) -> std::optional<Index> {
+  const auto coordinate = [&](Index freedom) -> Coordinate {
     const auto unknown = structure.unknown(freedom);
-    if (!unknown) return std::nullopt;
+    if (!unknown) return {.column = std::nullopt, .rate = structure.held_rate(freedom)};
     unknowns_.push_back(*unknown);
-    return static_cast<Index>(unknowns_.size()) - 1;
+    return {.column = static_cast<Index>(unknowns_.size()) - 1};
   };
-  x_ = column(structure.freedom(node_, Freedom::x));
-  z_ = column(structure.freedom(node_, Freedom::z));
+  x_ = coordinate(structure.freedom(node_, Freedom::x));
+  z_ = coordinate(structure.freedom(node_, Freedom::z));
   if (offset_ == 0.0) return;
   assert(section.rotation);
   rotation_ = section.rotation;
-  turn_ = column(*rotation_);
+  turn_ = coordinate(*rotation_);
   thickness_ = section.thickness;
   if (!thickness_) return;
-  e_ = column(thickness_->e);
-  xi_ = column(thickness_->xi);
+  e_ = coordinate(thickness_->e);
+  xi_ = coordinate(thickness_->xi);
 }
 
 EssenburgNode::Vectors MemberPoint::vectors(const State& state) const {
@@ -59,8 +59,8 @@ Vec2 MemberPoint::position(const State& state) const {
 }
 
 PointMotion MemberPoint::motion(const State& state, const Direction& direction) const {
-  const auto rate = [&](std::optional<Index> column) {
-    return column ? direction.dx[unknowns_[static_cast<std::size_t>(*column)]] : 0.0;
+  const auto rate = [&](const Coordinate& of) {
+    return of.column ? direction.dx[unknowns_[static_cast<std::size_t>(*of.column)]] : direction.dlambda * of.rate;
   };
   PointMotion at{.position = structure_.current(state, node_), .velocity = Vec2(rate(x_), rate(z_))};
   if (!rotation_) return at;
@@ -74,25 +74,40 @@ PointMotion MemberPoint::motion(const State& state, const Direction& direction) 
 void MemberPoint::kinematics(const State& state, PointKinematics& out) const {
   const auto n = static_cast<Index>(unknowns_.size());
   out.jacobian.setZero(2, n);
+  out.jacobian_rate.setZero(2, n);
+  out.rate.setZero();
   for (auto& second : out.curvature) second.setZero(n, n);
   out.position = structure_.current(state, node_);
-  if (x_) out.jacobian(0, *x_) = 1.0;
-  if (z_) out.jacobian(1, *z_) = 1.0;
+  const auto first = [&](const Coordinate& i, const Vec2& value) {
+    if (i.column) {
+      out.jacobian.col(*i.column) = value;
+    } else {
+      out.rate += i.rate * value;
+    }
+  };
+  first(x_, Vec2::UnitX());
+  first(z_, Vec2::UnitY());
   if (!rotation_) return;
   const EssenburgNode::Vectors v = vectors(state);
   const double o = offset_, o2 = offset_ * offset_;
   out.position += arm(v);
-  const auto second = [&](std::optional<Index> i, std::optional<Index> j, const Vec2& value) {
-    if (!i || !j) return;
-    for (const int k : {0, 1}) {
-      auto& of_coordinate = out.curvature[static_cast<std::size_t>(k)];
-      of_coordinate(*i, *j) = of_coordinate(*j, *i) = value[k];
+  const auto second = [&](const Coordinate& i, const Coordinate& j, const Vec2& value) {
+    if (i.column && j.column) {
+      for (const int k : {0, 1}) {
+        auto& of_coordinate = out.curvature[static_cast<std::size_t>(k)];
+        of_coordinate(*i.column, *j.column) = of_coordinate(*j.column, *i.column) = value[k];
+      }
+    } else if (i.column) {
+      out.jacobian_rate.col(*i.column) += j.rate * value;
+    } else if (j.column) {
+      out.jacobian_rate.col(*j.column) += i.rate * value;
     }
   };
-  if (turn_) out.jacobian.col(*turn_) = o * v.d_phi + o2 * v.q_phi;
-  if (e_) out.jacobian.col(*e_) = o * v.d_e;
-  if (xi_) out.jacobian.col(*xi_) = o2 * v.q_xi;
+  first(turn_, o * v.d_phi + o2 * v.q_phi);
   second(turn_, turn_, o * v.d_phi_phi + o2 * v.q_phi_phi);
+  if (!thickness_) return;
+  first(e_, o * v.d_e);
+  first(xi_, o2 * v.q_xi);
   second(turn_, e_, o * v.d_phi_e);
   second(turn_, xi_, o2 * v.q_phi_xi);
 }
@@ -134,12 +149,14 @@ Row MemberObservable::gradient(const State& state) const {
   const int coordinate = component_ == Component::x ? 0 : 1;
   for (std::size_t i = 0; i < point_.unknowns().size(); ++i)
     row.dx[point_.unknowns()[i]] = kinematics.jacobian(coordinate, static_cast<Index>(i));
+  row.dlambda = kinematics.rate[coordinate];
   return row;
 }
 
 Row FreedomObservable::gradient(const State& state) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (const auto unknown = structure_.unknown(freedom_)) row.dx[*unknown] = 1.0;
+  row.dlambda = structure_.held_rate(freedom_);
   return row;
 }
 

@@ -31,7 +31,12 @@ class MemberPoint final : public TrackedPoint {
   std::vector<Index> unknowns_;
   std::optional<Index> rotation_;               // freedom
   std::optional<ThicknessFreedoms> thickness_;  // likewise
-  std::optional<Index> x_, z_, turn_, e_, xi_;  // columns of the derivatives, where not held
+  // A coordinate of the point: its column in the derivatives, or, where a support holds it, its rate by λ.
+  struct Coordinate {
+    std::optional<Index> column{};
+    double rate = 0.0;
+  };
+  Coordinate x_, z_, turn_, e_, xi_;
 };
 
 /// x, z or rotation of a member's node, measured from the axis without imperfection; or the z of one of its faces,

@@ -37,9 +37,8 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
   const auto number_anchor = [&](const SlidingStructure::End& end) {
     for (const Index freedom : end.freedom) {
       Index& unknown = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
-      if (structure.held_[static_cast<std::size_t>(freedom)] || unknown != held) continue;
+      if (structure.nodal_.is_held(freedom) || unknown != held) continue;
       unknown = unknowns++;
-      freedom_of_unknown_.push_back(freedom);
     }
   };
   for (Index r = 0; r < structure.strands(); ++r) {
@@ -62,7 +61,6 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
     first_element += meshed.elements;
     meshed.first_inner = unknowns;
     unknowns += 3 * (meshed.elements - 1);
-    freedom_of_unknown_.resize(static_cast<std::size_t>(unknowns), held);
     number_anchor(strand.ends[1]);
     node_count += meshed.elements + 1;
     rotations += meshed.elements + 1;
@@ -117,19 +115,27 @@ NodeUnknowns SlidingStructureMesh::node_unknowns(Index strand, Index position) c
 // Position or rotation of a joint's freedom.
 double SlidingStructureMesh::anchor(Index freedom, const MeshState& now) const {
   if (const Index i = unknown(freedom); i != held) return now.x[i];
-  const Structure::Meaning& meaning = structure_.freedoms_[static_cast<std::size_t>(freedom)];
-  const Vec2& position = structure_.positions_[static_cast<std::size_t>(meaning.node)];
-  switch (meaning.freedom) {
-    case Freedom::x:
-      return position.x();
-    case Freedom::z:
-      return position.y();
-    case Freedom::rotation:
-    case Freedom::thickness:
-    case Freedom::thickness2:
-      return 0.0;
-  }
-  return 0.0;
+  return structure_.rest_value(freedom) + structure_.nodal_.support(freedom).at(now.lambda);
+}
+
+Eigen::Vector3d SlidingStructureMesh::node_rate(Index strand, Index position) const {
+  if (position > 0 && position < mesh_of(strand).elements) return Eigen::Vector3d::Zero();
+  const auto& freedom = structure_.at(strand).ends[position == 0 ? 0 : 1].freedom;
+  return {structure_.held_rate(freedom[0]), structure_.held_rate(freedom[1]), structure_.held_rate(freedom[2])};
+}
+
+SlidingStructureMesh::Six SlidingStructureMesh::end_rates(Index strand, Index position) const {
+  Six rates;
+  rates << node_rate(strand, position), node_rate(strand, position + 1);
+  return rates;
+}
+
+bool SlidingStructureMesh::has_displaced_end(Index strand, Index position) const {
+  const auto is_displaced = [&](std::size_t end) {
+    const auto& freedom = structure_.at(strand).ends[end].freedom;
+    return std::any_of(freedom.begin(), freedom.end(), [&](Index f) { return structure_.nodal_.is_displaced(f); });
+  };
+  return (position == 0 && is_displaced(0)) || (position + 1 == mesh_of(strand).elements && is_displaced(1));
 }
 
 AxisPlace SlidingStructureMesh::node(Index strand, Index position, const MeshState& now) const {
@@ -179,7 +185,14 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index
                .force = spread(beam_response.force),
                .stiffness = spread(beam_response.stiffness),
                .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
-  if (!described.carries_load()) return out;
+  if (described.carries_load()) add_load(described, stretch, at, now.lambda, out);
+  if (has_displaced_end(strand, position)) out.force_lambda += out.stiffness * end_rates(strand, position);
+  return out;
+}
+
+// Adds the part of the load along the strand.
+void SlidingStructureMesh::add_load(const SlidingStructure::Run& strand, const StretchReference& stretch,
+                                    const Ends& at, double lambda, Response& out) {
   const auto add = [&](const Vec2& load, double factor) {
     const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
     out.energy += factor * response.energy;
@@ -188,9 +201,8 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index
     for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
     return response.force;
   };
-  out.force_lambda = add(described.load, now.lambda);
-  add(described.constant_load, 1.0);
-  return out;
+  out.force_lambda = add(strand.load, lambda);
+  add(strand.constant_load, 1.0);
 }
 
 // visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
@@ -207,9 +219,9 @@ void SlidingStructureMesh::for_each_rate(Index strand, Index position, const Res
 
 void SlidingStructureMesh::residual(const MeshState& now, Eigen::Ref<Vector> F) const {
   F.setZero();
-  for (Index i = 0; i < F.size(); ++i)
-    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
-      F[i] = -now.lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
+  structure_.nodal_.add_forces(
+      now.lambda, [this](Index freedom) { return unknown(freedom); },
+      [&](Index freedom) { return structure_.value(*this, now, freedom); }, F.data());
   add_fours(now, F, nullptr);
   for (const auto& [r, e] : others_) {
     const Six f = respond(r, e, now, false).force;
@@ -226,11 +238,9 @@ void SlidingStructureMesh::linearize(const MeshState& now, Linearization& out) c
   out.F.setZero(n);
   out.F_lambda.setZero(n);
   out.B.setZero(n, m);
-  for (Index i = 0; i < n; ++i)
-    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held) {
-      out.F_lambda[i] = -structure_.load_[freedom];
-      out.F[i] = now.lambda * out.F_lambda[i] - structure_.constant_load_[freedom];
-    }
+  structure_.nodal_.linearize(
+      now.lambda, [this](Index freedom) { return unknown(freedom); },
+      [&](Index freedom) { return structure_.value(*this, now, freedom); }, out);
   add_fours(now, out.F, &out);
   for (const auto& [r, e] : others_) {
     const Response response = respond(r, e, now, m > 0);
@@ -253,11 +263,8 @@ double SlidingStructureMesh::energy(const MeshState& now) const {
   double energy = 0.0;
   for (Index r = 0; r < structure_.strands(); ++r)
     for (Index e = 0; e < mesh_of(r).elements; ++e) energy += respond(r, e, now, false).energy;
-  for (Index i = 0; i < unknowns(); ++i)
-    if (const Index freedom = freedom_of_unknown_[static_cast<std::size_t>(i)]; freedom != held)
-      energy -= (now.lambda * structure_.load_[freedom] + structure_.constant_load_[freedom]) *
-                structure_.value(*this, now, freedom);
-  return energy;
+  return energy +
+         structure_.nodal_.energy(now.lambda, [&](Index freedom) { return structure_.value(*this, now, freedom); });
 }
 
 // Of the element on that side: its end moment M, loads included, and the force along the axis N there, with the sign ±
@@ -351,6 +358,7 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
       if (row < 2) d[row] += 1.0;
       for (std::size_t i = 0; i < 6; ++i)
         if (to[i] != held) gradient.dx(row, to[i]) += d[static_cast<Index>(i)];
+      gradient.dlambda[row] = d.dot(end_rates(point.strand, e));
     }
   });
   // By s the mesh moves under the place: differences, as the element may be another one.
@@ -388,8 +396,9 @@ Vector SlidingStructureMesh::transferred(const MeshState& now, const SlidingMesh
 SlidingStructure::Reaction SlidingStructureMesh::reaction(const MeshState& now, Index freedom) const {
   SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
   if (unknown(freedom) != held) return reaction;
-  reaction.value = -now.lambda * structure_.load_[freedom] - structure_.constant_load_[freedom];
-  reaction.dlambda = -structure_.load_[freedom];
+  const Driven force = structure_.nodal_.support_force(freedom);
+  reaction.value = force.at(now.lambda);
+  reaction.dlambda = force.proportional;
   for (Index r = 0; r < structure_.strands(); ++r)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& freedoms = structure_.at(r).ends[end].freedom;

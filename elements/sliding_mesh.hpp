@@ -28,6 +28,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   double coordinate(Index strand, Index position, const Eigen::Ref<const Vector>& s) const override;
   NodeUnknowns node_unknowns(Index strand, Index position) const override;
   AxisPlace node(Index strand, Index position, const MeshState& now) const override;
+  Eigen::Vector3d node_rate(Index strand, Index position) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
   AxisStrain strain(Index k, At side, const MeshState& now) const override;
   double element_energy(Index strand, Index position, const MeshState& now) const override {
@@ -79,8 +80,15 @@ class SlidingStructureMesh final : public SlidingMesh {
   Index element_at(const MaterialPoint& point, const MeshState& now) const;
 
   using Six = StretchLoad::Vector6;
+  // The rates by λ at fixed unknowns of x1, z1, angle1, x2, z2, angle2 of an element: not 0 where supports move its
+  // ends.
+  Six end_rates(Index strand, Index position) const;
+  // Whether a support holds an end of the element elsewhere than at rest, always or with λ.
+  bool has_displaced_end(Index strand, Index position) const;
+
   using SixBySix = StretchLoad::Matrix6;
-  // Of an element and the load along it, in x1, z1, angle1, x2, z2, angle2.
+  // What an element and the load along it answer to x1, z1, angle1, x2, z2, angle2. `force_lambda` is the derivative of
+  // the force by λ at fixed unknowns, to which ends that supports move belong.
   struct Response {
     double energy = 0.0;
     Six force{}, force_lambda = Six::Zero();
@@ -88,6 +96,8 @@ class SlidingStructureMesh final : public SlidingMesh {
     std::array<Six, 2> force_rate{};
   };
   Response respond(Index strand, Index position, const MeshState& now, bool with_rates) const;
+  static void add_load(const SlidingStructure::Run& strand, const StretchReference& stretch, const Ends& at,
+                       double lambda, Response& out);
 
   // Up to four elements of a segment that are evaluated side by side.
   struct Four {
@@ -117,7 +127,6 @@ class SlidingStructureMesh final : public SlidingMesh {
   std::vector<std::pair<Index, Index>> breakpoints_;
   std::vector<MeshedRun> runs_;
   std::vector<Index> unknown_of_freedom_;  // of the anchors
-  std::vector<Index> freedom_of_unknown_;  // held for inner nodes
   BlockAssembly assembly_{0, {}};
   std::vector<Four> fours_;
   std::vector<std::pair<Index, Index>> others_;  // strand and position of the elements that are evaluated one by one

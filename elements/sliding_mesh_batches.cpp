@@ -23,7 +23,9 @@ void SlidingStructureMesh::number_fours() {
                   .shifted = false,
                   .inside = false};
         for (int k = 0; k <= Lanes::count; ++k) four.from_first[static_cast<std::size_t>(k)] = double(i + k) / n;
-        if (!structure_.at(r).beams) {
+        const bool has_displaced =
+            has_displaced_end(r, four.position) || has_displaced_end(r, four.position + four.count - 1);
+        if (!structure_.at(r).beams || has_displaced) {
           for (int k = 0; k < four.count; ++k) others_.emplace_back(r, four.position + k);
           continue;
         }

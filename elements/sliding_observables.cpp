@@ -64,6 +64,7 @@ Row PlaceObservable::gradient(const State& state) const {
   }
   Row result{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   result.dx.head(now.x.size()) = (row * gradient.dx).transpose();
+  result.dlambda = row * gradient.dlambda;
   result.dx.tail(now.s.size()) = (row * gradient.ds).transpose();
   return result;
 }
@@ -79,6 +80,7 @@ Row JointObservable::gradient(const State& state) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (what_ == What::motion) {
     if (const auto i = structure_.unknown(mesh, freedom_)) row.dx[*i] = 1.0;
+    row.dlambda = structure_.held_rate(freedom_);
     return row;
   }
   const auto reaction = structure_.reaction(mesh, mesh_state_of(state), freedom_);

@@ -95,18 +95,21 @@ std::optional<Index> SlidingStructure::unknown(const SlidingMesh& mesh, Index fr
 
 double SlidingStructure::value(const SlidingMesh& mesh, const MeshState& now, Index freedom) const {
   const auto i = unknown(mesh, freedom);
-  if (!i) return 0.0;
+  return i ? now.x[*i] - rest_value(freedom) : nodal_.support(freedom).at(now.lambda);
+}
+
+double SlidingStructure::rest_value(Index freedom) const {
   const Structure::Meaning& meaning = freedoms_[static_cast<std::size_t>(freedom)];
   const Vec2& position = positions_[static_cast<std::size_t>(meaning.node)];
   switch (meaning.freedom) {
     case Freedom::x:
-      return now.x[*i] - position.x();
+      return position.x();
     case Freedom::z:
-      return now.x[*i] - position.y();
+      return position.y();
     case Freedom::rotation:
     case Freedom::thickness:
     case Freedom::thickness2:
-      return now.x[*i];
+      return 0.0;
   }
   return 0.0;
 }
@@ -117,9 +120,10 @@ SlidingStructure::Reaction SlidingStructure::reaction(const SlidingMesh& mesh, c
 }
 
 bool StructureBuilder::can_slide() const {
-  return std::all_of(descriptions_.begin(), descriptions_.end(), [](const MemberDescription& member) {
+  const auto is_slender = [](const MemberDescription& member) {
     return member.theory == Theory::classic || member.theory == Theory::elastica;
-  });
+  };
+  return added_elements_.empty() && std::all_of(descriptions_.begin(), descriptions_.end(), is_slender);
 }
 
 // A member is cut into strands where a load acts inside it; strands that continue each other straight are joined again.
@@ -129,23 +133,12 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   structure->positions_ = positions_;
   structure->first_freedom_ = first_freedom_;
   structure->freedoms_ = freedoms_;
-  structure->held_ = held_;
+  structure->nodal_ = ramp ? nodal_.ramp() : nodal_;
   structure->length_scale_ = box_diagonal(positions_);
-  const double L = structure->length_scale_;
-  structure->load_ = structure->constant_load_ = Vector::Zero(static_cast<Index>(freedoms_.size()));
+  structure->force_scale_ = force_scale(structure->nodal_, structure->length_scale_);
   const auto acts = [&](LoadKind kind) { return !ramp || kind == LoadKind::constant; };
   const auto proportional = [&](LoadKind kind) { return ramp || kind == LoadKind::proportional; };
-  std::vector<bool> loaded(positions_.size(), false);
-  for (const Load& load : loads_) {
-    const Structure::Meaning& meaning = freedoms_[static_cast<std::size_t>(load.freedom)];
-    if (load.value != 0.0) loaded[static_cast<std::size_t>(meaning.node)] = true;
-    if (!acts(load.kind)) continue;
-    (proportional(load.kind) ? structure->load_ : structure->constant_load_)[load.freedom] += load.value;
-    if (proportional(load.kind))
-      structure->force_scale_ =
-          std::max(structure->force_scale_, std::abs(load.value) / (meaning.freedom == Freedom::rotation ? L : 1.0));
-  }
-
+  const std::vector<bool> with_terms = nodes_with_terms();
   for (std::size_t m = 0; m < descriptions_.size(); ++m) {
     const MemberDescription& member = descriptions_[m];
     const MemberMesh& mesh = meshes_[m];
@@ -169,7 +162,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
     const auto last = mesh.nodes.size() - 1;
     std::size_t from = 0;
     for (std::size_t to = 1; to <= last; ++to) {
-      if (to < last && !loaded[static_cast<std::size_t>(mesh.nodes[to])]) continue;
+      if (to < last && !with_terms[static_cast<std::size_t>(mesh.nodes[to])]) continue;
       SlidingStructure::Run part = strand;
       part.offset = member.axis->length() * mesh.fraction(from);
       part.length = member.axis->length() * mesh.fraction(to) - part.offset;
@@ -184,7 +177,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       from = to;
     }
   }
-  structure->join_straight_runs(loaded, alike);
+  structure->join_straight_runs(with_terms, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
     if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load())
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
@@ -192,7 +185,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
 }
 
 // Runs a and b that meet at a joint where nothing else acts, both straight, perfect and of one section, become one.
-void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded, const Alike& alike) {
+void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms, const Alike& alike) {
   const auto node_of = [&](const End& end) { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; };
   const auto straight = [](const Run& strand) {
     const double L = strand.axis->length();
@@ -208,9 +201,7 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& loaded, const
   const auto continues = [&](const Run& a, const Run& b) {
     const End &end = a.ends[1], &next = b.ends[0];
     const Index node = node_of(end);
-    const bool free = std::none_of(end.freedom.begin(), end.freedom.end(),
-                                   [&](Index f) { return held_[static_cast<std::size_t>(f)]; });
-    return end.freedom == next.freedom && free && ends_at(node) == 2 && !loaded[static_cast<std::size_t>(node)] &&
+    return end.freedom == next.freedom && ends_at(node) == 2 && !with_terms[static_cast<std::size_t>(node)] &&
            straight(a) && straight(b) && std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory &&
            a.order == b.order && a.section.E == b.section.E && a.section.A == b.section.A &&
            a.section.I == b.section.I && a.section.height == b.section.height && a.load == b.load &&

@@ -33,7 +33,7 @@ class SlidingStructure final : public SlidingBody {
   double axial_stiffness(Index strand) const override { return at(strand).section.EA(); }
   Vec2 load(Index strand, double lambda) const override { return lambda * at(strand).load + at(strand).constant_load; }
   bool end_is_held(Index strand, bool last) const override {
-    return held_[static_cast<std::size_t>(at(strand).ends[last ? 1 : 0].freedom[1])];
+    return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
   }
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
   std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;
@@ -62,8 +62,10 @@ class SlidingStructure final : public SlidingBody {
     return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
   }
 
-  /// Displacement or rotation of a joint's freedom.
+  /// Displacement or rotation of a joint's freedom, and the rate of this value by λ at fixed unknowns: that of the
+  /// support, 0 of a freedom that is not held.
   double value(const SlidingMesh& mesh, const MeshState& now, Index freedom) const;
+  double held_rate(Index freedom) const { return nodal_.support(freedom).proportional; }
   std::optional<Index> unknown(const SlidingMesh& mesh, Index freedom) const;
 
   /// Force that a support exerts through a freedom it holds, with its derivatives in x, s and λ; 0 in one that is free.
@@ -107,15 +109,15 @@ class SlidingStructure final : public SlidingBody {
   };
 
   SlidingStructure() = default;
-  void join_straight_runs(const std::vector<bool>& loaded, const Alike& alike);
+  void join_straight_runs(const std::vector<bool>& with_terms, const Alike& alike);
+  double rest_value(Index freedom) const;  // of the mesh's unknown at rest: the position, where that is one
   const Run& at(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
 
   std::vector<Run> runs_;
   std::vector<Vec2> positions_;       // of the builder's nodes
   std::vector<Index> first_freedom_;  // of the builder's nodes
   std::vector<Structure::Meaning> freedoms_;
-  std::vector<bool> held_;
-  Vector load_, constant_load_;  // per freedom
+  NodalTerms nodal_;
   double length_scale_ = 1.0, force_scale_ = 0.0;
 };
 

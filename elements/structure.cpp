@@ -9,13 +9,6 @@ namespace arcwall {
 
 namespace {
 
-// Local unknowns, forces and stiffness of one element, on the stack.
-struct Local {
-  double u[Element::max_unknowns];
-  double f[Element::max_unknowns];
-  double K[Element::max_unknowns * Element::max_unknowns];
-};
-
 template <class Entries>
 void scatter_entries(const ShiftedIndices& unknowns, double factor, double* F, const Entries& f) {
   for (std::size_t i = 0; i < unknowns.size(); ++i)
@@ -27,6 +20,16 @@ void scatter(const ShiftedIndices& unknowns, const double* f, double factor, dou
 }
 
 }  // namespace
+
+// Local unknowns, forces and derivatives of one element, on the stack.
+struct Structure::Local {
+  double u[Element::max_unknowns];
+  double f[Element::max_unknowns];
+  double K[Element::max_unknowns * Element::max_unknowns];  // the lower triangle, column-major
+  double f_lambda[Element::max_unknowns];
+
+  double stiffness(std::size_t i, std::size_t j, std::size_t n) const { return K[std::max(i, j) + n * std::min(i, j)]; }
+};
 
 EssenburgNode MemberSection::kinematics() const {
   return {.D = axis_normal(shape.angle), .n = axis_normal(axis.angle), .quadratic = quadratic};
@@ -70,7 +73,39 @@ void Structure::gather(Index block, const Vector& x, double* u) const {
   for (std::size_t i = 0; i < unknowns.size(); ++i) u[i] = unknowns[i] >= 0 ? x[unknowns[i]] : 0.0;
 }
 
-void Structure::arrange() { order_ = element_order(elements_, assembly_); }
+void Structure::arrange() {
+  const bool any_displaced = nodal_.has_displaced_supports();
+  const auto is_displaced = [this](Index freedom) { return nodal_.is_displaced(freedom); };
+  order_ = element_order(elements_, assembly_,
+                         [&](Index e) { return any_displaced && element_freedoms(e).any(is_displaced); });
+}
+
+double Structure::evaluate(const Element& element, Index block, const State& state, Local& out,
+                           bool with_derivatives) const {
+  const ShiftedIndices unknowns = assembly_.unknowns(block), freedoms = element_freedoms(block);
+  const std::size_t n = unknowns.size();
+  for (std::size_t i = 0; i < n; ++i)
+    out.u[i] = unknowns[i] >= 0 ? state.x[unknowns[i]] : nodal_.support(freedoms[i]).at(state.lambda);
+  const double energy = element.evaluate_at(out.u, state.lambda, out.f, with_derivatives ? out.K : nullptr,
+                                            with_derivatives ? out.f_lambda : nullptr);
+  for (std::size_t h = 0; h < n && with_derivatives; ++h) {
+    if (unknowns[h] >= 0) continue;
+    const double rate = held_rate(freedoms[h]);
+    for (std::size_t i = 0; i < n; ++i) out.f_lambda[i] += out.stiffness(i, h, n) * rate;
+  }
+  return energy;
+}
+
+void Structure::add_driven(const Element& element, Index block, const State& state, double* F, double* K,
+                           double* F_lambda) const {
+  Local local;
+  evaluate(element, block, state, local, K != nullptr);
+  const ShiftedIndices unknowns = assembly_.unknowns(block);
+  scatter(unknowns, local.f, 1.0, F);
+  if (K == nullptr) return;
+  assembly_.add(block, local.K, 1.0, K);
+  scatter(unknowns, local.f_lambda, 1.0, F_lambda);
+}
 
 // Entry by entry: what goes to one place from one beam and from the next is far apart.
 void Structure::add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F,
@@ -118,28 +153,20 @@ void Structure::add_elements(const Vector& x, double* F, double* K) const {
   }
 }
 
-// From the forces on the unknowns.
-void Structure::subtract(const PointLoads& loads, double factor, double* F) const {
-  for (PointLoads::InnerIterator load(loads); load; ++load)
-    if (const auto i = unknown(load.index())) F[*i] -= factor * load.value();
-}
-
 void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
   F.setZero();
-  subtract(load_, state.lambda, F.data());
-  subtract(constant_load_, 1.0, F.data());
+  nodal_.add_forces(
+      state.lambda, [this](Index freedom) { return unknown_or_held(freedom); },
+      [&](Index freedom) { return value(state, freedom); }, F.data());
   add_elements(state.x, F.data(), nullptr);
-  Local local;
-  for (const ElementLoad& loaded : element_loads_) {
-    gather(loaded.element, state.x, local.u);
-    loaded.potential->evaluate(local.u, local.f, nullptr);
-    scatter(assembly_.unknowns(loaded.element), local.f, loaded.kind == LoadKind::proportional ? state.lambda : 1.0,
-            F.data());
-  }
+  for (const Index e : order_.driven) add_driven(elements_[e], e, state, F.data(), nullptr, nullptr);
+  for (const ElementLoad& load : element_loads_)
+    add_driven(*load.potential, load.element, state, F.data(), nullptr, nullptr);
 }
 
-// Elements know differences of displacements alone, and loads are dead: nodes that share no element with a support that
-// holds a displacement are translation_free.
+// Elements of members know differences of displacements alone, and loads are dead: nodes that share no element with a
+// support that holds a displacement are translation-free, but for stiffnesses to ground. Of added elements nothing is
+// known.
 std::vector<bool> Structure::translation_free() const {
   std::vector<bool> held(positions_.size());
   const auto meaning_of = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; };
@@ -150,7 +177,7 @@ std::vector<bool> Structure::translation_free() const {
       const Freedom which = meaning_of(freedom).freedom;
       return (which == Freedom::x || which == Freedom::z) && !unknown(freedom);
     };
-    if (freedoms.any(is_held))
+    if (e >= first_added_ || freedoms.any(is_held))
       for (std::size_t i = 0; i < freedoms.size(); ++i) held[node_of(freedoms[i])] = true;
   }
   std::vector<bool> result(static_cast<std::size_t>(assembly_.unknown_count()));
@@ -171,43 +198,25 @@ void Structure::linearize(const State& state, Linearization& out) const {
   }
   out.F.setZero(n);
   out.F_lambda.setZero(n);
-  subtract(load_, state.lambda, out.F.data());
-  subtract(constant_load_, 1.0, out.F.data());
-  subtract(load_, 1.0, out.F_lambda.data());
   double* values = out.K.valuePtr();
   std::fill(values, values + out.K.nonZeros(), 0.0);
+  nodal_.linearize(
+      state.lambda, [this](Index freedom) { return unknown_or_held(freedom); },
+      [&](Index freedom) { return value(state, freedom); }, out);
   add_elements(state.x, out.F.data(), values);
-  Local local;
-  for (const ElementLoad& loaded : element_loads_) {
-    const bool proportional = loaded.kind == LoadKind::proportional;
-    const double factor = proportional ? state.lambda : 1.0;
-    gather(loaded.element, state.x, local.u);
-    loaded.potential->evaluate(local.u, local.f, local.K);
-    scatter(assembly_.unknowns(loaded.element), local.f, factor, out.F.data());
-    if (proportional) scatter(assembly_.unknowns(loaded.element), local.f, 1.0, out.F_lambda.data());
-    assembly_.add(loaded.element, local.K, factor, values);
-  }
+  const auto add = [&](const Element& element, Index block) {
+    add_driven(element, block, state, out.F.data(), values, out.F_lambda.data());
+  };
+  for (const Index e : order_.driven) add(elements_[e], e);
+  for (const ElementLoad& load : element_loads_) add(*load.potential, load.element);
 }
 
 double Structure::energy(const State& state) const {
   Local local;
   double energy = 0.0;
-  for (Index e = 0; e < element_count(); ++e) {
-    gather(e, state.x, local.u);
-    energy += elements_[e].evaluate(local.u, nullptr, nullptr);
-  }
-  for (const ElementLoad& loaded : element_loads_) {
-    gather(loaded.element, state.x, local.u);
-    energy += (loaded.kind == LoadKind::proportional ? state.lambda : 1.0) *
-              loaded.potential->evaluate(local.u, nullptr, nullptr);
-  }
-  const auto subtract_work = [&](const PointLoads& loads, double factor) {
-    for (PointLoads::InnerIterator load(loads); load; ++load)
-      energy -= factor * load.value() * value(state, load.index());
-  };
-  subtract_work(load_, state.lambda);
-  subtract_work(constant_load_, 1.0);
-  return energy;
+  for (Index e = 0; e < element_count(); ++e) energy += evaluate(elements_[e], e, state, local, false);
+  for (const ElementLoad& load : element_loads_) energy += evaluate(*load.potential, load.element, state, local, false);
+  return energy + nodal_.energy(state.lambda, [&](Index freedom) { return value(state, freedom); });
 }
 
 double Structure::force_roundoff() const {
@@ -238,7 +247,7 @@ std::optional<Index> Structure::unknown(Index freedom) const {
 
 double Structure::value(const State& state, Index freedom) const {
   const Index i = unknown_of_freedom_[static_cast<std::size_t>(freedom)];
-  return i < 0 ? 0.0 : state.x[i];
+  return i < 0 ? nodal_.support(freedom).at(state.lambda) : state.x[i];
 }
 
 Vec2 Structure::current(const State& state, Index node) const {
@@ -249,16 +258,26 @@ Structure::Meaning Structure::meaning(Index unknown) const {
   return meaning_of_freedom_[static_cast<std::size_t>(freedom_of_unknown_[static_cast<std::size_t>(unknown)])];
 }
 
-std::unique_ptr<Structure> Structure::updated(const State& state) const {
+template <class ValueOf>
+std::unique_ptr<Structure> Structure::updated_at(const ValueOf& value_of) const {
   auto moved = std::unique_ptr<Structure>(new Structure(*this));
   Local local;
   moved->elements_ = {};
   for (Index e = 0; e < element_count(); ++e) {
-    gather(e, state.x, local.u);
+    const ShiftedIndices freedoms = element_freedoms(e);
+    for (std::size_t i = 0; i < freedoms.size(); ++i) local.u[i] = value_of(freedoms[i]);
     moved->elements_.add(elements_[e].updated(local.u));
   }
   moved->arrange();
   return moved;
+}
+
+std::unique_ptr<Structure> Structure::updated() const {
+  return updated_at([](Index) { return 0.0; });
+}
+
+std::unique_ptr<Structure> Structure::updated(const State& state) const {
+  return updated_at([&](Index freedom) { return value(state, freedom); });
 }
 
 bool Structure::can_be_updated() const {
@@ -268,21 +287,23 @@ bool Structure::can_be_updated() const {
   return true;
 }
 
+template <class Visit>
+void Structure::for_each_with(Index freedom, const Visit& visit) const {
+  const auto has = [&](Index e) { return element_freedoms(e).place_of(freedom) < element_freedoms(e).size(); };
+  for (Index e = 0; e < element_count(); ++e)
+    if (has(e)) visit(elements_[e], e);
+  for (const ElementLoad& load : element_loads_)
+    if (has(load.element)) visit(*load.potential, load.element);
+}
+
 double Structure::reaction(const State& state, Index freedom) const {
   if (unknown(freedom)) return 0.0;
   Local local;
-  double force = -state.lambda * load_.coeff(freedom) - constant_load_.coeff(freedom);
-  const auto add = [&](const Element& element, Index block, const ShiftedIndices& freedoms, double factor) {
-    const std::size_t at = freedoms.place_of(freedom);
-    if (at == freedoms.size()) return;
-    gather(block, state.x, local.u);
-    element.evaluate(local.u, local.f, nullptr);
-    force += factor * local.f[at];
-  };
-  for (Index e = 0; e < element_count(); ++e) add(elements_[e], e, element_freedoms(e), 1.0);
-  for (const ElementLoad& loaded : element_loads_)
-    add(*loaded.potential, loaded.element, element_freedoms(loaded.element),
-        loaded.kind == LoadKind::proportional ? state.lambda : 1.0);
+  double force = nodal_.support_force(freedom).at(state.lambda);
+  for_each_with(freedom, [&](const Element& element, Index block) {
+    evaluate(element, block, state, local, false);
+    force += local.f[element_freedoms(block).place_of(freedom)];
+  });
   return force;
 }
 
@@ -290,26 +311,15 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (unknown(freedom)) return row;
   Local local;
-  row.dlambda = -load_.coeff(freedom);
-  const auto add = [&](const Element& element, Index block, const ShiftedIndices& freedoms, double factor) {
-    const std::size_t at = freedoms.place_of(freedom);
-    if (at == freedoms.size()) return 0.0;
-    gather(block, state.x, local.u);
-    element.evaluate(local.u, local.f, local.K);
-    const auto n = static_cast<Index>(freedoms.size()), i = static_cast<Index>(at);
-    const auto unknowns = assembly_.unknowns(block);
-    for (Index j = 0; j < n; ++j)
-      if (unknowns[static_cast<std::size_t>(j)] >= 0)
-        row.dx[unknowns[static_cast<std::size_t>(j)]] += factor * local.K[std::max(i, j) + n * std::min(i, j)];
-    return local.f[i];
-  };
-  for (Index e = 0; e < element_count(); ++e) add(elements_[e], e, element_freedoms(e), 1.0);
-  for (const ElementLoad& loaded : element_loads_) {
-    const bool proportional = loaded.kind == LoadKind::proportional;
-    const double f =
-        add(*loaded.potential, loaded.element, element_freedoms(loaded.element), proportional ? state.lambda : 1.0);
-    if (proportional) row.dlambda += f;
-  }
+  row.dlambda = nodal_.support_force(freedom).proportional;
+  for_each_with(freedom, [&](const Element& element, Index block) {
+    evaluate(element, block, state, local, true);
+    const std::size_t n = element_freedoms(block).size(), i = element_freedoms(block).place_of(freedom);
+    const ShiftedIndices unknowns = assembly_.unknowns(block);
+    for (std::size_t j = 0; j < n; ++j)
+      if (unknowns[j] >= 0) row.dx[unknowns[j]] += local.stiffness(i, j, n);
+    row.dlambda += local.f_lambda[i];
+  });
   return row;
 }
 

@@ -16,6 +16,7 @@
 #include "elements/element.hpp"
 #include "elements/element_order.hpp"
 #include "elements/essenburg_beam.hpp"
+#include "elements/nodal_terms.hpp"
 #include "elements/section.hpp"
 #include "elements/truss.hpp"
 
@@ -93,9 +94,12 @@ struct MemberMesh {
 class SlidingStructure;
 class StructureBuilder;
 
-/// Beams and bars between joints, supports and dead loads: F(x, λ) = f_int(x) − λ f − f₀, with displacements and
-/// rotations from the stress-free state as unknowns. Freedoms count every x, z, rotation and change of thickness;
-/// unknowns those that no support holds.
+/// Beams and bars between joints, supports, springs to ground and loads. Freedoms count every x, z, rotation and change
+/// of thickness, from the stress-free state; unknowns x are those u that no support holds, the others have values ū:
+///
+///     F(x, λ) = f(u, λ) + terms of single freedoms, see NodalTerms;   F_λ = ∂f/∂λ + K_xh ū′ + …
+///
+/// K_xh are the columns of the stiffness by held freedoms, and ū′ the rates of their values by λ.
 class Structure final : public System {
  public:
   Index size(const Piece&) const override { return assembly_.unknown_count(); }
@@ -126,8 +130,11 @@ class Structure final : public System {
   /// The unknown of a freedom, empty if a support holds it.
   std::optional<Index> unknown(Index freedom) const;
 
-  /// Displacement or rotation, 0 where held.
+  /// Displacement or rotation; where it is held, what the support gives it.
   double value(const State& state, Index freedom) const;
+
+  /// The rate of this value by λ at fixed unknowns: that of the support, 0 of a freedom that is not held.
+  double held_rate(Index freedom) const { return nodal_.support(freedom).proportional; }
 
   /// Current position of a node.
   Vec2 current(const State& state, Index node) const;
@@ -146,7 +153,7 @@ class Structure final : public System {
 
   // --- what it is made of, for those who sum it themselves ---------------------------------------------------------
 
-  /// Elements are numbered member by member, along each.
+  /// Elements are numbered member by member, along each; those that were added come last.
   Index element_count() const { return static_cast<Index>(elements_.size()); }
   const Element& element(Index e) const { return elements_[e]; }
 
@@ -156,7 +163,6 @@ class Structure final : public System {
   /// A load along an element, whose unknowns its potential has.
   struct ElementLoad {
     std::shared_ptr<const Element> potential;
-    LoadKind kind;
     Index element;  ///< also its block of the assembly
   };
   const std::vector<ElementLoad>& element_loads() const { return element_loads_; }
@@ -169,13 +175,12 @@ class Structure final : public System {
     return std::span(loads_by_element_).subspan(first, last - first);
   }
 
-  /// Force or moment on a freedom.
-  double point_load(Index freedom, LoadKind kind) const {
-    return (kind == LoadKind::proportional ? load_ : constant_load_).coeff(freedom);
-  }
+  /// Loads, supports and springs of single freedoms.
+  const NodalTerms& nodal_terms() const { return nodal_; }
 
-  /// The structure with the updated form of its elements after an increment that led to a state: see
+  /// The structure with the updated form of its elements, stress-free or after an increment that led to a state: see
   /// IncrementalStructure.
+  std::unique_ptr<Structure> updated() const;
   std::unique_ptr<Structure> updated(const State& state) const;
 
   /// Whether all elements have that form.
@@ -186,14 +191,25 @@ class Structure final : public System {
 
   Structure(const Structure&) = default;
   Structure(Index unknowns, const IndexLists& blocks) : assembly_(unknowns, blocks) {}
-  void arrange();                              // what follows from the elements
-  std::vector<bool> translation_free() const;  // see Linearization
-  void gather(Index block, const Vector& x, double* u) const;
+  void arrange();  // what follows from the elements
+  template <class ValueOf>
+  std::unique_ptr<Structure> updated_at(const ValueOf& value_of) const;
+  std::vector<bool> translation_free() const;                  // see Linearization
+  void gather(Index block, const Vector& x, double* u) const;  // held freedoms 0
+  struct Local;
+  // Evaluates an element with its held freedoms at their values. If derivatives are asked for, `f_lambda` is that at
+  // fixed unknowns, to which the rates of held freedoms belong.
+  double evaluate(const Element& element, Index block, const State& state, Local& out, bool with_derivatives) const;
+  // Adds an element that depends on λ. Where K is not null, its stiffness goes to the values of K's matrix.
+  void add_driven(const Element& element, Index block, const State& state, double* F, double* K,
+                  double* F_lambda) const;
+  // Calls visit(element, block) for each element that has the freedom, and for each load along such an element.
+  template <class Visit>
+  void for_each_with(Index freedom, const Visit& visit) const;
   // Adds the forces of elements and, where K is not null, their stiffness to the values of K's matrix.
   void add(const ElementOrder::Four& four, const ClassicBeamLanes& beams, const Vector& x, double* F, double* K) const;
   void add_elements(const Vector& x, double* F, double* K) const;
-  using PointLoads = Eigen::SparseVector<double, Eigen::ColMajor, Index>;  // per freedom
-  void subtract(const PointLoads& loads, double factor, double* F) const;
+  Index unknown_or_held(Index freedom) const { return unknown_of_freedom_[static_cast<std::size_t>(freedom)]; }
 
   std::vector<Vec2> positions_;
   std::vector<Index> first_freedom_;  // x of each node; z follows
@@ -201,12 +217,13 @@ class Structure final : public System {
   std::vector<std::int32_t> unknown_of_freedom_;  // −1: held
   std::vector<Meaning> meaning_of_freedom_;
   std::vector<std::int32_t> freedom_of_unknown_;
-  ElementList elements_;  // element e is block e of the assembly
+  ElementList elements_;   // element e is block e of the assembly
+  Index first_added_ = 0;  // the first element that no member has
   ElementOrder order_;
   ShiftedLists element_freedoms_;
   std::vector<ElementLoad> element_loads_;
   std::vector<std::uint32_t> loads_by_element_, first_load_of_element_;  // empty without loads
-  PointLoads load_, constant_load_;
+  NodalTerms nodal_;
   BlockAssembly assembly_;
   double rotations_ = 1.0;  // how many there are
   double length_scale_ = 1.0, force_scale_ = 0.0;
@@ -231,12 +248,22 @@ class StructureBuilder {
   Index freedom(Index node, Freedom which) const {
     return first_freedom_[static_cast<std::size_t>(node)] + (which == Freedom::z);
   }
-  void fix(Index freedom) { held_[static_cast<std::size_t>(freedom)] = true; }
+
+  /// A support that holds a freedom, or moves it: a displacement [length] or rotation [rad] from the stress-free state.
+  void fix(Index freedom, const Driven& value = {}) { nodal_.hold(freedom, value); }
+
+  /// A linear spring between a freedom and the ground, stress-free with the structure [force/length, force·length].
+  void add_ground_stiffness(Index freedom, double stiffness) { nodal_.add_ground_stiffness(freedom, stiffness); }
+
   void add_load(Index freedom, double value, LoadKind kind);
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
 
-  /// The structure; `ramp` makes the constant loads the proportional ones and leaves the others out, so that a path in
-  /// λ from 0 to 1 applies them.
+  /// An element of any kind between freedoms that members have, at most Element::max_unknowns, in the order of its
+  /// unknowns. Only for meshes whose nodes are fixed; find_mechanism() does not see it.
+  void add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms);
+
+  /// The structure; `ramp` makes the constant loads and values of supports the proportional ones and leaves the others
+  /// out, so that a path in λ from 0 to 1 applies them.
   std::unique_ptr<Structure> build(bool ramp = false) const;
 
   /// The same for meshes with breakpoints that move. Only beams without shear: see can_slide(). Members for which
@@ -244,19 +271,19 @@ class StructureBuilder {
   std::unique_ptr<SlidingStructure> build_sliding(
       bool ramp = false, const std::function<bool(const std::string&, const std::string&)>& alike = nullptr) const;
 
-  /// Whether all members are of a theory for which build_sliding() is meant.
+  /// Whether all members are of a theory for which build_sliding() is meant, and there are no other elements.
   bool can_slide() const;
 
  private:
-  struct Load {
-    Index freedom;
-    double value;
-    LoadKind kind;
-  };
   struct DistributedLoad {
     Index member;
     Vec2 load;
     LoadKind kind;
+  };
+
+  struct AddedElement {
+    std::shared_ptr<const Element> element;
+    std::vector<Index> freedoms;
   };
 
   struct EndThickness {
@@ -267,6 +294,10 @@ class StructureBuilder {
     ThicknessFreedoms freedoms;
   };
 
+  // The greatest proportional load, moments divided by the length.
+  double force_scale(const NodalTerms& terms, double length) const;
+  // Says of each node whether a load, a support or a spring acts on one of its freedoms.
+  std::vector<bool> nodes_with_terms() const;
   Index add_node(const Vec2& position);
   Index add_freedom(Index node, Freedom which);
   void add_middle_node(const MemberDescription& member, const ImperfectAxis& shape, int element, MemberMesh& mesh);
@@ -280,11 +311,11 @@ class StructureBuilder {
   std::vector<std::optional<Index>> shared_rotation_;
   std::vector<EndThickness> end_thickness_;
   std::vector<Structure::Meaning> freedoms_;
-  std::vector<bool> held_;
   std::vector<MemberDescription> descriptions_;
   std::vector<MemberMesh> meshes_;
-  std::vector<Load> loads_;
+  NodalTerms nodal_;
   std::vector<DistributedLoad> distributed_loads_;
+  std::vector<AddedElement> added_elements_;
 };
 
 }  // namespace arcwall

@@ -153,7 +153,6 @@ Index StructureBuilder::add_node(const Vec2& position) {
 
 Index StructureBuilder::add_freedom(Index node, Freedom which) {
   freedoms_.push_back({.node = static_cast<std::int32_t>(node), .freedom = which});
-  held_.push_back(false);
   return static_cast<Index>(freedoms_.size()) - 1;
 }
 
@@ -245,11 +244,15 @@ void StructureBuilder::add_middle_node(const MemberDescription& member, const Im
 }
 
 void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
-  loads_.push_back({.freedom = freedom, .value = value, .kind = kind});
+  nodal_.add_load(freedom, kind == LoadKind::proportional ? Driven{.proportional = value} : Driven{.constant = value});
 }
 
 void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind) {
   distributed_loads_.push_back({.member = member, .load = load, .kind = kind});
+}
+
+void StructureBuilder::add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms) {
+  added_elements_.push_back({.element = std::move(element), .freedoms = std::move(freedoms)});
 }
 
 std::vector<Index> StructureBuilder::element_freedoms(const MemberMesh& mesh, std::size_t k) const {
@@ -267,6 +270,22 @@ std::vector<Index> StructureBuilder::element_freedoms(const MemberMesh& mesh, st
   return freedoms;
 }
 
+double StructureBuilder::force_scale(const NodalTerms& terms, double length) const {
+  return terms.greatest_proportional_load([&](Index freedom) {
+    return freedoms_[static_cast<std::size_t>(freedom)].freedom == Freedom::rotation ? length : 1.0;
+  });
+}
+
+std::vector<bool> StructureBuilder::nodes_with_terms() const {
+  std::vector<bool> found(positions_.size(), false);
+  for (std::size_t i = 0; i < freedoms_.size(); ++i) {
+    const auto freedom = static_cast<Index>(i);
+    if (!nodal_.load(freedom).is_zero() || nodal_.is_held(freedom) || nodal_.ground_stiffness(freedom) != 0.0)
+      found[static_cast<std::size_t>(freedoms_[i].node)] = true;
+  }
+  return found;
+}
+
 std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   const auto proportional = [&](LoadKind kind) {
     return ramp ? kind == LoadKind::constant : kind == LoadKind::proportional;
@@ -276,22 +295,23 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   std::vector<std::int32_t> unknown_of_freedom(freedoms_.size(), -1), freedom_of_unknown;
   const auto number = [&](Index freedom) {
     auto& unknown = unknown_of_freedom[static_cast<std::size_t>(freedom)];
-    if (held_[static_cast<std::size_t>(freedom)] || unknown >= 0) return;
+    if (unknown >= 0 || nodal_.is_held(freedom)) return;
     unknown = static_cast<std::int32_t>(freedom_of_unknown.size());
     freedom_of_unknown.push_back(static_cast<std::int32_t>(freedom));
   };
   ShiftedLists freedoms_of_elements;
   IndexLists blocks;
-  for (const MemberMesh& mesh : meshes_)
-    for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
-      std::vector<Index> of_element = element_freedoms(mesh, k);
-      freedoms_of_elements.add(of_element);
-      for (Index& freedom : of_element) {
-        number(freedom);
-        freedom = unknown_of_freedom[static_cast<std::size_t>(freedom)];
-      }
-      blocks.push_back(of_element);
+  const auto add_block = [&](std::vector<Index> of_element) {
+    freedoms_of_elements.add(of_element);
+    for (Index& freedom : of_element) {
+      number(freedom);
+      freedom = unknown_of_freedom[static_cast<std::size_t>(freedom)];
     }
+    blocks.push_back(std::move(of_element));
+  };
+  for (const MemberMesh& mesh : meshes_)
+    for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) add_block(element_freedoms(mesh, k));
+  for (const AddedElement& added : added_elements_) add_block(added.freedoms);
 
   auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));
   structure->positions_ = positions_;
@@ -310,29 +330,23 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     first_element.push_back(static_cast<Index>(structure->elements_.size()));
     add_elements(descriptions_[m], meshes_[m], structure->elements_);
   }
+  structure->first_added_ = static_cast<Index>(structure->elements_.size());
+  for (const AddedElement& added : added_elements_) structure->elements_.add(added.element);
   structure->elements_.shrink_to_fit();
+  structure->nodal_ = ramp ? nodal_.ramp() : nodal_;
   structure->arrange();
 
-  const double L = structure->length_scale_;
-  structure->load_.resize(static_cast<Index>(freedoms_.size()));
-  structure->constant_load_.resize(static_cast<Index>(freedoms_.size()));
-  for (const Load& load : loads_) {
-    if (ramp && load.kind == LoadKind::proportional) continue;
-    const bool moment = freedoms_[static_cast<std::size_t>(load.freedom)].freedom == Freedom::rotation;
-    if (!proportional(load.kind)) structure->constant_load_.coeffRef(load.freedom) += load.value;
-    if (!proportional(load.kind)) continue;
-    structure->load_.coeffRef(load.freedom) += load.value;
-    structure->force_scale_ = std::max(structure->force_scale_, std::abs(load.value) / (moment ? L : 1.0));
-  }
+  structure->force_scale_ = force_scale(structure->nodal_, structure->length_scale_);
   for (const DistributedLoad& load : distributed_loads_) {
     if (ramp && load.kind == LoadKind::proportional) continue;
     const auto m = static_cast<std::size_t>(load.member);
     const MemberDescription& member = descriptions_[m];
     const ImperfectAxis shape(*member.axis, member.imperfection);
+    const Driven factor = proportional(load.kind) ? Driven{.proportional = 1.0} : Driven{.constant = 1.0};
     for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
       structure->element_loads_.push_back(
-          {.potential = make_load({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, load.load),
-           .kind = proportional(load.kind) ? LoadKind::proportional : LoadKind::constant,
+          {.potential = std::make_shared<DrivenLoad>(
+               make_load({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, load.load), factor),
            .element = first_element[m] + static_cast<Index>(k)});
     if (proportional(load.kind))
       structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());

@@ -7,7 +7,6 @@
 #include "elements/member_point.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/words.hpp"
-#include "model/member_force.hpp"
 
 namespace arcwall {
 
@@ -100,11 +99,8 @@ std::vector<End> ends_at(const Structure& structure, Index joint) {
   return ends;
 }
 
-std::shared_ptr<const Observable> reaction(const Measured& body, Index freedom) {
-  if (body.sliding != nullptr)
-    return std::make_shared<JointObservable>(*body.sliding, freedom, JointObservable::What::reaction);
-  if (body.incremental != nullptr) return std::make_shared<IncrementalReaction>(*body.incremental, freedom);
-  return std::make_shared<ReactionObservable>(body.structure, freedom);
+std::size_t index_of(const MemberMesh& mesh, const Structure& structure) {
+  return static_cast<std::size_t>(&mesh - structure.members().data());
 }
 
 std::optional<Index> thickness_freedom(const ThicknessFreedoms& freedoms, deck::Component component) {
@@ -114,41 +110,36 @@ std::optional<Index> thickness_freedom(const ThicknessFreedoms& freedoms, deck::
 }
 
 // What the member at a place carries there; null where several meet, whose forces differ, or which has no such force.
-std::shared_ptr<const Observable> member_force(const Measured& body, const std::vector<End>& at,
+std::shared_ptr<const Observable> member_force(const Measured& from, const std::vector<End>& at,
                                                deck::Component component) {
   const bool bends = component == deck::Component::moment;
-  if (at.size() != 1 || body.incremental != nullptr) return nullptr;
+  if (at.size() != 1) return nullptr;
   const MemberMesh& mesh = *at.front().mesh;
   const std::size_t position = at.front().position;
   if (bends && !mesh.rotations[position]) return nullptr;
-  const auto what = bends ? MemberForce::What::moment : MemberForce::What::axial_force;
-  const double fraction = mesh.fraction(position);
-  if (body.sliding != nullptr) return std::make_shared<SlidingMemberForce>(*body.sliding, mesh.name, fraction, what);
-  const auto member = static_cast<std::size_t>(&mesh - body.structure.members().data());
-  const TiedMember tied{.structure = body.structure, .member = member, .theory = body.deck.members[member].theory};
-  return std::make_shared<TiedMemberForce>(tied, fraction, what);
+  return from.body.section_force(index_of(mesh, from.structure), mesh.fraction(position),
+                                 bends ? Body::SectionForce::moment : Body::SectionForce::axial_force);
 }
 
 // What a place's component is read from; null if the place has no such component.
-std::shared_ptr<const Observable> observable(const Measured& body, const deck::Place& place,
+std::shared_ptr<const Observable> observable(const Measured& from, const deck::Place& place,
                                              deck::Component component) {
-  const Structure& structure = body.structure;
-  const Places::Node node = body.places.find(place, structure.members());
+  const Structure& structure = from.structure;
+  const Places::Node node = from.places.find(place, structure.members());
   std::vector<End> at = ends_at(structure, node.node);
   if (node.member != nullptr) at.assign(1, End{.mesh = node.member, .position = node.position});
   if (component == deck::Component::axial_force || component == deck::Component::moment)
-    return member_force(body, at, component);
+    return member_force(from, at, component);
   if (const auto freedom = reaction_freedom(component)) {
-    if (*freedom != Freedom::rotation) return reaction(body, structure.freedom(node.node, *freedom));
+    if (*freedom != Freedom::rotation) return from.body.reaction(structure.freedom(node.node, *freedom));
     for (const End& end : at)
       if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
-        return reaction(body, *rotation);
+        return from.body.reaction(*rotation);
     return nullptr;
   }
   for (const End& end : at)
     if (const auto thickness = end.mesh->section(end.position).thickness)
-      if (const auto freedom = thickness_freedom(*thickness, component))
-        return std::make_shared<FreedomObservable>(structure, *freedom);
+      if (const auto freedom = thickness_freedom(*thickness, component)) return from.body.motion(*freedom);
   const auto wanted = member_component(component);
   if (!wanted) return nullptr;
   const bool turns = *wanted != Component::x && *wanted != Component::z;
@@ -157,14 +148,8 @@ std::shared_ptr<const Observable> observable(const Measured& body, const deck::P
     const auto rotation = end.mesh->rotations[end.position];
     if ((turns && !rotation) || (face && !end.mesh->height)) continue;
     // Members that meet at an angle agree on the rotation of their joint, not on the slopes of their imperfections.
-    const bool joint = *wanted == Component::rotation && at.size() > 1;
-    if (body.sliding != nullptr) {
-      if (joint) return std::make_shared<JointObservable>(*body.sliding, *rotation, JointObservable::What::motion);
-      const MaterialPoint point = body.sliding->find(end.mesh->name, end.mesh->fraction(end.position));
-      return std::make_shared<PlaceObservable>(*body.sliding, point, *wanted);
-    }
-    if (joint) return std::make_shared<FreedomObservable>(structure, *rotation);
-    return std::make_shared<MemberObservable>(structure, *end.mesh, end.position, *wanted);
+    if (*wanted == Component::rotation && at.size() > 1) return from.body.motion(*rotation);
+    return from.body.motion(index_of(*end.mesh, structure), end.position, *wanted);
   }
   return nullptr;
 }
@@ -193,11 +178,11 @@ PathMethod path_method(deck::PathMethod method) {
 
 }  // namespace
 
-std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& body, DeckProblems& problems) {
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
   std::vector<MonitorColumn> columns;
   for (const deck::Monitor& monitor : deck.monitors) {
-    auto quantity = monitor.at.fraction || body.places.joints.contains(monitor.at.name)
-                        ? observable(body, monitor.at, monitor.component)
+    auto quantity = monitor.at.fraction || from.places.joints.contains(monitor.at.name)
+                        ? observable(from, monitor.at, monitor.component)
                         : nullptr;
     if (!quantity) {
       problems.add(monitor.position, "monitor.component",
@@ -233,7 +218,7 @@ std::vector<double> load_levels(const deck::Path& path) {
   return levels;
 }
 
-TraceOptions trace_options(const deck::Deck& deck, const Measured& body, const std::vector<MonitorColumn>& monitors,
+TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const std::vector<MonitorColumn>& monitors,
                            DeckProblems& problems) {
   const deck::Path& path = deck.path;
   TraceOptions options;
@@ -245,7 +230,7 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& body, const s
   options.max_points = path.max_points;
   options.stay = path.branches != BranchPolicy::follow;
   if (path.control) {
-    options.control = observable(body, path.control->at, path.control->component);
+    options.control = observable(from, path.control->at, path.control->component);
     if (!options.control)
       problems.add(path.control->at.position, "path.control",
                    "\"" + to_text(path.control->at) + "\" cannot be controlled so",

@@ -9,18 +9,16 @@ namespace arcwall {
 
 /// What monitors are read off.
 struct Measured {
-  const deck::Deck& deck;
-  const Structure& structure;
-  const SlidingStructure* sliding;          ///< if the states are those of contact that slides; else null
-  const IncrementalStructure* incremental;  ///< of load increments; else null
+  const Structure& structure;  ///< of the deck's mesh
+  const Body& body;
   const Places& places;
 };
 
 /// The deck's monitors as columns. Adds a problem for a component that its place does not have.
-std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& body, DeckProblems& problems);
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems);
 
 /// How the deck's path is followed.
-TraceOptions trace_options(const deck::Deck& deck, const Measured& body, const std::vector<MonitorColumn>& monitors,
+TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const std::vector<MonitorColumn>& monitors,
                            DeckProblems& problems);
 
 /// Values of λ that load increments lead to: those the deck lands on, in their order, and equal increments of at most

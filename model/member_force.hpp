@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/observable.hpp"
+#include "model/body.hpp"
 #include "model/section_forces.hpp"
 
 namespace arcwall {
@@ -13,7 +14,7 @@ namespace arcwall {
 /// Gradients are central differences: exact ones would need the derivatives of all elements' end forces.
 class MemberForce : public Observable {
  public:
-  enum class What { axial_force, moment };
+  using What = Body::SectionForce;
 
   double value(const State& state) const final;
   Row gradient(const State& state) const final;

@@ -27,6 +27,12 @@ bool moves_something(const Structure& structure) {
   return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
 }
 
+std::vector<Theory> theories_of(const deck::Deck& deck) {
+  std::vector<Theory> theories;
+  for (const deck::Member& member : deck.members) theories.push_back(member.theory);
+  return theories;
+}
+
 bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
 
 // Whether contact points slide, which springs, increments and members of other theories do not allow.
@@ -74,11 +80,9 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   auto candidates = contact_candidates(deck_, *structure_, problems);
   const bool sliding = slides(deck_, described.builder, problems);
   if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
-  const Measured read_off{.deck = deck_,
-                          .structure = *structure_,
-                          .sliding = sliding_structure_.get(),
-                          .incremental = incremental_structure_.get(),
-                          .places = described.places};
+  body_ = sliding ? body_of(*structure_, *sliding_structure_)
+                  : body_of(*structure_, theories_of(deck_), incremental_structure_.get());
+  const Measured read_off{.structure = *structure_, .body = *body_, .places = described.places};
   monitors_ = monitor_columns(deck_, read_off, problems);
   options_ = trace_options(deck_, read_off, monitors_, problems);
   problems.raise();

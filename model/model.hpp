@@ -10,6 +10,7 @@
 #include "continuation/load_increments.hpp"
 #include "elements/incremental_structure.hpp"
 #include "elements/sliding_structure.hpp"
+#include "model/body.hpp"
 #include "model/deck/deck.hpp"
 
 namespace arcwall {
@@ -40,6 +41,9 @@ class Model {
 
   /// The structure of those; null likewise.
   const SlidingStructure* sliding_structure() const { return sliding_structure_.get(); }
+
+  /// What is read off the structure in a state, whichever mesh it has.
+  const Body& body() const { return *body_; }
 
   /// What is traced: the structure with its contacts.
   const System& system() const;
@@ -78,6 +82,7 @@ class Model {
   std::unique_ptr<MultiplierContact> contact_, ramp_contact_;
   std::unique_ptr<SlidingStructure> sliding_structure_, sliding_ramp_structure_;
   std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;
+  std::unique_ptr<Body> body_;
   std::vector<MonitorColumn> monitors_;
   TraceOptions options_;
   std::vector<Watch> watched_;

@@ -40,13 +40,12 @@ Vector element_forces(const Structure& structure, Index e, const State& state, b
   const auto freedoms = structure.element_freedoms(e);
   Vector u(static_cast<Index>(freedoms.size())), f(u.size());
   for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
-  structure.element(e).evaluate(u.data(), f.data(), nullptr);
+  structure.element(e).evaluate_at(u.data(), state.lambda, f.data(), nullptr, nullptr);
   if (!loads) return f;
   Vector part(u.size());
   for (const std::uint32_t i : structure.loads_of_element(e)) {
-    const Structure::ElementLoad& load = structure.element_loads()[i];
-    load.potential->evaluate(u.data(), part.data(), nullptr);
-    f += (load.kind == LoadKind::proportional ? state.lambda : 1.0) * part;
+    structure.element_loads()[i].potential->evaluate_at(u.data(), state.lambda, part.data(), nullptr, nullptr);
+    f += part;
   }
   return f;
 }

@@ -56,19 +56,20 @@ std::size_t unknowns_a_node(const MemberMesh& mesh) {
 
 struct LoadedElement {
   const Element* element;
-  std::vector<std::pair<const Element*, double>> loads;  // with their factors
+  std::vector<const Element*> loads;
+  double lambda;
 
   double energy(const Vector& u) const {
-    double sum = element->evaluate(u.data(), nullptr, nullptr);
-    for (const auto& [load, factor] : loads) sum += factor * load->evaluate(u.data(), nullptr, nullptr);
+    double sum = element->evaluate_at(u.data(), lambda, nullptr, nullptr, nullptr);
+    for (const Element* load : loads) sum += load->evaluate_at(u.data(), lambda, nullptr, nullptr, nullptr);
     return sum;
   }
   Vector gradient(const Vector& u) const {
     Vector sum(u.size()), part(u.size());
-    element->evaluate(u.data(), sum.data(), nullptr);
-    for (const auto& [load, factor] : loads) {
-      load->evaluate(u.data(), part.data(), nullptr);
-      sum += factor * part;
+    element->evaluate_at(u.data(), lambda, sum.data(), nullptr, nullptr);
+    for (const Element* load : loads) {
+      load->evaluate_at(u.data(), lambda, part.data(), nullptr, nullptr);
+      sum += part;
     }
     return sum;
   }
@@ -77,11 +78,9 @@ struct LoadedElement {
 Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride, double length) {
   const auto freedoms = structure.element_freedoms(e);
   const auto n = static_cast<Index>(freedoms.size());
-  LoadedElement loaded{.element = &structure.element(e), .loads = {}};
-  for (const std::uint32_t i : structure.loads_of_element(e)) {
-    const Structure::ElementLoad& load = structure.element_loads()[i];
-    loaded.loads.emplace_back(load.potential.get(), load.kind == LoadKind::proportional ? state.lambda : 1.0);
-  }
+  LoadedElement loaded{.element = &structure.element(e), .loads = {}, .lambda = state.lambda};
+  for (const std::uint32_t i : structure.loads_of_element(e))
+    loaded.loads.push_back(structure.element_loads()[i].potential.get());
   Potential potential{.at = Vector(n), .steps = Vector(n)};
   for (std::size_t i = 0; i < freedoms.size(); ++i) {
     potential.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
@@ -158,8 +157,7 @@ void for_each_point_load(const Model& model, const State& state, const Visit& vi
     for (std::size_t i = 0; i < of_element.size(); ++i) freedoms.insert(of_element[i]);
   }
   for (const Index freedom : freedoms) {
-    const double load = state.lambda * structure.point_load(freedom, LoadKind::proportional) +
-                        structure.point_load(freedom, LoadKind::constant);
+    const double load = structure.nodal_terms().load(freedom).at(state.lambda);
     if (load == 0.0) continue;
     if (model.sliding() == nullptr) {
       if (const auto i = structure.unknown(freedom)) visit(*i, load, structure.value(state, freedom));

@@ -31,6 +31,12 @@ NodeFunction opposite(const NodeFunction& f) {
           .gradient_rate = -f.gradient_rate};
 }
 
+// A support may move the node with λ: `rate` is that of its x, z and rotation at fixed unknowns.
+void add_motion_of_node(const Eigen::Vector3d& rate, NodeFunction& f) {
+  f.rate += f.gradient.dot(rate);
+  f.gradient_rate += f.hessian * rate;
+}
+
 }  // namespace
 
 Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact) {
@@ -80,6 +86,8 @@ TouchGap touch_gap(const SlidingSetting& setting, const Touch& touch, const Slid
                .angle = axis.angle - direction.value};
   out.tilt.value = std::remainder(out.angle, pi);
   out.tilt.gradient[2] += 1.0;
+  const Eigen::Vector3d rate = at.mesh.node_rate(touch.strand, touch.position);
+  for (NodeFunction* f : {&out.gap, &out.tilt}) add_motion_of_node(rate, *f);
   return out;
 }
 

@@ -29,12 +29,13 @@ Vec2 face(double offset, const AxisPlace& axis);
 double face_gap(const SlidingObstacle& obstacle, double offset, const AxisPlace& axis, double lambda);
 double face_gap(const SlidingSetting& setting, const Touch& touch, const SlidingState& at);
 
-/// A function of a node's x, z and rotation and of λ: its value and derivatives.
+/// A function of a node's x, z and rotation and of λ: its value and derivatives. The rates are at fixed unknowns: walls
+/// may move with λ, and so may a support that holds one of the three.
 struct NodeFunction {
   double value = 0.0;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-  double rate = 0.0;                                        ///< by λ
+  double rate = 0.0;                                        ///< of the value, by λ
   Eigen::Vector3d gradient_rate = Eigen::Vector3d::Zero();  ///< of the gradient, by λ
 };
 

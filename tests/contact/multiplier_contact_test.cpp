@@ -25,6 +25,26 @@ State random_state(const MultiplierContact& system, const Piece& piece, Numbers&
   return {.x = 0.2 * numbers.vector(system.size(piece)), .lambda = numbers(), .piece = piece};
 }
 
+// The beam of contact_models.hpp, classic, whose clamp moves with λ.
+std::unique_ptr<Structure> moved_beam() {
+  StructureBuilder builder;
+  const Vec2 a(0.0, 0.0), b(2.0, 0.1);
+  builder.add_joint(a);
+  builder.add_joint(b);
+  builder.add_member({.name = "beam",
+                      .from = 0,
+                      .to = 1,
+                      .axis = arc_axis(a, {1.0, 0.2}, b),
+                      .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
+                      .elements = 4});
+  builder.fix(builder.freedom(0, Freedom::x), {.constant = 0.02, .proportional = 0.2});
+  builder.fix(builder.freedom(0, Freedom::z), {.proportional = -0.1});
+  builder.fix(builder.shared_rotation(0).value(), {.constant = 0.1, .proportional = 0.3});
+  builder.fix(builder.freedom(1, Freedom::x), {.proportional = -0.1});  // free in z and to turn
+  builder.add_load(builder.freedom(1, Freedom::z), 1.0, LoadKind::proportional);
+  return builder.build();
+}
+
 }  // namespace
 
 // Central differences: round-off 1e-12 times ratios of stiffnesses up to 1000.
@@ -112,6 +132,66 @@ TEST(MultiplierContact, TellsTheForcesThatActInTheEquations) {
     ASSERT_EQ(point.unknowns().size(), 2U);
     EXPECT_NEAR(without[point.unknowns()[0]] - with[point.unknowns()[0]], contact.force_vector.x(), 1e-12);
     EXPECT_NEAR(without[point.unknowns()[1]] - with[point.unknowns()[1]], contact.force_vector.y(), 1e-12);
+  }
+}
+
+// λ moves the points of both ends, and with them gaps, their gradients and their forces.
+TEST(MultiplierContact, DerivativesAreConsistentWhereSupportsMove) {
+  Numbers numbers(68);
+  for (const auto method : {ContactLaw::Method::rigid, ContactLaw::Method::penalty, ContactLaw::Method::augmented}) {
+    const ContactModel model(moved_beam(), test::all_walls(false), 0.1, {.method = method, .stiffness = 10.0});
+    const MultiplierContact& system = model.system();
+    for (const Index stride : {0, 1, 3}) {
+      Piece piece = closed_every(system.contact_count(), stride);
+      if (stride > 0) piece[0] = 1;
+      const State state = random_state(system, piece, numbers);
+      EXPECT_LE(check_derivatives(system, state).worst(), 1e-9);
+      const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
+      const Vector rates = system.guard_rates(state, direction);
+      for (Index j = 0; j < rates.size(); ++j)
+        EXPECT_NEAR(rates[j], apply(system.guard_gradient(state, j), direction), 1e-14 * (1.0 + std::abs(rates[j])));
+    }
+  }
+}
+
+// A beam on two supports, under a force of 1 at a quarter of its length, touches a wall at its middle: 11/16 of the
+// force go there, and the place of the force goes down by 23/12288. A wall that gives way by 1/k per force takes
+// (11/768)/(1/48 + 1/k). K's diagonal is 10¹⁵ times as stiff as the beam.
+TEST(MultiplierContact, KeepsItsDigitsOnALongChain) {
+  const int elements = 40000;
+  StructureBuilder builder;
+  builder.add_joint({0.0, 0.0});
+  builder.add_joint({1.0, 0.0});
+  builder.add_member({.name = "beam",
+                      .from = 0,
+                      .to = 1,
+                      .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
+                      .section = test::section_of(12.0, 1.0),
+                      .elements = elements});
+  for (const Index joint : {0, 1}) builder.fix(builder.freedom(joint, Freedom::z));
+  builder.fix(builder.freedom(0, Freedom::x));
+  const Index loaded = builder.freedom(builder.mesh(0).nodes[elements / 4], Freedom::z);
+  builder.add_load(loaded, -1.0, LoadKind::proportional);
+  const auto structure = builder.build();
+  const double stiffness = 30.0;
+  for (const auto method : {ContactLaw::Method::rigid, ContactLaw::Method::penalty}) {
+    std::vector<Candidate> middle;
+    middle.emplace_back(std::make_unique<MemberPoint>(*structure, structure->members()[0], elements / 2, 0.0),
+                        obstacle(flat_profile(0.0), Side::below), ContactLabel{.tributary = 1.0});
+    const MultiplierContact contact(*structure, std::move(middle), {}, {.method = method, .stiffness = stiffness});
+    const Piece closed(1, 1);
+    const State rest{.x = Vector::Zero(contact.size(closed)), .piece = closed};
+    Linearization now;
+    contact.linearize(rest, now);
+    BorderedSolver solver;
+    ASSERT_EQ(solver.factorize(now, 1), FactorStatus::ok);
+    Matrix response = -now.F_lambda;
+    ASSERT_TRUE(solver.solve_inner(response));
+    const double influence = 11.0 / 768.0, softness = method == ContactLaw::Method::rigid ? 0.0 : 1.0 / stiffness;
+    const double force = influence / (1.0 / 48.0 + softness);
+    EXPECT_NEAR(response(response.rows() - 1, 0) / force, 1.0, 1e-6);
+    const double down = -9.0 / 768.0 + force * influence;
+    EXPECT_NEAR(response(structure->unknown(loaded).value(), 0) / down, 1.0, 1e-6);
   }
 }
 

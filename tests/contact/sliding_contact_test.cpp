@@ -138,7 +138,7 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
 
 namespace {
 
-// λ moves walls by some tenths. Differences of step 1e-3: round-off 1e-10, ten times that with a step of
+// λ moves walls and supports by some tenths. Differences of step 1e-3: round-off 1e-10, ten times that with a step of
 // 1e-4; truncation is less.
 void expect_rates(const SlidingContact& system, const State& state) {
   constexpr double step = 1e-3;
@@ -174,6 +174,31 @@ TEST(SlidingContact, KnowsTheRatesOfWallsThatMove) {
         }
       }
     }
+}
+
+// The right end is free in z alone, so that it touches walls, while λ moves it along x and turns it.
+TEST(SlidingContact, KnowsTheRatesOfFreeEndsThatSupportsMove) {
+  Numbers numbers(80);
+  for (const bool on_axis : {false, true}) {
+    const auto walls = test::all_walls(on_axis);
+    for (std::size_t kind = 0; kind < walls.size() / 2; ++kind) {
+      StructureBuilder builder = wavy_beam(false);
+      builder.fix(builder.freedom(1, Freedom::x), {.proportional = -0.1});
+      builder.fix(*builder.shared_rotation(1), {.constant = 0.1, .proportional = 0.2});
+      const SlidingModel model(builder, two_of(walls, kind), 0.1);
+      const std::size_t ends = model.system().open_piece().size();
+      ASSERT_EQ(ends, 2U);  // one a wall
+      for (std::size_t closed = 0; closed < ends; ++closed) {
+        SCOPED_TRACE("wall " + std::to_string(kind) + ", end " + std::to_string(closed));
+        const Layouts& on = layouts()[2];
+        Piece piece = piece_of(model, on);
+        piece[on.points.size() + closed] = 1;
+        const State state = random_state(model, piece, numbers);
+        EXPECT_LE(check_derivatives(model.system(), state, 1e-6).K, 1e-9);
+        expect_rates(model.system(), state);
+      }
+    }
+  }
 }
 
 TEST(SlidingContact, OneLinearizationServesChangingLayouts) {

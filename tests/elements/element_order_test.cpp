@@ -45,7 +45,9 @@ struct Row {
   }
 
   BlockAssembly assembly() const { return {3 * static_cast<Index>(elements.size()) + 3, blocks}; }
-  ElementOrder order() const { return element_order(elements, assembly()); }
+  ElementOrder order() const {
+    return element_order(elements, assembly(), [](Index) { return false; });
+  }
 };
 
 }  // namespace

@@ -178,4 +178,23 @@ TEST(FindMechanism, SoundModelsHaveNone) {
   EXPECT_FALSE(find_mechanism(*test::Cantilever{.elements = 1, .tip_force = 1.0}.structure()).has_value());
 }
 
+// A beam on one hinge turns about it, unless a spring holds its other end or its rotation.
+TEST(FindMechanism, SpringsToTheGroundHold) {
+  for (const int springs : {0, 1, 2}) {
+    StructureBuilder builder;
+    builder.add_joint({0.0, 0.0});
+    builder.add_joint({2.0, 1.0});
+    builder.add_member({.name = "beam",
+                        .from = 0,
+                        .to = 1,
+                        .axis = straight_axis({0.0, 0.0}, {2.0, 1.0}),
+                        .section = {.E = 1.0, .A = 1.0, .I = 1.0},
+                        .elements = 3});
+    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
+    if (springs == 1) builder.add_ground_stiffness(builder.freedom(1, Freedom::z), 1e-3);
+    if (springs == 2) builder.add_ground_stiffness(builder.shared_rotation(0).value(), 1e-3);
+    EXPECT_EQ(find_mechanism(*builder.build()).has_value(), springs == 0) << springs;
+  }
+}
+
 }  // namespace arcwall::find_mechanism_test

@@ -13,7 +13,7 @@ namespace {
 using Component = MemberObservable::Component;
 
 // A curved, imperfect beam of height 0.4, clamped at the left, guided along x at the right.
-std::unique_ptr<Structure> beam() {
+StructureBuilder described_beam() {
   StructureBuilder builder;
   const Vec2 a(0.0, 0.0), b(2.0, 0.5);
   builder.add_joint(a);
@@ -31,6 +31,18 @@ std::unique_ptr<Structure> beam() {
   builder.fix(builder.freedom(1, Freedom::z));
   builder.add_load(builder.freedom(1, Freedom::x), 1.0, LoadKind::proportional);
   builder.add_distributed_load(0, {0.0, -1.0}, LoadKind::proportional);
+  return builder;
+}
+
+std::unique_ptr<Structure> beam() { return described_beam().build(); }
+
+// The same whose supports move with λ.
+std::unique_ptr<Structure> moved_beam() {
+  StructureBuilder builder = described_beam();
+  builder.fix(builder.freedom(0, Freedom::x), {.constant = 0.1, .proportional = 0.5});
+  builder.fix(builder.freedom(0, Freedom::z), {.proportional = -0.2});
+  builder.fix(builder.shared_rotation(0).value(), {.constant = -0.3, .proportional = 1.5});
+  builder.fix(builder.freedom(1, Freedom::z), {.proportional = 0.7});
   return builder.build();
 }
 
@@ -66,6 +78,37 @@ TEST(MemberPoint, DerivativesAreThoseOfThePosition) {
         }
       }
     }
+}
+
+// Rates by λ likewise, where both ends are moved; what moves is known of a held end, too.
+TEST(MemberPoint, MovesWithItsSupports) {
+  const auto structure = moved_beam();
+  const MemberMesh& mesh = structure->members()[0];
+  test::Numbers numbers(43);
+  const State state{.x = numbers.vector(structure->size({})), .lambda = 0.4};
+  const Direction direction{.dx = numbers.vector(structure->size({})), .dlambda = 0.7};
+  constexpr double step = 1e-5, tolerance = 1e-9;
+  for (const std::size_t node : {0U, 2U, 4U})
+    for (const double offset : {0.0, 0.2}) {
+      const MemberPoint point(*structure, mesh, node, offset);
+      State above = state, below = state;
+      above.lambda += step;
+      below.lambda -= step;
+      PointKinematics at, a, b;
+      point.kinematics(state, at);
+      point.kinematics(above, a);
+      point.kinematics(below, b);
+      EXPECT_LE(((a.position - b.position) / (2.0 * step) - at.rate).norm(), tolerance);
+      EXPECT_LE(((a.jacobian - b.jacobian) / (2.0 * step) - at.jacobian_rate).norm(), tolerance);
+      EXPECT_EQ(at.rate.norm() > 0.0, node != 2U);
+      Vec2 velocity = 0.7 * at.rate;
+      for (std::size_t i = 0; i < point.unknowns().size(); ++i)
+        velocity += at.jacobian.col(static_cast<Index>(i)) * direction.dx[point.unknowns()[i]];
+      EXPECT_LE((point.motion(state, direction).velocity - velocity).norm(), 1e-14);
+    }
+  for (const std::size_t node : {0U, 4U})
+    for (const Component component : {Component::x, Component::z, Component::rotation, Component::face_above_z})
+      EXPECT_LE(check_gradient(MemberObservable(*structure, mesh, node, component), state), 1e-8);
 }
 
 TEST(MemberPoint, FacesStandNormalToTheDeformedSection) {

@@ -121,6 +121,34 @@ TEST(PinnedColumn, HasItsBranchPointsWithTheirCounts) {
   }
 }
 
+// A support moves the end by λ instead of a load: the column buckles where the support has shortened it by P/EA, P
+// being the load above, and the support carries that load.
+TEST(PinnedColumn, BucklesUnderASupportThatMoves) {
+  const double EA = 1000.0;
+  StructureBuilder builder;
+  builder.add_joint({0.0, 0.0});
+  builder.add_joint({1.0, 0.0});
+  builder.add_member({.name = "column",
+                      .from = 0,
+                      .to = 1,
+                      .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
+                      .section = test::section_of(EA, 1.0),
+                      .elements = 40});
+  for (const Index joint : {0, 1}) builder.fix(builder.freedom(joint, Freedom::z));
+  builder.fix(builder.freedom(0, Freedom::x));
+  builder.fix(builder.freedom(1, Freedom::x), {.proportional = -1.0});
+  const auto column = builder.build();
+  const auto points = branch_points(*column, 0.02, 1e-3);
+  ASSERT_EQ(points.size(), 1U);
+  const double load = buckling_load(1, EA), shortening = load / EA;
+  const double by_element = 2.0 * std::pow(pi / 40.0, 4) / 720.0;  // relative, as above
+  EXPECT_NEAR(points[0].state.lambda, shortening, by_element * shortening + 1e-12);
+  EXPECT_EQ(points[0].branching->type, BranchType::symmetric);
+  EXPECT_EQ(points[0].unstable_after, 1);
+  const double reaction = column->reaction(points[0].state, column->freedom(1, Freedom::x));
+  EXPECT_NEAR(reaction, -EA * points[0].state.lambda, 1e-9 * load);
+}
+
 TEST(PinnedColumn, BucklingLoadsConverge) {
   const auto expect = [](const BeamTheory& theory, double EA, double GA) {
     SCOPED_TRACE(theory.name);

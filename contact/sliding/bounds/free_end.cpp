@@ -72,6 +72,7 @@ Row UprightBound::gradient(const SlidingSetting& setting, const SlidingState& at
   if (!touching || touching->touch.offset == 0.0) return row;
   const double turned = -touching->end.travel * std::sin(touching->touch.axis(at).angle);
   add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), {0.0, 0.0, turned}, row.dx);
+  row.dlambda = turned * at.mesh.node_rate(touching->touch.strand, touching->touch.position)[2];
   return row;
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+namespace arcwall {
+
+/// A number that λ drives: constant + λ · proportional.
+struct Driven {
+  double constant = 0.0;
+  double proportional = 0.0;
+
+  double at(double lambda) const { return constant + lambda * proportional; }
+  bool is_zero() const { return constant == 0.0 && proportional == 0.0; }
+
+  Driven& operator+=(const Driven& other) {
+    constant += other.constant;
+    proportional += other.proportional;
+    return *this;
+  }
+  bool operator==(const Driven&) const = default;
+};
+
+}  // namespace arcwall

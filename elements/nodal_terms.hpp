@@ -1,0 +1,140 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/linearization.hpp"
+#include "elements/driven.hpp"
+
+namespace arcwall {
+
+/// What acts on single freedoms of a structure, however it is meshed: point loads p, supports that give a freedom the
+/// value ū, and stiffnesses k to ground. u is the displacement or rotation from the stress-free state, f(u, λ) the
+/// force of the elements on it.
+///
+///     F_i = f_i(u, λ) + k_i u_i − p_i(λ)        of a freedom that is free, an unknown of the mesh
+///     u_i = ū_i(λ)                              of one that is held; its support exerts f_i + k_i ū_i − p_i
+///     Π   = U(u, λ) + Σ ½ k_i u_i² − Σ p_i u_i  over both
+///
+/// The mesh is known by two functions of a freedom: `unknown_of` gives its unknown, −1 if it is held, and
+/// `displacement_of` gives u.
+class NodalTerms {
+ public:
+  /// Adds a force or moment on the freedom.
+  void add_load(Index freedom, const Driven& load) { entry(loads_, freedom) += load; }
+
+  /// Lets a support give the freedom this value: a displacement [length] or a rotation [rad].
+  void hold(Index freedom, const Driven& value) { entry(supports_, freedom) = value; }
+
+  /// Adds a spring from the freedom to the ground, of stiffness k [force/length], for a rotation [force·length].
+  void add_ground_stiffness(Index freedom, double k) { entry(ground_, freedom) += k; }
+
+  /// The terms of a path in λ from 0 to 1 that applies the constant parts of loads and supports: there these are the
+  /// proportional parts, and those that were are left out. Springs stay.
+  NodalTerms ramp() const {
+    NodalTerms terms = *this;
+    for (auto* list : {&terms.loads_, &terms.supports_})
+      for (auto& [freedom, value] : *list) value = {.constant = 0.0, .proportional = value.constant};
+    return terms;
+  }
+
+  bool is_held(Index freedom) const { return find(supports_, freedom) != nullptr; }
+
+  /// The load on a freedom, the value of a held one, and the stiffness to ground; 0 where there is none.
+  Driven load(Index freedom) const { return value_or_zero(loads_, freedom); }
+  Driven support(Index freedom) const { return value_or_zero(supports_, freedom); }
+  double ground_stiffness(Index freedom) const { return value_or_zero(ground_, freedom); }
+
+  /// Whether the freedom is held at a value that is not always zero; and whether any is.
+  bool is_displaced(Index freedom) const { return !support(freedom).is_zero(); }
+  bool has_displaced_supports() const {
+    return std::any_of(supports_.begin(), supports_.end(), [](const auto& entry) { return !entry.second.is_zero(); });
+  }
+
+  /// Greatest proportional load [force]; `length_of(freedom)` is 1, or the length that a moment is divided by.
+  template <class LengthOf>
+  double greatest_proportional_load(const LengthOf& length_of) const {
+    double greatest = 0.0;
+    for (const auto& [freedom, load] : loads_)
+      greatest = std::max(greatest, std::abs(load.proportional) / length_of(freedom));
+    return greatest;
+  }
+
+  /// Adds k u − p to the forces F on the unknowns.
+  template <class UnknownOf, class DisplacementOf>
+  void add_forces(double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of, double* F) const {
+    for (const auto& [freedom, load] : loads_)
+      if (const Index i = unknown_of(freedom); i >= 0) F[i] -= load.at(lambda);
+    for (const auto& [freedom, k] : ground_)
+      if (const Index i = unknown_of(freedom); i >= 0) F[i] += k * displacement_of(freedom);
+  }
+
+  /// Adds these forces and their derivatives to F, K and F_λ, and lists the stiffnesses in `ground`. K has the pattern
+  /// of the structure, whose diagonal is complete.
+  template <class UnknownOf, class DisplacementOf>
+  void linearize(double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of,
+                 Linearization& out) const {
+    add_forces(lambda, unknown_of, displacement_of, out.F.data());
+    for (const auto& [freedom, load] : loads_)
+      if (const Index i = unknown_of(freedom); i >= 0) out.F_lambda[i] -= load.proportional;
+    out.ground.clear();
+    for (const auto& [freedom, k] : ground_)
+      if (const Index i = unknown_of(freedom); i >= 0) {
+        out.K.coeffRef(i, i) += k;
+        out.ground.push_back({.row = i, .column = i, .stiffness = k});
+      }
+  }
+
+  /// Σ ½ k u² − Σ p u, over free and held freedoms.
+  template <class DisplacementOf>
+  double energy(double lambda, const DisplacementOf& displacement_of) const {
+    double energy = 0.0;
+    for (const auto& [freedom, load] : loads_) energy -= load.at(lambda) * displacement_of(freedom);
+    for (const auto& [freedom, k] : ground_) {
+      const double u = displacement_of(freedom);
+      energy += 0.5 * k * u * u;
+    }
+    return energy;
+  }
+
+  /// k ū − p of a held freedom: what its support exerts besides the force of the elements.
+  Driven support_force(Index freedom) const {
+    const Driven value = support(freedom), force = load(freedom);
+    const double k = ground_stiffness(freedom);
+    return {.constant = k * value.constant - force.constant,
+            .proportional = k * value.proportional - force.proportional};
+  }
+
+ private:
+  template <class Value>
+  using List = std::vector<std::pair<Index, Value>>;  // ascending by freedom
+
+  template <class Entries>
+  static auto place(Entries& list, Index freedom) {
+    return std::lower_bound(list.begin(), list.end(), freedom,
+                            [](const auto& here, Index wanted) { return here.first < wanted; });
+  }
+  template <class Value>
+  static Value& entry(List<Value>& list, Index freedom) {
+    auto at = place(list, freedom);
+    if (at == list.end() || at->first != freedom) at = list.insert(at, {freedom, Value{}});
+    return at->second;
+  }
+  template <class Value>
+  static const Value* find(const List<Value>& list, Index freedom) {
+    const auto at = place(list, freedom);
+    return at == list.end() || at->first != freedom ? nullptr : &at->second;
+  }
+  template <class Value>
+  static Value value_or_zero(const List<Value>& list, Index freedom) {
+    const Value* found = find(list, freedom);
+    return found == nullptr ? Value{} : *found;
+  }
+
+  List<Driven> loads_, supports_;
+  List<double> ground_;
+};
+
+}  // namespace arcwall

@@ -1,0 +1,137 @@
+#include "model/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "model/member_force.hpp"
+#include "model/section_forces.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// The fractions of a member's length that are drawn: equal parts, with each node of meshes that are not too fine.
+std::vector<double> sample_fractions(const MemberMesh& mesh) {
+  constexpr int fewest = 40, most = 200;
+  const int elements = static_cast<int>(mesh.nodes.size()) - 1;
+  const int parts = std::min(elements * ((fewest + elements - 1) / elements), most);
+  std::vector<double> fractions;
+  for (int i = 0; i <= parts; ++i) fractions.push_back(double(i) / parts);
+  return fractions;
+}
+
+class FixedBody final : public Body {
+ public:
+  FixedBody(const Structure& structure, std::vector<Theory> theories, const IncrementalStructure* increments)
+      : structure_(structure), theories_(std::move(theories)), increments_(increments) {}
+
+  std::shared_ptr<const Observable> motion(Index freedom) const override {
+    return std::make_shared<FreedomObservable>(structure_, freedom);
+  }
+  std::shared_ptr<const Observable> motion(std::size_t member, std::size_t node,
+                                           MemberObservable::Component component) const override {
+    return std::make_shared<MemberObservable>(structure_, structure_.members()[member], node, component);
+  }
+  std::shared_ptr<const Observable> reaction(Index freedom) const override {
+    if (increments_ != nullptr) return std::make_shared<IncrementalReaction>(*increments_, freedom);
+    return std::make_shared<ReactionObservable>(structure_, freedom);
+  }
+  std::shared_ptr<const Observable> section_force(std::size_t member, double fraction,
+                                                  SectionForce what) const override {
+    if (increments_ != nullptr) return nullptr;
+    return std::make_shared<TiedMemberForce>(tied(member), fraction, what);
+  }
+  std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
+
+ private:
+  TiedMember tied(std::size_t member) const {
+    return {.structure = structure_, .member = member, .theory = theories_[member]};
+  }
+
+  const Structure& structure_;
+  std::vector<Theory> theories_;
+  const IncrementalStructure* increments_;
+};
+
+// Only those elements are evaluated in which points are wanted.
+std::vector<ShapePoint> FixedBody::shape(std::size_t member, const State& state) const {
+  const TiedMember on_nodes = tied(member);
+  const int elements = on_nodes.elements();
+  const std::vector<double> fractions = sample_fractions(structure_.members()[member]);
+  std::set<int> wanted;
+  for (const double fraction : fractions)
+    for (const double side : {-1e-9, 1e-9})
+      wanted.insert(std::clamp(static_cast<int>(std::floor(fraction * elements + side)), 0, elements - 1));
+  std::vector<MemberStretch> stretches;
+  for (const int k : wanted) add_stretches(on_nodes, k, state, stretches);
+  return sampled(stretches, fractions);
+}
+
+class SlidingMeshBody final : public Body {
+ public:
+  SlidingMeshBody(const Structure& structure, const SlidingStructure& sliding)
+      : structure_(structure), sliding_(sliding) {}
+
+  std::shared_ptr<const Observable> motion(Index freedom) const override {
+    return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::motion);
+  }
+  std::shared_ptr<const Observable> motion(std::size_t member, std::size_t node,
+                                           MemberObservable::Component component) const override {
+    const MaterialPoint point = sliding_.find(name(member), structure_.members()[member].fraction(node));
+    return std::make_shared<PlaceObservable>(sliding_, point, component);
+  }
+  std::shared_ptr<const Observable> reaction(Index freedom) const override {
+    return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::reaction);
+  }
+  std::shared_ptr<const Observable> section_force(std::size_t member, double fraction,
+                                                  SectionForce what) const override {
+    return std::make_shared<SlidingMemberForce>(sliding_, name(member), fraction, what);
+  }
+  std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
+
+ private:
+  const std::string& name(std::size_t member) const { return structure_.members()[member].name; }
+
+  const Structure& structure_;
+  const SlidingStructure& sliding_;
+};
+
+// A member is one stretch of a strand, or several strands of its own where loads act inside it.
+std::vector<ShapePoint> SlidingMeshBody::shape(std::size_t member, const State& state) const {
+  const SlidingMesh& mesh = mesh_of(state);
+  const MeshState now = mesh_state_of(state);
+  std::vector<double> fractions = sample_fractions(structure_.members()[member]);
+  std::vector<MemberStretch> stretches;
+  for (const SlidingStructure::MemberPart& part : sliding_.parts_of(name(member))) {
+    const double rate = (part.last_fraction - part.first_fraction) / (part.to - part.from);
+    const auto fraction = [&](double S) { return part.first_fraction + rate * (S - part.from); };
+    for (Index position = 0; position + 1 < mesh.nodes(part.strand); ++position) {
+      MemberStretch stretch = sliding_stretch(sliding_, part.strand, position, state);
+      if (stretch.to <= part.from || stretch.from >= part.to) continue;
+      stretch.from = fraction(stretch.from);
+      stretch.to = fraction(stretch.to);
+      stretches.push_back(stretch);
+    }
+    for (Index k = 0; k < mesh.breakpoints(); ++k)
+      if (const double S = now.s[k]; mesh.breakpoint(k).first == part.strand && S > part.from && S < part.to)
+        fractions.push_back(fraction(S));
+  }
+  std::sort(fractions.begin(), fractions.end());
+  return sampled(stretches, fractions);
+}
+
+}  // namespace
+
+std::unique_ptr<Body> body_of(const Structure& structure, std::vector<Theory> theories,
+                              const IncrementalStructure* increments) {
+  return std::make_unique<FixedBody>(structure, std::move(theories), increments);
+}
+
+std::unique_ptr<Body> body_of(const Structure& structure, const SlidingStructure& sliding) {
+  return std::make_unique<SlidingMeshBody>(structure, sliding);
+}
+
+}  // namespace arcwall
