@@ -81,8 +81,10 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   if (segment == nullptr) return std::nullopt;
   const auto elements = elements_beside(setting, from, *segment, *start, *violated);
   std::size_t point = 0;
-  Transition transition = remeshed(setting, from, forward, [&](LayoutEdit& edit) {
-    point = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = start->at.s}, elements.before,
+  Transition transition = remeshed(setting, from, forward, [&](LayoutEdit& edit, const SlidingState& at) {
+    // The point follows the least gap, which may move along the member much faster than the body moves.
+    const double s = nearest_least_gap(setting, at, *violated).value_or(*start).at.s;
+    point = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = s}, elements.before,
                         elements.behind);
   });
   if (is_unfit(setting, transition.guess, point)) return std::nullopt;

@@ -30,7 +30,7 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
   constexpr double step = 1e-6;  // [path metric]
   const auto edited = [&](const SlidingState& from) {
     LayoutEdit changed = edit_of(from);
-    edit(changed);
+    edit(changed, from);
     return changed;
   };
   const LayoutEdit here = edited(at);
@@ -47,7 +47,7 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
 Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t segment, int elements) {
   const SlidingContactLayout::Segment& changed = at.layout.segments()[segment];
-  return remeshed(setting, at, forward, [&changed, elements](LayoutEdit& edit) {
+  return remeshed(setting, at, forward, [&changed, elements](LayoutEdit& edit, const SlidingState&) {
     if (changed.last_point >= 0) {
       edit.elements_before(static_cast<std::size_t>(changed.last_point)) = elements;
     } else if (changed.first_point >= 0) {

@@ -14,8 +14,9 @@ namespace arcwall::sliding {
 State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                   const std::shared_ptr<const SlidingContactLayout>& on);
 
-/// The same point of a path on an edited layout, entered in the plane across the path's direction `forward`.
-using EditLayout = std::function<void(LayoutEdit&)>;
+/// The same point of a path on an edited layout, entered in the plane across the path's direction `forward`. The edit
+/// is asked for the point itself and for a state a little way on, so that what it takes from the state moves along.
+using EditLayout = std::function<void(LayoutEdit&, const SlidingState&)>;
 Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                     const EditLayout& edit);
 

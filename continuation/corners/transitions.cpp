@@ -273,13 +273,12 @@ std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& o
   auto point = enter(tools, *transition, from, origin.metric.lambda_scale());
   if (!point) return std::nullopt;
   point->arc = from.arc;
+  // The path goes on as was known: where it is singular, signs and counts at the start itself are any.
   Departure finer = origin.from;
   if (point->nearest.values.size() == 0) finer.last_pairs = origin.from.nearest();
   finer.point = std::move(*point);
   finer.before.reset();
   finer.eigenvalues_before.resize(0);
-  finer.negative_eigenvalues = finer.point.negative_eigenvalues;
-  finer.count_after = finer.point.count;
   return finer;
 }
 

@@ -216,6 +216,27 @@ TEST(FirstPoints, AContactThatClosesAtTheStartEndsABranchThatIsToEndThere) {
   EXPECT_EQ(by_event.arcs.size(), 1U);
 }
 
+// Behind the fold the step is tried again on another mesh. Its own fold lies a little before or behind: the one at
+// which the step begins stays what it is, and there is no other.
+TEST(FirstPoints, AFoldAtWhichAStepIsTriedAgainIsFoundOnce) {
+  for (const double error : {-1e-6, -1e-9, 1e-9, 1e-6}) {
+    SCOPED_TRACE(error);
+    const test::RemeshedFoldToy system(error);
+    const State before{.x = Vector{{-0.1}}, .lambda = -0.01};
+    // The fold lies near the end of its step: the next one leads from there far behind the obstacle.
+    const TraceOptions options{.step = {.first = 0.05, .max = 0.06, .wanted_turn = 2.0, .max_turn = 2.0},
+                               .target_values = {stop_at_x(0.4)}};
+    const Branch branch = trace(system, options, before);
+    EXPECT_EQ(branch.end.reason, EndReason::stop);
+    const Event fold = only_event(branch, EventKind::limit_point);
+    EXPECT_NEAR(fold.state.x[0], 0.0, 1e-9);
+    EXPECT_EQ(fold.unstable_before, 1);
+    EXPECT_EQ(fold.unstable_after, 0);
+    EXPECT_TRUE(events_of(branch, EventKind::branch_point).empty());
+    EXPECT_EQ(branch.last().count.unstable, 0);
+  }
+}
+
 // A step that is tried again from a start with one contact more is as long as before: the attempts must end all the
 // same.
 TEST(FirstPoints, InsertedContactsThatSeeNothingMakeNoEndlessLoop) {

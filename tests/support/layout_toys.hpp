@@ -149,6 +149,37 @@ class RemeshingToy final : public LayoutToy {
   const double error;
 };
 
+/// A fold at x = 0, λ = 0 behind which an obstacle at x = 0.03 is seen on another mesh alone, on which all has moved by
+/// the error of that mesh: (x − error)² + λ = 0. The count at x = 0 is there that of one side or the other.
+class RemeshedFoldToy final : public System {
+ public:
+  explicit RemeshedFoldToy(double error_behind) : error(error_behind) {}
+
+  Index size(const Piece&) const override { return 1; }
+  void residual(const State& s, Eigen::Ref<Vector> F) const override { F[0] = off(s) * off(s) + s.lambda; }
+  void linearize(const State& s, Linearization& out) const override {
+    out.F.resize(1);
+    residual(s, out.F);
+    out.F_lambda = Vector::Ones(1);
+    out.K = lower_triangle(Matrix::Constant(1, 1, 2.0 * off(s)), -1.0);
+    out.pattern_of = s.piece;
+  }
+  double energy(const State& s) const override { return std::pow(off(s), 3) / 3.0 + s.lambda * s.x[0]; }
+  bool admissible(const State& s, double margin) const override { return is_new(s) || 0.03 - s.x[0] >= margin; }
+  std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State&,
+                                                  double) const override {
+    State guess = from;
+    guess.piece = Piece(0, 0, std::make_shared<NumberedLayout>(1));
+    return Transition{.change = Transition::Change::remeshed, .guess = std::move(guess), .forward = forward};
+  }
+
+  const double error;
+
+ private:
+  static bool is_new(const State& s) { return s.piece.layout() != nullptr; }
+  double off(const State& s) const { return s.x[0] - (is_new(s) ? error : 0.0); }
+};
+
 /// x = λ, which enters an obstacle from x = 1 on that no guard sees, however often contacts are inserted to see it.
 class BlindToy final : public System {
  public:

@@ -1,0 +1,171 @@
+// Decks of a survey in which a step is tried again from its start on another mesh, with one contact point more. The
+// path must go on from there as it came: in its direction, with the count of unstable directions just behind the start.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "continuation/tracer.hpp"
+#include "model/deck/reader.hpp"
+#include "model/model.hpp"
+
+namespace arcwall::retried_starts_test {
+namespace {
+
+// Behind a limit point the other wall comes near.
+constexpr const char* behind_a_limit_point = R"toml(
+title = "mixed column, L/h 134, elastica, imperfections [2]"
+
+[material.steel]
+E = 2.1e+04
+nu = 0.3
+
+[section.s]
+shape = "rectangle"
+width = 0.83
+height = 0.21
+
+[member.column]
+from = "left"
+to = "right"
+theory = "elastica"
+material = "steel"
+section = "s"
+elements = 56
+imperfection = [{ shape = "sine", amplitude = -0.19, waves = 2 }]
+
+[point]
+left = [0.0, 0.0]
+right = [29.0, 0.0]
+
+[support]
+left = ["x", "z", "rotation"]
+right = ["z"]
+
+[[load]]
+at = "right"
+force = [-0.35, 0.0]
+
+[[wall]]
+name = "upper0"
+side = "above"
+profile = { type = "flat", z = 1.3 }
+
+[[wall]]
+name = "lower1"
+side = "below"
+profile = { type = "line", z = -1.3, slope = -0.012 }
+
+[[monitor]]
+name = "mid"
+at = "column:0.5"
+component = "z"
+sign = 1
+
+[[monitor]]
+name = "shortening"
+at = "right"
+component = "x"
+sign = -1
+
+[path]
+step = 0.013
+stop = { lambda = [-1.0, 11.0], shortening = [-5.8, 20.0] }
+)toml";
+
+// A contact point is inserted where the body is nearly parallel to the wall: the least gap, and all nodes of the mesh
+// with it, move along the member much faster than the body moves.
+constexpr const char* along_the_wall = R"toml(
+title = "pinned column, L/h 41, classic, imperfections [1, 2]"
+
+[material.steel]
+E = 2.1e+04
+nu = 0.3
+
+[section.s]
+shape = "rectangle"
+width = 0.575
+height = 0.366
+
+[member.column]
+from = "left"
+to = "right"
+theory = "classic"
+material = "steel"
+section = "s"
+elements = 68
+imperfection = [{ shape = "sine", amplitude = 0.00139, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }]
+
+[point]
+left = [0.0, 0.0]
+right = [14.9, 0.0]
+
+[support]
+left = ["x", "z"]
+right = ["z"]
+
+[[load]]
+at = "right"
+force = [-2.21, 0.0]
+
+[[wall]]
+name = "upper0"
+side = "above"
+profile = { type = "circle", centre = [8.82, 12.2], radius = 11.7 }
+
+[[wall]]
+name = "lower1"
+side = "below"
+profile = { type = "circle", centre = [5.82, -37.7], radius = 37.2 }
+
+[[monitor]]
+name = "mid"
+at = "column:0.5"
+component = "z"
+sign = 1
+
+[[monitor]]
+name = "shortening"
+at = "right"
+component = "x"
+sign = -1
+
+[path]
+step = 0.05
+stop = { lambda = [-1.0, 11.3], shortening = [-2.97, 10.4] }
+)toml";
+
+std::vector<EventKind> kinds_of(const char* deck, const std::vector<std::string>& assignments) {
+  const Model model(deck::read_deck_text(deck, "deck.toml", assignments));
+  std::string reason;
+  Tracer tracer(model.system(), model.start(reason).value(), model.options());
+  std::vector<EventKind> kinds;
+  while (const auto arc = tracer.next())
+    for (const Event& event : arc->events) kinds.push_back(event.kind);
+  EXPECT_EQ(tracer.end().value().reason, EndReason::stop) << tracer.end().value().detail;
+  return kinds;
+}
+
+}  // namespace
+
+// As with a first step of 0.05, with which no step is tried again at the limit point: no branch point there.
+TEST(RetriedStarts, ALimitPointIsNoBranchPoint) {
+  using enum EventKind;
+  const std::vector<EventKind> expected{start,          contact_closes,      limit_point,
+                                        contact_closes, contact_limit_point, contact_spreads};
+  for (const char* step : {"path.step=0.013", "path.step=0.05"})
+    EXPECT_EQ(kinds_of(behind_a_limit_point, {step}), expected) << step;
+}
+
+// lambda falls on, with every step, down to the bound; in the place of the second contact a limit point was found, and
+// the path ran back to where it came from.
+TEST(RetriedStarts, ThePathDoesNotTurnRound) {
+  using enum EventKind;
+  const std::vector<EventKind> expected{start,       contact_closes, limit_point,   contact_closes, contact_limit_point,
+                                        limit_point, contact_opens,  contact_closes};
+  for (const char* longest : {"path.max_step=0.2", "path.max_step=0.05"})
+    EXPECT_EQ(kinds_of(along_the_wall, {longest, "path.stop.shortening=[-2.97, 4.6]"}), expected) << longest;
+}
+
+}  // namespace arcwall::retried_starts_test
