@@ -57,6 +57,14 @@ class Obstacle {
   /// The curvature of the surface there, > 0 where it turns to the left [1/length]. Only where faces().
   virtual LinearField curvature(const Vec2& position, double lambda) const = 0;
 
+  /// A coordinate along the surface of what a position faces: continuous, and it goes on beyond the surface's ends.
+  virtual double along(const Vec2& position, double lambda) const = 0;
+
+  /// Such coordinates, ascending, between which the surface turns by a small angle: where it is to be looked at so that
+  /// nothing of it is missed, however small it is. The first and the last are its ends, infinite where it goes on.
+  /// Empty: it is straight and goes on.
+  virtual const std::vector<double>& knots() const = 0;
+
   /// Points along the surface between two values of x, for pictures; along all of it if it has no part between them.
   virtual std::vector<Vec2> outline(double from, double to, double lambda) const = 0;
 

@@ -9,6 +9,9 @@ namespace arcwall {
 
 namespace {
 
+constexpr double small_turn = pi / 18.0;  // of a surface between two of its knots [rad]
+constexpr int quarter = 9;                // so many of them are a quarter of a turn
+
 class LineProfile final : public Profile {
  public:
   LineProfile(double z, double slope) : z_(z), slope_(slope) {}
@@ -24,6 +27,15 @@ class ParabolaProfile final : public Profile {
   Height at(double x) const override {
     const double d = x - apex_.x();
     return {apex_.y() + 0.5 * curvature_ * d * d, curvature_ * d, curvature_, 0.0};
+  }
+
+  std::vector<double> knots() const override {
+    if (curvature_ == 0.0) return {};
+    std::vector<double> x{-infinity};
+    for (int i = 1 - quarter; i < quarter; ++i)
+      x.push_back(apex_.x() + std::tan(i * small_turn) / std::abs(curvature_));
+    x.push_back(infinity);
+    return x;
   }
 
  private:
@@ -45,12 +57,17 @@ class CircleProfile final : public Profile {
   // The arc ends where its normal is level to 1e-6: there the height says nothing about the distance any more.
   bool covers(double x) const override { return std::abs(x - centre_.x()) < radius_ * (1.0 - 1e-6); }
 
-  std::pair<double, double> extent() const override {
-    const double reach = radius_ * (1.0 - 2e-6);
-    return {centre_.x() - reach, centre_.x() + reach};
+  std::pair<double, double> extent() const override { return {centre_.x() - reach(), centre_.x() + reach()}; }
+
+  std::vector<double> knots() const override {
+    std::vector<double> x;
+    for (int i = -quarter; i <= quarter; ++i) x.push_back(centre_.x() + reach() * std::sin(i * small_turn));
+    return x;
   }
 
  private:
+  double reach() const { return radius_ * (1.0 - 2e-6); }
+
   Vec2 centre_;
   double radius_, sign_;
 };
@@ -65,6 +82,16 @@ class SplineProfile final : public Profile {
   bool covers(double x) const override { return x >= spline_.first() && x <= spline_.last(); }
   std::pair<double, double> extent() const override { return {spline_.first(), spline_.last()}; }
 
+  std::vector<double> knots() const override {
+    constexpr int parts = 4;  // of each cubic
+    const std::vector<double>& given = spline_.knots();
+    std::vector<double> x;
+    for (std::size_t i = 0; i + 1 < given.size(); ++i)
+      for (int k = 0; k < parts; ++k) x.push_back(given[i] + (given[i + 1] - given[i]) * k / parts);
+    x.push_back(given.back());
+    return x;
+  }
+
  private:
   CubicSpline spline_;
 };
@@ -74,7 +101,8 @@ double cosine(double slope) { return slope == 0.0 ? 1.0 : 1.0 / std::sqrt(1.0 + 
 
 class ProfileObstacle final : public Obstacle {
  public:
-  ProfileObstacle(std::shared_ptr<const Profile> profile, Side side) : profile_(std::move(profile)), side_(side) {}
+  ProfileObstacle(std::shared_ptr<const Profile> profile, Side side)
+      : profile_(std::move(profile)), side_(side), knots_(profile_->knots()) {}
 
   Side side() const override { return side_; }
   bool faces(const Vec2& position, double) const override { return profile_->covers(position.x()); }
@@ -121,6 +149,9 @@ class ProfileObstacle final : public Obstacle {
             .x = psi.third / (w * root) - 3.0 * psi.first * psi.second * psi.second / (w * w * root)};
   }
 
+  double along(const Vec2& position, double) const override { return position.x(); }
+  const std::vector<double>& knots() const override { return knots_; }
+
   // Points are closer together towards the ends, where a circle is steep.
   std::vector<Vec2> outline(double from, double to, double) const override {
     constexpr int parts = 400;
@@ -138,6 +169,7 @@ class ProfileObstacle final : public Obstacle {
  private:
   std::shared_ptr<const Profile> profile_;
   Side side_;
+  std::vector<double> knots_;
 };
 
 }  // namespace

@@ -24,6 +24,9 @@ class Profile {
   /// Whether there is a surface at this x.
   virtual bool covers(double) const { return true; }
 
+  /// Obstacle::knots() of a surface whose coordinate is x.
+  virtual std::vector<double> knots() const { return {}; }
+
   /// From which x to which the surface is drawn.
   virtual std::pair<double, double> extent() const { return {-infinity, infinity}; }
 };

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
+#include "contact/sliding/curved_surface.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/lanes.hpp"
 
@@ -79,45 +81,104 @@ Sample sampled(const SlidingObstacle& obstacle, double offset, const Placed& nod
   return out;
 }
 
-// Which elements of a strand, by their first node, lie beside a contact point with an obstacle, or on the obstacle.
-std::vector<std::uint8_t> watched_elements(const SlidingState& at, Index strand, std::size_t obstacle) {
-  std::vector<std::uint8_t> watched(static_cast<std::size_t>(at.mesh.nodes(strand)), 0);
+// How an element touches an obstacle already, so that guards say all of what they watch.
+struct Watched {
+  bool at_first = false, at_last = false;  // a contact point is at its first or its last node
+  bool along = false;                      // it lies on the obstacle
+
+  bool anywhere() const { return at_first || at_last || along; }
+};
+
+// Of the elements of a strand, by their first node.
+std::vector<Watched> watched_elements(const SlidingState& at, Index strand, std::size_t obstacle) {
+  std::vector<Watched> watched(static_cast<std::size_t>(at.mesh.nodes(strand)));
   const auto& points = at.layout.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [on, position] = at.mesh.breakpoint(static_cast<Index>(k));
     if (on != strand || points[k].obstacle != obstacle) continue;
-    watched[static_cast<std::size_t>(position) - 1] = watched[static_cast<std::size_t>(position)] = 1;
+    watched[static_cast<std::size_t>(position) - 1].at_last = true;
+    watched[static_cast<std::size_t>(position)].at_first = true;
     if (points[k].behind == Span::free) continue;
     const Index last = at.mesh.breakpoint(static_cast<Index>(k) + 1).second;
-    std::fill(watched.begin() + position, watched.begin() + last, std::uint8_t{1});
+    for (Index e = position; e < last; ++e) watched[static_cast<std::size_t>(e)].along = true;
   }
   return watched;
 }
 
 enum class Which { unwatched, all };
 
-// visit(LeastGap) for each element of a strand that has one, the gap being a cubic between its nodes. Where only the
-// unwatched ones are asked for, elements that are far from the obstacle for their slopes are passed over, too.
+// An element between two samples.
+struct Element {
+  Index node;
+  const Sample &before, &after;
+  Watched watched;
+};
+
+// Where it sees all of the surface that its inside faces, the gap is a cubic between its nodes. Where only unwatched
+// places are asked for, elements that are far from the surface for their slopes are passed over, too. Whether there is
+// such a place.
+template <typename Visit>
+bool visit_by_nodes(const Element& element, Which which, const Visit& visit) {
+  const auto& [before, after] = std::tie(element.before, element.after);
+  if (element.watched.anywhere() || !std::isfinite(before.gap) || !std::isfinite(after.gap)) return false;
+  const double length = (after.face - before.face).norm();
+  const double r0 = before.rate * length, r1 = after.rate * length;
+  const bool far = std::min(before.gap, after.gap) > 0.5 * (std::abs(r0) + std::abs(r1));
+  if (far && which == Which::unwatched) return false;
+  const auto least = least_inside(before.gap, r0, after.gap, r1);
+  if (least) visit(least->at, least->value);
+  return least.has_value();
+}
+
+// Else by the surface's knots and tangents. Off the surface the gap may be least elsewhere than where the body is
+// parallel to it: neighbours of elements with knots are asked both ways, so that no place falls between them.
+template <typename Visit>
+void visit_by_surface(const ElementBesideSurface& beside, const Element& element, Which which, const Visit& visit) {
+  const auto& [before, after] = std::tie(element.before, element.after);
+  const bool plain = !faces_knot(beside);
+  if (plain) {
+    if (visit_by_nodes(element, which, visit) || element.watched.anywhere()) return;
+    const double near = 2.0 * (after.face - before.face).norm();
+    if (!std::isfinite(before.gap) || !std::isfinite(after.gap) || std::min(before.gap, after.gap) > near) return;
+  }
+  if (element.watched.along) return;
+  for (const PlaceInElement& least :
+       parallel_places(beside, {.first = element.watched.at_first, .last = element.watched.at_last}))
+    visit(least.fraction, least.gap);
+  if (plain || which == Which::all) return;
+  for (const PlaceInElement& entered : places_entered_at_ends(beside)) visit(entered.fraction, entered.gap);
+}
+
+// visit(LeastGap) for each place inside the elements of a strand where the gap is least.
 template <typename Visit>
 void for_each_on_strand(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
                         const std::vector<Placed>& nodes, Which which, const Visit& visit) {
-  const double offset = setting.face_offset(obstacle, strand);
-  std::vector<std::uint8_t> watched(nodes.size(), 0);
+  const double offset = setting.face_offset(obstacle, strand), lambda = at.now.lambda;
+  const Obstacle& surface = *setting.obstacles[obstacle].surface;
+  const bool curved = !surface.knots().empty();
+  std::vector<Watched> watched(nodes.size());
   if (which == Which::unwatched) watched = watched_elements(at, strand, obstacle);
-  Sample before = sampled(setting.obstacles[obstacle], offset, nodes[0], at.now.lambda);
+  Sample before = sampled(setting.obstacles[obstacle], offset, nodes[0], lambda);
   for (std::size_t e = 0; e + 1 < nodes.size(); ++e) {
-    const Sample after = sampled(setting.obstacles[obstacle], offset, nodes[e + 1], at.now.lambda);
-    const double length = (after.face - before.face).norm();
-    const double r0 = before.rate * length, r1 = after.rate * length;
-    const bool far = std::min(before.gap, after.gap) > 0.5 * (std::abs(r0) + std::abs(r1));
-    if (!watched[e] && std::isfinite(before.gap) && std::isfinite(after.gap) && (!far || which == Which::all))
-      if (const auto least = least_inside(before.gap, r0, after.gap, r1)) {
-        const auto node = static_cast<Index>(e);
-        const double S1 = at.mesh.coordinate(strand, node, at.now.s),
-                     S2 = at.mesh.coordinate(strand, node + 1, at.now.s);
-        visit(LeastGap{
-            .obstacle = obstacle, .at = {.strand = strand, .s = S1 + least->at * (S2 - S1)}, .gap = least->value});
-      }
+    const Sample after = sampled(setting.obstacles[obstacle], offset, nodes[e + 1], lambda);
+    const Element element{.node = static_cast<Index>(e), .before = before, .after = after, .watched = watched[e]};
+    const auto visit_inside = [&](double fraction, double gap) {
+      const double S1 = at.mesh.coordinate(strand, element.node, at.now.s),
+                   S2 = at.mesh.coordinate(strand, element.node + 1, at.now.s);
+      visit(LeastGap{.obstacle = obstacle, .at = {.strand = strand, .s = S1 + fraction * (S2 - S1)}, .gap = gap});
+    };
+    if (curved) {
+      const ElementBesideSurface beside{.setting = setting,
+                                        .at = at,
+                                        .strand = strand,
+                                        .node = element.node,
+                                        .obstacle = obstacle,
+                                        .from = surface.along(before.face, lambda),
+                                        .to = surface.along(after.face, lambda)};
+      visit_by_surface(beside, element, which, visit_inside);
+    } else {
+      visit_by_nodes(element, which, visit_inside);
+    }
     before = after;
   }
 }
@@ -160,10 +221,20 @@ double sampled_least_gap(const SlidingSetting& setting, const SlidingState& at, 
     for (Index strand = 0; strand < setting.body.strands(); ++strand) {
       if (!setting.obstacles[w].concerns(strand)) continue;
       const double offset = setting.face_offset(w, strand);
-      for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e)
+      const Obstacle& surface = *setting.obstacles[w].surface;
+      for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e) {
+        const auto inside = [&](double t) { return at.mesh.inside(strand, e, t, at.now); };
         for (int i = 0; i <= places; ++i)
-          least = std::min(least, face_gap(setting.obstacles[w], offset,
-                                           at.mesh.inside(strand, e, double(i) / places, at.now), at.now.lambda));
+          least = std::min(least, face_gap(setting.obstacles[w], offset, inside(double(i) / places), at.now.lambda));
+        const auto along = [&](double t) { return surface.along(face(offset, inside(t)), at.now.lambda); };
+        least = std::min(least, least_gap_at_knots({.setting = setting,
+                                                    .at = at,
+                                                    .strand = strand,
+                                                    .node = e,
+                                                    .obstacle = w,
+                                                    .from = along(0.0),
+                                                    .to = along(1.0)}));
+      }
     }
   return least;
 }

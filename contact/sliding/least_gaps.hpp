@@ -21,7 +21,8 @@ std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const S
 /// Of all least gaps on the same strand and obstacle the one nearest another.
 std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const SlidingState& at, const LeastGap& other);
 
-/// The least gap at `places` points of each element against every obstacle [length].
+/// The least gap at `places` points of each element and where it faces the knots of a surface, against every obstacle
+/// [length].
 double sampled_least_gap(const SlidingSetting& setting, const SlidingState& at, int places);
 
 }  // namespace arcwall::sliding

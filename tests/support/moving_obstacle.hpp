@@ -54,6 +54,12 @@ class MovingObstacle final : public Obstacle {
     return moved(at_rest_->curvature(at.position, 0.0), at);
   }
 
+  double along(const Vec2& position, double lambda) const override {
+    return at_rest_->along(seen(position, lambda).position, 0.0);
+  }
+
+  const std::vector<double>& knots() const override { return at_rest_->knots(); }
+
   /// Of a motion without turns.
   std::vector<Vec2> outline(double from, double to, double lambda) const override {
     const Vec2 way = lambda * motion_.way;

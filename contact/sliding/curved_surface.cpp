@@ -1,0 +1,150 @@
+#include "contact/sliding/curved_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/sliding/touch.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+// The face at a place inside an element: what it faces, the gap, and how the gap would change along the element if the
+// face were on the surface. That rate, the sine of the angle between them, vanishes where they are parallel.
+struct FacePlace {
+  double fraction = 0.0;
+  double along = 0.0;
+  double gap = infinity;  // where it faces nothing
+  double rate = 0.0;
+};
+
+class Face {
+ public:
+  explicit Face(const ElementBesideSurface& element)
+      : element_(element),
+        surface_(*element.setting.obstacles[element.obstacle].surface),
+        offset_(element.setting.face_offset(element.obstacle, element.strand)) {}
+
+  const Obstacle& surface() const { return surface_; }
+
+  double along(double fraction) const { return surface_.along(face(offset_, axis(fraction)), lambda()); }
+
+  FacePlace place(double fraction) const {
+    const AxisPlace on = axis(fraction);
+    const Vec2 at = face(offset_, on);
+    FacePlace out{.fraction = fraction, .along = surface_.along(at, lambda())};
+    if (!surface_.faces(at, lambda())) return out;
+    out.gap = surface_.gap_slope(at, lambda()).value;
+    out.rate = sign_of(surface_.side()) * std::sin(on.angle - surface_.direction(at, lambda()).value);
+    return out;
+  }
+
+  // The fraction at which the element faces a place of the surface; such a place lies between its ends.
+  double facing(double along_there) const {
+    constexpr double enough = 1e-12;  // of the element
+    const double range = element_.to - element_.from;
+    double t0 = 0.0, v0 = element_.from - along_there, t = -v0 / range;
+    for (int i = 0; i < 12; ++i) {
+      const double v = along(t) - along_there;
+      if (std::abs(v) <= enough * std::abs(range) || v == v0) break;
+      const double next = std::clamp(t - v * (t - t0) / (v - v0), 0.0, 1.0);
+      t0 = std::exchange(t, next);
+      v0 = v;
+    }
+    return t;
+  }
+
+ private:
+  AxisPlace axis(double fraction) const {
+    return element_.at.mesh.inside(element_.strand, element_.node, fraction, element_.at.now);
+  }
+  double lambda() const { return element_.at.now.lambda; }
+
+  const ElementBesideSurface& element_;
+  const Obstacle& surface_;
+  double offset_;
+};
+
+// The knots that an element faces, in its own order.
+std::vector<double> faced_knots(const ElementBesideSurface& element) {
+  const std::vector<double>& all = element.setting.obstacles[element.obstacle].surface->knots();
+  const auto [low, high] = std::minmax(element.from, element.to);
+  std::vector<double> knots(std::upper_bound(all.begin(), all.end(), low),
+                            std::lower_bound(all.begin(), all.end(), high));
+  if (element.from > element.to) std::reverse(knots.begin(), knots.end());
+  return knots;
+}
+
+// The root of the rate between two places with a change of its sign, by regula falsi (Illinois).
+FacePlace parallel_between(const Face& face, FacePlace a, FacePlace b) {
+  constexpr double enough = 1e-10;  // of the element
+  double weight_a = 1.0, weight_b = 1.0;
+  for (int i = 0; i < 60 && b.fraction - a.fraction > enough; ++i) {
+    if (a.rate == 0.0) return a;
+    if (b.rate == 0.0) return b;
+    const double rate_a = weight_a * a.rate, rate_b = weight_b * b.rate;
+    const FacePlace c = face.place((a.fraction * rate_b - b.fraction * rate_a) / (rate_b - rate_a));
+    if (c.rate < 0.0) {
+      a = c;
+      weight_a = 1.0;
+      weight_b *= 0.5;
+    } else {
+      b = c;
+      weight_b = 1.0;
+      weight_a *= 0.5;
+    }
+  }
+  return -a.rate < b.rate ? a : b;
+}
+
+}  // namespace
+
+bool faces_knot(const ElementBesideSurface& element) {
+  const std::vector<double>& all = element.setting.obstacles[element.obstacle].surface->knots();
+  const auto [low, high] = std::minmax(element.from, element.to);
+  const auto next = std::upper_bound(all.begin(), all.end(), low);
+  return next != all.end() && *next < high;
+}
+
+std::vector<PlaceInElement> parallel_places(const ElementBesideSurface& element, TouchingEnds leave_out) {
+  const Face face(element);
+  const std::vector<double> knots = faced_knots(element);
+  std::vector<FacePlace> cuts{face.place(0.0)};
+  for (const double knot : knots) cuts.push_back(face.place(face.facing(knot)));
+  if (knots.empty()) cuts.push_back(face.place(0.5));
+  cuts.push_back(face.place(1.0));
+
+  std::vector<PlaceInElement> found;
+  const std::size_t first = leave_out.first ? 1 : 0, last = cuts.size() - (leave_out.last ? 2 : 1);
+  for (std::size_t i = first; i < last; ++i) {
+    const FacePlace &a = cuts[i], &b = cuts[i + 1];
+    if (!std::isfinite(a.gap) || !std::isfinite(b.gap)) continue;
+    if (a.rate > 0.0 || b.rate < 0.0 || a.rate == b.rate) continue;
+    const FacePlace least = parallel_between(face, a, b);
+    found.push_back({.fraction = least.fraction, .gap = least.gap});
+  }
+  return found;
+}
+
+std::vector<PlaceInElement> places_entered_at_ends(const ElementBesideSurface& element) {
+  const Face face(element);
+  const std::vector<double>& all = face.surface().knots();
+  std::vector<PlaceInElement> found;
+  for (const double knot : faced_knots(element)) {
+    if (knot != all.front() && knot != all.back()) continue;
+    const FacePlace end = face.place(face.facing(knot));
+    const double into = (knot == all.front()) == (element.from < element.to) ? 1.0 : -1.0;  // the surface
+    if (end.gap < 0.0 && into * end.rate >= 0.0) found.push_back({.fraction = end.fraction, .gap = end.gap});
+  }
+  return found;
+}
+
+double least_gap_at_knots(const ElementBesideSurface& element) {
+  const Face face(element);
+  double least = infinity;
+  for (const double knot : faced_knots(element)) least = std::min(least, face.place(face.facing(knot)).gap);
+  return least;
+}
+
+}  // namespace arcwall::sliding
