@@ -38,6 +38,34 @@ std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
                      above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
 }
 
+// A point of the structure that touches a wall at rest.
+struct TouchAtRest {
+  const deck::Wall* wall;
+  Index node;
+  ContactLabel label{};
+  Vec2 normal{};  ///< of the wall, into the free side
+};
+
+// Two walls that touch a node from both sides hold it before any load. Contact that is open until a load closes it does
+// not know that: stability would be that of the free structure.
+void refuse_what_is_held_between_walls(const std::vector<TouchAtRest>& touches, DeckProblems& problems) {
+  constexpr double opposite = -0.5;  // cosine between the normals
+  std::vector<std::pair<const deck::Wall*, const deck::Wall*>> refused;
+  for (const TouchAtRest& a : touches)
+    for (const TouchAtRest& b : touches) {
+      if (&a >= &b || a.node != b.node || a.normal.dot(b.normal) > opposite) continue;
+      if (std::find(refused.begin(), refused.end(), std::pair(a.wall, b.wall)) != refused.end()) continue;
+      refused.emplace_back(a.wall, b.wall);
+      problems.add(
+          b.wall->position, "wall." + b.wall->name,
+          fmt::format("member \"{}\" touches walls \"{}\" and \"{}\" from both sides at the start, at {}:{:.4g}: "
+                      "such walls hold it without a force, and contact that is closed before any load is not "
+                      "modelled",
+                      b.label.member, a.wall->name, b.wall->name, b.label.member, b.label.fraction),
+          "leave a clearance, or let supports hold the member");
+    }
+}
+
 std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
   struct Maker {
     Side side;
@@ -64,6 +92,8 @@ bool concerns(const deck::Wall& wall, const std::string& member) {
 
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
   std::vector<Candidate> candidates;
+  std::vector<TouchAtRest> touches;
+  const double round_off = 1e-12 * structure.length_scale();
   const State rest{.x = Vector::Zero(structure.size({}))};
   for (const deck::Wall& wall : deck.walls) {
     const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall);
@@ -95,15 +125,20 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
             deepest.depth = -gap;
             deepest.label = candidate.label();
           }
-          if (movable) candidates.push_back(std::move(candidate));
+          if (!movable) continue;
+          if (std::abs(gap) <= round_off)
+            touches.push_back(
+                {.wall = &wall, .node = section.node, .label = candidate.label(), .normal = candidate.normal(rest)});
+          candidates.push_back(std::move(candidate));
         }
     }
-    if (deepest.depth > 1e-12 * structure.length_scale())
+    if (deepest.depth > round_off)
       problems.add(wall.position, "wall." + wall.name,
                    fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.4g}",
                                deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth),
                    how_to_part(wall, deepest));
   }
+  refuse_what_is_held_between_walls(touches, problems);
   return candidates;
 }
 
