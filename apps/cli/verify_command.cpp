@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "apps/cli/commands.hpp"
+#include "apps/verify/again.hpp"
 #include "apps/verify/verify.hpp"
 #include "core/error.hpp"
 #include "model/session.hpp"
@@ -16,6 +17,26 @@ std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw OutputError(file.string() + ": cannot be read; trace-path resume writes what a run lacks");
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// A first step of a quarter, the greatest step likewise: the events must be the same.
+ExitStatus trace_again(const Session& run, const std::string& folder, bool quiet) {
+  if (run.model().in_increments()) {
+    std::cerr << "note: " << folder
+              << " holds load increments, whose results depend on their steps; not traced again\n";
+    return ExitStatus::success;
+  }
+  const std::optional<Session> again = verify::traced_again(run);
+  if (!again) {
+    std::cerr << "error: " << folder << ": with a quarter of the step there is no equilibrium at the start\n";
+    return ExitStatus::not_confirmed;
+  }
+  const verify::Comparison comparison =
+      verify::compare(run.record(), again->record(), verify::step_discretisation(run.model()));
+  for (const std::string& difference : comparison.differences)
+    std::cerr << "error: " << folder << ": " << difference << "\n";
+  if (!quiet) std::cout << "\n" << to_text(comparison);
+  return comparison.differences.empty() ? ExitStatus::success : ExitStatus::not_confirmed;
 }
 
 ExitStatus verify_folder(const Options& options) {
@@ -32,7 +53,7 @@ ExitStatus verify_folder(const Options& options) {
     return ExitStatus::not_confirmed;
   }
   if (!options.has("quiet")) std::cout << to_text(verdict);
-  return ExitStatus::success;
+  return options.has("again") ? trace_again(run, folder.string(), options.has("quiet")) : ExitStatus::success;
 }
 
 }  // namespace
@@ -42,7 +63,9 @@ Command verify_command() {
                           .example = "trace-path verify results",
                           .usage = "DIR [options]",
                           .summary = "checks a run's states and files again, by other formulas than it was traced with",
-                          .options = {{"quiet", "", "no table, the status alone (7 where something does not hold)"}},
+                          .options = {{"again", "",
+                                       "also trace the deck with a quarter of the step and compare the events"},
+                                      {"quiet", "", "no table, the status alone (7 where something does not hold)"}},
                           .least_words = 1,
                           .most_words = 1},
           .run = verify_folder};

@@ -86,6 +86,17 @@ double PlainWall::gap(const Vec2& point) const {
   return side() * (point.y() - surface.height) * std::cos(std::atan(surface.slope));
 }
 
+double PlainWall::width() const {
+  if (const auto* circle = std::get_if<deck::CircleProfile>(&wall_.profile)) return 2.0 * circle->radius;
+  if (const auto* parabola = std::get_if<deck::ParabolaProfile>(&wall_.profile))
+    return parabola->curvature != 0.0 ? 2.0 / std::abs(parabola->curvature) : infinity;
+  const auto* spline = std::get_if<deck::SplineProfile>(&wall_.profile);
+  if (spline == nullptr) return infinity;
+  double least = infinity;  // between two knots there is one bend
+  for (std::size_t i = 1; i < spline->x.size(); ++i) least = std::min(least, spline->x[i] - spline->x[i - 1]);
+  return least;
+}
+
 bool PlainWall::concerns(const std::string& member) const {
   return wall_.members.empty() || std::find(wall_.members.begin(), wall_.members.end(), member) != wall_.members.end();
 }

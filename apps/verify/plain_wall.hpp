@@ -29,6 +29,9 @@ class PlainWall {
   /// Vertical distance from the surface times the cosine of its slope, positive outside.
   double gap(const Vec2& point) const;
 
+  /// Of what stands out of the wall, as far as its outline tells: diameters; ∞ of straight ones [length].
+  double width() const;
+
   bool concerns(const std::string& member) const;
 
  private:

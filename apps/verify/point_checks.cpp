@@ -71,11 +71,9 @@ void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, 
     }
   }
   if (at.model.sliding() == nullptr || walls.empty()) return;
-  constexpr int places = 10;
-  const LeastGap least = least_gap(at.model, walls, at.point.state, places);
-  if (std::isfinite(least.value))
-    findings.compare("no wall is entered between nodes", -least.value, 2e-9 * at.scales.length + least.allowance,
-                     least.wall);
+  const Entry entry = deepest_entry(at.model, walls, at.point.state, 2e-9 * at.scales.length);
+  if (std::isfinite(entry.depth))
+    findings.compare("no wall is entered between nodes", entry.depth, entry.allowed, entry.where);
   for (const Tangency& tangency : at.touches.tangencies) {
     findings.compare("contacts that slide are tangent", std::abs(tangency.tilt.value()), 1e-9, named(tangency.label));
     if (!tangency.end_of_pressed)

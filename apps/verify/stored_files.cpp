@@ -88,6 +88,8 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     findings.require("unstable directions", rest[1] != "stable" || count == 0.0, "stability is stable");
     findings.require("unstable directions", rest[1] != "unstable" || most > 0, "stability is unstable");
   }
+  expect_same("path.csv tells the states", rest[0], point.count.unstable ? std::to_string(*point.count.unstable) : "",
+              "unstable", findings);
   expect_same("path.csv tells the states", rest[2], std::to_string(expected.contacts), "contacts", findings);
   if (expected.energy)
     findings.compare("path.csv tells the states", std::abs(number(rest[3]) - expected.energy->value),
@@ -184,43 +186,38 @@ void check_named_contacts(const Json& contacts, const Model& model, const Touche
   }
 }
 
-// Counts hold from an event to the next, and at the points between.
-void check_counts(const Json& events, const Record& record, Findings& findings) {
-  std::map<Index, std::vector<const Json*>> of_branch;
-  for (const Json& event : events) of_branch[event.value("branch", Index{-1})].push_back(&event);
-  for (const auto& [branch, list] : of_branch)
-    for (std::size_t i = 0; i + 1 < list.size(); ++i) {
-      const Json &after = (*list[i])["unstable_after"], &before = (*list[i + 1])["unstable_before"];
-      const Index from = list[i]->value("step", Index{-1}), to = list[i + 1]->value("step", Index{-1});
-      if ((*list[i])["kind"] == "start" && branch > 0) continue;  // where branches meet, several counts are right
-      findings.at("events.json", branch, to);
-      const bool together = from == to && before == (*list[i])["unstable_before"];  // of one change
-      if (after.is_number() && before.is_number())
-        findings.require(
-            events_check, after == before || together,
-            fmt::format("unstable_before is {} and the event before it left {}", before.dump(), after.dump()));
-      for (const RecordPoint& point : record.points)
-        if (point.branch == branch && point.step > from && point.step < to && point.count.unstable &&
-            after.is_number()) {
-          findings.at("events.json", branch, from);
-          findings.require(events_check, after.get<Index>() == *point.count.unstable,
-                           fmt::format("unstable_after is {} and step {} of path.csv has {}", after.dump(), point.step,
-                                       *point.count.unstable));
-        }
-    }
+ListedEvent listed_event(const Json& event) {
+  const auto count = [&](const char* key) {
+    const Json value = event.value(key, Json());
+    return value.is_number_integer() ? std::optional<Index>(value.get<Index>()) : std::nullopt;
+  };
+  ListedEvent listed{.kind = event.value("kind", ""),
+                     .branch = event.value("branch", Index{-1}),
+                     .step = event.value("step", Index{-1}),
+                     .unstable_before = count("unstable_before"),
+                     .unstable_after = count("unstable_after"),
+                     .localised = number(event.value("localised", Json())),
+                     .suspected = event.value("suspected", false),
+                     .monitor = event.value("monitor", "")};
+  for (const Json& contact : event.value("contact", Json::array()))
+    listed.contacts.push_back({.wall = contact.value("wall", ""),
+                               .member = contact.value("member", ""),
+                               .fraction = number(contact.value("fraction", Json()))});
+  return listed;
 }
 
 }  // namespace
 
-void check_events(const std::string& text, const Record& record, const Model& model,
-                  const std::vector<PlainWall>& walls, Findings& findings) {
+std::vector<ListedEvent> check_events(const std::string& text, const Record& record, const Model& model,
+                                      const std::vector<PlainWall>& walls, Findings& findings) {
   findings.at("events.json", 0, 0);
   const Json json = Json::parse(text, nullptr, false);
   const bool readable = json.is_object() && json.contains("branches") && json.contains("events");
   findings.require(events_check, readable, "it cannot be read");
-  if (!readable) return;
+  if (!readable) return {};
   check_branches(json["branches"], record, findings);
   const PointIndex points = by_branch_and_step(record);
+  std::vector<ListedEvent> listed;
   Index id = 0;
   for (const Json& event : json["events"]) {
     const Index branch = event.value("branch", Index{-1}), step = event.value("step", Index{-1});
@@ -229,6 +226,7 @@ void check_events(const std::string& text, const Record& record, const Model& mo
     const auto found = points.find({branch, step});
     findings.require(events_check, found != points.end(), "the event is at no point");
     if (found == points.end()) continue;
+    listed.push_back(listed_event(event));
     const RecordPoint& point = *found->second;
     findings.compare(events_check, std::abs(number(event["lambda"]) - point.state.lambda), 0.0, "lambda");
     findings.compare(events_check, std::abs(number(event["arc"]) - point.arc), 0.0, "arc");
@@ -236,7 +234,7 @@ void check_events(const std::string& text, const Record& record, const Model& mo
     if (event.contains("contact"))
       check_named_contacts(event["contact"], model, touches(model, walls, point.state), findings);
   }
-  check_counts(json["events"], record, findings);
+  return listed;
 }
 
 }  // namespace arcwall::verify

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/verify/completeness.hpp"
 #include "apps/verify/point_checks.hpp"
 #include "apps/verify/verify.hpp"
 
@@ -29,8 +30,8 @@ void check_path_row(const std::vector<std::string>& row, const RecordPoint& poin
 void check_contact_rows(const std::vector<std::vector<std::string>>& rows, std::size_t& next, const RecordPoint& point,
                         const Touches& touches, double length, Findings& findings);
 
-/// events.json against the points.
-void check_events(const std::string& text, const Record& record, const Model& model,
-                  const std::vector<PlainWall>& walls, Findings& findings);
+/// events.json against the points; gives the events that belong to one.
+std::vector<ListedEvent> check_events(const std::string& text, const Record& record, const Model& model,
+                                      const std::vector<PlainWall>& walls, Findings& findings);
 
 }  // namespace arcwall::verify

@@ -87,10 +87,13 @@ std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Ind
   else if (plan.every > 1)
     sentences.push_back(fmt::format(
         "unstable directions between events at all but every {}th point: dense eigenvalues are slow", plan.every));
+  if (model.contact() != nullptr && model.sliding() == nullptr)
+    sentences.emplace_back("whether members enter walls between nodes: contact at nodes knows of nodes alone");
   if (model.sliding() != nullptr) sentences.emplace_back("how a member bends at the ends of parts pressed on a wall");
   sentences.emplace_back(
-      "arc lengths, iterations, residuals, modes and types of branch points, and whether all events were found: they "
-      "are not told by single states");
+      "arc lengths, iterations, residuals, modes and types of branch points: they are not told by single states");
+  if (!model.in_increments())
+    sentences.emplace_back("what happens and is undone between two points of the path; --again traces it anew");
   return sentences;
 }
 
@@ -118,7 +121,8 @@ class Verifier {
     findings.at("contacts.csv", 0, 0);
     findings.require("contacts.csv has a row a contact", next_contact_ == contact_rows_.size(),
                      fmt::format("{} rows, {} closed contacts", contact_rows_.size(), next_contact_));
-    check_events(files.events_json, record_, model_, walls_, findings);
+    const std::vector<ListedEvent> events = check_events(files.events_json, record_, model_, walls_, findings);
+    if (!model_.in_increments()) check_completeness(events, record_, model_, findings);
     verdict_.not_checked = left_out(model_, plan, unknowns);
     return verdict_;
   }

@@ -21,6 +21,7 @@ class TracedDeck {
     }
   }
 
+  const Session& session() const { return run_; }
   const Model& model() const { return run_.model(); }
   const Record& record() const { return run_.record(); }
   const State& last() const { return record().points.back().state; }

@@ -432,10 +432,20 @@ TEST_F(ProgramTest, VerifyConfirmsARunAndNamesWhatDoesNotHold) {
   EXPECT_EQ(run("verify truss").status, 5);
 }
 
+TEST_F(ProgramTest, VerifyTracesARunAgainWithAQuarterOfTheStep) {
+  ASSERT_EQ(run("run truss.toml --quiet").status, 0);
+  const Outcome confirmed = run("verify truss --again");
+  EXPECT_EQ(confirmed.status, 0) << confirmed.err;
+  expect_in("with a quarter of the step: ", confirmed.out);
+  expect_in("forces balance at nodes", confirmed.out);
+  EXPECT_EQ(run("verify truss --again --quiet").out, "");
+}
+
 TEST_F(ProgramTest, VerifyTakesRunsThatWereStopped) {
   ASSERT_EQ(run("run truss.toml --quiet --max-points 7").status, 6);
   const Outcome outcome = run("verify truss");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(run("verify truss --again --quiet").status, 0) << "what it would have met later is no difference";
 }
 
 }  // namespace

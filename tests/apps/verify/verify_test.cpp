@@ -1,16 +1,22 @@
 #include "apps/verify/verify.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <random>
+#include <set>
 
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/path_csv.hpp"
+#include "apps/verify/again.hpp"
+#include "apps/verify/completeness.hpp"
 #include "apps/verify/plain_wall.hpp"
 #include "core/text.hpp"
 #include "model/build_contact.hpp"
+#include "model/deck/reader.hpp"
+#include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 namespace arcwall::verify::verify_test {
@@ -139,6 +145,66 @@ TEST(Verify, EveryTheoryAndWallHoldsSlow) {
     expect_confirmed(traced);
     expect_confirmed(TracedDeck(beam_on_wall("theory = \"classic\"", profile)));
   }
+}
+
+namespace {
+
+// A strip of 13 elements that its tip load bends down; a wall below is to be filled in.
+std::string strip_above(const std::string& profile) {
+  return R"(
+title = "A strip above a wall"
+material.steel = { E = 21000.0 }
+section.s = { shape = "rectangle", width = 0.04, height = 0.02 }
+point = { clamp = [0.0, 0.0], tip = [1.3, 0.0] }
+member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 13 }
+support = { clamp = ["x", "z", "rotation"] }
+load = [{ at = "tip", force = [0.0, -3.3e-4] }]
+monitor = [{ name = "tip", at = "tip", component = "z", sign = -1 }]
+path = { step = 0.1, stop = { lambda = [-1.0, 2.0] } }
+wall = [{ name = "stop", side = "below", profile = )" +
+         profile + " }]\n";
+}
+
+// A portal whose beam a load bends onto a round hill; a coarse mesh.
+constexpr std::string_view portal_on_hill = R"(
+title = "A portal on a hill"
+material.m = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.28, height = 0.14 }
+point = { a = [0.0, 0.0], b = [0.0, 15.0], c = [16.0, 15.0], e = [16.0, 0.0] }
+member.west = { from = "a", to = "b", theory = "classic", material = "m", section = "s", elements = 12 }
+member.beam = { from = "b", to = "c", theory = "classic", material = "m", section = "s", elements = 24 }
+member.east = { from = "c", to = "e", theory = "classic", material = "m", section = "s", elements = 12 }
+support = { a = ["x", "z"], e = ["x", "z"] }
+load = [{ at = "beam:0.4583333333333333", force = [0.0, -0.14] }, { at = "b", force = [0.0045, 0.0] }]
+monitor = [{ name = "sway", at = "b", component = "x" }]
+path = { step = 0.05, stop = { lambda = [-1.0, 2.0], sway = [-11.0, 11.0] } }
+[[wall]]
+name = "hill"
+side = "below"
+profile = { type = "parabola", apex = [7.8, 14.0], curvature = -0.18 }
+members = ["beam"]
+)";
+
+}  // namespace
+
+// Elements at the end of a wall have no gap at one of their nodes; on a curved wall elements are no part of it.
+TEST(Verify, RunsOnWallsThatEndAndThatAreCurvedHold) {
+  expect_confirmed(TracedDeck(strip_above(R"({ type = "circle", centre = [0.66, -0.26], radius = 0.2 })")));
+  expect_confirmed(TracedDeck(portal_on_hill));
+}
+
+// States of a strip that nothing touches, held against a peg that stands in its way between two nodes, and is a tenth
+// of an element wide: the elements' ends know nothing of it.
+TEST(Verify, APegBetweenTwoNodesIsSeen) {
+  const TracedDeck traced(strip_above(R"({ type = "circle", centre = [0.65, -9.0], radius = 0.005 })"));
+  ASSERT_EQ(traced.record().points.back().contacts, 0);
+  EXPECT_GT(traced.record().points.back().monitors[0], 0.1);
+  const Model with_peg(deck::read_deck_text(
+      strip_above(R"({ type = "circle", centre = [0.65, -0.02], radius = 0.005 })"), "deck.toml", {}));
+  const Verdict verdict = verify(with_peg, traced.record(), files_of(traced.record()), "checkpoint");
+  ASSERT_TRUE(verdict.findings.first().has_value());
+  EXPECT_TRUE(verdict.findings.first()->what.starts_with("no wall is entered between nodes: stop at strip:0.5"))
+      << verdict.findings.first()->what;
 }
 
 // What increments leave is no equilibrium, and is said not to be checked.
@@ -368,6 +434,207 @@ TEST(FalsifiedSlidingRun, APlaceAMomentAndAPenetrationAreCaught) {
   EXPECT_EQ(caught(size - 2 * m, 1e-6), "no moment holds a contact");
   EXPECT_EQ(caught(touching[2], 1e-6), "contacts that slide are tangent");
   EXPECT_EQ(caught(touching[1], 1e-3), "closed contacts touch");
+}
+
+// --- the list of events
+// -----------------------------------------------------------------------------------------------
+
+namespace {
+
+std::vector<ListedEvent> listed_events(const Record& record) {
+  std::vector<ListedEvent> list;
+  for (const RecordEvent& event : record.events) {
+    list.push_back({.kind = std::string(to_text(event.kind)),
+                    .branch = event.branch,
+                    .step = event.step,
+                    .unstable_before = event.unstable_before,
+                    .unstable_after = event.unstable_after,
+                    .localised = event.localised,
+                    .suspected = event.suspected,
+                    .monitor = event.monitor.value_or("")});
+    for (const RecordContact& contact : event.contacts) list.back().contacts.push_back(contact.label);
+  }
+  return list;
+}
+
+std::optional<Failure> incompleteness(const TracedDeck& traced, const std::vector<ListedEvent>& events,
+                                      const Record& record) {
+  Findings findings;
+  check_completeness(events, record, traced.model(), findings);
+  return findings.first();
+}
+
+// Decks whose events are of all kinds but spreads.
+std::vector<TracedDeck> decks_with_events() {
+  std::vector<TracedDeck> decks;
+  decks.emplace_back(example("channel"));
+  decks.emplace_back(example("channel"),
+                     std::vector<std::string>{"contact.points=\"nodes\"", "member.column.elements=16"});
+  decks.emplace_back(example("arch"));
+  decks.emplace_back(example("cylinder"));
+  decks.emplace_back(example("foundation"));
+  decks.emplace_back(example("lee"), std::vector<std::string>{"path.watch=[\"down\", \"right\"]"});
+  decks.emplace_back(example("truss"));
+  return decks;
+}
+
+}  // namespace
+
+// Whichever event is taken out of a right list, what it told is missed: but for one-sided branch points, where
+// all that changes is told by the change of contact.
+TEST(EventList, EveryEventThatIsRemovedIsMissed) {
+  std::set<std::string> kinds;
+  for (const TracedDeck& traced : decks_with_events()) {
+    SCOPED_TRACE(traced.record().title);
+    const std::vector<ListedEvent> events = listed_events(traced.record());
+    ASSERT_FALSE(incompleteness(traced, events, traced.record()).has_value())
+        << to_text(*incompleteness(traced, events, traced.record()));
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      if (events[i].kind == "start" || events[i].kind == "end" || events[i].suspected) continue;
+      const bool one_sided = events[i].kind == "branch-point" && events[i - 1].step == events[i].step;
+      if (one_sided) continue;  // the points beside it know of the change of contact alone
+      kinds.insert(events[i].kind);
+      std::vector<ListedEvent> fewer = events;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto failure = incompleteness(traced, fewer, traced.record());
+      EXPECT_TRUE(failure.has_value()) << events[i].kind << " at step " << events[i].step << " is not missed";
+      if (!failure) continue;
+      EXPECT_TRUE(failure->what.starts_with("the list of events is complete: ")) << failure->what;
+    }
+  }
+  for (const char* kind : {"contact-closes", "contact-opens", "contact-spreads", "limit-point", "displacement-limit"})
+    EXPECT_TRUE(kinds.contains(kind)) << kind;
+}
+
+TEST(EventList, AnEventThatIsNoneIsSeen) {
+  const TracedDeck traced(example("lee"));
+  std::vector<ListedEvent> events = listed_events(traced.record());
+  const auto limit =
+      std::find_if(events.begin(), events.end(), [](const ListedEvent& event) { return event.kind == "limit-point"; });
+  ASSERT_NE(limit, events.end());
+  ListedEvent false_one = *limit;
+  false_one.step -= 2;
+  false_one.unstable_after = false_one.unstable_before;
+  events.insert(limit, false_one);
+  const auto failure = incompleteness(traced, events, traced.record());
+  ASSERT_TRUE(failure.has_value());
+  EXPECT_EQ(failure->step, false_one.step);
+  EXPECT_NE(failure->what.find("λ does not turn"), std::string::npos) << failure->what;
+}
+
+TEST(EventList, ARowMovedFlippedOrBeyondTheBoundIsSeen) {
+  const TracedDeck traced(example("arch"));
+  const std::vector<ListedEvent> events = listed_events(traced.record());
+  const auto no_event = [](const RecordPoint& point) { return point.step > 1 && !point.event; };
+  const auto where =
+      static_cast<std::size_t>(std::find_if(traced.record().points.begin(), traced.record().points.end(), no_event) -
+                               traced.record().points.begin());
+  const auto caught = [&](const std::function<void(RecordPoint&)>& change) {
+    Record record = traced.record();
+    change(record.points[where]);
+    return incompleteness(traced, events, record).value_or(Failure{}).what;
+  };
+  const RecordPoint &before = traced.record().points[where - 1], &at = traced.record().points[where];
+  EXPECT_NE(caught([](RecordPoint& point) { ++*point.count.unstable; }).find("without an event"), std::string::npos);
+  // Beside the point before it, and a little beyond: λ turns twice.
+  EXPECT_NE(caught([&](RecordPoint& point) {
+              point.lambda = before.lambda - 0.1 * (at.lambda - before.lambda);
+            }).find("λ turns at step"),
+            std::string::npos);
+  EXPECT_NE(caught([](RecordPoint& point) { point.lambda = 1e3; }).find("turns at step"), std::string::npos);
+  Record record = traced.record();
+  const deck::StopBounds& bounds = traced.model().deck().path.stop.bounds.front();
+  ASSERT_EQ(bounds.name, "lambda");
+  record.points.back().lambda = bounds.high + 1e-3;
+  EXPECT_EQ(incompleteness(traced, events, record).value_or(Failure{}).what, "no point is beyond path.stop: lambda");
+}
+
+// --- traced again
+// -----------------------------------------------------------------------------------------------------
+
+TEST(TracedAgain, RightRunsAgree) {
+  for (const TracedDeck& traced : decks_with_events()) {
+    SCOPED_TRACE(traced.record().title);
+    const auto again = traced_again(traced.session());
+    ASSERT_TRUE(again.has_value());
+    EXPECT_GT(again->points().size(), traced.record().points.size());
+    const Comparison comparison = compare(traced.record(), again->record(), step_discretisation(traced.model()));
+    EXPECT_TRUE(comparison.differences.empty()) << comparison.differences.front();
+    EXPECT_GE(comparison.same, 2);
+    EXPECT_GT(comparison.worst_allowed, 0.0);
+  }
+}
+
+TEST(TracedAgain, AnEventInOneRunOnlyIsNamedWithItsPlace) {
+  const TracedDeck traced(example("channel"));
+  Record record = traced.record();
+  const auto touch = std::find_if(record.events.begin(), record.events.end(),
+                                  [](const RecordEvent& event) { return event.kind == EventKind::contact_closes; });
+  ASSERT_NE(touch, record.events.end());
+  const std::string place = fmt::format("λ = {:.10g}", touch->lambda);
+  record.events.erase(touch);
+  for (const bool stored_lacks_it : {true, false}) {
+    const Comparison comparison =
+        stored_lacks_it ? compare(record, traced.record(), 1e-6) : compare(traced.record(), record, 1e-6);
+    ASSERT_EQ(comparison.differences.size(), 1u);
+    const std::string& what = comparison.differences.front();
+    EXPECT_TRUE(what.starts_with("contact-closes of ")) << what;
+    EXPECT_NE(what.find(place), std::string::npos) << what;
+    EXPECT_NE(what.find(stored_lacks_it ? "in the run with a quarter of the step only" : "in the stored run only"),
+              std::string::npos)
+        << what;
+  }
+}
+
+TEST(TracedAgain, AnEventElsewhereAnotherEndAndAnotherContactAreSeen) {
+  const TracedDeck traced(example("channel"));
+  const auto differences = [&](const std::function<void(Record&)>& change) {
+    Record record = traced.record();
+    change(record);
+    return compare(record, traced.record(), 1e-6).differences.size();
+  };
+  const double range = traced.record().branches[0].greatest_lambda - traced.record().branches[0].least_lambda;
+  EXPECT_EQ(differences([&](Record& record) { record.events[1].lambda += 0.9e-6 * range; }), 0u);
+  EXPECT_EQ(differences([&](Record& record) { record.events[1].lambda += 1.1e-6 * range; }), 1u);
+  EXPECT_EQ(differences([&](Record& record) {
+              record.events[1].lambda += 1.1e-6 * range;
+              record.events[1].localised = 1e-6 * range;
+            }),
+            0u)
+      << "what is said to be uncertain";
+  EXPECT_EQ(differences([](Record& record) { record.events.back().branch_end->reason = EndReason::min_step; }), 2u);
+  const auto with_contact = [](const RecordEvent& event) { return !event.contacts.empty(); };
+  EXPECT_EQ(differences([&](Record& record) {
+              std::find_if(record.events.begin(), record.events.end(), with_contact)->contacts[0].label.wall = "other";
+            }),
+            2u);
+  EXPECT_EQ(differences([](Record& record) { record.events.insert(record.events.begin() + 1, record.events[1]); }), 1u);
+}
+
+// Two contacts that close at one λ by symmetry come in the order that round-off gives.
+TEST(TracedAgain, EventsAtOneLambdaHaveNoOrder) {
+  const TracedDeck traced(example("channel"));
+  Record one = traced.record();
+  one.events.insert(one.events.begin() + 2, one.events[1]);
+  Record other = one;
+  one.events[1].contacts.front().label.wall = other.events[2].contacts.front().label.wall = "left";
+  EXPECT_TRUE(compare(one, other, 1e-6).differences.empty());
+  one.events[1].lambda -= 1e-3;
+  one.events[2].lambda += 1e-3;
+  EXPECT_FALSE(compare(one, other, 1e-6).differences.empty());
+}
+
+// Suspected events, and what follows where a limit ended a run, are told but prove nothing.
+TEST(TracedAgain, WhatIsSuspectedOrCutOffIsReserved) {
+  const TracedDeck traced(example("channel"));
+  Record record = traced.record();
+  record.events.insert(record.events.begin() + 1, RecordEvent{.kind = EventKind::limit_point, .suspected = true});
+  record.events.back().branch_end->reason = EndReason::max_points;
+  const Comparison comparison = compare(record, traced.record(), 1e-6);
+  EXPECT_TRUE(comparison.differences.empty()) << comparison.differences.front();
+  ASSERT_EQ(comparison.reservations.size(), 2u);
+  EXPECT_NE(comparison.reservations[0].find("suspected"), std::string::npos);
+  EXPECT_NE(comparison.reservations[1].find("stopped before"), std::string::npos);
 }
 
 }  // namespace arcwall::verify::verify_test

@@ -1,0 +1,236 @@
+#include "apps/verify/completeness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <span>
+
+#include "core/text.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+const std::string complete = "the list of events is complete";
+
+// The points and events of one branch, both in their order.
+struct Branch {
+  Index id = 0;
+  std::span<const RecordPoint> points{};
+  std::vector<ListedEvent> events{};
+
+  template <class Predicate>
+  bool has_event(Index from, Index to, const Predicate& predicate) const {
+    return std::any_of(events.begin(), events.end(), [&](const ListedEvent& event) {
+      return event.step >= from && event.step <= to && predicate(event);
+    });
+  }
+};
+
+std::vector<Branch> branches_of(const Record& record, const std::vector<ListedEvent>& events) {
+  std::vector<Branch> branches;
+  for (auto first = record.points.begin(); first != record.points.end();) {
+    const auto last =
+        std::find_if(first, record.points.end(), [&](const auto& p) { return p.branch != first->branch; });
+    Branch& branch = branches.emplace_back(Branch{.id = first->branch, .points = {first, last}});
+    for (const ListedEvent& event : events)
+      if (event.branch == branch.id) branch.events.push_back(event);
+    first = last;
+  }
+  return branches;
+}
+
+// --- unstable directions --------------------------------------------------------------------------------------------
+
+// From an event to the next the count is one: what the first left, what the points between have, what the next found.
+// Where a branch begins on another several counts are right.
+void check_counts(const Branch& branch, Findings& findings) {
+  for (std::size_t i = 0; i + 1 < branch.events.size(); ++i) {
+    const ListedEvent &from = branch.events[i], &to = branch.events[i + 1];
+    const bool begins = from.kind == "start" && branch.id > 0;
+    std::optional<Index> count;
+    if (!begins) count = from.unstable_after;
+    Index since = from.step;
+    for (const RecordPoint& point : branch.points) {
+      if (point.step <= from.step || point.step >= to.step || !point.count.unstable) continue;
+      findings.at("events.json", branch.id, point.step);
+      findings.require(complete, !count || *count == *point.count.unstable,
+                       fmt::format("unstable goes from {} to {} between steps {} and {} without an event",
+                                   count.value_or(0), *point.count.unstable, since, point.step));
+      count = point.count.unstable;
+      since = point.step;
+    }
+    const bool together = from.step == to.step && to.unstable_before == from.unstable_before;  // of one change
+    findings.at("events.json", branch.id, to.step);
+    findings.require(complete, !count || !to.unstable_before || *count == *to.unstable_before || together,
+                     fmt::format("unstable_before is {}, and {} since the event before", to.unstable_before.value_or(0),
+                                 count.value_or(0)));
+  }
+}
+
+// --- contacts -------------------------------------------------------------------------------------------------------
+
+bool is_contact_event(const ListedEvent& event) {
+  return event.kind.starts_with("contact-") && event.kind != "contact-limit-point";
+}
+
+// How contacts are told apart: those of nodes by their place, those that slide by their wall, with how many there are.
+using Contacts = std::map<std::string, Index>;
+
+std::string name_of(const ContactLabel& label, bool slides) {
+  return slides ? label.wall : label.wall + " at " + label.member + ":" + round_trip(label.fraction);
+}
+
+Contacts contacts_of(const RecordPoint& point, bool slides) {
+  Contacts contacts;
+  for (const RecordForce& force : point.forces) ++contacts[name_of(force.label, slides)];
+  return contacts;
+}
+
+std::set<std::string> changed(const Contacts& from, const Contacts& to) {
+  std::set<std::string> names;
+  const auto add = [&](const Contacts& all, const Contacts& others) {
+    for (const auto& [name, count] : all)
+      if (const auto other = others.find(name); other == others.end() || other->second != count) names.insert(name);
+  };
+  add(from, to);
+  add(to, from);
+  return names;
+}
+
+bool names(const ListedEvent& event, const std::string& contact, bool slides) {
+  return is_contact_event(event) &&
+         std::any_of(event.contacts.begin(), event.contacts.end(),
+                     [&](const ContactLabel& label) { return name_of(label, slides) == contact; });
+}
+
+// A branch may leave its first point, where it begins on another, by a change of contact.
+void check_contact_changes(const Branch& branch, bool slides, Findings& findings) {
+  for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
+    const RecordPoint &from = branch.points[i], &to = branch.points[i + 1];
+    if (branch.id > 0 && from.step == 0) continue;
+    findings.at("events.json", branch.id, to.step);
+    for (const std::string& name : changed(contacts_of(from, slides), contacts_of(to, slides)))
+      findings.require(
+          complete,
+          branch.has_event(from.step, to.step, [&](const ListedEvent& event) { return names(event, name, slides); }),
+          fmt::format("the contacts with {} change between steps {} and {} without an event", name, from.step,
+                      to.step));
+  }
+}
+
+// --- turning points -------------------------------------------------------------------------------------------------
+
+// Something whose turning points are events.
+struct Turning {
+  std::string name{}, kind{};
+  std::vector<double> values{};     // one a point
+  std::vector<double> uncertain{};  // likewise
+  double roundoff = 0.0;
+};
+
+bool is_turn(const ListedEvent& event, const Turning& of) {
+  if (event.suspected) return false;
+  if (of.kind == "displacement-limit") return event.kind == of.kind && event.monitor == of.name;
+  return event.kind == "limit-point" || event.kind == "contact-limit-point" || event.kind == "branch-point";
+}
+
+// A turn at a point shows in the differences to its neighbours, where they are more than what is uncertain.
+void check_turns(const Branch& branch, const Turning& of, EventSearch search, Findings& findings) {
+  const Index later = search == EventSearch::detect ? 1 : 0;  // events stand at the end of the step that has them
+  for (std::size_t i = 1; i + 1 < branch.points.size(); ++i) {
+    const double before = of.values[i] - of.values[i - 1], after = of.values[i + 1] - of.values[i];
+    const double least = of.roundoff + of.uncertain[i - 1] + of.uncertain[i] + of.uncertain[i + 1];
+    if (std::min(std::abs(before), std::abs(after)) <= least) continue;
+    const Index step = branch.points[i].step;
+    const auto turns = [&](const ListedEvent& event) { return is_turn(event, of); };
+    findings.at("events.json", branch.id, step);
+    if (before * after < 0.0)
+      findings.require(complete, branch.has_event(step, step + later, turns),
+                       fmt::format("{} turns at step {} without an event", of.name, step));
+    else if (search == EventSearch::locate)
+      findings.require(
+          complete,
+          !branch.has_event(step, step,
+                            [&](const ListedEvent& event) { return turns(event) && event.kind != "branch-point"; }),
+          fmt::format("{} does not turn at step {}, where an event says so", of.name, step));
+  }
+}
+
+std::vector<double> uncertainty_of_lambda(const Branch& branch) {
+  std::vector<double> uncertain(branch.points.size(), 0.0);
+  for (const ListedEvent& event : branch.events)
+    if (const auto i = static_cast<std::size_t>(event.step - branch.points[0].step); i < uncertain.size())
+      uncertain[i] = std::max(uncertain[i], event.localised);
+  return uncertain;
+}
+
+// Values are those of converged points: 10⁻⁹ of the greatest is more than is left where two singular points coincide
+// (2·10⁻¹⁰ seen).
+Turning turning(const Branch& branch, std::string name, std::string kind, double (*value)(const RecordPoint&, Index),
+                Index which) {
+  Turning of{.name = std::move(name), .kind = std::move(kind)};
+  for (const RecordPoint& point : branch.points) {
+    of.values.push_back(value(point, which));
+    of.roundoff = std::max(of.roundoff, 1e-9 * std::abs(of.values.back()));
+  }
+  of.uncertain.assign(of.values.size(), 0.0);
+  return of;
+}
+
+void check_turning_points(const Branch& branch, const Record& record, const Model& model, Findings& findings) {
+  const EventSearch search = model.deck().path.events;
+  if (search == EventSearch::none) return;
+  Turning lambda = turning(
+      branch, "λ", "limit-point", [](const RecordPoint& point, Index) { return point.lambda; }, 0);
+  lambda.uncertain = uncertainty_of_lambda(branch);
+  check_turns(branch, lambda, search, findings);
+  for (std::size_t m = 0; m < record.columns.size(); ++m) {
+    const std::string& name = record.columns[m].name;
+    const auto& watched = model.deck().path.watch;
+    if (std::find(watched.begin(), watched.end(), name) == watched.end()) continue;
+    const auto value = [](const RecordPoint& point, Index which) {
+      return point.monitors[static_cast<std::size_t>(which)];
+    };
+    check_turns(branch, turning(branch, name, "displacement-limit", value, static_cast<Index>(m)), search, findings);
+  }
+}
+
+// --- bounds ---------------------------------------------------------------------------------------------------------
+
+// The path ends on a bound that it comes to from inside.
+void check_bounds(const Branch& branch, const Record& record, const Model& model, Findings& findings) {
+  for (const deck::StopBounds& bounds : model.deck().path.stop.bounds) {
+    const auto column = std::find_if(record.columns.begin(), record.columns.end(),
+                                     [&](const RecordColumn& one) { return one.name == bounds.name; });
+    const auto value = [&](const RecordPoint& point) {
+      return column == record.columns.end() ? point.lambda
+                                            : point.monitors[static_cast<std::size_t>(column - record.columns.begin())];
+    };
+    const double first = value(branch.points[0]);
+    if (!(first >= bounds.low && first <= bounds.high)) continue;
+    for (const RecordPoint& point : branch.points) {
+      findings.at("path.csv", branch.id, point.step);
+      const double beyond = std::max(bounds.low - value(point), value(point) - bounds.high);
+      findings.compare("no point is beyond path.stop", beyond,
+                       1e-10 * std::max(std::abs(bounds.low), std::abs(bounds.high)), bounds.name);
+    }
+  }
+}
+
+}  // namespace
+
+void check_completeness(const std::vector<ListedEvent>& events, const Record& record, const Model& model,
+                        Findings& findings) {
+  for (const Branch& branch : branches_of(record, events)) {
+    if (model.deck().path.events != EventSearch::none) check_counts(branch, findings);
+    check_contact_changes(branch, model.sliding() != nullptr, findings);
+    check_turning_points(branch, record, model, findings);
+    check_bounds(branch, record, model, findings);
+  }
+}
+
+}  // namespace arcwall::verify

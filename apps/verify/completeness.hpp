@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/verify/findings.hpp"
+#include "model/model.hpp"
+#include "model/record.hpp"
+
+namespace arcwall::verify {
+
+/// An event as events.json has it.
+struct ListedEvent {
+  std::string kind{};
+  Index branch = -1, step = -1;
+  std::optional<Index> unstable_before{}, unstable_after{};
+  double localised = 0.0;  ///< half-width in λ of what is left uncertain
+  bool suspected = false;
+  std::string monitor{};                 ///< of a displacement limit
+  std::vector<ContactLabel> contacts{};  ///< that change
+};
+
+/// Whether the list of events tells all that changes along the points, and nothing that does not:
+///
+/// - the number of unstable directions changes at events only, and by what they say;
+/// - every contact that is there at one point and not at the next, or the reverse, is named by an event of either;
+/// - λ, and each watched monitor, turns at events only, and turns there;
+/// - no point is beyond a bound of path.stop.
+///
+/// What happens and is undone between two points is not seen.
+void check_completeness(const std::vector<ListedEvent>& events, const Record& record, const Model& model,
+                        Findings& findings);
+
+}  // namespace arcwall::verify
