@@ -106,6 +106,10 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   explore_.depth = deck_.path.depth;
   for (const MonitorColumn& monitor : monitors_) explore_.preference.push_back(monitor.raw);
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
+  if (is_unbounded(deck_.path))
+    warnings_.push_back("nothing in [path.stop] ends the path: it goes on to path.max_points = " +
+                        std::to_string(deck_.path.max_points) +
+                        ", the default, whatever λ is then; give bounds, as stop = { lambda = [-1.0, 10.0] }");
   options_.node_contacts =
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }

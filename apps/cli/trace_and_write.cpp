@@ -164,7 +164,8 @@ void say_that_it_ended_early(const RecordBranch& branch, const Record& record, c
 }
 
 // `stopped`: from outside, so that the run can go on.
-void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Record& record, const std::string& where) {
+void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Session& run, const std::string& where) {
+  const Record& record = run.record();
   if (stopped) {
     std::cerr << fmt::format("note: the run ended: {}; what was traced is in {}, and trace-path resume {} goes on\n",
                              how_it_ended(*stopped), where, where);
@@ -173,8 +174,9 @@ void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Record& rec
   const RecordBranch& branch = decisive_branch(record);
   const ExitStatus status = exit_status(branch.end->reason);
   if (status == ExitStatus::limit_met)
-    std::cerr << fmt::format("note: the run ended: {}, which the deck says; what was traced is in {}\n",
-                             how_it_ended(*branch.end), where);
+    std::cerr << fmt::format("note: the run ended: {}, which {}; what was traced is in {}\n", how_it_ended(*branch.end),
+                             run.model().deck().path.max_points_given.in_deck ? "the deck says" : "is the default",
+                             where);
   else if (status != ExitStatus::success)
     say_that_it_ended_early(branch, record, where);
 }
@@ -216,7 +218,7 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
   if (options.report == Report::table) std::cout << events_text(record);
-  say_how_it_ended(stopped, record, folder.path().string());
+  say_how_it_ended(stopped, run, folder.path().string());
   return status;
 }
 

@@ -61,6 +61,13 @@ PointsOfContact points_of_contact(const Deck& deck) {
   return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};
 }
 
+// Load increments end at the last value of land.lambda.
+bool is_unbounded(const Path& path) {
+  const Stop& stop = path.stop;
+  return stop.bounds.empty() && !stop.contacts && stop.events.empty() && !path.max_points_given.in_deck &&
+         path.method != PathMethod::incremental;
+}
+
 std::string origin_of(const std::string& assignment) {
   constexpr std::size_t most_shown = 200;
   std::string text = assignment.size() > most_shown ? assignment.substr(0, most_shown) + "…" : assignment;

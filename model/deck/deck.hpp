@@ -342,6 +342,13 @@ struct Control {
   bool operator==(const Control&) const = default;
 };
 
+/// Whether the deck has a key whose default stands in its place; like a position no part of the deck's value.
+struct Given {
+  bool in_deck = false;
+
+  friend bool operator==(const Given&, const Given&) { return true; }
+};
+
 struct Path {
   Position position{};
   PathMethod method = PathMethod::spherical;
@@ -351,6 +358,7 @@ struct Path {
   double min_step = 1e-8;            ///< [path metric]
   double max_step = 0.2;             ///< ≥ min_step [path metric]
   int max_points = 5000;
+  Given max_points_given{};
   BranchPolicy branches = BranchPolicy::follow;
   int depth = 2;
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
@@ -394,6 +402,9 @@ struct PointsOfContact {
   std::string why{};
 };
 PointsOfContact points_of_contact(const Deck& deck);
+
+/// Whether nothing but the default of max_points ends the path.
+bool is_unbounded(const Path& path);
 
 /// How messages name a `--set key=value`: on one line, cut where it gets long.
 std::string origin_of(const std::string& assignment);

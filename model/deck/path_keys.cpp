@@ -88,6 +88,7 @@ void step_keys(Keys& keys, Path& path) {
                 "max_step = " + round_trip(path.max_step) + " is less than min_step = " + round_trip(path.min_step),
                 "make max_step at least min_step");
   keys.integer(optional("max_points"), path.max_points, {.low = 1}, "then the run ends with status 6");
+  if (keys.has("max_points")) path.max_points_given.in_deck = true;
 }
 
 void check_method(Keys& keys, const Path& path, bool lands_on_lambda) {

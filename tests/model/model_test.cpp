@@ -166,4 +166,31 @@ TEST(Model, WallsThatTouchANodeFromBothSidesAreRefused) {
 }
 
 }  // namespace
+// A deck whose author forgot its bounds, and decks with one bound each.
+TEST(Model, WarnsOfAPathThatNothingEnds) {
+  const auto warnings = [](const std::string& path) {
+    const std::string text = R"toml(
+title = "A beam"
+material.steel = { E = 1.0e4 }
+section.bar = { shape = "rectangle", width = 1.0, height = 0.1 }
+point = { left = [0.0, 0.0], right = [20.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "beam:0.5", force = [0.0, -1.0] }]
+member.beam = { from = "left", to = "right", theory = "classic", material = "steel", section = "bar", elements = 4 }
+monitor = [{ name = "w", at = "beam:0.5", component = "z" }]
+)toml" + path;
+    return Model(deck::read_deck_text(text, "beam.toml", {})).warnings();
+  };
+  for (const char* endless : {"", "path = { step = 0.1 }", "path = { land = { lambda = [0.4] } }", "path.stop = {}"}) {
+    ASSERT_EQ(warnings(endless).size(), 1u) << endless;
+    EXPECT_NE(warnings(endless)[0].find("path.max_points = 5000, the default"), std::string::npos)
+        << warnings(endless)[0];
+  }
+  for (const char* bounded :
+       {"path = { max_points = 5000 }", "path.stop = { lambda = [-1.0, 10.0] }", "path.stop = { w = [-1.0, 10.0] }",
+        "path.stop = { contacts = 2 }", "path.stop = { event = \"limit-point\" }",
+        "path = { method = \"incremental\", land = { lambda = [0.4] } }"})
+    EXPECT_TRUE(warnings(bounded).empty()) << bounded;
+}
+
 }  // namespace arcwall::model_test

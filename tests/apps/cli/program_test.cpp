@@ -432,6 +432,21 @@ TEST_F(ProgramTest, VerifyConfirmsARunAndNamesWhatDoesNotHold) {
   EXPECT_EQ(run("verify truss").status, 5);
 }
 
+TEST_F(ProgramTest, ARunThatNothingEndsIsWarnedOfAndSaysWhoseLimitItMet) {
+  ASSERT_EQ(shell("grep -v -e '^w = ' -e 'path.stop' truss.toml >endless.toml").status, 0);
+  const Outcome checked = run("check endless.toml");
+  EXPECT_EQ(checked.status, 0);
+  expect_in("warning: nothing in [path.stop] ends the path", checked.err);
+  const Outcome endless = run("run endless.toml --quiet --no-pictures");
+  EXPECT_EQ(endless.status, 6);
+  expect_in("warning: nothing in [path.stop] ends the path", endless.err);
+  expect_in("(max_points), which is the default; ", endless.err);
+  const Outcome bounded = run("run endless.toml --quiet --no-pictures --set path.max_points=9");
+  EXPECT_EQ(bounded.status, 6);
+  EXPECT_EQ(bounded.err.find("warning"), std::string::npos) << bounded.err;
+  expect_in("(max_points), which the deck says; ", bounded.err);
+}
+
 TEST_F(ProgramTest, VerifyTracesARunAgainWithAQuarterOfTheStep) {
   ASSERT_EQ(run("run truss.toml --quiet").status, 0);
   const Outcome confirmed = run("verify truss --again");
