@@ -119,7 +119,8 @@ TEST(Obstacle, GradientDirectionAndCurvatureBelongTogetherOnTheSurface) {
       const Vec2 into_the_free = sign_of(obstacle->side()) * perp(along);
       EXPECT_LE((Vec2(gap.x, gap.z) - into_the_free).norm(), 1e-13);
       EXPECT_LE((obstacle->normal(at, lambda) - into_the_free).norm(), 1e-13);
-      const auto turned = [&](double s) { return obstacle->direction(at + s * along, lambda).value; };
+      const Obstacle& on = *obstacle;
+      const auto turned = [&](double s) { return on.direction(at + s * along, lambda).value; };
       EXPECT_NEAR(difference(turned), obstacle->curvature(at, lambda).value, tolerance);
     }
 }
