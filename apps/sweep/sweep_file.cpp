@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "model/deck/cursor.hpp"
-#include "model/deck/words.hpp"
 #include "model/deck/toml_source.hpp"
+#include "model/deck/words.hpp"
 
 namespace arcwall::sweep {
 
