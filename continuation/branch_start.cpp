@@ -85,17 +85,6 @@ BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
 
 }  // namespace
 
-double natural_lambda_scale(TraceTools& tools, const State& start) {
-  const double first = std::abs(tools.options.step.first);
-  const Metric metric = tools.metric_on(start.piece, 1.0);
-  const Direction up{.dx = Vector::Zero(start.x.size()), .dlambda = 1.0};
-  const CorrectorResult at = tools.corrector.inspect(start, metric, up);
-  tools.corrector.track_from({});
-  if (!at.converged()) return first;
-  const double scale = std::abs(at.tangent.dlambda) / std::sqrt(metric.inner_x(at.tangent, at.tangent));
-  return std::isfinite(scale) && scale > 0.0 ? scale : first;
-}
-
 BranchBegun begin_branch(TraceTools& tools, const TracerState& state) {
   return state.start.forward ? begin_at_branch_point(tools, state) : begin_at_state(tools, state);
 }

@@ -7,9 +7,6 @@
 
 namespace arcwall {
 
-/// λ₀ of the path metric: the load that would move the structure by 1 if it stayed linear.
-double natural_lambda_scale(TraceTools& tools, const State& start);
-
 /// The first arc of a branch, of length zero, with the `start` event, and what is known behind it; or why there is
 /// none.
 struct BranchBegun {

@@ -7,6 +7,7 @@
 
 #include "continuation/arc_step.hpp"
 #include "continuation/branch_start.hpp"
+#include "continuation/lambda_scale.hpp"
 #include "continuation/stops.hpp"
 
 namespace arcwall {

@@ -83,6 +83,7 @@ std::optional<PathSample> sample_at(SegmentSamples& on, double t) {
                     .state = std::move(at.state),
                     .tangent = std::move(at.tangent),
                     .iterations = at.iterations,
+                    .residual = at.residual,
                     .negative = at.negative};
   on.seen.push_back(sample);
   return sample;

@@ -21,6 +21,7 @@ struct PathSample {
   State state{};
   Direction tangent{};
   int iterations = 0;
+  double residual = 0.0;            ///< relative
   std::optional<Index> negative{};  ///< eigenvalues
 };
 

@@ -12,7 +12,8 @@ namespace arcwall {
 namespace {
 
 constexpr double short_segment = 1e-4;  // on which the nearest of the path's own points has to do [path metric]
-constexpr double on_the_path = 1e-8;    // relative residual of an interpolated point
+constexpr double on_the_path = 1e-8;    // relative residual of an interpolated point, or …
+constexpr double as_converged = 10.0;   // … over the greatest of the converged points beside it, which is round-off
 
 // An interval of the chord in which the count changes.
 struct CountBracket {
@@ -40,13 +41,16 @@ std::optional<CountBracket> bisect(SegmentSamples& on, Index before, Index after
   return bracket;
 }
 
-// Zeros of the eigenvalues of S in the bracket, as many as the number of negative ones changes by.
+// Zeros of the eigenvalues of S in the bracket, as many as the number of negative ones changes by. Where a sample lies
+// on the singular point its count is round-off, so that the zero may lie a little outside.
 std::vector<SingularPlace> roots(const InterpolatedTestMatrix& S, const SegmentSamples& on,
                                  const CountBracket& bracket) {
-  constexpr double reach = 3.0;  // of the spread
+  constexpr double reach = 3.0;     // of the spread
+  constexpr double outside = 1e-3;  // of the bracket
   const double L = on.segment.length(), ignored = coincidence_tolerance / L;
-  const double from = std::max({bracket.from, ignored, S.centre() - reach * S.spread()});
-  const double to = std::min(bracket.to, S.centre() + reach * S.spread());
+  const double margin = outside * (bracket.to - bracket.from);
+  const double from = std::max({bracket.from - margin, ignored, S.centre() - reach * S.spread()});
+  const double to = std::min(bracket.to + margin, S.centre() + reach * S.spread());
   const Vector first = S.eigenvalues(from), last = S.eigenvalues(to);
   const Index n0 = (first.array() < 0.0).count(), n1 = (last.array() < 0.0).count();
   const bool falls = bracket.after > bracket.before;
@@ -54,7 +58,8 @@ std::vector<SingularPlace> roots(const InterpolatedTestMatrix& S, const SegmentS
   std::vector<double> zeros;
   for (Index j = std::min(n0, n1); j < std::max(n0, n1); ++j) {
     const auto eigenvalue = [&](double t) -> std::optional<double> { return S.eigenvalues(t)[j]; };
-    if (const auto root = bracketed_root(eigenvalue, from, first[j], to, last[j], 1e-14)) zeros.push_back(root->at);
+    if (const auto root = bracketed_root(eigenvalue, from, first[j], to, last[j], 1e-14))
+      zeros.push_back(std::min(root->at, 1.0));
   }
   std::sort(zeros.begin(), zeros.end());
   std::vector<SingularPlace> places;
@@ -87,7 +92,10 @@ std::vector<SingularPlace> nearest_sample(const std::vector<PathSample>& seen, c
 }
 
 bool lies_on_path(SegmentSamples& on, const PathPoint& point) {
-  return on.corrector.inspect(point.state, on.metric, point.tangent).residual <= on_the_path;
+  double converged = std::max(on.segment.from().residual, on.segment.to().residual);
+  for (const PathSample& sample : on.seen) converged = std::max(converged, sample.residual);
+  return on.corrector.inspect(point.state, on.metric, point.tangent).residual <=
+         std::max(on_the_path, as_converged * converged);
 }
 
 }  // namespace

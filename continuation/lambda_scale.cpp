@@ -1,0 +1,65 @@
+#include "continuation/lambda_scale.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace arcwall {
+
+namespace {
+
+constexpr double stiffness_changes = 300.0;  // λ₀ over the λ at which the softest modes have lost their stiffness
+
+// Φᵀ K Φ, and how far round-off in the entries of K may move an entry of it.
+struct ModalStiffness {
+  Matrix values{};
+  double roundoff = 0.0;
+};
+
+ModalStiffness modal_stiffness(const TraceTools& tools, const State& state, const Matrix& modes) {
+  Linearization at;
+  tools.system.linearize(state, at);
+  const auto K = at.K.selfadjointView<Eigen::Lower>();
+  const SparseMatrix magnitudes = at.K.cwiseAbs();
+  const Matrix lengths = modes.cwiseAbs();
+  const Matrix bound = lengths.transpose() * (magnitudes.selfadjointView<Eigen::Lower>() * lengths);
+  return {.values = modes.transpose() * (K * modes),
+          .roundoff = std::numeric_limits<double>::epsilon() * bound.maxCoeff()};
+}
+
+// Along the tangent t of unit length in x, with the eigenpairs (μ, Φ) of K nearest zero, it is the least |s| with
+//
+//     det(diag(μ) + s Φᵀ (∂K/∂s) Φ) = 0.
+//
+// Differences to both sides leave out what the membrane forces of the bent structure add: they are of second order.
+double distance_to_buckling(const TraceTools& tools, const State& start, const Direction& t, const NearNull& nearest) {
+  constexpr double h = 1e-4;  // of the differences, in the metric of x
+  const Matrix& modes = *nearest.vectors;
+  if (nearest.values.size() == 0 || (nearest.values.array() <= 0.0).any()) return infinity;
+  const ModalStiffness ahead = modal_stiffness(tools, moved(start, t, h), modes);
+  const ModalStiffness behind = modal_stiffness(tools, moved(start, t, -h), modes);
+  const Matrix change = ahead.values - behind.values;
+  if (!(change.cwiseAbs().maxCoeff() > 4.0 * (ahead.roundoff + behind.roundoff))) return infinity;
+  const Vector softness = nearest.values.cwiseSqrt().cwiseInverse();
+  const Matrix relative = softness.asDiagonal() * change * softness.asDiagonal() / (2.0 * h);
+  return 1.0 /
+         Eigen::SelfAdjointEigenSolver<Matrix>(relative, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+double natural_lambda_scale(TraceTools& tools, const State& start) {
+  const double first = std::abs(tools.options.step.first);
+  const Metric metric = tools.metric_on(start.piece, 1.0);
+  const Direction up{.dx = Vector::Zero(start.x.size()), .dlambda = 1.0};
+  const CorrectorResult at = tools.corrector.inspect(start, metric, up);
+  tools.corrector.track_from({});
+  if (!at.converged()) return first;
+  const double moves = std::sqrt(metric.inner_x(at.tangent, at.tangent)), rate = std::abs(at.tangent.dlambda) / moves;
+  if (!(std::isfinite(rate) && rate > 0.0)) return first;
+  const Direction t{.dx = at.tangent.dx / moves, .dlambda = at.tangent.dlambda / moves};
+  return rate * std::min(1.0, stiffness_changes * distance_to_buckling(tools, start, t, at.nearest));
+}
+
+}  // namespace arcwall
