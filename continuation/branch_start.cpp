@@ -66,7 +66,20 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   return begun;
 }
 
-// At a branch point K is singular: signs and counts are taken up behind the first step.
+// The count just behind a branch point, where it is regular again; empty where that cannot be told.
+std::optional<PathPoint> just_behind(TraceTools& tools, const Metric& metric, const BranchStart& start) {
+  constexpr double nearly = 0.05;  // of the first step
+  const double s = nearly * start.distance;
+  const Direction& forward = *start.forward;
+  const PlaneConstraint plane(metric, start.state, start.mode, s * metric.inner(forward, start.mode));
+  CorrectorResult result = tools.corrector.correct(moved(start.state, forward, s), plane, metric, forward, s);
+  if (!result.converged() || metric.distance(result.state, start.state) > 2.0 * s) return std::nullopt;
+  PathPoint at = path_point(tools.system, metric, std::move(result), forward);
+  decide_count(tools, at);
+  return at;
+}
+
+// At a branch point K is singular: signs are taken up behind the first step, the count a little way along it.
 BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
   const BranchStart& start = state.start;
   const Direction& forward = *start.forward;
@@ -80,6 +93,11 @@ BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
   BranchBegun begun{.arc = first_arc(at, {}), .step_length = start.distance};
   begun.from.signs = signs_at(tools.detectors, at);
   begun.from.point = std::move(at);
+  if (const auto behind = just_behind(tools, metric, start)) {
+    begun.from.negative_eigenvalues = behind->negative_eigenvalues;
+    begun.from.count_after = tools.counter.count(behind->state, behind->negative_eigenvalues);
+    begun.from.zero_eigenvalues = 1;
+  }
   return begun;
 }
 

@@ -21,30 +21,33 @@ bool nearly_equal(double a, double b, double scale) {
 }
 
 // A way off a branch point that was tried.
-struct WayOff {
+struct TriedWay {
   int sign = 1;
+  WayOff way{};
   SteppedOff step{};
   double energy = 0.0;
   StabilityCount count{};
 };
 
-std::vector<WayOff> ways_off(const System& system, const TraceOptions& trace, const BranchPoint& point,
-                             const Metric& metric, double distance) {
+std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace, const BranchPoint& point,
+                                 const Metric& metric, double distance) {
   Corrector corrector(system, trace.corrector, std::abs(trace.step.first), trace.factorization);
   StabilityCounter counter(system, corrector.factorized(), trace.guard_tolerance, trace.factorization);
-  std::vector<WayOff> ways;
-  for (const int sign : {1, -1})
-    if (auto step = step_off(system, corrector, metric, point, sign, distance, trace.guard_tolerance)) {
-      WayOff way{.sign = sign, .step = std::move(*step)};
-      way.energy = system.energy(way.step.state);
-      way.count = counter.count(way.step.state, std::nullopt);
-      ways.push_back(std::move(way));
-    }
+  std::vector<TriedWay> ways;
+  for (const int sign : {1, -1}) {
+    TriedWay tried{.sign = sign, .way = way_off(point, sign)};
+    auto step = step_off(system, corrector, metric, point, tried.way, distance, trace.guard_tolerance);
+    if (!step) continue;
+    tried.step = std::move(*step);
+    tried.energy = system.energy(tried.step.state);
+    tried.count = counter.count(tried.step.state, std::nullopt);
+    ways.push_back(std::move(tried));
+  }
   return ways;
 }
 
 // Both sides of a symmetric branch point at the same distance have the same load and energy.
-bool mirror_images(const std::vector<WayOff>& ways) {
+bool mirror_images(const std::vector<TriedWay>& ways) {
   if (ways.size() != 2) return false;
   const State &a = ways[0].step.state, &b = ways[1].step.state;
   return nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(ways[0].energy, ways[1].energy, 0.0);
@@ -52,7 +55,7 @@ bool mirror_images(const std::vector<WayOff>& ways) {
 
 // The side on which the first of the quantities that changes increases.
 int preferred_sign(const std::vector<std::shared_ptr<const Observable>>& preference, const BranchPoint& point,
-                   const std::vector<WayOff>& ways, const Metric& metric) {
+                   const std::vector<TriedWay>& ways, const Metric& metric) {
   constexpr double changes = 1e-6;  // of the distance stepped
   for (const auto& quantity : preference) {
     const Row row = quantity->gradient(point.state);
@@ -63,14 +66,26 @@ int preferred_sign(const std::vector<std::shared_ptr<const Observable>>& prefere
   return ways.front().sign;  // along the mode, whose largest component is positive
 }
 
-BranchStart start_along(const Event& event, const WayOff& way) {
+// The unstable directions at a branch point, where one that is neutral does not count.
+std::optional<Index> unstable_at(const Event& event, const std::vector<TriedWay>& ways) {
+  std::optional<Index> least;
+  const auto consider = [&](std::optional<Index> count) {
+    if (count && (!least || *count < *least)) least = count;
+  };
+  if (event.branching->ends_its_own_branch())
+    for (const TriedWay& way : ways) consider(way.count.unstable);
+  else if (event.unstable_before && event.unstable_after)
+    for (const auto& count : {event.unstable_before, event.unstable_after}) consider(count);
+  return least;
+}
+
+BranchStart start_along(const Event& event, const TriedWay& way, std::optional<Index> unstable) {
   const BranchPoint& point = *event.branching;
   BranchStart start{.state = point.state};
   start.state.piece = way.step.state.piece;
-  start.forward = way.sign > 0 ? point.other : reversed(point.other);
-  start.mode = way.sign > 0 ? point.mode : reversed(point.mode);
-  if (event.unstable_before && event.unstable_after)
-    start.unstable = std::min(*event.unstable_before, *event.unstable_after);
+  start.forward = way.way.forward;
+  start.mode = way.way.across;
+  start.unstable = unstable;
   return start;
 }
 
@@ -116,7 +131,8 @@ std::optional<Explorer::Step> Explorer::next() {
       return Step{.branch = current_, .arc = std::move(*arc)};
     }
     branches_[static_cast<std::size_t>(current_)].end = tracer_->end();
-    if (tracer_->end()->reason == EndReason::joined) drop_arrived_at(*tracer_->end()->partner);
+    if (const auto& end = tracer_->end(); end->reason == EndReason::joined && end->partner)
+      drop_arrived_at(*end->partner);
     tracer_.reset();
   }
 }
@@ -138,30 +154,35 @@ void Explorer::look_at(const Event& event) {
   if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
   if (point.ways.empty() && point.mode.dx.size() == 0) return;
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
-  if (!point.ways.empty()) {
+  const bool mirror_ahead = point.ends_its_own_branch();
+  if (!point.ways.empty() && !mirror_ahead) {
     if (options_.policy == BranchPolicy::all)
       for (const BranchPoint::Way& way : point.ways) enqueue(event, start_along(system_, event, way), 1, false);
     return;  // the tracer has taken the one that `follow` wants
   }
-  const bool ahead_is_stable = event.unstable_after == Index{0};
+  const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
   if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
 
-  const std::vector<WayOff> ways = ways_off(system_, trace_, point, metric, options_.distance);
+  const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);
   if (ways.empty()) return;
   const bool mirrored = mirror_images(ways);
+  const std::optional<Index> unstable = unstable_at(event, ways);
   const int preferred = preferred_sign(options_.preference, point, ways, metric);
   if (options_.policy == BranchPolicy::all) {
-    for (const WayOff& way : ways)
-      if (!mirrored || way.sign == preferred) enqueue(event, start_along(event, way), way.sign, mirrored);
+    for (const TriedWay& way : ways)
+      if (!mirrored || way.sign == preferred) enqueue(event, start_along(event, way, unstable), way.sign, mirrored);
+    if (mirror_ahead)
+      tracer_->stop(
+          {.reason = EndReason::joined, .detail = "joins the branch from which it and its mirror image leave"});
     return;
   }
   // follow: the way with fewest unstable directions; of equals the preferred side
-  const auto rank = [&](const WayOff& way) {
+  const auto rank = [&](const TriedWay& way) {
     return std::pair(way.count.unstable.value_or(std::numeric_limits<Index>::max()), way.sign == preferred ? 0 : 1);
   };
-  const WayOff& best =
-      *std::min_element(ways.begin(), ways.end(), [&](const WayOff& a, const WayOff& b) { return rank(a) < rank(b); });
-  enqueue(event, start_along(event, best), best.sign, mirrored);
+  const TriedWay& best = *std::min_element(ways.begin(), ways.end(),
+                                           [&](const TriedWay& a, const TriedWay& b) { return rank(a) < rank(b); });
+  enqueue(event, start_along(event, best, unstable), best.sign, mirrored);
   const auto next = static_cast<int>(branches_.size());
   tracer_->stop(
       {.reason = EndReason::branched, .detail = "goes on as branch " + std::to_string(next), .partner = next});

@@ -62,11 +62,15 @@ struct BranchPoint {
   Direction mode{};                ///< critical mode, of unit length, largest component positive; no λ
   std::vector<Direction> modes{};  ///< all critical modes, `mode` the first
   Direction other{};               ///< unit tangent of the other branch
-  std::vector<Way> ways{};         ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty
+  std::vector<Way> ways{};         ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty. Of
+                                   ///< a pitchfork that is met along its own branch: both along the other one
   Index multiplicity = 1;          ///< of the zero eigenvalue
   Index change = 0;                ///< of the number of negative eigenvalues across it
   double localised = 0.0;          ///< half-width in λ of what is left uncertain
   bool discretisation = false;     ///< contacts tied to nodes make it: the continuum has none
+
+  /// A pitchfork that the path comes to along the branch that bifurcates: beyond it lies the path's mirror image.
+  bool ends_its_own_branch() const { return type == BranchType::symmetric && !ways.empty(); }
 };
 
 /// A located point of a path.

@@ -90,14 +90,41 @@ BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const
   return point;
 }
 
+void find_crossing_branch(Corrector& corrector, const Metric& metric, BranchPoint& point) {
+  constexpr double along = 0.99;  // cosine between the path and the mode
+  constexpr double work = 1e-3;   // of the load along the mode, which symmetry makes vanish, over its greatest
+  if (point.mode.dx.size() == 0) return;
+  corrector.inspect(point.state, metric, point.along);
+  const Vector& mode = point.mode.dx;
+  const double length = metric.norm(point.mode);
+  const double cosine =
+      metric.inner_x(point.mode, point.along) / (length * std::sqrt(metric.inner_x(point.along, point.along)));
+  const Vector& F_lambda = corrector.factorized().equations().F_lambda;
+  const double of_greatest = F_lambda.dot(mode) / (length * metric.dual_norm(F_lambda));
+  if (!(std::abs(cosine) > along && std::abs(of_greatest) < work)) return;
+  auto y = corrector.response_across(metric.row(point.mode), -F_lambda);
+  if (!y) return;
+  point.type = BranchType::symmetric;
+  point.other = unit(metric, {.dx = std::move(*y), .dlambda = 1.0});
+  for (const Direction& direction : {point.other, reversed(point.other)})
+    point.ways.push_back({.piece = point.state.piece, .direction = direction});
+}
+
+WayOff way_off(const BranchPoint& point, int sign) {
+  const Direction& across = point.ends_its_own_branch() ? point.other : point.mode;
+  if (sign > 0) return {.forward = point.other, .across = across};
+  return {.forward = reversed(point.other), .across = reversed(across)};
+}
+
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
-                                   const BranchPoint& point, int sign, double distance, double guard_tolerance) {
+                                   const BranchPoint& point, const WayOff& way, double distance,
+                                   double guard_tolerance) {
   constexpr int halvings = 12;
   for (int attempt = 0; attempt < halvings; ++attempt, distance *= 0.5) {
-    const double offset = sign * distance * metric.inner(point.other, point.mode);
-    const PlaneConstraint plane(metric, point.state, point.mode, offset);
+    const double offset = distance * metric.inner(way.forward, way.across);
+    const PlaneConstraint plane(metric, point.state, way.across, offset);
     CorrectorResult at =
-        corrector.correct(moved(point.state, point.other, sign * distance), plane, metric, point.other, distance);
+        corrector.correct(moved(point.state, way.forward, distance), plane, metric, way.forward, distance);
     if (!at.converged()) continue;
     at.state.piece = system.canonical_piece(at.state);
     if (system.guard_count(at.state.piece) > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;

@@ -22,15 +22,31 @@ double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspa
 BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const Metric& metric,
                             const SingularPlace& place);
 
+/// The branch across a pitchfork that is met along its own branch: there λ turns, the path's direction is the mode, and
+/// its eigenvalue touches zero. K y = −F_λ across the mode gives the other tangent. Makes `point` symmetric, with both
+/// ways along it; leaves it as it is where it is no such point.
+void find_crossing_branch(Corrector& corrector, const Metric& metric, BranchPoint& point);
+
+/// How a branch leaves a branch point.
+struct WayOff {
+  Direction forward{};  ///< unit tangent
+  Direction across{};   ///< along which the first step is measured, so that it cannot fall back onto the old branch
+};
+
+/// Both ways along the other branch, ± its tangent: measured along the mode, or where the path itself is the branch of
+/// a pitchfork along that tangent.
+WayOff way_off(const BranchPoint& point, int sign);
+
 /// A first point on a bifurcated branch.
 struct SteppedOff {
   State state{};
   Direction tangent{};  ///< away from the branch point, of unit length
 };
 
-/// Leaves the branch point along ± its other tangent by a distance near `distance`; halves it while a guard is violated
-/// by more than the tolerance or the step falls back onto the old branch.
+/// Leaves the branch point along a way by a distance near `distance`; halves it while a guard is violated by more than
+/// the tolerance or the step falls back onto the old branch.
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
-                                   const BranchPoint& point, int sign, double distance, double guard_tolerance);
+                                   const BranchPoint& point, const WayOff& way, double distance,
+                                   double guard_tolerance);
 
 }  // namespace arcwall

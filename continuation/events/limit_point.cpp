@@ -99,8 +99,9 @@ void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, cons
   auto branching = std::make_shared<BranchPoint>(branch_point_at(tools.system, tools.corrector, metric, place));
   branching->localised = half_width * std::abs(limit.at.tangent.dlambda);
   branching->discretisation = made_by_nodes(tools, limit.at.state);
+  if (place.touches) find_crossing_branch(tools.corrector, metric, *branching);
+  limit.suspected = place.touches && branching->ways.empty();
   limit.branching = std::move(branching);
-  limit.suspected = place.touches;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "continuation/path_tolerances.hpp"
 #include "core/root_find.hpp"
@@ -23,22 +24,27 @@ struct CountBracket {
   double middle() const { return 0.5 * (from + to); }
 };
 
+// Halves a bracket once more; false where no sample or no count is to be had.
+bool halve(SegmentSamples& on, CountBracket& bracket) {
+  const double t = bracket.middle();
+  const auto sample = sample_at(on, t);
+  if (!sample || !sample->negative) return false;
+  if (*sample->negative == bracket.before) {
+    bracket.from = t;
+  } else {
+    bracket.to = t;
+    bracket.after = *sample->negative;
+  }
+  return true;
+}
+
 // A few halvings by the count, towards the first change.
 std::optional<CountBracket> bisect(SegmentSamples& on, Index before, Index after) {
   CountBracket bracket{.before = before, .after = after};
-  for (int halving = 0; halving < 4; ++halving) {
-    const double t = bracket.middle();
-    const auto sample = sample_at(on, t);
-    if (!sample && halving == 0) return std::nullopt;
-    if (!sample || !sample->negative) break;
-    if (*sample->negative == before) {
-      bracket.from = t;
-    } else {
-      bracket.to = t;
-      bracket.after = *sample->negative;
-    }
+  for (int halving = 0; halving < 4 && halve(on, bracket); ++halving) {
   }
-  return bracket;
+  const bool none = on.seen.empty();
+  return none ? std::nullopt : std::optional(bracket);
 }
 
 // Zeros of the eigenvalues of S in the bracket, as many as the number of negative ones changes by. Where a sample lies
@@ -91,11 +97,35 @@ std::vector<SingularPlace> nearest_sample(const std::vector<PathSample>& seen, c
   return {place};
 }
 
-bool lies_on_path(SegmentSamples& on, const PathPoint& point) {
+// Whether the points on both sides of a bracket follow each other along the path, however near they are. If not they
+// lie on branches that pass each other, as those of an imperfect pitchfork do, and nothing is singular in between.
+bool on_one_branch(SegmentSamples& on, CountBracket bracket) {
+  constexpr double follows = 0.99;  // cosine between the path and the way to the next point
+  constexpr int halvings = 16;
+  const auto at = [&](double t, const PathPoint& end) {
+    for (const PathSample& sample : on.seen)
+      if (sample.t == t) return std::pair(sample.state, sample.tangent);
+    return std::pair(end.state, end.tangent);
+  };
+  for (int halving = 0; halving <= halvings; ++halving) {
+    const auto before = at(bracket.from, on.segment.from()), after = at(bracket.to, on.segment.to());
+    const Direction way = difference(after.first, before.first);
+    const double along = std::min(on.metric.inner(way, before.second), on.metric.inner(way, after.second));
+    if (along < follows * on.metric.norm(way)) return false;
+    if (!halve(on, bracket)) break;
+  }
+  return true;
+}
+
+enum class Lies { on_path, doubtful, off };
+
+// An interpolated point by its residual, which is round-off where those of the converged points beside it are as large.
+Lies lies(SegmentSamples& on, const PathPoint& point) {
   double converged = std::max(on.segment.from().residual, on.segment.to().residual);
   for (const PathSample& sample : on.seen) converged = std::max(converged, sample.residual);
-  return on.corrector.inspect(point.state, on.metric, point.tangent).residual <=
-         std::max(on_the_path, as_converged * converged);
+  const double residual = on.corrector.inspect(point.state, on.metric, point.tangent).residual;
+  if (residual <= 3.0 * converged) return Lies::on_path;
+  return residual <= std::max(on_the_path, as_converged * converged) ? Lies::doubtful : Lies::off;
 }
 
 }  // namespace
@@ -120,10 +150,13 @@ std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segmen
     t = next.front().t;
     found = std::move(next);
   }
-  // Where the path bends too sharply to be interpolated, shorter steps will show more, and at last the nearest of its
-  // own points has to do.
-  if (found.empty() || half_width > 0.01 || !lies_on_path(on, found.front().point))
-    return segment.length() <= short_segment ? nearest_sample(on.seen, *bracket) : std::vector<SingularPlace>{};
+  const Lies there = found.empty() || half_width > 0.01 ? Lies::off : lies(on, found.front().point);
+  const bool telling = segment.length() > short_segment;
+  if (there == Lies::off && telling) return {};
+  if (there != Lies::on_path && !on_one_branch(on, *bracket)) return {};
+  // Where the path bends too sharply to be interpolated, shorter steps show more, and at last the nearest of its own
+  // points has to do.
+  if (there == Lies::off) return nearest_sample(on.seen, *bracket);
   for (SingularPlace& place : found) place.half_width = half_width;
   return found;
 }

@@ -112,6 +112,16 @@ std::optional<Vector> Corrector::right_null(const Vector& left) {
   return null ? std::optional(null->dx) : std::nullopt;
 }
 
+//   [ J   r ] [y]   [f]
+//   [ rᵀ  0 ] [0] = [0]
+std::optional<Vector> Corrector::response_across(const Row& row, const Vector& f) {
+  Linearization& now = here_.equations();
+  Vector F_lambda = std::exchange(now.F_lambda, row.dx);
+  const auto y = here_.solver().solve({.dx = row.dx, .dlambda = 0.0}, f, 0.0);
+  now.F_lambda = std::move(F_lambda);
+  return y ? std::optional(y->dx) : std::nullopt;
+}
+
 // The line (1), its tangent of unit length and its particular solution normal to it.
 bool Corrector::find_line(const Metric& metric, const Row& border) {
   const std::optional<LineProducts> found = here_.solver().line(border, metric.weights(), line_);

@@ -65,6 +65,10 @@ class Corrector {
   /// border. At the state reached last.
   std::optional<Vector> right_null(const Vector& left);
 
+  /// J⁻¹ f with no part along the row, at a branch point whose critical mode is not orthogonal to it, where f does no
+  /// work along the mode. At the state reached last.
+  std::optional<Vector> response_across(const Row& row, const Vector& f);
+
   /// Tangent and signs at a state that is already on the path.
   CorrectorResult inspect(const State& state, const Metric& metric, const Direction& along);
 

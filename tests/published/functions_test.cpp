@@ -89,6 +89,27 @@ TEST(TranscriticalFunction, UnfoldsIntoFoldsOrNone) {
   }
 }
 
+// The first step off the crossing passes the fold. The count that is lost there is known from just behind the crossing.
+TEST(TranscriticalFunction, AFoldJustBehindTheCrossingIsFoundOnceWithItsCounts) {
+  for (const double e : {0.015, 0.01, 0.003}) {
+    SCOPED_TRACE(e);
+    const auto system = test::transcritical_beside_fold(e);
+    const Graph graph = test::explore(system, between(-1.0, 1.0), {.policy = BranchPolicy::all}, at(0.0, -0.9));
+    ASSERT_EQ(graph.records.size(), 3U);
+    int folds = 0;
+    for (const std::size_t id : {1U, 2U}) {
+      EXPECT_TRUE(events_of(graph.branches[id], EventKind::branch_point).empty());
+      for (const Event& fold : events_of(graph.branches[id], EventKind::limit_point)) {
+        ++folds;
+        EXPECT_NEAR(fold.state.lambda, 0.5 * e, 1e-9);
+        EXPECT_EQ(fold.unstable_before, 0);
+        EXPECT_EQ(fold.unstable_after, 1);
+      }
+    }
+    EXPECT_EQ(folds, 1);
+  }
+}
+
 TEST(PitchforkFunction, BothSidesAreMirrorImages) {
   const auto system = test::pitchfork();
   const Graph graph = test::explore(system, between(-1.0, 1.0), {.policy = BranchPolicy::all}, at(0.0, -0.9));

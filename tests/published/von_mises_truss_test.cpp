@@ -162,4 +162,30 @@ TEST(VonMisesTruss, TheSwayBranchIsTheClosedFormAndJoinsBothBranchPoints) {
   EXPECT_LT(least, -0.9 * radius);
 }
 
+// `follow` comes to the second point along the sway branch, where λ turns and an eigenvalue touches zero, and goes on
+// along the straight way that is stable from there on, P = EA z (h² − z²)/L³; not into the mirror image.
+TEST(VonMisesTruss, FollowingGoesOnWhereTheSwayEnds) {
+  const auto truss = steep(TrussStrain::green).structure();
+  const double L = std::sqrt(26.0), radius = std::sqrt(23.0), load = 2.0 * radius / (L * L * L);
+  const test::Graph graph = test::explore(*truss, down_to(*truss, 10.3), {.policy = BranchPolicy::follow});
+  ASSERT_EQ(graph.records.size(), 3U);
+  const Event met = only_event(graph.branches[1], EventKind::branch_point);
+  EXPECT_EQ(met.branching->type, BranchType::symmetric);
+  EXPECT_FALSE(met.suspected);
+  EXPECT_NEAR(met.state.lambda, -load, 1e-9 * load);
+  EXPECT_NEAR(descent(*truss, met.state), 5.0 + radius, 1e-8);
+  EXPECT_EQ(graph.branches[1].end.reason, EndReason::branched);
+  for (const EventKind kind : {EventKind::limit_point, EventKind::branch_point})
+    EXPECT_TRUE(events_of(graph.branches[2], kind).empty());
+  for (const Arc& arc : graph.branches[2].arcs) {
+    const Vec2 moved = test::displacement_of(*truss, arc.to.state, 1);
+    const double z = 5.0 + moved.y();
+    // λ is level along the sway, so that its place on the branch that came is known to about the root of round-off.
+    EXPECT_NEAR(moved.x(), 0.0, &arc == &graph.branches[2].arcs.front() ? 1e-7 : 1e-9);
+    EXPECT_NEAR(arc.to.state.lambda, z * (25.0 - z * z) / (L * L * L), 1e-10);
+    EXPECT_EQ(arc.to.count.unstable, Index{0});
+  }
+  EXPECT_EQ(graph.branches[2].end.reason, EndReason::stop);
+}
+
 }  // namespace arcwall::von_mises_truss_test

@@ -25,6 +25,13 @@ inline SmoothToy transcritical(double e = 0.0) {
                          [](double x, double l) { return 2.0 * x - l; }, [](double x, double) { return -x; });
 }
 
+/// F = x (x − x²/2e − λ): x = 0 and λ = x − x²/2e cross at 0; the latter has a fold at x = e, λ = e/2.
+inline SmoothToy transcritical_beside_fold(double e) {
+  return scalar_function([e](double x, double l) { return x * (x - x * x / (2.0 * e) - l); },
+                         [e](double x, double l) { return 2.0 * x - 1.5 * x * x / e - l; },
+                         [](double x, double) { return -x; });
+}
+
 /// F = x³ − λ x − e. e = 0: x = 0, and λ = x² from λ = 0 on. Else a fold at x = −(e/2)^⅓, λ = 3 (e/2)^⅔.
 inline SmoothToy pitchfork(double e = 0.0) {
   return scalar_function([e](double x, double l) { return x * x * x - l * x - e; },
