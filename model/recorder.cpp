@@ -90,6 +90,12 @@ void Recorder::end(const BranchEnd& end) {
   branch().end = end;
   if (branch().points == 0) return;
   const RecordPoint& last = record_.points.back();
+  // It may stand on an event, and is no surer than that.
+  double localised = 0.0;
+  for (auto event = record_.events.rbegin(); event != record_.events.rend(); ++event) {
+    if (event->branch != branch().id || event->step != last.step) break;
+    localised = std::max(localised, event->localised);
+  }
   add_event({.kind = EventKind::end,
              .arc = last.arc,
              .lambda = last.lambda,
@@ -97,6 +103,7 @@ void Recorder::end(const BranchEnd& end) {
              .unstable_before = last.count.unstable,
              .unstable_after = last.count.unstable,
              .residual = last.residual,
+             .localised = localised,
              .branch_end = end});
 }
 
@@ -110,6 +117,8 @@ RecordEvent Recorder::recorded(const Event& event) const {
                      .residual = event.residual,
                      .localised = event.localised,
                      .suspected = event.suspected};
+  if (const auto origin = record_.branches[branch_].origin; event.kind == EventKind::start && origin)
+    record.localised = record_.events[static_cast<std::size_t>(*origin)].localised;
   if (event.kind == EventKind::displacement_limit) record.monitor = event.label;
   if (event.branching) {
     record.branch_type = event.branching->type;

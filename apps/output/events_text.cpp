@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "apps/output/shown_number.hpp"
 #include "apps/output/text_table.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
@@ -42,7 +43,7 @@ std::string table(const Record& record) {
     row.push_back(std::to_string(event.id));
     if (!one_branch) row.push_back(std::to_string(event.branch));
     row.push_back(std::to_string(event.step));
-    row.push_back(shown_number(event.lambda, 10));
+    row.push_back(shown_lambda(event, 10));
     row.emplace_back(to_text(event.kind));
     row.push_back(event_detail(event));
     for (const double value : event.monitors) row.push_back(shown_number(value, 6));
@@ -65,9 +66,8 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
     if (branch.parent != parent) continue;
     text += std::string(static_cast<std::size_t>(2 * depth), ' ');
     if (branch.origin)
-      text += fmt::format(
-          "at λ = {} (event {}): ", shown_number(record.events[static_cast<std::size_t>(*branch.origin)].lambda, 10),
-          *branch.origin);
+      text += fmt::format("at λ = {} (event {}): ",
+                          shown_lambda(record.events[static_cast<std::size_t>(*branch.origin)], 10), *branch.origin);
     text += ending(branch);
     if (branch.mirrored)
       text +=
@@ -90,9 +90,15 @@ std::string event_detail(const RecordEvent& event) {
   return contacts(event.contacts);
 }
 
-// −0 is a number that people take for a mistake.
-std::string shown_number(double value, int digits) {
-  return fmt::format("{:.{}g}", value == 0.0 ? 0.0 : value, digits);
+std::string shown_lambda(const RecordEvent& event, int digits) {
+  return shown_uncertain(event.lambda, event.localised, digits);
+}
+
+std::string uncertainty_note(const Record& record) {
+  const auto is_marked = [](const RecordEvent& event) { return is_marked_uncertain(event.lambda, event.localised); };
+  if (std::none_of(record.events.begin(), record.events.end(), is_marked)) return "";
+  return "λ = a ± b: the event lies between a − b and a + b and could not be located more closely; smaller steps may "
+         "do so.";
 }
 
 std::string unstable_change(const RecordEvent& event) {
@@ -109,6 +115,7 @@ std::string events_text(const Record& record) {
   std::string text = record.title.empty() ? "" : record.title + "\n";
   text += fmt::format("{}, trace-path {}\n\n", record.deck, program_version());
   text += table(record) + "\n";
+  if (const std::string note = uncertainty_note(record); !note.empty()) text += note + "\n\n";
   text += tree(record, std::nullopt, 0);
   return text;
 }

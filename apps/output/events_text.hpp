@@ -16,8 +16,11 @@ std::string event_detail(const RecordEvent& event);
 /// `0 → 1`: unstable directions before and after an event, or the one number if they are the same; `?` if unknown.
 std::string unstable_change(const RecordEvent& event);
 
-/// `%.{digits}g` without −0.
-std::string shown_number(double value, int digits);
+/// The load factor of an event in at most so many digits, none of which is uncertain (apps/output/shown_number.hpp).
+std::string shown_lambda(const RecordEvent& event, int digits);
+
+/// What the ± behind a load factor means; empty where no event has one.
+std::string uncertainty_note(const Record& record);
 
 /// `w = 1.2 (stop)`: what is known of an end, and its reason.
 std::string how_it_ended(const BranchEnd& end);

@@ -12,6 +12,7 @@
 #include "apps/output/events_text.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
+#include "apps/output/shown_number.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
@@ -84,6 +85,25 @@ OrderedJson events_json(const Record& record) {
   return events;
 }
 
+// Points with an event whose λ has fewer sure digits than the page shows of others: the point, and λ as text.
+OrderedJson uncertain_json(const Record& record) {
+  constexpr int digits = 8;
+  const std::vector<std::size_t> first = first_points(record);
+  std::map<std::size_t, std::pair<double, std::string>> texts;  // with how uncertain it is
+  for (const RecordEvent& event : record.events) {
+    auto& [uncertain, text] = texts[point_of(event, first)];
+    if (event.localised <= uncertain) continue;
+    uncertain = event.localised;
+    text = shown_lambda(event, digits);
+  }
+  OrderedJson list = OrderedJson::array();
+  for (const auto& [point, of_point] : texts)
+    if (const std::string& text = of_point.second;
+        !text.empty() && text != shown_number(record.points[point].lambda, digits))
+      list.push_back(OrderedJson::array({point, text}));
+  return list;
+}
+
 OrderedJson contact_json(const ContactMark& contact) {
   return OrderedJson::array({shown_name(contact.label.wall), shown_name(contact.label.member),
                              number(contact.label.fraction, 6), number(contact.force.norm(), 6),
@@ -144,6 +164,7 @@ OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
           {"points", points_json(record)},
           {"lines", lines_json(record)},
           {"events", events_json(record)},
+          {"uncertain", uncertain_json(record)},
           {"shapes", shapes_json(shapes)}};
 }
 

@@ -18,6 +18,7 @@
 #include "apps/output/path_lines.hpp"
 #include "apps/output/report_data.hpp"
 #include "apps/output/report_parts.hpp"
+#include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
 #include "model/deck/writer.hpp"
 #include "model/event_names.hpp"
@@ -86,7 +87,7 @@ std::string outcome(const Record& record) {
 std::string event_text(const Record& record, const RecordEvent& event, const std::vector<double>& zero) {
   const std::string detail = plain(event_detail(event), 200);
   std::string text = fmt::format("{}: {}{}{}, λ = {}", event.id, words(event.kind), detail.empty() ? "" : " – ", detail,
-                                 shown_number(event.lambda, 8));
+                                 shown_lambda(event, 8));
   for (std::size_t i = 0; i < record.columns.size(); ++i)
     text += fmt::format(", {} = {}", shown_name(record.columns[i].name),
                         shown_number(without_roundoff(event.monitors[i], zero[i]), 6));
@@ -246,7 +247,7 @@ std::string strip(const Record& record, const ShapePictures& shapes) {
         "<figure data-point=\"{}\"><svg class=\"shape\" viewBox=\"{}\" role=\"img\" aria-label=\"Shape at event {}\">"
         "<use href=\"#walls\"/>{}</svg><figcaption>{}<b>{} {}</b><span>λ = {}</span></figcaption></figure>",
         point, view_box(shapes), event->id, shape_paths(shapes, *picture), svg_mark(event->kind), event->id,
-        words(event->kind), shown_number(event->lambda, 6));
+        words(event->kind), shown_lambda(*event, 6));
   }
   return text;
 }
@@ -263,7 +264,7 @@ std::string event_rows(const Record& record) {
   for (const RecordEvent& event : record.events) {
     text += fmt::format("<tr data-point=\"{}\">", point_of(event, first)) + figure_cell(std::to_string(event.id));
     text += figure_cell(std::to_string(event.branch)) + figure_cell(std::to_string(event.step));
-    text += figure_cell(shown_number(event.lambda, 10));
+    text += figure_cell(shown_lambda(event, 10));
     text += fmt::format("<td class=\"kind\">{}{}</td>", svg_mark(event.kind), words(event.kind));
     text += "<td class=\"what\">" + escaped(plain(event_detail(event), 400)) + "</td>";
     for (std::size_t i = 0; i < zero.size(); ++i)
@@ -282,6 +283,11 @@ std::string event_titles(const Record& record) {
   return text + "<th>unstable</th></tr>";
 }
 
+std::string event_note(const Record& record) {
+  const std::string note = uncertainty_note(record);
+  return note.empty() ? "" : "<p class=\"note\">" + escaped(note) + "</p>";
+}
+
 // The branches that leave a branch, and those that leave them in turn.
 std::string branch_tree(const Record& record, std::optional<Index> parent) {
   std::string items;
@@ -294,7 +300,7 @@ std::string branch_tree(const Record& record, std::optional<Index> parent) {
     if (branch.origin) {
       const RecordEvent& origin = record.events[static_cast<std::size_t>(*branch.origin)];
       items += fmt::format(" leaves at <span data-point=\"{}\">event {}</span>, λ = {};", point_of(origin, first),
-                           origin.id, shown_number(origin.lambda, 10));
+                           origin.id, shown_lambda(origin, 10));
     }
     items += fmt::format(" {}", counted(static_cast<std::size_t>(branch.points), "point", "points"));
     if (branch.end) items += "; ended: " + escaped(plain(how_it_ended(*branch.end), 400));
@@ -378,6 +384,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
               {"strip", strip(record, content.shapes)},
               {"event_titles", event_titles(record)},
               {"event_rows", event_rows(record)},
+              {"event_note", event_note(record)},
               {"branches", branch_tree(record, std::nullopt)},
               {"deck", escaped(plain(content.deck_text))},
               {"facts", facts(content)},

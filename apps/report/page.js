@@ -13,6 +13,10 @@
     events_at.get(event.point).push(event);
   }
 
+  // Load factors as text: of points with an event that is not located to the last digit no more than is sure.
+  const uncertain = new Map(data.uncertain);
+  const load_factor = (point, digits) => uncertain.get(point) ?? round(points.lambda[point], digits);
+
   // Values of a chart's horizontal axis: a monitor, or the points' numbers where there is none.
   const across = (monitor) => columns.length > 0 ? points.monitors[monitor] : points.arc;
 
@@ -31,7 +35,7 @@
   const describe = (point) => {
     const said = (events_at.get(point) ?? []).map((event) => `${without_hyphens(event.kind)} ${event.what}`.trim());
     const values = columns.map((column, i) => `${column.name} = ${round(points.monitors[i][point], 6)}`);
-    return [...said, `λ = ${round(points.lambda[point], 8)}`, ...values,
+    return [...said, `λ = ${load_factor(point, 8)}`, ...values,
       stability(point),
       `branch ${points.branch[point]}, step ${points.step[point]}`];
   };
@@ -172,7 +176,7 @@
 
   const show_values = (point) => {
     fill(element('values').tBodies[0], [
-      ['load factor λ', round(points.lambda[point], 8)],
+      ['load factor λ', load_factor(point, 8)],
       ...columns.map((column, i) => [column.title, round(points.monitors[i][point], 7)]),
       ['stability', stability(point)],
       ['energy', with_unit(round(points.energy[point], 6), data.energy_unit)],
@@ -221,7 +225,7 @@
     current = Math.min(Math.max(index, 0), shapes.length - 1);
     const { point } = shapes[current];
     element('slider').value = current;
-    element('slider').setAttribute('aria-valuetext', `λ = ${round(points.lambda[point], 6)}, point ${point}`);
+    element('slider').setAttribute('aria-valuetext', `λ = ${load_factor(point, 6)}, point ${point}`);
     show_shape(shapes[current]);
     show_values(point);
     show_event(point);

@@ -116,6 +116,20 @@ WayOff way_off(const BranchPoint& point, int sign) {
   return {.forward = reversed(point.other), .across = reversed(across)};
 }
 
+double roundoff_width(Corrector& corrector, const Metric& metric, const SingularPlace& place,
+                      const BranchPoint& point) {
+  const BorderedSolver& solver = corrector.factorized().solver();
+  if (place.rate <= 0.0 || !solver.inner_is_regular()) return 0.0;
+  const Index size = corrector.factorized().equations().K.cols();
+  const Vector weights = metric.weights().head(size);
+  double unsure = 0.0;  // of μ in K φ = μ W φ
+  for (const Direction& mode : point.modes) {
+    const Vector phi = mode.dx.head(size);
+    unsure = std::max(unsure, solver.inner().roundoff(phi) / weights.dot(phi.cwiseAbs2()));
+  }
+  return std::min(unsure / place.rate, 1.0);
+}
+
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
                                    const BranchPoint& point, const WayOff& way, double distance,
                                    double guard_tolerance) {

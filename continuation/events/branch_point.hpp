@@ -37,6 +37,10 @@ struct WayOff {
 /// a pitchfork along that tangent.
 WayOff way_off(const BranchPoint& point, int sign);
 
+/// By how much of the chord on which its rate was taken round-off in the factors of K may move a singular place: an
+/// eigenvalue that they are not sure of may be zero there. The corrector is at the place, as branch_point_at() left it.
+double roundoff_width(Corrector& corrector, const Metric& metric, const SingularPlace& place, const BranchPoint& point);
+
 /// A first point on a bifurcated branch.
 struct SteppedOff {
   State state{};

@@ -25,7 +25,8 @@ bool is_one_sided(TraceTools& tools, const StepOrigin& origin, const BranchPoint
 SingularPoint singular_at(TraceTools& tools, const StepOrigin& origin, const SingularPlace& place,
                           double chord_dlambda) {
   auto branching = std::make_shared<BranchPoint>(branch_point_at(tools.system, tools.corrector, origin.metric, place));
-  branching->localised = place.half_width * std::abs(chord_dlambda);
+  const double uncertain = place.half_width + roundoff_width(tools.corrector, origin.metric, place, *branching);
+  branching->localised = uncertain * std::abs(chord_dlambda);
   PathPoint at = point_at(tools, origin, place);
   branching->discretisation = made_by_nodes(tools, at.state);
   if (tools.system.multiplier_count(at.state.piece) > 0 && branching->type == BranchType::asymmetric &&

@@ -96,6 +96,11 @@ Vector InterpolatedTestMatrix::eigenvalues(double t) const {
   return Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+double InterpolatedTestMatrix::rate(double t, Index j) const {
+  const double h = 0.1 * spread_;
+  return std::abs(eigenvalues(t + h)[j] - eigenvalues(t - h)[j]) / (2.0 * h);
+}
+
 PathPoint InterpolatedTestMatrix::point(double t, const Metric& metric) const {
   const auto weight = weights(t);
   PathPoint point;

@@ -59,6 +59,9 @@ class InterpolatedTestMatrix {
   /// Of S at t, ascending.
   Vector eigenvalues(double t) const;
 
+  /// How fast the j-th of them changes by t, in magnitude.
+  double rate(double t, Index j) const;
+
   /// How many of them are negative.
   Index negative(double t) const { return (eigenvalues(t).array() < 0.0).count(); }
 

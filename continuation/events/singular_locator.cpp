@@ -61,20 +61,25 @@ std::vector<SingularPlace> roots(const InterpolatedTestMatrix& S, const SegmentS
   const Index n0 = (first.array() < 0.0).count(), n1 = (last.array() < 0.0).count();
   const bool falls = bracket.after > bracket.before;
   if (n0 == n1 || (n1 > n0) != falls) return {};
-  std::vector<double> zeros;
+  struct Zero {
+    double t, rate;
+  };
+  std::vector<Zero> zeros;
   for (Index j = std::min(n0, n1); j < std::max(n0, n1); ++j) {
     const auto eigenvalue = [&](double t) -> std::optional<double> { return S.eigenvalues(t)[j]; };
     if (const auto root = bracketed_root(eigenvalue, from, first[j], to, last[j], 1e-14))
-      zeros.push_back(std::min(root->at, 1.0));
+      zeros.push_back({.t = std::min(root->at, 1.0), .rate = S.rate(root->at, j)});
   }
-  std::sort(zeros.begin(), zeros.end());
+  std::sort(zeros.begin(), zeros.end(), [](const Zero& a, const Zero& b) { return a.t < b.t; });
   std::vector<SingularPlace> places;
-  for (const double t : zeros) {
-    if (!places.empty() && (t - places.back().t) * L <= coincidence_tolerance) {
-      ++places.back().multiplicity;
-      places.back().change += falls ? 1 : -1;
+  for (const Zero& zero : zeros) {
+    if (!places.empty() && (zero.t - places.back().t) * L <= coincidence_tolerance) {
+      SingularPlace& same = places.back();
+      ++same.multiplicity;
+      same.change += falls ? 1 : -1;
+      same.rate = std::min(same.rate, zero.rate);
     } else {
-      places.push_back({.point = S.point(t, on.metric), .t = t, .change = falls ? 1 : -1});
+      places.push_back({.point = S.point(zero.t, on.metric), .t = zero.t, .rate = zero.rate, .change = falls ? 1 : -1});
     }
   }
   return places;

@@ -122,6 +122,12 @@ std::optional<std::vector<SingularPlace>> two_crossings(const Approach& approach
   if ((second->at - first->at) * on.segment.length() <= coincidence_tolerance) return places;
   const Index change = approach.S.negative(least.t) - approach.outside;
   places = {place_at(approach, first->at, on.metric), place_at(approach, second->at, on.metric)};
+  const auto rate = [&](double t) {
+    const double h = 0.1 * approach.S.spread();
+    return std::abs(approach.side(t + h) - approach.side(t - h)) / (2.0 * h);
+  };
+  places[0].rate = rate(first->at);
+  places[1].rate = rate(second->at);
   places[0].change = change;
   places[1].change = -change;
   places[0].multiplicity = places[1].multiplicity = std::abs(change);

@@ -121,6 +121,23 @@ TEST(PinnedColumn, HasItsBranchPointsWithTheirCounts) {
   }
 }
 
+// On fine meshes the round-off of K is what moves its zero. With n elements it is some n² roundings here; the element's
+// error is below 1e-12.
+TEST(PinnedColumn, SaysHowFarRoundOffMovesItsBranchPoints) {
+  const double EA = 1000.0;
+  for (const int elements : {640, 1280}) {
+    const auto points = branch_points(*Column{.EA = EA, .elements = elements}.structure(), 50.0);
+    ASSERT_EQ(points.size(), 2U);
+    for (int n = 1; n <= 2; ++n) {
+      const Event& event = points[static_cast<std::size_t>(n - 1)];
+      const double load = buckling_load(n, EA);
+      EXPECT_NEAR(event.state.lambda, load, event.localised + 1e-11 * load);
+      EXPECT_GE(event.localised, 1e-11 * load);
+      EXPECT_LE(event.localised, 1e-8 * load);
+    }
+  }
+}
+
 // A support moves the end by λ instead of a load: the column buckles where the support has shortened it by P/EA, P
 // being the load above, and the support carries that load.
 TEST(PinnedColumn, BucklesUnderASupportThatMoves) {

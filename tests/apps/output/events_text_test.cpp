@@ -25,6 +25,35 @@ branch 0: 3 points, ended: mid = 0.2 (stop)
 )");
 }
 
+// A branch point that is located to 4 % only, and a branch that leaves it.
+TEST(EventsText, ShowsNoDigitThatIsNotSureAndSaysSo) {
+  Record record = sample_record();
+  record.columns.clear();
+  for (RecordEvent& event : record.events) event.monitors.clear();
+  record.branches.push_back({.id = 1, .parent = 0, .origin = 2, .points = 1});
+  record.events[1].lambda = 0.123456789012;
+  record.events[2].lambda = 1.0120114646;
+  record.events[2].localised = 0.038;
+  record.events[3].lambda = 0.123456789012;
+  record.events[3].localised = 1e-9;
+  EXPECT_EQ(events_text(record),
+            "A sample\n"
+            "sample.toml, trace-path " +
+                program_version() + R"(
+
+id  branch  step            λ  kind                 what                                                                        unstable
+ 0       0     0            0  start                                                                                            0
+ 1       0     1  0.123456789  contact-closes       upper at column:0.25, upper at column:0.5, upper at column:0.75 and 1 more  0 → ?
+ 2       0     1  1.01 ± 0.05  contact-limit-point                                                                              0 → 1
+ 3       0     2   0.12345679  end                  stop                                                                        1
+
+λ = a ± b: the event lies between a − b and a + b and could not be located more closely; smaller steps may do so.
+
+branch 0: 3 points, ended: mid = 0.2 (stop)
+  at λ = 1.01 ± 0.05 (event 2): branch 1: 1 point
+)");
+}
+
 TEST(EventsText, NamesTheBranchOnlyIfThereAreSeveral) {
   Record record = sample_record();
   EXPECT_EQ(events_text(record).find("id  branch  step"), std::string::npos);

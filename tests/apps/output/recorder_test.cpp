@@ -158,6 +158,32 @@ TEST_F(RecorderTest, TheEndIsAnEventOfTheLastPoint) {
   EXPECT_EQ(record_.branches[0].end->reason, EndReason::stop);
 }
 
+// The end of a branch at a branch point, and the start of the one that leaves it, are no surer than that.
+TEST_F(RecorderTest, EndsAndStartsAtABranchPointAreAsUncertainAsThat) {
+  const auto point = std::make_shared<BranchPoint>();
+  Recorder first(model_, record_);
+  first.add(arc_at(model_, 0.0, 0.0, {EventKind::start}));
+  Arc arc = arc_at(model_, -0.25, 0.5, {EventKind::branch_point});
+  point->state = arc.to.state;
+  arc.events[0].branching = point;
+  arc.events[0].localised = 0.01;
+  first.add(arc);
+  first.end({EndReason::branched, ""});
+  Recorder second(model_, record_, BranchRecord{.id = 1, .parent = 0, .origin = point});
+  second.add(arc_at(model_, -0.25, 0.0, {EventKind::start}));
+  second.add(arc_at(model_, -0.5, 0.7, {}));
+  second.end({EndReason::stop, ""});
+
+  ASSERT_EQ(record_.events.size(), 5u);
+  EXPECT_EQ(record_.branches[1].origin, 1);
+  EXPECT_EQ(record_.events[0].localised, 0.0);
+  EXPECT_EQ(record_.events[2].kind, EventKind::end);
+  EXPECT_EQ(record_.events[2].localised, 0.01);
+  EXPECT_EQ(record_.events[3].kind, EventKind::start);
+  EXPECT_EQ(record_.events[3].localised, 0.01);
+  EXPECT_EQ(record_.events[4].localised, 0.0);
+}
+
 TEST_F(RecorderTest, ABranchWithoutPointsHasNoEndEvent) {
   Recorder recorder(model_, record_);
   recorder.end({EndReason::no_ray, ""});

@@ -54,6 +54,18 @@ TEST(ReportData, HasCurvesEventsAndShapes) {
   EXPECT_TRUE(data["shapes"].empty());
 }
 
+TEST(ReportData, PointsWithUncertainEventsHaveALoadAsText) {
+  Record record = sample_record();
+  EXPECT_EQ(report_data(record, {})["uncertain"].dump(), "[]");
+  record.points[1].lambda = record.events[1].lambda = record.events[2].lambda = 0.123456789012;
+  record.events[2].localised = 1e-9;  // 8 digits are sure
+  EXPECT_EQ(report_data(record, {})["uncertain"].dump(), "[]");
+  record.events[2].localised = 1e-8;
+  EXPECT_EQ(report_data(record, {})["uncertain"].dump(), R"([[1,"0.1234568"]])");
+  record.events[2].localised = 0.004;
+  EXPECT_EQ(report_data(record, {})["uncertain"].dump(), R"([[1,"0.123 ± 0.005"]])");
+}
+
 TEST(ReportData, ManyBranchesHaveColours) {
   for (Index i = 0; i < 100; ++i) EXPECT_TRUE(std::regex_match(branch_colour(i), std::regex("#[0-9A-F]{6}")));
   for (Index i = 0; i < 7; ++i)
@@ -86,6 +98,19 @@ TEST(ReportHtml, CanBeReadWithoutScripts) {
   EXPECT_NE(page.find("title = &quot;A sample&quot;"), std::string::npos);
   EXPECT_NE(page.find("<dt>nodes</dt><dd>41</dd>"), std::string::npos);
   EXPECT_NE(page.find("How &amp; why"), std::string::npos);
+}
+
+TEST(ReportHtml, ShowsNoDigitThatIsNotSureAndSaysSo) {
+  Record record = sample_record();
+  EXPECT_EQ(own_part(page_of(record, {})).find(" ± "), std::string::npos);
+  record.branches.push_back({.id = 1, .parent = 0, .origin = 2, .points = 0});
+  record.points[1].lambda = record.events[2].lambda = 1.0120114646;
+  record.events[2].localised = 0.038;
+  const std::string page = own_part(page_of(record, {}));
+  EXPECT_EQ(page.find("λ = 1.012"), std::string::npos);
+  EXPECT_NE(page.find("<td class=\"figure\">1.01 ± 0.05</td>"), std::string::npos);
+  EXPECT_NE(page.find(", λ = 1.01 ± 0.05;"), std::string::npos);
+  EXPECT_EQ(count(page, "<p class=\"note\">λ = a ± b: "), 1u);
 }
 
 TEST(ReportHtml, TextsOfTheDeckAreNoMarkup) {
