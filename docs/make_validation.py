@@ -356,6 +356,10 @@ that stand here.
 What is no structure of a deck is compared in `tests/published` with closed forms and independent values: Bratu's problem with the
 exact folds of its difference scheme, the sinusoidal shallow arch, the star dome with its double points, and the normal forms of
 singular points.
+
+Whole runs of ten decks are compared in `tests/apps/deck_answers_test.cpp`, event by event, six of them with closed forms and
+shooting and four with finer meshes and shorter steps: bounds just behind the spreading of a touch, stops that are smaller than an
+element or shorter than the structure, a snap-fit, a slender column, a toggle on a floor and columns between walls.
 """
 
 

@@ -7,9 +7,6 @@
 #include <random>
 #include <set>
 
-#include "apps/output/contacts_csv.hpp"
-#include "apps/output/events_json.hpp"
-#include "apps/output/path_csv.hpp"
 #include "apps/verify/again.hpp"
 #include "apps/verify/completeness.hpp"
 #include "apps/verify/plain_wall.hpp"
@@ -18,6 +15,7 @@
 #include "model/deck/reader.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/stored_files_of.hpp"
 
 namespace arcwall::verify::verify_test {
 
@@ -26,22 +24,16 @@ namespace {
 using test::example;
 using test::TracedDeck;
 
-StoredFiles files_of(const Record& record) {
-  return {.path_csv = path_csv(record, UnitLabels::shown),
-          .contacts_csv = record.has_walls ? contacts_csv(record, UnitLabels::shown) : "",
-          .events_json = to_text(events_json(record), JsonLayout::lines)};
-}
-
 void expect_confirmed(const TracedDeck& traced) {
   ASSERT_GT(traced.record().points.size(), 5u);
-  const Verdict verdict = verify(traced.model(), traced.record(), files_of(traced.record()), "checkpoint");
+  const Verdict verdict = verify(traced.model(), traced.record(), stored_files_of(traced.record()), "checkpoint");
   EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
   for (const CheckSummary& check : verdict.findings.checks()) EXPECT_GT(check.count, 0) << check.name;
 }
 
 // A record of one point, cut out of a run.
 void expect_confirmed_point(const TracedDeck& traced, const Record& record) {
-  const Verdict verdict = verify(traced.model(), record, files_of(record), "checkpoint");
+  const Verdict verdict = verify(traced.model(), record, stored_files_of(record), "checkpoint");
   EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
 }
 
@@ -201,7 +193,7 @@ TEST(Verify, APegBetweenTwoNodesIsSeen) {
   EXPECT_GT(traced.record().points.back().monitors[0], 0.1);
   const Model with_peg(deck::read_deck_text(
       strip_above(R"({ type = "circle", centre = [0.65, -0.02], radius = 0.005 })"), "deck.toml", {}));
-  const Verdict verdict = verify(with_peg, traced.record(), files_of(traced.record()), "checkpoint");
+  const Verdict verdict = verify(with_peg, traced.record(), stored_files_of(traced.record()), "checkpoint");
   ASSERT_TRUE(verdict.findings.first().has_value());
   EXPECT_TRUE(verdict.findings.first()->what.starts_with("no wall is entered between nodes: stop at strip:0.5"))
       << verdict.findings.first()->what;
@@ -213,7 +205,7 @@ TEST(Verify, IncrementsAreCheckedAgainstTheirFilesAlone) {
                           {"path.method=\"incremental\"", "path.step=0.1", "path.land={lambda=[1.0, 2.0]}"});
   ASSERT_TRUE(traced.model().in_increments());
   expect_confirmed(traced);
-  const Verdict verdict = verify(traced.model(), traced.record(), files_of(traced.record()), "checkpoint");
+  const Verdict verdict = verify(traced.model(), traced.record(), stored_files_of(traced.record()), "checkpoint");
   EXPECT_FALSE(has_check(verdict, "forces balance at nodes"));
   EXPECT_NE(verdict.not_checked.at(0).find("equilibrium"), std::string::npos);
   EXPECT_NE(to_text(verdict).find("- equilibrium"), std::string::npos);
@@ -266,12 +258,12 @@ class FalsifiedRun : public testing::Test {
   Failure first_failure(const std::function<void(Record&)>& change) const {
     Record record = traced_.record();
     change(record);
-    return failure(record, files_of(traced_.record()));
+    return failure(record, stored_files_of(traced_.record()));
   }
 
   // With one text in a file replaced by another, where it stands last.
   Failure first_failure(std::string StoredFiles::*file, const std::string& text, const std::string& by) const {
-    StoredFiles files = files_of(traced_.record());
+    StoredFiles files = stored_files_of(traced_.record());
     const auto at = (files.*file).rfind(text);
     EXPECT_NE(at, std::string::npos) << text;
     (files.*file).replace(at, text.size(), by);
@@ -338,7 +330,7 @@ TEST_F(FalsifiedRun, ACountOffByOneIsCaught) {
     Record record = traced_.record();
     const std::size_t where = pressed_point();
     record.points[where].count.unstable = *record.points[where].count.unstable + by;
-    const Failure first = failure(record, files_of(record));
+    const Failure first = failure(record, stored_files_of(record));
     EXPECT_EQ(first.file, "path.csv");
     EXPECT_EQ(first.step, record.points[where].step);
     EXPECT_NE(first.what.find("unstable directions"), std::string::npos) << first.what;
@@ -389,7 +381,7 @@ TEST_F(FalsifiedRun, AnEventThatSaysSomethingElseIsCaught) {
 }
 
 TEST_F(FalsifiedRun, AMissingRowIsCaught) {
-  StoredFiles files = files_of(traced_.record());
+  StoredFiles files = stored_files_of(traced_.record());
   files.path_csv.erase(files.path_csv.rfind('\n', files.path_csv.size() - 2) + 1);
   const Failure first = failure(traced_.record(), files);
   EXPECT_EQ(first.file, "path.csv");
@@ -421,7 +413,7 @@ TEST(FalsifiedSlidingRun, APlaceAMomentAndAPenetrationAreCaught) {
   const auto caught = [&](Index unknown, double by) {
     Record falsified = record;
     falsified.points[0].state.x[unknown] += by;
-    const Verdict verdict = verify(traced.model(), falsified, files_of(record), "checkpoint");
+    const Verdict verdict = verify(traced.model(), falsified, stored_files_of(record), "checkpoint");
     EXPECT_TRUE(verdict.findings.first().has_value());
     const std::string what = verdict.findings.first().value_or(Failure{}).what;
     return what.substr(0, what.find(':'));

@@ -1,0 +1,318 @@
+// Whole runs of decks, each of a kind that was once answered wrongly without a word: a bound that was jumped over, a
+// stop that was passed through, a singular point that was found twice, a path that turned round. What is expected comes
+// from elsewhere, as is said at each deck. "Shooting": the boundary value problem of the extensible elastica, θ′ =
+// M/EI, (x′, z′) = (1 + N/EA)(cos θ, sin θ), M′ = −(1 + N/EA) Q, by Runge-Kutta's method of order 4 from one end to the
+// touch and on to the other, with what is not known there and the touch by Newton's method; all digits given stay with
+// half the steps.
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "apps/output/exit_status.hpp"
+#include "apps/verify/verify.hpp"
+#include "model/event_names.hpp"
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/stored_files_of.hpp"
+
+namespace arcwall::deck_answers_test {
+namespace {
+
+struct Scene {
+  EventKind kind{};
+  double lambda = 0.0, tolerance = 0.0;
+};
+
+struct Answer {
+  std::string name{};
+  const char* deck = nullptr;
+  std::vector<Scene> scenes{};
+  ExitStatus status = ExitStatus::success;
+};
+
+std::ostream& operator<<(std::ostream& out, const Answer& answer) { return out << answer.name; }
+
+// Pure bending until the touch: κ = M/EI with (1 − cos κL/2)/κ = 0.125. At the spreading by shooting from the left end
+// to the middle, where θ and M vanish. The bound lies between that and the first point behind it.
+constexpr const char* bound_behind_spread = R"toml(
+title = "A strip bent onto a floor, with a bound just behind the spreading of the touch"
+units = { length = "cm", force = "kN" }
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.3, height = 0.15 }
+point = { a = [0.0, 0.0], b = [3.0, 0.0] }
+member.strip = { from = "a", to = "b", theory = "classic", material = "steel", section = "s", elements = 36 }
+support = { a = ["x", "z"], b = ["z"] }
+load = [{ at = "a", moment = -1.0 }, { at = "b", moment = 1.0 }]
+wall = [{ name = "floor", side = "below", profile = { type = "flat", z = -0.2 } }]
+monitor = [{ name = "mid", at = "strip:0.5", component = "z" }]
+path = { step = 0.1, stop = { lambda = [-1.0, 0.593] } }
+)toml";
+
+// Shooting; at the spreading the axis has the curvature of the curve at 0.2 above the parabola. The elements' error is
+// below 5e-7.
+constexpr const char* hollow = R"toml(
+title = "A guided beam pressed into a hollow"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 1.2, height = 0.4 }
+point = { a = [0.0, 0.0], b = [12.0, 0.0] }
+member.beam = { from = "a", to = "b", theory = "classic", material = "steel", section = "s", elements = 48 }
+support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
+load = [{ on = "beam", distributed = [0.0, -2.0] }]
+wall = [{ name = "hollow", side = "below", profile = { type = "parabola", apex = [4.8, -1.4], curvature = 0.012 } }]
+monitor = [{ name = "mid", at = "beam:0.5", component = "z" }]
+path = { step = 0.1, stop = { lambda = [-1.0, 4.38] } }
+)toml";
+
+// Shooting: the axis is 0.027 from the pin's centre.
+constexpr const char* pin = R"toml(
+title = "A strip bent onto a pin that is thinner than an element is long"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.05, height = 0.03 }
+point = { clamp = [0.0, 0.0], tip = [2.0, 0.0] }
+member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 16 }
+support = { clamp = ["x", "z", "rotation"] }
+load = [{ at = "tip", force = [0.0, -5e-4] }]
+wall = [{ name = "pin", side = "below", profile = { type = "circle", centre = [1.1, -0.2], radius = 0.012 } }]
+monitor = [{ name = "tip", at = "tip", component = "z" }]
+path = { step = 0.1, stop = { lambda = [-1.0, 4.0] } }
+)toml";
+
+// Shooting: the axis is 0.365 from the stop's centre. `verify` holds though the gap beyond the stop is infinite.
+constexpr const char* stop = R"toml(
+title = "A strip bent onto a round stop that is shorter than itself"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.05, height = 0.03 }
+point = { clamp = [0.0, 0.0], tip = [2.0, 0.0] }
+member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 32 }
+support = { clamp = ["x", "z", "rotation"] }
+load = [{ at = "tip", force = [0.0, -5e-4] }]
+wall = [{ name = "stop", side = "below", profile = { type = "circle", centre = [1.1, -0.45], radius = 0.35 } }]
+monitor = [{ name = "tip", at = "tip", component = "z" }]
+path = { step = 0.1, stop = { lambda = [-1.0, 4.0] } }
+)toml";
+
+// From a run with four times the elements and steps of at most 0.03. `verify` holds on a curved wall, too.
+constexpr const char* hump = R"toml(
+title = "A portal whose beam is bent onto a hump"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.3, height = 0.12 }
+point = { a = [0.0, 0.0], b = [0.0, 12.0], c = [14.0, 12.0], e = [14.0, 0.0] }
+support = { a = ["x", "z"], e = ["x", "z"] }
+load = [{ at = "beam:0.4375", force = [0.0, -0.14] }, { at = "b", force = [0.005, 0.0] }]
+monitor = [{ name = "sway", at = "b", component = "x" }]
+path = { step = 0.05, stop = { lambda = [-1.0, 2.0], sway = [-9.0, 9.0] } }
+[member]
+west = { from = "a", to = "b", theory = "classic", material = "steel", section = "s", elements = 10 }
+beam = { from = "b", to = "c", theory = "classic", material = "steel", section = "s", elements = 16 }
+east = { from = "c", to = "e", theory = "classic", material = "steel", section = "s", elements = 10 }
+[[wall]]
+name = "hump"
+side = "below"
+profile = { type = "parabola", apex = [6.6, 11.2], curvature = -0.16 }
+members = ["beam"]
+)toml";
+
+// From a run with four times the elements and steps of at most 0.03. The limit point is none besides a branch point.
+constexpr const char* wavy_column = R"toml(
+title = "A column of a wavy shape between a flat and a sloping wall"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.8, height = 0.2 }
+point = { foot = [0.0, 0.0], head = [26.0, 0.0] }
+support = { foot = ["x", "z", "rotation"], head = ["z"] }
+load = [{ at = "head", force = [-0.35, 0.0] }]
+monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "head", component = "x", sign = -1 }]
+path = { step = 0.02, stop = { lambda = [-1.0, 12.0], shortening = [-5.0, 18.0] } }
+member.column = { from = "foot", to = "head", theory = "elastica", material = "steel", section = "s", elements = 48, imperfection = [{ shape = "sine", amplitude = -0.16, waves = 2 }] }
+[[wall]]
+name = "above"
+side = "above"
+profile = { type = "flat", z = 1.15 }
+[[wall]]
+name = "below"
+side = "below"
+profile = { type = "line", z = -1.2, slope = -0.01 }
+)toml";
+
+// From a run with four times the elements and steps of at most 0.03. Each limit point is found once.
+constexpr const char* unequal_toggle = R"toml(
+title = "An unequal toggle that snaps onto a nearly flat floor"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 2.0, height = 0.3 }
+point = { a = [0.0, 0.0], top = [15.0, 0.82], b = [40.0, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["x", "z", "rotation"] }
+load = [{ at = "top", force = [0.0, -0.2] }]
+wall = [{ name = "floor", side = "below", profile = { type = "line", z = -0.28, slope = -0.0004 } }]
+monitor = [{ name = "down", at = "top", component = "z", sign = -1 }]
+path = { step = 0.05, stop = { lambda = [-3.0, 3.0], down = [-1.6, 3.2] } }
+[member]
+west = { from = "a", to = "top", theory = "elastica", material = "steel", section = "s", elements = 20 }
+east = { from = "top", to = "b", theory = "elastica", material = "steel", section = "s", elements = 20 }
+)toml";
+
+// P (1 − P/EA) = π² EI/L² at the branch point. Then shooting from the foot to the middle, where θ vanishes, and M where
+// the touch spreads. The elements' error is (π/60)⁴/720 of the load at the branch point.
+constexpr const char* slender_column = R"toml(
+title = "A slender column between far walls"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.6, height = 0.1 }
+point = { foot = [0.0, 0.0], head = [20.0, 0.0] }
+member.column = { from = "foot", to = "head", theory = "classic", material = "steel", section = "s", elements = 60 }
+support = { foot = ["x", "z"], head = ["z"] }
+load = [{ at = "head", force = [-0.02, 0.0] }]
+monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
+path = { step = 0.05, stop = { lambda = [-1.0, 8.0] } }
+[[wall]]
+name = "above"
+side = "above"
+acts_on = "axis"
+profile = { type = "flat", z = 0.9 }
+[[wall]]
+name = "below"
+side = "below"
+acts_on = "axis"
+profile = { type = "flat", z = -2.0 }
+)toml";
+
+// The nose touches the ramp, and leaves it, where z = −1.2 on both: the base has gone 5 ∓ √8, and the spring of 0.2/80
+// alone holds it. In between shooting from the base over the corner to the nose, pushed by the ramp at right angles;
+// the limit points are the greatest and the least load over the way.
+constexpr const char* snap_fit = R"toml(
+title = "A hook with a nose, pushed over a ramp"
+units = { length = "mm", force = "N" }
+material = { plastic = { E = 2000.0 }, soft = { E = 1.0 } }
+section.hook = { shape = "rectangle", width = 6.0, height = 1.2 }
+section.spring = { shape = "general", A = 0.2, I = 1.0 }
+point = { base = [0.0, 0.0], tip = [18.0, 0.0], nose = [18.0, -1.2], anchor = [-80.0, 0.0] }
+support = { base = ["z", "rotation"], anchor = ["x", "z"] }
+wall = [{ name = "ramp", side = "below", acts_on = "axis", members = ["nose"], profile = { type = "parabola", apex = [23.0, -0.4], curvature = -0.2 } }]
+load = [{ at = "base", force = [1.0, 0.0] }]
+monitor = [{ name = "push", at = "base", component = "x" }]
+path = { step = 0.01, stop = { push = [-0.1, 11.0] } }
+[member]
+beam = { from = "base", to = "tip", theory = "classic", material = "plastic", section = "hook", elements = 24 }
+nose = { from = "tip", to = "nose", theory = "classic", material = "plastic", section = "hook", elements = 4 }
+spring = { from = "anchor", to = "base", theory = "classic", hinge = ["from", "to"], material = "soft", section = "spring", elements = 1 }
+)toml";
+
+// From a run with four times the elements and steps of at most 0.02. λ falls to the end, and no event is met twice.
+constexpr const char* rounded_walls = R"toml(
+title = "A nearly straight column between two rounded walls"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.6, height = 0.36 }
+point = { foot = [0.0, 0.0], head = [15.0, 0.0] }
+support = { foot = ["x", "z"], head = ["z"] }
+load = [{ at = "head", force = [-2.2, 0.0] }]
+monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "head", component = "x", sign = -1 }]
+path = { step = 0.05, stop = { lambda = [-1.0, 11.0], shortening = [-3.0, 4.6] } }
+member.column = { from = "foot", to = "head", theory = "classic", material = "steel", section = "s", elements = 64, imperfection = [{ shape = "sine", amplitude = 0.0015, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }] }
+[[wall]]
+name = "above"
+side = "above"
+profile = { type = "circle", centre = [8.9, 12.2], radius = 11.7 }
+[[wall]]
+name = "below"
+side = "below"
+profile = { type = "circle", centre = [5.9, -37.7], radius = 37.2 }
+)toml";
+
+std::vector<Answer> answers() {
+  using enum EventKind;
+  return {
+      {.name = "BoundBehindTheSpreadOfATouch",
+       .deck = bound_behind_spread,
+       .scenes = {{start, 0.0, 0.0},
+                  {contact_closes, 0.197333493878, 1e-9},
+                  {contact_spreads, 0.590114169368, 1e-9},
+                  {end, 0.593, 1e-12}}},
+      {.name = "BoundBehindTheSpreadOnAHollow",
+       .deck = hollow,
+       .scenes = {{start, 0.0, 0.0},
+                  {contact_closes, 1.551512783396, 1e-7},
+                  {contact_spreads, 4.351675758387, 1e-6},
+                  {end, 4.38, 1e-12}}},
+      {.name = "APinThatIsThinnerThanAnElementIsLong",
+       .deck = pin,
+       .scenes = {{start, 0.0, 0.0}, {contact_closes, 0.836313387175, 1e-9}, {end, 4.0, 1e-12}}},
+      {.name = "AStopThatIsShorterThanTheStrip",
+       .deck = stop,
+       .scenes = {{start, 0.0, 0.0}, {contact_closes, 0.392388749406, 1e-9}, {end, 4.0, 1e-12}}},
+      {.name = "AHumpBelowAPortal",
+       .deck = hump,
+       .scenes = {{start, 0.0, 0.0},
+                  {contact_closes, 0.12138026843, 1e-7},
+                  {contact_spreads, 0.90723048652, 5e-6},
+                  {end, 2.0, 1e-12}}},
+      {.name = "ALimitPointBehindATouch",
+       .deck = wavy_column,
+       .scenes = {{start, 0.0, 0.0},
+                  {contact_closes, 0.82837836392, 1e-8},
+                  {limit_point, 2.77728845302, 1e-8},
+                  {contact_closes, 2.76650766654, 1e-8},
+                  {contact_limit_point, 2.76650766654, 1e-8},
+                  {contact_spreads, 9.81136209588, 2e-7},
+                  {end, 12.0, 1e-11}}},
+      {.name = "LimitPointsOfAToggleOnAFloor",
+       .deck = unequal_toggle,
+       .scenes = {{start, 0.0, 0.0},
+                  {limit_point, 1.28480255068, 1e-8},
+                  {contact_closes, 0.99039786869, 1e-8},
+                  {contact_limit_point, 0.99039786869, 1e-8},
+                  {limit_point, 1.95208937770, 1e-8},
+                  {limit_point, 1.93697670626, 1e-8},
+                  {contact_closes, 2.43169520344, 1e-8},
+                  {end, 3.0, 1e-12}}},
+      {.name = "ASlenderColumnBetweenFarWalls",
+       .deck = slender_column,
+       .scenes = {{start, 0.0, 0.0},
+                  {branch_point, 1.295412214037, 3e-8},
+                  {end, 1.295412214037, 3e-8},
+                  {start, 1.295412214037, 3e-8},
+                  {contact_closes, 1.298667818904, 3e-8},
+                  {contact_spreads, 5.166114071656, 2e-6},
+                  {end, 8.0, 1e-11}}},
+      {.name = "AHookThatSnapsOverARamp",
+       .deck = snap_fit,
+       .scenes = {{start, 0.0, 0.0},
+                  {contact_closes, 0.005428932188, 1e-11},
+                  {limit_point, 0.165562149049, 1e-9},
+                  {limit_point, -0.134360821944, 1e-9},
+                  {contact_opens, 0.019571067812, 1e-11},
+                  {end, 0.0275, 1e-12}}},
+      {.name = "ANearlyStraightColumnBetweenRoundedWalls",
+       .deck = rounded_walls,
+       .scenes = {{start, 0.0, 1e-30},
+                  {contact_closes, 0.97345708766, 2e-8},
+                  {limit_point, 4.10286565879, 3e-7},
+                  {contact_closes, 4.09323619354, 3e-7},
+                  {contact_limit_point, 4.09323619354, 3e-7},
+                  {limit_point, 6.92947226130, 2e-6},
+                  {contact_opens, 2.89295209827, 2e-7},
+                  {contact_closes, 0.85162185885, 3e-7},
+                  {end, 0.76091249825, 2e-6}}},
+  };
+}
+
+class DeckAnswers : public testing::TestWithParam<Answer> {};
+
+TEST_P(DeckAnswers, HoldAndAreVerified) {
+  const auto& [name, deck, scenes, status] = GetParam();
+  const test::TracedDeck traced(deck);
+  const Record& record = traced.record();
+  std::string told;
+  for (const RecordEvent& event : record.events) told += std::string(to_text(event.kind)) + " ";
+  std::string expected;
+  for (const Scene& scene : scenes) expected += std::string(to_text(scene.kind)) + " ";
+  ASSERT_EQ(told, expected);
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    EXPECT_NEAR(record.events[i].lambda, scenes[i].lambda, scenes[i].tolerance) << to_text(scenes[i].kind);
+  EXPECT_EQ(exit_status(record.branches.back().end.value().reason), status);
+  const verify::Verdict verdict = verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
+  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+}
+
+INSTANTIATE_TEST_SUITE_P(Decks, DeckAnswers, testing::ValuesIn(answers()),
+                         [](const auto& answer) { return answer.param.name; });
+
+}  // namespace
+}  // namespace arcwall::deck_answers_test
