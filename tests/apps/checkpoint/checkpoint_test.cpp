@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
@@ -44,6 +47,12 @@ struct Case {
   Assignments assignments;
   int stride;
 };
+
+std::ostream& operator<<(std::ostream& out, const Case& run) {
+  out << run.example;
+  for (const std::string& assignment : run.assignments) out << " --set " << assignment;
+  return out << ", taken up every " << run.stride << (run.stride == 1 ? " point" : " points");
+}
 
 class ResumedRun : public testing::TestWithParam<Case> {};
 
