@@ -147,8 +147,9 @@ class SlidingBody {
   virtual double bending_stiffness(Index strand) const = 0;  ///< EI [force·length²]
   virtual double axial_stiffness(Index strand) const = 0;    ///< EA [force]
 
-  /// Load along a strand [force per stress-free length].
-  virtual Vec2 load(Index strand, double lambda) const = 0;
+  /// What acts along a strand at a place of it that is at this position now: loads, and the springs of a foundation
+  /// [force per stress-free length].
+  virtual Vec2 load(const MaterialPoint& point, const Vec2& position, double lambda) const = 0;
 
   /// Whether a support holds the end of a strand in z.
   virtual bool end_is_held(Index strand, bool last) const = 0;

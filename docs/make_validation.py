@@ -178,6 +178,29 @@ def buckling(n: int, EA: float, GA: float = math.inf) -> float:
     return 2 * euler / (1 + math.sqrt(1 + 4 * a * euler))
 
 
+def column_on_springs() -> list:
+    """Pinned columns with L = EI = 1 on springs. Bending has the wave number k of (1 − P/EA) P = k² by stress-free length."""
+    EA = 1000.0
+    shrink = lambda P: 1 - P / EA
+    k = lambda P: math.sqrt(shrink(P) * P)
+    euler, two_waves = buckling(1, EA), buckling(2, EA)
+    middle, ends, foundation = 80.0, 2.0, 400.0
+    over_spring = root(lambda P: shrink(P) * middle / (2 * P) * (0.5 * math.cos(k(P) / 2) - math.sin(k(P) / 2) / k(P))
+                       - math.cos(k(P) / 2), 1.0001 * euler, 0.9999 * two_waves)
+    between = root(lambda P: math.sin(k(P) / 2) + k(P) / ends * math.cos(k(P) / 2), 1.0001 * euler, two_waves)
+    in_waves = lambda q: root(lambda P: q * q - shrink(P) * P + shrink(P)**2 * foundation / q**2, 0.0, 400.0)
+    of = lambda name, spring, load_of: Case(
+        f"Pinned column, {name}", "docs/validation/column.toml", meshes({"column": 1}, [4, 8, 16, 32]),
+        [Quantity("first buckling load", load("branch-point"), load_of, "closed form")], always=(f"spring=[{spring}]",))
+    turned = f"stiffness={{rotation={ends}}}"
+    return [
+        of("a spring across in its middle", f"{{at='column:0.5', stiffness={{z={middle}}}}}", over_spring),
+        of("springs against rotation at its ends", f"{{at='foot', {turned}}}, {{at='head', {turned}}}", between),
+        of("on a foundation", f"{{on='column', foundation={{z={foundation}}}}}",
+           min(in_waves(m * math.pi) for m in (1, 2, 3))),
+    ]
+
+
 def cases() -> list:
     EA, h, half_span = 1e5, 0.5, 5.0
     L = math.hypot(half_span, h)
@@ -255,6 +278,7 @@ def cases() -> list:
             Quantity("first buckling load", load("branch-point"), buckling(1, 1000.0, 500.0), "closed form"),
             Quantity("second buckling load", load("branch-point", 1), buckling(2, 1000.0, 500.0), "closed form"),
         ], always=("member.column.theory='exact'",)),
+        *column_on_springs(),
         Case("Clamped column, extensible", "docs/validation/column_clamped.toml",
              meshes({"column": 1}, [6, 12, 24, 48]), [
             Quantity("first buckling load", load("branch-point"), buckling(2, 1000.0), "closed form"),

@@ -115,6 +115,17 @@ struct Motions {
     const Eigen::Index first = 3 * static_cast<Eigen::Index>(body);
     return {{first, by[0]}, {first + 1, by[1]}, {first + 2, by[2]}};
   }
+
+  // Of a displacement or a rotation.
+  std::vector<std::pair<Eigen::Index, double>> of_freedom(Index freedom) const {
+    const Structure::Meaning meaning = structure.meaning_of_freedom(freedom);
+    if (meaning.freedom == Freedom::x) return of_node(meaning.node, Vec2::UnitX());
+    if (meaning.freedom == Freedom::z) return of_node(meaning.node, Vec2::UnitY());
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (const ElementEnd& end : bodies[b].ends)
+        if (end.rotation == freedom) return {{3 * static_cast<Eigen::Index>(b) + 2, 1.0 / bodies[b].size}};
+    return {};
+  }
 };
 
 // Conditions C q = 0: bars keep their lengths, bodies hold together at their joints, and what supports or springs join
@@ -125,6 +136,7 @@ class Conditions {
     keep_lengths_of_bars();
     join_bodies();
     hold_supports();
+    join_by_springs();
   }
 
   Rows matrix() const {
@@ -177,6 +189,11 @@ class Conditions {
     for (std::size_t b = 0; b < motions_.bodies.size(); ++b)
       for (const ElementEnd& end : motions_.bodies[b].ends)
         if (holds(end.rotation)) add({{3 * static_cast<Eigen::Index>(b) + 2, 1.0}});
+  }
+
+  void join_by_springs() {
+    for (const NodalTerms::Spring& spring : motions_.structure.nodal_terms().springs())
+      add(motions_.of_freedom(spring.first), motions_.of_freedom(spring.second));
   }
 
   const Motions& motions_;

@@ -11,12 +11,12 @@
 namespace arcwall {
 
 /// What acts on single freedoms of a structure, however it is meshed: point loads p, supports that give a freedom the
-/// value ū, and stiffnesses k to ground. u is the displacement or rotation from the stress-free state, f(u, λ) the
-/// force of the elements on it.
+/// value ū, and stiffnesses k_i to ground and k_ij between two freedoms. u is the displacement or rotation from the
+/// stress-free state, f(u, λ) the force of the elements on it.
 ///
-///     F_i = f_i(u, λ) + k_i u_i − p_i(λ)        of a freedom that is free, an unknown of the mesh
-///     u_i = ū_i(λ)                              of one that is held; its support exerts f_i + k_i ū_i − p_i
-///     Π   = U(u, λ) + Σ ½ k_i u_i² − Σ p_i u_i  over both
+///     F_i = f_i(u, λ) + k_i u_i + Σ_j k_ij (u_i − u_j) − p_i(λ)    of a freedom that is free, an unknown of the mesh
+///     u_i = ū_i(λ)                                                 of one that is held; its support exerts F_i
+///     Π   = U(u, λ) + Σ ½ k_i u_i² + Σ ½ k_ij (u_i − u_j)² − Σ p_i u_i                                 over both
 ///
 /// The mesh is known by two functions of a freedom: `unknown_of` gives its unknown, −1 if it is held, and
 /// `displacement_of` gives u.
@@ -30,6 +30,11 @@ class NodalTerms {
 
   /// Adds a spring from the freedom to the ground, of stiffness k [force/length], for a rotation [force·length].
   void add_ground_stiffness(Index freedom, double k) { entry(ground_, freedom) += k; }
+
+  /// Adds a spring between two freedoms, likewise. The pattern of the structure must have its entry.
+  void add_spring(Index first, Index second, double k) {
+    springs_.push_back({.first = first, .second = second, .stiffness = k});
+  }
 
   /// The terms of a path in λ from 0 to 1 that applies the constant parts of loads and supports: there these are the
   /// proportional parts, and those that were are left out. Springs stay.
@@ -47,6 +52,16 @@ class NodalTerms {
   Driven support(Index freedom) const { return value_or_zero(supports_, freedom); }
   double ground_stiffness(Index freedom) const { return value_or_zero(ground_, freedom); }
 
+  /// A spring between two freedoms.
+  struct Spring {
+    Index first, second;
+    double stiffness;
+
+    bool joins(Index freedom) const { return freedom == first || freedom == second; }
+    Index other(Index freedom) const { return freedom == first ? second : first; }
+  };
+  const std::vector<Spring>& springs() const { return springs_; }
+
   /// Whether the freedom is held at a value that is not always zero; and whether any is.
   bool is_displaced(Index freedom) const { return !support(freedom).is_zero(); }
   bool has_displaced_supports() const {
@@ -62,13 +77,18 @@ class NodalTerms {
     return greatest;
   }
 
-  /// Adds k u − p to the forces F on the unknowns.
+  /// Adds k u − p and the forces of springs to the forces F on the unknowns.
   template <class UnknownOf, class DisplacementOf>
   void add_forces(double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of, double* F) const {
     for (const auto& [freedom, load] : loads_)
       if (const Index i = unknown_of(freedom); i >= 0) F[i] -= load.at(lambda);
     for (const auto& [freedom, k] : ground_)
       if (const Index i = unknown_of(freedom); i >= 0) F[i] += k * displacement_of(freedom);
+    for (const Spring& spring : springs_) {
+      const double force = spring.stiffness * (displacement_of(spring.second) - displacement_of(spring.first));
+      if (const Index i = unknown_of(spring.first); i >= 0) F[i] -= force;
+      if (const Index i = unknown_of(spring.second); i >= 0) F[i] += force;
+    }
   }
 
   /// Adds these forces and their derivatives to F, K and F_λ, and lists the stiffnesses in `ground`. K has the pattern
@@ -85,9 +105,10 @@ class NodalTerms {
         out.K.coeffRef(i, i) += k;
         out.ground.push_back({.row = i, .column = i, .stiffness = k});
       }
+    for (const Spring& spring : springs_) linearize(spring, unknown_of, out);
   }
 
-  /// Σ ½ k u² − Σ p u, over free and held freedoms.
+  /// Σ ½ k u² − Σ p u, over free and held freedoms, and the energy of springs between them.
   template <class DisplacementOf>
   double energy(double lambda, const DisplacementOf& displacement_of) const {
     double energy = 0.0;
@@ -96,15 +117,34 @@ class NodalTerms {
       const double u = displacement_of(freedom);
       energy += 0.5 * k * u * u;
     }
+    for (const Spring& spring : springs_) {
+      const double stretch = displacement_of(spring.second) - displacement_of(spring.first);
+      energy += 0.5 * spring.stiffness * stretch * stretch;
+    }
     return energy;
   }
 
-  /// k ū − p of a held freedom: what its support exerts besides the force of the elements.
-  Driven support_force(Index freedom) const {
-    const Driven value = support(freedom), force = load(freedom);
-    const double k = ground_stiffness(freedom);
-    return {.constant = k * value.constant - force.constant,
-            .proportional = k * value.proportional - force.proportional};
+  /// What the support of a held freedom exerts besides the force of the elements: k ū − p and the forces of springs.
+  template <class DisplacementOf>
+  double support_force(Index freedom, double lambda, const DisplacementOf& displacement_of) const {
+    double force = ground_stiffness(freedom) * support(freedom).at(lambda) - load(freedom).at(lambda);
+    for (const Spring& spring : springs_)
+      if (spring.joins(freedom))
+        force += spring.stiffness * (displacement_of(freedom) - displacement_of(spring.other(freedom)));
+    return force;
+  }
+
+  /// Adds its derivatives by the unknowns, a vector, and by λ.
+  template <class UnknownOf, class Derivatives>
+  void add_support_force_gradient(Index freedom, const UnknownOf& unknown_of, Derivatives& by_unknowns,
+                                  double& by_lambda) const {
+    by_lambda += ground_stiffness(freedom) * support(freedom).proportional - load(freedom).proportional;
+    for (const Spring& spring : springs_) {
+      if (!spring.joins(freedom)) continue;
+      const Index other = spring.other(freedom), i = unknown_of(other);
+      by_lambda += spring.stiffness * (support(freedom).proportional - support(other).proportional);
+      if (i >= 0) by_unknowns[i] -= spring.stiffness;
+    }
   }
 
  private:
@@ -133,8 +173,25 @@ class NodalTerms {
     return found == nullptr ? Value{} : *found;
   }
 
+  // A spring whose other end is held is one to a ground that may move.
+  template <class UnknownOf>
+  void linearize(const Spring& spring, const UnknownOf& unknown_of, Linearization& out) const {
+    const Index a = unknown_of(spring.first), b = unknown_of(spring.second);
+    const double k = spring.stiffness;
+    for (const Index i : {a, b})
+      if (i >= 0) out.K.coeffRef(i, i) += k;
+    if (a >= 0 && b >= 0) {
+      out.K.coeffRef(std::max(a, b), std::min(a, b)) -= k;
+    } else if (a >= 0 || b >= 0) {
+      const Index i = std::max(a, b);
+      out.F_lambda[i] -= k * support(a >= 0 ? spring.second : spring.first).proportional;
+      out.ground.push_back({.row = i, .column = i, .stiffness = k});
+    }
+  }
+
   List<Driven> loads_, supports_;
   List<double> ground_;
+  std::vector<Spring> springs_;
 };
 
 }  // namespace arcwall

@@ -4,20 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "elements/shape_functions.hpp"
-
 namespace arcwall {
-
-namespace {
-
-// ds/dξ
-double arc_speed(const ExactBeamReference& reference, const ShapeFunctions& shape) {
-  double speed = 0.0;
-  for (std::size_t a = 0; a < reference.arcs.size(); ++a) speed += shape.dN[a] * reference.arcs[a];
-  return speed;
-}
-
-}  // namespace
 
 // Positions and the arc length are interpolated alike, ds/dξ = Σ N_a′ s_a: the whole length is exact, and the nodes
 // need not be equally far apart.

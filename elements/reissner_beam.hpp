@@ -5,6 +5,7 @@
 
 #include "core/types.hpp"
 #include "elements/element.hpp"
+#include "elements/shape_functions.hpp"
 
 namespace arcwall {
 
@@ -16,6 +17,13 @@ struct ExactBeamReference {
 
   int order() const { return static_cast<int>(nodes.size()) - 1; }
 };
+
+/// ds/dξ of its axis.
+inline double arc_speed(const ExactBeamReference& reference, const ShapeFunctions& shape) {
+  double speed = 0.0;
+  for (std::size_t a = 0; a < reference.arcs.size(); ++a) speed += shape.dN[a] * reference.arcs[a];
+  return speed;
+}
 
 /// Stiffness of a section that is flexible in shear.
 struct ExactBeamStiffness {

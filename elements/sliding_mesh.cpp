@@ -6,6 +6,7 @@
 
 #include "elements/classic_beam.hpp"
 #include "elements/elastica_beam.hpp"
+#include "elements/foundation.hpp"
 
 namespace arcwall {
 
@@ -72,6 +73,8 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
       const NodeUnknowns first = node_unknowns(r, e), second = node_unknowns(r, e + 1);
       blocks.push_back({first[0], first[1], first[2], second[0], second[1], second[2]});
     }
+  for (const NodalTerms::Spring& spring : structure.nodal_.springs())
+    blocks.push_back({unknown(spring.first), unknown(spring.second)});
   assembly_ = BlockAssembly(unknowns, blocks);
   number_fours();
 
@@ -186,6 +189,10 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index
                .stiffness = spread(beam_response.stiffness),
                .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
   if (described.carries_load()) add_load(described, stretch, at, now.lambda, out);
+  if (described.has_foundation()) {
+    const MaterialPoint first{.strand = strand, .s = coordinate(strand, position, now.s)};
+    add_foundation(described, stretch, structure_.undeformed(first, true).position, at, out);
+  }
   if (has_displaced_end(strand, position)) out.force_lambda += out.stiffness * end_rates(strand, position);
   return out;
 }
@@ -203,6 +210,16 @@ void SlidingStructureMesh::add_load(const SlidingStructure::Run& strand, const S
   };
   out.force_lambda = add(strand.load, lambda);
   add(strand.constant_load, 1.0);
+}
+
+void SlidingStructureMesh::add_foundation(const SlidingStructure::Run& strand, const StretchReference& stretch,
+                                          const Vec2& first_at_rest, const Ends& at, Response& out) {
+  const auto response = StretchFoundation(stretch, strand.foundation)
+                            .respond(at.first - first_at_rest, at.angle1, at.second - first_at_rest, at.angle2);
+  out.energy += response.energy;
+  out.force += response.force;
+  out.stiffness += response.stiffness;
+  for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += response.force_rate[end];
 }
 
 // visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
@@ -396,9 +413,10 @@ Vector SlidingStructureMesh::transferred(const MeshState& now, const SlidingMesh
 SlidingStructure::Reaction SlidingStructureMesh::reaction(const MeshState& now, Index freedom) const {
   SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
   if (unknown(freedom) != held) return reaction;
-  const Driven force = structure_.nodal_.support_force(freedom);
-  reaction.value = force.at(now.lambda);
-  reaction.dlambda = force.proportional;
+  const NodalTerms& terms = structure_.nodal_;
+  reaction.value = terms.support_force(freedom, now.lambda, [&](Index of) { return structure_.value(*this, now, of); });
+  terms.add_support_force_gradient(
+      freedom, [this](Index of) { return unknown(of); }, reaction.dx, reaction.dlambda);
   for (Index r = 0; r < structure_.strands(); ++r)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& freedoms = structure_.at(r).ends[end].freedom;

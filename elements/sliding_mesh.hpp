@@ -98,6 +98,8 @@ class SlidingStructureMesh final : public SlidingMesh {
   Response respond(Index strand, Index position, const MeshState& now, bool with_rates) const;
   static void add_load(const SlidingStructure::Run& strand, const StretchReference& stretch, const Ends& at,
                        double lambda, Response& out);
+  static void add_foundation(const SlidingStructure::Run& strand, const StretchReference& stretch,
+                             const Vec2& first_at_rest, const Ends& at, Response& out);
 
   // Up to four elements of a segment that are evaluated side by side.
   struct Four {

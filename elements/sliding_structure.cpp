@@ -21,6 +21,13 @@ double SlidingStructure::natural_curvature(const MaterialPoint& point) const {
   return place.turning / place.speed;
 }
 
+Vec2 SlidingStructure::load(const MaterialPoint& point, const Vec2& position, double lambda) const {
+  const Run& strand = at(point.strand);
+  const Vec2 load = lambda * strand.load + strand.constant_load;
+  if (!strand.has_foundation()) return load;
+  return load - strand.foundation.cwiseProduct(position - undeformed(point, true).position);
+}
+
 std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& point) const {
   const std::vector<Part>& parts = at(point.strand).parts;
   const auto holds = [&](const Part& part) { return point.s <= part.to; };
@@ -147,7 +154,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                  .perfect = member.imperfection.empty(),
                                  .theory = member.theory,
                                  .order = member.order,
-                                 .section = member.section};
+                                 .section = member.section,
+                                 .foundation = foundations_[m]};
     for (const DistributedLoad& load : distributed_loads_) {
       if (load.member != static_cast<Index>(m) || !acts(load.kind)) continue;
       (proportional(load.kind) ? strand.load : strand.constant_load) += load.load;
@@ -179,7 +187,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   }
   structure->join_straight_runs(with_terms, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
-    if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load())
+    if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load() &&
+        !strand.has_foundation())
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
   return structure;
 }
@@ -205,7 +214,8 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms, c
            straight(a) && straight(b) && std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory &&
            a.order == b.order && a.section.E == b.section.E && a.section.A == b.section.A &&
            a.section.I == b.section.I && a.section.height == b.section.height && a.load == b.load &&
-           a.constant_load == b.constant_load && (!alike || alike(a.parts.back().member, b.parts.front().member));
+           a.constant_load == b.constant_load && a.foundation == b.foundation &&
+           (!alike || alike(a.parts.back().member, b.parts.front().member));
   };
   for (bool joined = true; joined;) {
     joined = false;

@@ -31,7 +31,7 @@ class SlidingStructure final : public SlidingBody {
   double natural_curvature(const MaterialPoint& point) const override;
   double bending_stiffness(Index strand) const override { return at(strand).section.EI(); }
   double axial_stiffness(Index strand) const override { return at(strand).section.EA(); }
-  Vec2 load(Index strand, double lambda) const override { return lambda * at(strand).load + at(strand).constant_load; }
+  Vec2 load(const MaterialPoint& point, const Vec2& position, double lambda) const override;
   bool end_is_held(Index strand, bool last) const override {
     return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
   }
@@ -103,9 +103,11 @@ class SlidingStructure final : public SlidingBody {
     std::vector<Part> parts{};
     std::array<End, 2> ends{};
     Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the strand [force/length]
+    Vec2 foundation = Vec2::Zero();                          // in x and z [force/length²]
     std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
 
     bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
+    bool has_foundation() const { return !foundation.isZero(0.0); }
   };
 
   SlidingStructure() = default;

@@ -165,8 +165,8 @@ void Structure::residual(const State& state, Eigen::Ref<Vector> F) const {
 }
 
 // Elements of members know differences of displacements alone, and loads are dead: nodes that share no element with a
-// support that holds a displacement are translation-free, but for stiffnesses to ground. Of added elements nothing is
-// known.
+// support that holds a displacement, nor with a foundation, are translation-free, but for stiffnesses to ground. Of
+// added elements nothing is known.
 std::vector<bool> Structure::translation_free() const {
   std::vector<bool> held(positions_.size());
   const auto meaning_of = [&](Index freedom) { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; };
@@ -177,7 +177,9 @@ std::vector<bool> Structure::translation_free() const {
       const Freedom which = meaning_of(freedom).freedom;
       return (which == Freedom::x || which == Freedom::z) && !unknown(freedom);
     };
-    if (e >= first_added_ || freedoms.any(is_held))
+    const auto loads = loads_of_element(e);
+    const auto is_grounded = [this](std::uint32_t load) { return element_loads_[load].is_grounded; };
+    if (e >= first_added_ || freedoms.any(is_held) || std::any_of(loads.begin(), loads.end(), is_grounded))
       for (std::size_t i = 0; i < freedoms.size(); ++i) held[node_of(freedoms[i])] = true;
   }
   std::vector<bool> result(static_cast<std::size_t>(assembly_.unknown_count()));
@@ -299,7 +301,7 @@ void Structure::for_each_with(Index freedom, const Visit& visit) const {
 double Structure::reaction(const State& state, Index freedom) const {
   if (unknown(freedom)) return 0.0;
   Local local;
-  double force = nodal_.support_force(freedom).at(state.lambda);
+  double force = nodal_.support_force(freedom, state.lambda, [&](Index of) { return value(state, of); });
   for_each_with(freedom, [&](const Element& element, Index block) {
     evaluate(element, block, state, local, false);
     force += local.f[element_freedoms(block).place_of(freedom)];
@@ -311,7 +313,8 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (unknown(freedom)) return row;
   Local local;
-  row.dlambda = nodal_.support_force(freedom).proportional;
+  nodal_.add_support_force_gradient(
+      freedom, [this](Index of) { return unknown_or_held(of); }, row.dx, row.dlambda);
   for_each_with(freedom, [&](const Element& element, Index block) {
     evaluate(element, block, state, local, true);
     const std::size_t n = element_freedoms(block).size(), i = element_freedoms(block).place_of(freedom);

@@ -145,6 +145,7 @@ class Structure final : public System {
     Freedom freedom;
   };
   Meaning meaning(Index unknown) const;
+  Meaning meaning_of_freedom(Index freedom) const { return meaning_of_freedom_[static_cast<std::size_t>(freedom)]; }
 
   /// Force (or moment) that a support exerts on the structure through a freedom it holds; 0 in one that is free.
   /// Contact forces on the supported node itself are not seen.
@@ -160,10 +161,11 @@ class Structure final : public System {
   /// Of the local unknowns of an element.
   ShiftedIndices element_freedoms(Index e) const { return element_freedoms_[e]; }
 
-  /// A load along an element, whose unknowns its potential has.
+  /// A load or a foundation along an element, whose unknowns its potential has.
   struct ElementLoad {
     std::shared_ptr<const Element> potential;
-    Index element;  ///< also its block of the assembly
+    Index element;             ///< also its block of the assembly
+    bool is_grounded = false;  ///< resists a translation: a foundation
   };
   const std::vector<ElementLoad>& element_loads() const { return element_loads_; }
 
@@ -255,8 +257,15 @@ class StructureBuilder {
   /// A linear spring between a freedom and the ground, stress-free with the structure [force/length, force·length].
   void add_ground_stiffness(Index freedom, double stiffness) { nodal_.add_ground_stiffness(freedom, stiffness); }
 
+  /// The same between two freedoms, of which one is held or both belong to members.
+  void add_spring(Index first, Index second, double stiffness) { nodal_.add_spring(first, second, stiffness); }
+
   void add_load(Index freedom, double value, LoadKind kind);
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
+
+  /// Springs to the ground all along a member that is no bar: force per length of the stress-free axis and of
+  /// displacement, in x and in z [force/length²]. find_mechanism() does not see them.
+  void add_foundation(Index member, const Vec2& stiffness);
 
   /// An element of any kind between freedoms that members have, at most Element::max_unknowns, in the order of its
   /// unknowns. Only for meshes whose nodes are fixed; find_mechanism() does not see it.
@@ -315,6 +324,7 @@ class StructureBuilder {
   std::vector<MemberMesh> meshes_;
   NodalTerms nodal_;
   std::vector<DistributedLoad> distributed_loads_;
+  std::vector<Vec2> foundations_;  // of each member
   std::vector<AddedElement> added_elements_;
 };
 

@@ -8,6 +8,7 @@
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"
 #include "elements/essenburg_beam.hpp"
+#include "elements/foundation.hpp"
 #include "elements/reissner_beam.hpp"
 #include "elements/structure.hpp"
 
@@ -138,6 +139,21 @@ std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
   return nullptr;
 }
 
+std::unique_ptr<Element> make_foundation(const Stretch& stretch, const Vec2& stiffness) {
+  switch (stretch.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamFoundation>(slender_reference(stretch), stiffness);
+    case Theory::exact:
+      return std::make_unique<ExactFoundation>(exact_reference(stretch), stiffness);
+    case Theory::essenburg:
+      return std::make_unique<ExactFoundation>(exact_reference(stretch), stiffness, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      break;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 Index StructureBuilder::add_joint(const Vec2& position) { return add_node(position); }
@@ -228,6 +244,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
   }
   meshes_.push_back(std::move(mesh));
   descriptions_.push_back(std::move(member));
+  foundations_.emplace_back(0.0, 0.0);
   return static_cast<Index>(meshes_.size()) - 1;
 }
 
@@ -249,6 +266,11 @@ void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
 
 void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind) {
   distributed_loads_.push_back({.member = member, .load = load, .kind = kind});
+}
+
+void StructureBuilder::add_foundation(Index member, const Vec2& stiffness) {
+  assert(descriptions_[static_cast<std::size_t>(member)].theory != Theory::truss);
+  foundations_[static_cast<std::size_t>(member)] += stiffness;
 }
 
 void StructureBuilder::add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms) {
@@ -283,6 +305,9 @@ std::vector<bool> StructureBuilder::nodes_with_terms() const {
     if (!nodal_.load(freedom).is_zero() || nodal_.is_held(freedom) || nodal_.ground_stiffness(freedom) != 0.0)
       found[static_cast<std::size_t>(freedoms_[i].node)] = true;
   }
+  for (const NodalTerms::Spring& spring : nodal_.springs())
+    for (const Index freedom : {spring.first, spring.second})
+      found[static_cast<std::size_t>(freedoms_[static_cast<std::size_t>(freedom)].node)] = true;
   return found;
 }
 
@@ -312,6 +337,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   for (const MemberMesh& mesh : meshes_)
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) add_block(element_freedoms(mesh, k));
   for (const AddedElement& added : added_elements_) add_block(added.freedoms);
+  for (const NodalTerms::Spring& spring : nodal_.springs()) add_block({spring.first, spring.second});
 
   auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));
   structure->positions_ = positions_;
@@ -350,6 +376,17 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
            .element = first_element[m] + static_cast<Index>(k)});
     if (proportional(load.kind))
       structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
+  }
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    if (foundations_[m].isZero(0.0)) continue;
+    const MemberDescription& member = descriptions_[m];
+    const ImperfectAxis shape(*member.axis, member.imperfection);
+    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+      structure->element_loads_.push_back(
+          {.potential =
+               make_foundation({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, foundations_[m]),
+           .element = first_element[m] + static_cast<Index>(k),
+           .is_grounded = true});
   }
 
   std::vector<std::uint32_t>& loads = structure->loads_by_element_;

@@ -129,8 +129,21 @@ void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const 
       "choose units in which lengths and forces are nearer to 1, and an origin near the structure");
 }
 
-// As told, or with another number of elements, which is to find out what moves without strain.
-MemberDescription description_of(const deck::Deck& deck, const deck::Member& member, std::optional<int> elements,
+// As few as show what holds the member: the nodes at which springs stand are among them, and a foundation, which may
+// hold a bent axis by its middle, has one inside.
+int fewest_elements(const deck::Deck& deck, const deck::Member& member) {
+  int fewest = 1;
+  for (const deck::Spring& spring : deck.springs) {
+    const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind);
+    if (ground != nullptr && ground->at.fraction && ground->at.name == member.name) return member.elements;
+    const auto* along = std::get_if<deck::Foundation>(&spring.kind);
+    if (along != nullptr && along->member == member.name) fewest = 2;
+  }
+  return fewest;
+}
+
+// As told, or the coarsest model, which is to find out what moves without strain.
+MemberDescription description_of(const deck::Deck& deck, const deck::Member& member, bool coarse,
                                  const StructureOfDeck& out) {
   const Theory theory = member.theory;
   MemberDescription description{.name = member.name,
@@ -141,16 +154,16 @@ MemberDescription description_of(const deck::Deck& deck, const deck::Member& mem
                                 .quadratic = member.along,
                                 .strain = member.strain,
                                 .section = section_of(deck, member),
-                                .elements = elements.value_or(member.elements),
+                                .elements = coarse ? fewest_elements(deck, member) : member.elements,
                                 .hinge_from = member.hinge_from,
                                 .hinge_to = member.hinge_to};
   description.axis =
       make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
   // A classic element moves without strain where one of the elastica does, and takes any bend of its axis; an exact
   // one where one of Essenburg's does, whose thickness has a stiffness of its own.
-  if (elements && theory == Theory::elastica) description.theory = Theory::classic;
-  if (elements && theory == Theory::essenburg) description.theory = Theory::exact;
-  if (elements && description.theory == Theory::exact)
+  if (coarse && theory == Theory::elastica) description.theory = Theory::classic;
+  if (coarse && theory == Theory::essenburg) description.theory = Theory::exact;
+  if (coarse && description.theory == Theory::exact)
     description.section = balanced(description.section, description.axis->length());
   for (const deck::Imperfection& wave : member.imperfections)
     description.imperfection.push_back({.amplitude = wave.amplitude, .waves = wave.waves});
@@ -158,11 +171,11 @@ MemberDescription description_of(const deck::Deck& deck, const deck::Member& mem
 }
 
 // No member is built of numbers that are out of range: its stiffness may be zero.
-void add_members(const deck::Deck& deck, DeckProblems& problems, std::optional<int> elements, StructureOfDeck& out) {
+void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, StructureOfDeck& out) {
   std::vector<MemberDescription> descriptions;
   for (const deck::Member& member : deck.members) {
-    descriptions.push_back(description_of(deck, member, elements, out));
-    if (!elements) check_magnitudes(deck, member, descriptions.back(), problems);
+    descriptions.push_back(description_of(deck, member, coarse, out));
+    if (!coarse) check_magnitudes(deck, member, descriptions.back(), problems);
   }
   problems.raise();
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
@@ -213,27 +226,43 @@ void add_support(const deck::Support& support, DeckProblems& problems, Structure
   }
 }
 
-// A fraction is a node of the deck's mesh; in the coarsest model loads inside members play no part.
+// Displacements and rotation of a node; that of a joint is the one that its rigidly joined member ends share.
+struct NodeFreedoms {
+  Index x, z;
+  std::optional<Index> rotation;
+};
+
+NodeFreedoms freedoms_at(const StructureBuilder& builder, Index node, std::optional<Index> rotation) {
+  return {.x = builder.freedom(node, Freedom::x), .z = builder.freedom(node, Freedom::z), .rotation = rotation};
+}
+
+NodeFreedoms freedoms_of_joint(const StructureOfDeck& of, const std::string& point) {
+  const Index joint = of.places.joints.at(point);
+  return freedoms_at(of.builder, joint, of.builder.shared_rotation(joint));
+}
+
+// A fraction is a node of the deck's mesh.
+std::optional<NodeFreedoms> freedoms_at(const StructureOfDeck& of, const deck::Place& place) {
+  if (!place.fraction) return freedoms_of_joint(of, place.name);
+  const auto member = of.places.members.find(place.name);
+  if (member == of.places.members.end()) return std::nullopt;
+  const MemberMesh& mesh = of.builder.mesh(member->second);
+  const auto k = static_cast<std::size_t>(std::lround(*place.fraction * double(mesh.nodes.size() - 1)));
+  return freedoms_at(of.builder, mesh.nodes[k], mesh.rotations[k]);
+}
+
+// In the coarsest model loads inside members play no part.
 void add_point_load(const deck::Load& load, const deck::PointLoad& action, bool coarse, DeckProblems& problems,
                     StructureOfDeck& out) {
   const LoadKind kind = load.constant ? LoadKind::constant : LoadKind::proportional;
-  Index node = 0;
-  std::optional<Index> rotation;
-  if (action.at.fraction) {
-    if (coarse || !out.places.members.contains(action.at.name)) return;
-    const MemberMesh& mesh = out.builder.mesh(out.places.members.at(action.at.name));
-    const auto k = static_cast<std::size_t>(std::lround(*action.at.fraction * double(mesh.nodes.size() - 1)));
-    node = mesh.nodes[k];
-    rotation = mesh.rotations[k];
-  } else {
-    node = out.places.joints.at(action.at.name);
-    rotation = out.builder.shared_rotation(node);
-  }
-  out.builder.add_load(out.builder.freedom(node, Freedom::x), action.force.x, kind);
-  out.builder.add_load(out.builder.freedom(node, Freedom::z), action.force.z, kind);
+  if (action.at.fraction && coarse) return;
+  const auto freedoms = freedoms_at(out, action.at);
+  if (!freedoms) return;
+  out.builder.add_load(freedoms->x, action.force.x, kind);
+  out.builder.add_load(freedoms->z, action.force.z, kind);
   if (action.moment == 0.0) return;
-  if (rotation) {
-    out.builder.add_load(*rotation, action.moment, kind);
+  if (freedoms->rotation) {
+    out.builder.add_load(*freedoms->rotation, action.moment, kind);
   } else {
     problems.add(action.at.position, "load.moment", "nothing at \"" + to_text(action.at) + "\" can take a moment",
                  "put the moment where a beam is joined without a hinge");
@@ -253,6 +282,82 @@ void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, Stru
   }
 }
 
+// --- springs --------------------------------------------------------------------------------------------------------
+
+void report_no_rotation(const deck::Spring& spring, const std::string& place, DeckProblems& problems) {
+  problems.add(spring.position, "spring.stiffness.rotation", "no member end at \"" + place + "\" has a rotation",
+               "leave out rotation, or join a beam there without a hinge");
+}
+
+void add_spring(const deck::Spring& spring, const deck::GroundSpring& ground, DeckProblems& problems,
+                StructureOfDeck& out) {
+  const auto freedoms = freedoms_at(out, ground.at);
+  if (!freedoms) return;
+  const auto add = [&](Index freedom, double stiffness) {
+    if (stiffness > 0.0) out.builder.add_ground_stiffness(freedom, stiffness);
+  };
+  add(freedoms->x, ground.stiffness.x);
+  add(freedoms->z, ground.stiffness.z);
+  if (freedoms->rotation) return add(*freedoms->rotation, ground.stiffness.rotation);
+  if (ground.stiffness.rotation > 0.0) report_no_rotation(spring, to_text(ground.at), problems);
+}
+
+void add_spring(const deck::Spring& spring, const deck::PointToPointSpring& between, DeckProblems& problems,
+                StructureOfDeck& out) {
+  const NodeFreedoms first = freedoms_of_joint(out, between.points[0]);
+  const NodeFreedoms second = freedoms_of_joint(out, between.points[1]);
+  const auto add = [&](Index a, Index b, double stiffness) {
+    if (stiffness > 0.0) out.builder.add_spring(a, b, stiffness);
+  };
+  add(first.x, second.x, between.stiffness.x);
+  add(first.z, second.z, between.stiffness.z);
+  if (first.rotation && second.rotation) return add(*first.rotation, *second.rotation, between.stiffness.rotation);
+  if (between.stiffness.rotation > 0.0)
+    report_no_rotation(spring, first.rotation ? between.points[1] : between.points[0], problems);
+}
+
+// What moves without strain does not depend on how the springs are spread between the nodes.
+void add_foundation(const deck::Deck& deck, const deck::Spring& spring, const deck::Foundation& foundation, bool coarse,
+                    DeckProblems& problems, StructureOfDeck& out) {
+  const auto member = out.places.members.find(foundation.member);
+  if (member == out.places.members.end()) return;
+  if (deck::find(deck.members, foundation.member)->theory == Theory::truss)
+    return problems.add(
+        spring.position, "spring.on",
+        "member \"" + foundation.member + "\" is a truss, which cannot carry the forces of a foundation",
+        "use theory \"classic\" or \"elastica\", or springs at its ends");
+  if (!coarse) return out.builder.add_foundation(member->second, {foundation.x, foundation.z});
+  for (const Index node : out.builder.mesh(member->second).nodes) {
+    if (foundation.x > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::x), foundation.x);
+    if (foundation.z > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::z), foundation.z);
+  }
+}
+
+// The points at which a spring stands.
+std::vector<std::string> points_of(const deck::Spring& spring) {
+  if (const auto* between = std::get_if<deck::PointToPointSpring>(&spring.kind)) return between->points;
+  const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind);
+  if (ground == nullptr || ground->at.fraction) return {};
+  return {ground->at.name};
+}
+
+template <class Joined>
+void add_springs(const deck::Deck& deck, bool coarse, const Joined& joined, DeckProblems& problems,
+                 StructureOfDeck& out) {
+  for (const deck::Spring& spring : deck.springs) {
+    const std::vector<std::string> points = points_of(spring);
+    const auto is_joined = [&](const std::string& point) { return joined(point, spring.position, "spring"); };
+    if (!std::all_of(points.begin(), points.end(), is_joined)) continue;
+    if (const auto* along = std::get_if<deck::Foundation>(&spring.kind)) {
+      add_foundation(deck, spring, *along, coarse, problems, out);
+    } else if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
+      add_spring(spring, *ground, problems, out);
+    } else {
+      add_spring(spring, std::get<deck::PointToPointSpring>(spring.kind), problems, out);
+    }
+  }
+}
+
 }  // namespace
 
 Places::Node Places::find(const deck::Place& place, const std::vector<MemberMesh>& meshes) const {
@@ -262,15 +367,15 @@ Places::Node Places::find(const deck::Place& place, const std::vector<MemberMesh
   return {.node = mesh.nodes[k], .member = &mesh, .position = k};
 }
 
-StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problems,
-                                   std::optional<int> elements_a_member) {
+StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problems, Mesh mesh) {
+  const bool coarse = mesh == Mesh::coarsest;
   StructureOfDeck out;
   // Points that no member joins stay out: they would be nodes without stiffness.
   for (const deck::Member& member : deck.members)
     for (const std::string& name : {member.from, member.to})
       if (!out.places.joints.contains(name))
         out.places.joints[name] = out.builder.add_joint(vec(deck::find(deck.points, name)->at));
-  add_members(deck, problems, elements_a_member, out);
+  add_members(deck, coarse, problems, out);
   const auto joined = [&](const std::string& name, const deck::Position& position, const std::string& key) {
     if (out.places.joints.contains(name)) return true;
     problems.add(position, key, "no member is joined to point \"" + name + "\"", "join a member there or leave it out");
@@ -282,13 +387,14 @@ StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problem
   for (const deck::Load& load : deck.loads)
     if (const auto* action = std::get_if<deck::PointLoad>(&load.action); action != nullptr && !action->at.fraction)
       places_are_known = joined(action->at.name, action->at.position, "load.at") && places_are_known;
-  if (places_are_known) add_loads(deck, elements_a_member.has_value(), problems, out);
+  if (places_are_known) add_loads(deck, coarse, problems, out);
+  add_springs(deck, coarse, joined, problems, out);
   return out;
 }
 
 void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
   DeckProblems ignored(deck.source);
-  const StructureOfDeck coarse = describe_structure(deck, ignored, 1);
+  const StructureOfDeck coarse = describe_structure(deck, ignored, Mesh::coarsest);
   const auto mechanism = find_mechanism(*coarse.builder.build());
   if (!mechanism) return;
   std::string where = "inside a member";
@@ -312,7 +418,7 @@ void check_mechanism(const deck::Deck& deck, DeckProblems& problems) {
       deck.supports.empty() ? deck.members.front().position : deck.supports.front().position;
   problems.add(position, "support",
                fmt::format("the structure is a mechanism: it can move without strain, most {} {}", where, direction),
-               "add a support, or remove a hinge");
+               "add a support or a spring, or remove a hinge");
 }
 
 }  // namespace arcwall

@@ -52,11 +52,12 @@ struct StructureOfDeck {
   Places places{};
 };
 
-/// `elements_a_member` overrides the deck's numbers of elements: 1 makes the coarsest model with the same joints.
-StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problems,
-                                   std::optional<int> elements_a_member = {});
+/// That of the deck, or the coarsest with the same joints.
+enum class Mesh { of_deck, coarsest };
 
-/// Adds a problem if the structure, one element a member, can move without strain.
+StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problems, Mesh mesh = Mesh::of_deck);
+
+/// Adds a problem if the structure, in its coarsest model, can move without strain.
 void check_mechanism(const deck::Deck& deck, DeckProblems& problems);
 
 }  // namespace arcwall

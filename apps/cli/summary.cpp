@@ -66,6 +66,7 @@ void add_model(const Model& model, Lines& lines) {
   for (const deck::Load& load : deck.loads) {
     lines.add("loads", load_text(load, deck.units).text + (load.constant ? ", constant" : ", times λ"));
   }
+  for (const deck::Spring& spring : deck.springs) lines.add("springs", spring_text(spring, deck.units));
   for (const deck::Wall& wall : deck.walls)
     lines.add("walls", fmt::format("{}: {} the structure, {}", wall.name, deck::text_of(deck::side_words, wall.side),
                                    first_gap(model, wall)));

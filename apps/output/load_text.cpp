@@ -34,6 +34,33 @@ LoadText load_words(const deck::MemberLoad& load, const deck::Units& units) {
   return result;
 }
 
+// `z 2.5 kN/cm, rotation 3 kN cm`: those that are not zero.
+std::string stiffness_words(const deck::Stiffness& k, const deck::Units& units) {
+  std::string text;
+  const auto add = [&](const char* direction, double value, const deck::Dimension& unit) {
+    if (value == 0.0) return;
+    text += (text.empty() ? "" : ", ") + std::string(direction) + " " +
+            with_unit(short_number(value), unit_text(unit, units));
+  };
+  add("x", k.x, deck::unit::line_load);
+  add("z", k.z, deck::unit::line_load);
+  add("rotation", k.rotation, deck::unit::moment);
+  return text;
+}
+
+std::string spring_words(const deck::GroundSpring& spring, const deck::Units& units) {
+  return "at " + to_text(spring.at) + " " + stiffness_words(spring.stiffness, units);
+}
+
+std::string spring_words(const deck::PointToPointSpring& spring, const deck::Units& units) {
+  return "between " + spring.points[0] + " and " + spring.points[1] + " " + stiffness_words(spring.stiffness, units);
+}
+
+std::string spring_words(const deck::Foundation& foundation, const deck::Units& units) {
+  return "foundation of " + foundation.member + " " +
+         with_unit(pair_text({.x = foundation.x, .z = foundation.z}), unit_text(deck::unit::stress, units));
+}
+
 }  // namespace
 
 std::string with_unit(const std::string& number, const std::string& unit) {
@@ -42,6 +69,10 @@ std::string with_unit(const std::string& number, const std::string& unit) {
 
 LoadText load_text(const deck::Load& load, const deck::Units& units) {
   return std::visit([&](const auto& action) { return load_words(action, units); }, load.action);
+}
+
+std::string spring_text(const deck::Spring& spring, const deck::Units& units) {
+  return std::visit([&](const auto& kind) { return spring_words(kind, units); }, spring.kind);
 }
 
 std::vector<LoadText> varying_loads(const deck::Deck& deck) {

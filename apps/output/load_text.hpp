@@ -18,6 +18,9 @@ std::string with_unit(const std::string& number, const std::string& unit);
 
 LoadText load_text(const deck::Load& load, const deck::Units& units);
 
+/// A spring in words: `at mid: z 2.5 kN/cm`.
+std::string spring_text(const deck::Spring& spring, const deck::Units& units);
+
 /// Those that λ multiplies.
 std::vector<LoadText> varying_loads(const deck::Deck& deck);
 

@@ -20,6 +20,7 @@ constexpr double margin = 0.08;      // of the longer side
 constexpr double longest_force = 0.14, longest_load = 0.07;
 constexpr double arrow_head = 0.018;
 constexpr double support_size = 0.02;
+constexpr double spring_length = 0.05, spring_width = 0.012;
 constexpr double wall_band = 0.025;
 constexpr double moment_radius = 0.035;
 constexpr double thinnest_band = 0.006;
@@ -209,15 +210,45 @@ std::string support_data(const Vec2& at, const HeldPoint& held) {
   return data + fmt::format("M{:.0f} {:.0f}L{:.0f} {:.0f}", first.x(), first.y(), last.x(), last.y());
 }
 
+// A line that goes to and fro.
+std::string zigzag_data(const Vec2& from, const Vec2& to) {
+  const Vec2 way = to - from;
+  if (way.norm() < 1.0) return "";
+  const Vec2 across = spring_width * longer_side * perp(way.normalized());
+  std::vector<Vec2> places{from};
+  constexpr int turns = 6;
+  for (int i = 0; i <= turns; ++i) {
+    const double side = i == 0 || i == turns ? 0.0 : i % 2 == 0 ? -0.5 : 0.5;
+    places.push_back((from + (0.2 + 0.6 * i / turns) * way + side * across).array().round());
+  }
+  places.push_back(to);
+  return path_data(places);
+}
+
+// Down and to the left into the ground, or to the other point; a circle where it resists rotation.
+std::string spring_data(const Frame& frame, const DrawnSpring& spring) {
+  const Vec2 at = frame.place(spring.at);
+  std::string data;
+  if (spring.to && (spring.x || spring.z)) data += zigzag_data(at, frame.place(*spring.to));
+  const double length = spring_length * longer_side;
+  if (!spring.to && spring.x) data += zigzag_data(at, at - Vec2(length, 0.0));
+  if (!spring.to && spring.z) data += zigzag_data(at, at + Vec2(0.0, length));
+  if (!spring.rotation) return data;
+  const double radius = spring_width * longer_side;
+  return data + fmt::format("M{0:.0f} {1:.0f}a{2:.0f} {2:.0f} 0 1 0 {3:.0f} 0a{2:.0f} {2:.0f} 0 1 0 -{3:.0f} 0",
+                            at.x() - radius, at.y(), radius, 2.0 * radius);
+}
+
 std::vector<std::string> classes_of(const Scene& scene) {
   std::vector<std::string> classes(scene.shape.members.size(), "member");
-  classes.insert(classes.end(), {"supports", "loads", "forces", "touches"});
+  classes.insert(classes.end(), {"springs", "supports", "loads", "forces", "touches"});
   return classes;
 }
 
 // The paths in the order of classes_of().
 ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
-  std::string supports, loads, forces, touches;
+  std::string springs, supports, loads, forces, touches;
+  for (const DrawnSpring& spring : scene.springs) springs += spring_data(frame, spring);
   for (const HeldPoint& held : scene.supports) supports += support_data(frame.place(held.at), held);
   for (const AppliedLoad& load : scene.loads) {
     const Vec2 place = frame.place(load.at), way = frame.load_arrow(load.force, greatest.load);
@@ -230,7 +261,7 @@ ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_
   }
   ShapePicture picture{.point = point, .contacts = scene.shape.contacts};
   for (const MemberShape& member : scene.shape.members) picture.paths.push_back(member_data(frame, member));
-  picture.paths.insert(picture.paths.end(), {supports, loads, forces, touches});
+  picture.paths.insert(picture.paths.end(), {springs, supports, loads, forces, touches});
   return picture;
 }
 
@@ -279,6 +310,29 @@ void add_load(const deck::Deck& deck, const deck::MemberLoad& load, double facto
   }
 }
 
+void add_spring(const deck::Deck& deck, const deck::Spring& spring, Scene& to) {
+  if (const auto* along = std::get_if<deck::Foundation>(&spring.kind)) {
+    constexpr int drawn = 9;
+    for (int i = 0; i < drawn; ++i)
+      if (const auto at = position_of(deck, to.shape, {.name = along->member, .fraction = (i + 0.5) / drawn}))
+        to.springs.push_back({.at = *at, .x = along->x > 0.0, .z = along->z > 0.0});
+    return;
+  }
+  const auto add = [&](const deck::Place& from, const deck::Place* other, const deck::Stiffness& k) {
+    const auto at = position_of(deck, to.shape, from);
+    if (!at) return;
+    to.springs.push_back({.at = *at, .x = k.x > 0.0, .z = k.z > 0.0, .rotation = k.rotation > 0.0});
+    if (other != nullptr) to.springs.back().to = position_of(deck, to.shape, *other);
+  };
+  if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
+    add(ground->at, nullptr, ground->stiffness);
+  } else {
+    const auto& between = std::get<deck::PointToPointSpring>(spring.kind);
+    const deck::Place second{.name = between.points[1]};
+    add({.name = between.points[0]}, &second, between.stiffness);
+  }
+}
+
 // Of beams; bars are drawn as lines.
 std::vector<double> section_heights(const deck::Deck& deck) {
   std::vector<double> heights;
@@ -320,6 +374,7 @@ Scene scene_of(const Model& model, const State& state) {
       scene.loads.push_back(
           {.at = *at, .force = factor * Vec2(single->force.x, single->force.z), .moment = factor * single->moment});
   }
+  for (const deck::Spring& spring : deck.springs) add_spring(deck, spring, scene);
   for (const deck::Support& support : deck.supports) {
     const auto at = position_of(deck, scene.shape, {.name = support.point});
     const auto holds = [&](Freedom direction) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,19 @@ struct HeldPoint {
   bool x = false, z = false, rotation = false;
 };
 
+/// A spring from a point to the ground, or to another point.
+struct DrawnSpring {
+  Vec2 at = Vec2::Zero();    ///< [length]
+  std::optional<Vec2> to{};  ///< empty: the ground
+  bool x = false, z = false, rotation = false;
+};
+
 /// A structure in a state, with what acts on it from outside.
 struct Scene {
   Shape shape{};
   std::vector<AppliedLoad> loads{};
   std::vector<HeldPoint> supports{};
+  std::vector<DrawnSpring> springs{};  ///< of a foundation a few
 };
 
 Scene scene_of(const Model& model, const State& state);
@@ -67,7 +76,7 @@ struct ShapePictures {
   std::vector<std::string> bodies{};    ///< bands behind the surfaces: a closed path each
   std::vector<double> thickness{};      ///< of the paths; 0: a mere line
   std::vector<std::string>
-      classes{};  ///< of a picture's paths: `member` for each, `supports`, `loads`, `forces`, `touches`
+      classes{};  ///< of a picture's paths: `member` for each, `springs`, `supports`, `loads`, `forces`, `touches`
   std::vector<ShapePicture> pictures{};
 };
 

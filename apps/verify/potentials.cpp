@@ -1,8 +1,10 @@
 #include "apps/verify/potentials.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "apps/verify/differences.hpp"
 #include "core/text.hpp"
@@ -167,10 +169,83 @@ void for_each_point_load(const Model& model, const State& state, const Visit& vi
   }
 }
 
+// --- springs, as the deck has them ----------------------------------------------------------------------------------
+
+// A freedom of a place; none if there is no such.
+std::optional<Index> freedom_of(const Structure& structure, const deck::Deck& deck, const deck::Place& place,
+                                Freedom which) {
+  const bool turns = which == Freedom::rotation;
+  for (std::size_t m = 0; m < deck.members.size(); ++m) {
+    const deck::Member& member = deck.members[m];
+    const MemberMesh& mesh = structure.members()[m];
+    const std::size_t last = mesh.nodes.size() - 1;
+    const auto at = [&](std::size_t k) {
+      return turns ? mesh.rotations[k] : std::optional(structure.freedom(mesh.nodes[k], which));
+    };
+    if (place.fraction) {
+      if (member.name == place.name) return at(static_cast<std::size_t>(std::lround(*place.fraction * double(last))));
+      continue;
+    }
+    if (member.from == place.name && !(turns && (member.hinge_from || !at(0)))) return at(0);
+    if (member.to == place.name && !(turns && (member.hinge_to || !at(last)))) return at(last);
+  }
+  return std::nullopt;
+}
+
+// ½ k (u_b − u_a)², or ½ k u_a² of one to the ground.
+Potential spring_potential(const Model& model, const State& state, double k, const std::vector<Index>& freedoms,
+                           Freedom which) {
+  const auto n = static_cast<Index>(freedoms.size());
+  Potential potential{.at = Vector(n), .steps = Vector::Constant(n, step_of(which, model.structure().length_scale()))};
+  for (Index i = 0; i < n; ++i) {
+    const Index freedom = freedoms[static_cast<std::size_t>(i)];
+    const SlidingStructure* body = model.sliding_structure();
+    const auto unknown =
+        body != nullptr ? body->unknown(sliding_mesh(state), freedom) : model.structure().unknown(freedom);
+    potential.unknowns.push_back(unknown.value_or(-1));
+    potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), freedom)
+                                      : model.structure().value(state, freedom);
+  }
+  const auto stretch = [n](const Vector& u) { return n == 1 ? u[0] : u[1] - u[0]; };
+  potential.energy = [=](const Vector& u) { return 0.5 * k * stretch(u) * stretch(u); };
+  potential.gradient = [=](const Vector& u) {
+    Vector gradient = Vector::Constant(n, k * stretch(u));
+    if (n == 2) gradient[0] = -gradient[0];
+    return gradient;
+  };
+  return potential;
+}
+
+// Those at points; a foundation is part of its elements.
+void add_springs(const Model& model, const State& state, std::vector<Potential>& to) {
+  for (const deck::Spring& spring : model.deck().springs) {
+    std::vector<deck::Place> places;
+    deck::Stiffness stiffness;
+    if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
+      places = {ground->at};
+      stiffness = ground->stiffness;
+    } else if (const auto* between = std::get_if<deck::PointToPointSpring>(&spring.kind)) {
+      for (const std::string& point : between->points) places.push_back({.name = point});
+      stiffness = between->stiffness;
+    }
+    for (const auto& [which, k] : {std::pair(Freedom::x, stiffness.x), std::pair(Freedom::z, stiffness.z),
+                                   std::pair(Freedom::rotation, stiffness.rotation)}) {
+      std::vector<Index> freedoms;
+      for (const deck::Place& place : places)
+        if (const auto freedom = freedom_of(model.structure(), model.deck(), place, which))
+          freedoms.push_back(*freedom);
+      if (k > 0.0 && freedoms.size() == places.size()) to.push_back(spring_potential(model, state, k, freedoms, which));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Potential> potentials(const Model& model, const State& state) {
-  return model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model.structure(), state);
+  std::vector<Potential> all =
+      model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model.structure(), state);
+  add_springs(model, state, all);
+  return all;
 }
 
 Index structure_unknowns(const Model& model, const State& state) {

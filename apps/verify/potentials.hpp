@@ -8,7 +8,7 @@
 
 namespace arcwall::verify {
 
-/// A part of the total potential, of one element and the loads along it, at a state.
+/// A part of the total potential at a state: of one element with the loads and springs along it, or of a spring.
 struct Potential {
   std::vector<Index> unknowns{};                    ///< −1: a support holds it
   Vector at{};                                      ///< their values; those of held ones do not vary

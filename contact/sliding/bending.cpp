@@ -74,8 +74,9 @@ double holding_pressure(const SlidingSetting& setting, const SlidingState& at, s
   const double EI = body.bending_stiffness(touch.strand), EA = body.axial_stiffness(touch.strand);
   const double thrust = -EA * (free_strain(at, point).stretch - 1.0);
   const Vec2 up = along * normal(axis.angle);
-  const double q = sign_of(obstacle.side()) * (EI * (second(wall) - along * natural) + thrust * wall(0.0) -
-                                               body.load(touch.strand, at.now.lambda).dot(up));
+  const Vec2 load = body.load({.strand = touch.strand, .s = S}, axis.position, at.now.lambda);
+  const double q =
+      sign_of(obstacle.side()) * (EI * (second(wall) - along * natural) + thrust * wall(0.0) - load.dot(up));
   const double noise = 1e-7 * EI / (L * L * L);
   return std::abs(q) > noise ? q : 0.0;
 }

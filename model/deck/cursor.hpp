@@ -44,6 +44,7 @@ struct Requirement {
 
 inline constexpr Requirement any_number{[](double) { return true; }, "a number"};
 inline constexpr Requirement positive{[](double v) { return v > 0.0; }, "a number greater than 0"};
+inline constexpr Requirement not_negative{[](double v) { return v >= 0.0; }, "a number of at least 0"};
 inline constexpr Requirement not_zero{[](double v) { return v != 0.0; }, "a number other than 0"};
 
 struct IntegerRange {

@@ -217,6 +217,46 @@ struct Load {
   bool operator==(const Load&) const = default;
 };
 
+/// Of a spring, in each direction; at least one is not 0.
+struct Stiffness {
+  double x = 0.0, z = 0.0;  ///< ≥ 0 [force/length]
+  double rotation = 0.0;    ///< ≥ 0 [force·length]
+
+  bool operator==(const Stiffness&) const = default;
+};
+
+/// A spring between a place and the ground.
+struct GroundSpring {
+  Place at{};
+  Stiffness stiffness{};
+
+  bool operator==(const GroundSpring&) const = default;
+};
+
+/// A spring on the differences of two points' displacements and rotations.
+struct PointToPointSpring {
+  std::vector<std::string> points{};  ///< two
+  Stiffness stiffness{};
+
+  bool operator==(const PointToPointSpring&) const = default;
+};
+
+/// Springs to the ground all along a member.
+struct Foundation {
+  std::string member{};
+  double x = 0.0, z = 0.0;  ///< ≥ 0, at least one is not 0 [force/length²]
+
+  bool operator==(const Foundation&) const = default;
+};
+
+/// Linear and stress-free with the structure.
+struct Spring {
+  Position position{};
+  std::variant<GroundSpring, PointToPointSpring, Foundation> kind{};
+
+  bool operator==(const Spring&) const = default;
+};
+
 enum class ActsOn { face, axis };
 
 struct FlatProfile {
@@ -379,6 +419,7 @@ struct Deck {
   std::vector<Member> members{};  ///< at least one
   std::vector<Support> supports{};
   std::vector<Load> loads{};  ///< at least one that is neither constant nor zero
+  std::vector<Spring> springs{};
   std::vector<Wall> walls{};
   Contact contact{};
   Path path{};

@@ -15,6 +15,7 @@ void declare_keys(Keys& root, Deck& deck);
 void declare_sections(Keys& root, Deck& deck);  ///< labels, materials, sections and points: what refers to nothing else
 void declare_members(Keys& root, Deck& deck);
 void declare_loads(Keys& root, Deck& deck);  ///< supports, too
+void declare_springs(Keys& root, Deck& deck);
 void declare_walls(Keys& root, Deck& deck);  ///< and the treatment of contact
 void declare_path(Keys& root, Deck& deck);   ///< and the monitors
 

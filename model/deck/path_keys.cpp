@@ -198,6 +198,7 @@ void declare_keys(Keys& root, Deck& deck) {
   declare_sections(root, deck);
   declare_members(root, deck);
   declare_loads(root, deck);
+  declare_springs(root, deck);
   declare_walls(root, deck);
   declare_path(root, deck);
 }

@@ -136,6 +136,26 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
   }
 }
 
+// Springs along the beam go with it where the mesh slides.
+TEST(SlidingContact, DerivativesAreConsistentOnAFoundation) {
+  Numbers numbers(79);
+  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+    StructureBuilder builder = wavy_beam(false, theory);
+    builder.add_foundation(0, {3.0, 5.0});
+    const SlidingModel model(builder, two_of(test::all_walls(false), 2), 0.1);
+    for (const Layouts& on : layouts()) {
+      SCOPED_TRACE(on.name);
+      const State state = random_state(model, piece_of(model, on), numbers);
+      const auto report = check_derivatives(model.system(), state, 1e-6);
+      EXPECT_LE(report.K, 1e-9);
+      EXPECT_LE(report.F_lambda, 1e-8);
+      EXPECT_EQ(report.consistency, 0.0);
+      EXPECT_LE(report.energy, 1e-7);
+      EXPECT_LE(report.guard_gradient, 1e-6);
+    }
+  }
+}
+
 namespace {
 
 // λ moves walls and supports by some tenths. Differences of step 1e-3: round-off 1e-10, ten times that with a step of

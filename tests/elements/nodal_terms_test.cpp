@@ -7,6 +7,7 @@
 
 #include "core/algebra/bordered_solver.hpp"
 #include "core/derivative_check.hpp"
+#include "elements/mechanism.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/essenburg_models.hpp"
 #include "tests/support/sliding_models.hpp"
@@ -74,7 +75,8 @@ void clamp(StructureBuilder& builder, Index joint) {
 
 State rest(const System& system) { return {.x = Vector::Zero(system.size({}))}; }
 
-// Every freedom of the first end is moved, and one of the last; springs at the last and inside.
+// Every freedom of the first end is moved, and one of the last; springs at the last and inside, to the ground and
+// between freedoms of which none, one or both are held.
 StructureBuilder moved_and_sprung(const BeamKind& kind) {
   StructureBuilder builder = clamped_beam(kind, {2.0, 0.5}, 4);
   builder.fix(builder.freedom(0, Freedom::x), {.constant = 0.01, .proportional = 0.05});
@@ -89,6 +91,10 @@ StructureBuilder moved_and_sprung(const BeamKind& kind) {
   builder.add_ground_stiffness(builder.freedom(1, Freedom::z), 0.3);  // at a support that moves
   builder.add_ground_stiffness(builder.shared_rotation(1).value(), 0.2);
   builder.add_ground_stiffness(builder.freedom(builder.mesh(0).nodes[2], Freedom::z), 1.1);
+  builder.add_spring(builder.freedom(0, Freedom::z), builder.freedom(builder.mesh(0).nodes[3], Freedom::z), 0.6);
+  builder.add_spring(builder.freedom(1, Freedom::z), builder.freedom(0, Freedom::z), 0.5);
+  builder.add_spring(builder.mesh(0).rotations[1].value(), builder.mesh(0).rotations[3].value(), 0.04);
+  builder.add_foundation(0, {0.2, 0.3});
   builder.add_load(builder.freedom(1, Freedom::x), 0.02, LoadKind::proportional);
   builder.add_load(builder.freedom(1, Freedom::z), -0.03, LoadKind::proportional);
   builder.add_load(builder.freedom(builder.mesh(0).nodes[1], Freedom::z), 0.01, LoadKind::constant);
@@ -111,7 +117,8 @@ TEST(NodalTerms, AreZeroWhereNothingWasSaid) {
   EXPECT_TRUE(terms.is_held(4) && terms.is_held(5) && !terms.is_held(7));
   EXPECT_TRUE(terms.is_displaced(4) && !terms.is_displaced(5) && !terms.is_displaced(7));
   EXPECT_EQ(terms.ground_stiffness(7), 0.0);
-  EXPECT_EQ(terms.support_force(4), (Driven{.constant = -3.0, .proportional = 2.0}));
+  EXPECT_EQ(terms.support_force(4, 0.0, [](Index) { return 0.0; }), -3.0);
+  EXPECT_EQ(terms.support_force(4, 1.0, [](Index) { return 0.0; }), -1.0);
   EXPECT_EQ(terms.greatest_proportional_load([](Index freedom) { return freedom == 3 ? 10.0 : 1.0; }), 2.5);
   EXPECT_EQ(terms.ramp().load(7), (Driven{.proportional = 1.0}));
   EXPECT_EQ(terms.ramp().support(4), Driven{});
@@ -370,6 +377,80 @@ TEST(GroundStiffness, KeepsItsDigitsOnALongChain) {
   }
 }
 
+// --- springs between freedoms
+// -----------------------------------------------------------------------------------------
+
+namespace {
+
+// Two cantilevers of length 2 and EI = 3 one above the other. A spring k joins their tips, of which the upper one
+// carries P; nothing else holds the lower one's.
+struct JoinedCantilevers {
+  static constexpr double EI = 3.0, L = 2.0, k = 0.9, P = 1e-6;
+
+  static StructureBuilder builder() {
+    StructureBuilder builder;
+    for (const double z : {0.0, 1.0})
+      for (const double x : {0.0, L}) builder.add_joint({x, z});
+    for (const Index from : {0, 2}) {
+      const double z = from == 0 ? 0.0 : 1.0;
+      builder.add_member({.name = from == 0 ? "lower" : "upper",
+                          .from = from,
+                          .to = from + 1,
+                          .axis = straight_axis({0.0, z}, {L, z}),
+                          .section = test::section_of(1000.0, EI),
+                          .elements = 4});
+      clamp(builder, from);
+    }
+    builder.add_spring(builder.freedom(1, Freedom::z), builder.freedom(3, Freedom::z), k);
+    builder.add_load(builder.freedom(3, Freedom::z), P, LoadKind::proportional);
+    return builder;
+  }
+};
+
+}  // namespace
+
+// By c = 3EI/L³ of each cantilever: the spring and the lower one behind it resist as c k/(c + k).
+TEST(SpringBetween, SharesTheLoadOfTwoCantilevers) {
+  using Two = JoinedCantilevers;
+  const double c = 3.0 * Two::EI / (Two::L * Two::L * Two::L), behind = c * Two::k / (c + Two::k);
+  const double upper = Two::P / (c + behind), lower = upper * behind / c;
+  const auto structure = Two::builder().build();
+  const State loaded = test::solved_at(*structure, rest(*structure), 1.0, 1);
+  EXPECT_NEAR(structure->value(loaded, structure->freedom(3, Freedom::z)), upper, 1e-8 * upper);
+  EXPECT_NEAR(structure->value(loaded, structure->freedom(1, Freedom::z)), lower, 1e-8 * upper);
+  EXPECT_NEAR(structure->reaction(loaded, structure->freedom(0, Freedom::z)), -c * lower, 1e-8 * Two::P);
+  const test::SlidingModel model(Two::builder(), {}, 0.1);
+  const State slid = test::solved_at(model.system(), model.system().rest(), 1.0, 1);
+  EXPECT_NEAR(model.joint(1, Freedom::z)->value(slid), lower, 1e-8 * upper);
+}
+
+// A pointwise hinge with a spring: a beam whose halves are joined at a hinge by a spring for their rotations has the
+// deflection P L³/(48 EI) + P L²/(16 k) in its middle, where P acts.
+TEST(SpringBetween, StiffensAHinge) {
+  const double EI = 3.0, L = 2.0, k = 1.7, P = 1e-6;
+  StructureBuilder builder;
+  const Vec2 at[] = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}};
+  for (const Vec2& position : at) builder.add_joint(position);
+  for (int i = 0; i < 2; ++i)
+    builder.add_member({.name = "half",
+                        .from = i,
+                        .to = i + 1,
+                        .axis = straight_axis(at[i], at[i + 1]),
+                        .section = test::section_of(1000.0, EI),
+                        .elements = 3,
+                        .hinge_from = i == 1});
+  builder.fix(builder.freedom(0, Freedom::x));
+  for (const Index end : {0, 2}) builder.fix(builder.freedom(end, Freedom::z));
+  EXPECT_TRUE(find_mechanism(*builder.build()).has_value());
+  builder.add_spring(builder.mesh(0).rotations.back().value(), builder.mesh(1).rotations.front().value(), k);
+  EXPECT_FALSE(find_mechanism(*builder.build()).has_value());
+  builder.add_load(builder.freedom(1, Freedom::z), P, LoadKind::proportional);
+  const auto structure = builder.build();
+  const State loaded = test::solved_at(*structure, rest(*structure), 1.0, 1);
+  const double w = P * (L * L * L / (48.0 * EI) + L * L / (16.0 * k));
+  EXPECT_NEAR(structure->value(loaded, structure->freedom(1, Freedom::z)), w, 1e-8 * w);
+}
+
 // --- the sliding mesh has the same terms ----------------------------------------------------------------------------
 
 // A column with a spring and a support inside, and a girder; feet and inner support move. Both meshes give one
@@ -400,6 +481,9 @@ TEST(NodalTerms, AreThoseOfTheFixedMeshWhereItSlides) {
     builder.add_ground_stiffness(inside(0, 4, Freedom::x), 0.8);
     builder.add_ground_stiffness(builder.freedom(2, Freedom::x), 0.4);
     builder.add_ground_stiffness(builder.freedom(2, Freedom::z), 0.4);
+    builder.add_spring(builder.freedom(0, Freedom::z), builder.freedom(2, Freedom::x), 0.2);
+    builder.add_spring(inside(0, 6, Freedom::x), inside(1, 2, Freedom::x), 0.3);
+    builder.add_foundation(1, {0.1, 0.2});
     builder.add_load(builder.freedom(1, Freedom::x), 0.3, LoadKind::proportional);
     builder.add_load(builder.freedom(2, Freedom::z), 0.1, LoadKind::constant);
     builder.add_distributed_load(1, {0.0, -0.1}, LoadKind::proportional);

@@ -206,6 +206,28 @@ TEST(BadDecks, SupportsAndLoads) {
   });
 }
 
+TEST(BadDecks, Springs) {
+  expect_refused({
+      {"between = [\"A\", \"C\"]", "", "spring.1.at", "none of `at`, `between` and `on`", -1},
+      {"between = [\"A\", \"C\"]", "between = [\"A\", \"C\"]\nat = \"A\"", "spring.1.between",
+       "both `at` and `between`"},
+      {"between = [\"A\", \"C\"]", "between = [\"A\"]", "spring.1.between", "a spring joins two points"},
+      {"between = [\"A\", \"C\"]", "between = [\"A\", \"A\"]", "spring.1.between.1", "named twice"},
+      {"between = [\"A\", \"C\"]", "between = [\"A\", \"column\"]", "spring.1.between", "not a point of this deck"},
+      {"x = 2.5, rotation = 0.5", "x = -2.5, rotation = 0.5", "spring.0.stiffness.x", "at least 0"},
+      {"x = 2.5, rotation = 0.5", "x = 0, rotation = 0", "spring.0.stiffness", "the spring has no stiffness"},
+      {"x = 2.5, rotation = 0.5", "y = 2.5", "spring.0.stiffness.y", "not a key of this table"},
+      {"stiffness = { z = 0.125 }", "", "spring.1.stiffness", "is missing", -2},
+      {"stiffness = { z = 0.125 }", "stiffness = 0.125", "spring.1.stiffness", "wrong type"},
+      {"stiffness = { z = 0.125 }", "foundation = { z = 0.125 }", "spring.1.foundation", "a spring along a member"},
+      {"foundation = { z = 3.0 }", "", "spring.2.foundation", "is missing", -2},
+      {"foundation = { z = 3.0 }", "foundation = { z = 0.0 }", "spring.2.foundation", "no stiffness"},
+      {"foundation = { z = 3.0 }", "foundation = { z = inf }", "spring.2.foundation.z", "finite"},
+      {"foundation = { z = 3.0 }", "stiffness = { z = 3.0 }", "spring.2.stiffness", "a spring at points"},
+      {"on = \"wave\"", "on = \"weave\"", "spring.2.on", "did you mean wave?"},
+  });
+}
+
 TEST(BadDecks, WallsAndContact) {
   expect_refused({
       {"name = \"upper\"", "", "wall.0.name", "is missing", -1},

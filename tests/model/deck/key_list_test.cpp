@@ -79,7 +79,8 @@ TEST(KeyList, IsWhatThePageOnDecksShows) {
   for (const DeclaredKey& key : declared_keys()) {
     const bool in_braces = key.table.ends_with(".sine") || key.table.ends_with(".curve") ||
                            key.table.ends_with(".control") || key.table.ends_with(".imperfection.#") ||
-                           key.table.ends_with(".profile");
+                           key.table.ends_with(".profile") || key.table.ends_with(".stiffness") ||
+                           key.table.ends_with(".foundation");
     if (key.name == "*" || in_braces) continue;
     EXPECT_NE(page.find("<!-- keys of " + (key.table.empty() ? "deck" : key.table) + " -->"), std::string::npos)
         << "docs/deck.md has no table of the keys of " << key.table;
@@ -102,6 +103,9 @@ TEST(UnitOfKey, IsThatOfWhatTheKeyHolds) {
                                                           {"member.column.imperfection.amplitude", "cm"},
                                                           {"member.1.curve.x.3", "cm"},
                                                           {"wall.0.profile.x", "cm"},
+                                                          {"spring.0.stiffness.z", "kN/cm"},
+                                                          {"spring.0.stiffness.rotation", "kN cm"},
+                                                          {"spring.1.foundation.x", "kN/cm²"},
                                                           {"contact.gap_tolerance", "cm"},
                                                           {"section.s.nothing", ""}};
   for (const auto& [key, unit] : expected) EXPECT_EQ(unit_of_key(key, units), unit) << key;

@@ -143,6 +143,16 @@ constant = true
 on = "arch"
 distributed = [0.0, -3.0]
 
+[[spring]]
+at = "column:0.5"
+stiffness = { x = 2.5, rotation = 0.5 }
+[[spring]]
+between = ["A", "C"]
+stiffness = { z = 0.125 }
+[[spring]]
+on = "wave"
+foundation = { z = 3.0 }
+
 [[wall]]
 name = "upper"
 side = "above"

@@ -1,0 +1,132 @@
+#include "elements/foundation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "elements/shape_functions.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr int gauss_points = 3;
+
+using Ends = StretchLoad::Vector6;  // x, z and angle of the first end and of the second
+
+// A place ξ of the cubic between two ends, with its derivatives by these.
+struct CubicPlace {
+  Vec2 position = Vec2::Zero();
+  Eigen::Matrix<double, 2, 6> gradient = Eigen::Matrix<double, 2, 6>::Zero();
+  std::array<StretchLoad::Matrix6, 2> second{};  // of x and of z
+};
+
+// With the chord c and its direction β, ∂β/∂c = c⊥/|c|².
+CubicPlace cubic_place(const Ends& ends, double xi) {
+  const Vec2 c = ends.segment<2>(3) - ends.head<2>(), across = perp(c);
+  const double beta = std::atan2(c.y(), c.x()), square = c.squaredNorm();
+  const double N1 = xi * (1.0 - xi) * (1.0 - xi), N2 = -xi * xi * (1.0 - xi), N = N1 + N2;
+  const auto against_chord = [&](double angle) { return std::remainder(angle - beta, 2.0 * pi); };
+  const double H = N1 * against_chord(ends[2]) + N2 * against_chord(ends[5]);
+  const Vec2 H_c = -N / square * across;
+  Eigen::Matrix2d turn;  // of c into c⊥
+  turn << 0.0, -1.0, 1.0, 0.0;
+
+  // By c and the two angles.
+  Eigen::Matrix<double, 2, 4> by;
+  by.leftCols<2>() = xi * Eigen::Matrix2d::Identity() + H * turn + across * H_c.transpose();
+  by.col(2) = N1 * across;
+  by.col(3) = N2 * across;
+  Eigen::Matrix2d H_cc;
+  H_cc << 2.0 * c.x() * c.y(), c.y() * c.y() - c.x() * c.x(), c.y() * c.y() - c.x() * c.x(), -2.0 * c.x() * c.y();
+  H_cc *= -N / (square * square);
+
+  Eigen::Matrix<double, 4, 6> spread = Eigen::Matrix<double, 4, 6>::Zero();
+  spread(0, 0) = spread(1, 1) = -1.0;
+  spread(0, 3) = spread(1, 4) = spread(2, 2) = spread(3, 5) = 1.0;
+  CubicPlace place{.position = ends.head<2>() + xi * c + H * across, .gradient = by * spread};
+  place.gradient.leftCols<2>() += Eigen::Matrix2d::Identity();
+  for (Index k = 0; k < 2; ++k) {
+    Eigen::Matrix4d second = Eigen::Matrix4d::Zero();
+    const Eigen::RowVector2d row = turn.row(k);
+    second.topLeftCorner<2, 2>() = row.transpose() * H_c.transpose() + H_c * row + across[k] * H_cc;
+    second.block<1, 2>(2, 0) = N1 * row;
+    second.block<1, 2>(3, 0) = N2 * row;
+    second.block<2, 1>(0, 2) = N1 * row.transpose();
+    second.block<2, 1>(0, 3) = N2 * row.transpose();
+    place.second[static_cast<std::size_t>(k)] = spread.transpose() * second * spread;
+  }
+  return place;
+}
+
+}  // namespace
+
+// At rest the first end is at the origin, and does not stay there when S1 moves.
+StretchLoad::Response StretchFoundation::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
+  Ends now, rest;
+  now << r1, angle1, r2, angle2;
+  rest << Vec2::Zero(), stretch_.angles.front(), stretch_.chord, stretch_.angles.back();
+  std::array<Ends, 2> rest_rate{Ends::Zero(), Ends::Zero()};
+  rest_rate[0] << -stretch_.chord_rate[0], stretch_.angle_rate[0].front(), Vec2::Zero(), stretch_.angle_rate[0].back();
+  rest_rate[1] << Vec2::Zero(), stretch_.angle_rate[1].front(), stretch_.chord_rate[1], stretch_.angle_rate[1].back();
+
+  StretchLoad::Response out;
+  const GaussRule rule = gauss_rule(gauss_points);
+  for (std::size_t g = 0; g < gauss_points; ++g) {
+    const double xi = 0.5 * (1.0 + rule.xi[g]), ds = 0.5 * rule.weight[g] * stretch_.length;
+    const CubicPlace at = cubic_place(now, xi), at_rest = cubic_place(rest, xi);
+    const Vec2 u = at.position - at_rest.position, force = stiffness_.cwiseProduct(u);
+    const StretchLoad::Vector6 gradient = at.gradient.transpose() * force;
+    out.energy += 0.5 * ds * force.dot(u);
+    out.force += ds * gradient;
+    out.stiffness += ds * (at.gradient.transpose() * stiffness_.asDiagonal() * at.gradient + force[0] * at.second[0] +
+                           force[1] * at.second[1]);
+    for (std::size_t end = 0; end < 2; ++end)
+      out.force_rate[end] +=
+          ds * (stretch_.length_rate[end] / stretch_.length * gradient -
+                at.gradient.transpose() * stiffness_.cwiseProduct(at_rest.gradient * rest_rate[end]));
+  }
+  return out;
+}
+
+double BeamFoundation::evaluate(const double* u, double* f, double* K) const {
+  const Vec2 second = chord_ + Vec2(u[3], u[4]);
+  const auto response = foundation_.respond({u[0], u[1]}, angles_[0] + u[2], second, angles_[1] + u[5]);
+  if (f != nullptr) std::copy_n(response.force.data(), response.force.size(), f);
+  if (K != nullptr) std::copy_n(response.stiffness.data(), response.stiffness.size(), K);
+  return response.energy;
+}
+
+ExactFoundation::ExactFoundation(const ExactBeamReference& reference, const Vec2& stiffness, int unknowns_a_node)
+    : masses_(Matrix::Zero(reference.order() + 1, reference.order() + 1)),
+      stiffness_(stiffness),
+      stride_(unknowns_a_node) {
+  const GaussRule rule = gauss_rule(gauss_points);
+  for (std::size_t g = 0; g < gauss_points; ++g) {
+    const ShapeFunctions shape = shape_functions(reference.order(), rule.xi[g]);
+    const double ds = rule.weight[g] * arc_speed(reference, shape);
+    const Eigen::Map<const Vector> N(shape.N.data(), masses_.rows());
+    masses_ += ds * N * N.transpose();
+  }
+}
+
+double ExactFoundation::evaluate(const double* u, double* f, double* K) const {
+  const Index n = unknown_count(), nodes = masses_.rows();
+  if (f != nullptr) std::fill(f, f + n, 0.0);
+  if (K != nullptr) std::fill(K, K + n * n, 0.0);
+  double V = 0.0;
+  for (Index direction = 0; direction < 2; ++direction) {
+    const Eigen::Map<const Vector, 0, Eigen::InnerStride<>> along(u + direction, nodes, Eigen::InnerStride<>(stride_));
+    const Vector force = stiffness_[direction] * masses_ * along;
+    V += 0.5 * force.dot(along);
+    for (Index a = 0; a < nodes; ++a) {
+      const Index row = stride_ * a + direction;
+      if (f != nullptr) f[row] = force[a];
+      for (Index b = 0; b < nodes && K != nullptr; ++b)
+        K[row + n * (stride_ * b + direction)] = stiffness_[direction] * masses_(a, b);
+    }
+  }
+  return V;
+}
+
+}  // namespace arcwall
