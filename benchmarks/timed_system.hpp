@@ -59,6 +59,7 @@ class TimedSystem final : public System {
     if (times_parts) last_F_ = out.F;
   }
   double energy(const State& state) const override { return inner_.energy(state); }
+  double squared_motion_by_lambda(const Piece& piece) const override { return inner_.squared_motion_by_lambda(piece); }
   Vector weights(const Piece& piece) const override {
     const ScopedTimer timer(times_.assembly);
     return inner_.weights(piece);

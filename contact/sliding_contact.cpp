@@ -60,6 +60,10 @@ std::optional<Index> SlidingContact::multiplier_index(const Piece& piece, Index 
   return SlidingUnknowns(piece).force(static_cast<std::size_t>(j));
 }
 
+double SlidingContact::squared_motion_by_lambda(const Piece& piece) const {
+  return sliding_layout(piece).mesh().squared_motion_by_lambda();
+}
+
 Vector SlidingContact::weights(const Piece& piece) const {
   const SlidingUnknowns index(piece);
   Vector weights = Vector::Zero(index.size());

@@ -37,6 +37,7 @@ class SlidingContact final : public System, public ContactQuery {
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
   Vector weights(const Piece& piece) const override;
+  double squared_motion_by_lambda(const Piece& piece) const override;
   Index multiplier_count(const Piece& piece) const override;
 
   Piece open_piece() const override { return open_; }

@@ -28,13 +28,13 @@ ModalStiffness modal_stiffness(const TraceTools& tools, const State& state, cons
           .roundoff = std::numeric_limits<double>::epsilon() * bound.maxCoeff()};
 }
 
-// Along the tangent t of unit length in x, with the eigenpairs (μ, Φ) of K nearest zero, it is the least |s| with
+// Along the tangent t by which the structure moves by 1, with the eigenpairs (μ, Φ) of K nearest zero, it is the least |s| with
 //
 //     det(diag(μ) + s Φᵀ (∂K/∂s) Φ) = 0.
 //
 // Differences to both sides leave out what the membrane forces of the bent structure add: they are of second order.
 double distance_to_buckling(const TraceTools& tools, const State& start, const Direction& t, const NearNull& nearest) {
-  constexpr double h = 1e-4;  // of the differences, in the metric of x
+  constexpr double h = 1e-4;  // of the differences, by as much of which the structure moves
   const Matrix& modes = *nearest.vectors;
   if (nearest.values.size() == 0 || (nearest.values.array() <= 0.0).any()) return infinity;
   const ModalStiffness ahead = modal_stiffness(tools, moved(start, t, h), modes);
@@ -56,9 +56,12 @@ double natural_lambda_scale(TraceTools& tools, const State& start) {
   const CorrectorResult at = tools.corrector.inspect(start, metric, up);
   tools.corrector.track_from({});
   if (!at.converged()) return first;
-  const double moves = std::sqrt(metric.inner_x(at.tangent, at.tangent)), rate = std::abs(at.tangent.dlambda) / moves;
+  const double dlambda = at.tangent.dlambda;
+  const double moves = std::sqrt(metric.inner_x(at.tangent, at.tangent) +
+                                 dlambda * dlambda * tools.system.squared_motion_by_lambda(start.piece));
+  const double rate = std::abs(dlambda) / moves;
   if (!(std::isfinite(rate) && rate > 0.0)) return first;
-  const Direction t{.dx = at.tangent.dx / moves, .dlambda = at.tangent.dlambda / moves};
+  const Direction t{.dx = at.tangent.dx / moves, .dlambda = dlambda / moves};
   return rate * std::min(1.0, stiffness_changes * distance_to_buckling(tools, start, t, at.nearest));
 }
 

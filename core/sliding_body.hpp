@@ -58,8 +58,9 @@ class SlidingMesh {
   /// s has as many entries, strand by strand in ascending order.
   virtual Index breakpoints() const = 0;
 
-  /// Weights of the squared norm of x in the path metric.
+  /// Weights of the squared norm of x in the path metric; and the square of the length by which λ moves supports.
   virtual const Vector& weights() const = 0;
+  virtual double squared_motion_by_lambda() const = 0;
 
   virtual void residual(const MeshState& now, Eigen::Ref<Vector> F) const = 0;
 

@@ -19,6 +19,9 @@ class IncrementalStructure final : public System {
   void linearize(const State& state, Linearization& out) const override { present_->linearize(state, out); }
   double energy(const State& state) const override { return present_->energy(state); }
   Vector weights(const Piece& piece) const override { return present_->weights(piece); }
+  double squared_motion_by_lambda(const Piece& piece) const override {
+    return present_->squared_motion_by_lambda(piece);
+  }
 
   /// The end of an increment: its configuration becomes the reference.
   void advance(const State& state) { present_ = present_->updated(state); }

@@ -68,6 +68,13 @@ class NodalTerms {
     return std::any_of(supports_.begin(), supports_.end(), [](const auto& entry) { return !entry.second.is_zero(); });
   }
 
+  /// visit(freedom, rate by λ) of each support that λ moves.
+  template <class Visit>
+  void for_each_moved_support(const Visit& visit) const {
+    for (const auto& [freedom, value] : supports_)
+      if (value.proportional != 0.0) visit(freedom, value.proportional);
+  }
+
   /// Greatest proportional load [force]; `length_of(freedom)` is 1, or the length that a moment is divided by.
   template <class LengthOf>
   double greatest_proportional_load(const LengthOf& length_of) const {

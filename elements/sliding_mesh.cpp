@@ -80,10 +80,21 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
 
   // Means over all nodes, held ones included: they count as zeros.
   const double L = structure.length_scale_;
-  weights_ = Vector::Constant(unknowns, 1.0 / (double(node_count) * L * L));
+  displacement_weight_ = 1.0 / (double(node_count) * L * L);
+  rotation_weight_ = 1.0 / double(rotations);
+  weights_ = Vector::Constant(unknowns, displacement_weight_);
   for (Index r = 0; r < structure.strands(); ++r)
     for (Index i = 0; i < nodes(r); ++i)
-      if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = 1.0 / double(rotations);
+      if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = rotation_weight_;
+}
+
+double SlidingStructureMesh::squared_motion_by_lambda() const {
+  double sum = 0.0;
+  structure_.nodal_.for_each_moved_support([&](Index freedom, double rate) {
+    const bool turns = structure_.freedoms_[static_cast<std::size_t>(freedom)].freedom == Freedom::rotation;
+    sum += (turns ? rotation_weight_ : displacement_weight_) * rate * rate;
+  });
+  return sum;
 }
 
 SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(Index a, Index b, double length, double r) const {

@@ -20,6 +20,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   Index unknowns() const override { return assembly_.unknown_count(); }
   Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
   const Vector& weights() const override { return weights_; }
+  double squared_motion_by_lambda() const override;
   void residual(const MeshState& now, Eigen::Ref<Vector> F) const override;
   void linearize(const MeshState& now, Linearization& out) const override;
   double energy(const MeshState& now) const override;
@@ -133,6 +134,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   std::vector<Four> fours_;
   std::vector<std::pair<Index, Index>> others_;  // strand and position of the elements that are evaluated one by one
   Vector weights_;
+  double displacement_weight_ = 0.0, rotation_weight_ = 0.0;
 };
 
 }  // namespace arcwall

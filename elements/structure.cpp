@@ -232,14 +232,33 @@ double Structure::force_roundoff() const {
 }
 
 // Means over all nodes and all rotations, held ones included: they count as zeros.
+double Structure::weight(Freedom kind) const {
+  switch (kind) {
+    case Freedom::x:
+    case Freedom::z:
+      return 1.0 / (double(positions_.size()) * length_scale_ * length_scale_);
+    case Freedom::rotation:
+      return 1.0 / rotations_;
+    case Freedom::thickness:
+    case Freedom::thickness2:
+      return 0.0;
+  }
+  return 0.0;
+}
+
 Vector Structure::weights(const Piece&) const {
-  const double L = length_scale_, of_displacement = 1.0 / (double(positions_.size()) * L * L);
-  std::array<double, 5> of{};  // a freedom; thickness has none
-  of[static_cast<std::size_t>(Freedom::x)] = of[static_cast<std::size_t>(Freedom::z)] = of_displacement;
-  of[static_cast<std::size_t>(Freedom::rotation)] = 1.0 / rotations_;
+  std::array<double, 5> of{};
+  for (std::size_t kind = 0; kind < of.size(); ++kind) of[kind] = weight(static_cast<Freedom>(kind));
   Vector weights(size({}));
   for (Index i = 0; i < weights.size(); ++i) weights[i] = of[static_cast<std::size_t>(meaning(i).freedom)];
   return weights;
+}
+
+double Structure::squared_motion_by_lambda(const Piece&) const {
+  double sum = 0.0;
+  nodal_.for_each_moved_support(
+      [&](Index freedom, double rate) { sum += weight(meaning_of_freedom(freedom).freedom) * rate * rate; });
+  return sum;
 }
 
 std::optional<Index> Structure::unknown(Index freedom) const {

@@ -110,6 +110,8 @@ class Structure final : public System {
   /// ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale(); changes of thickness follow these.
   Vector weights(const Piece&) const override;
 
+  double squared_motion_by_lambda(const Piece&) const override;
+
   /// Diagonal of the box around the stress-free structure [length].
   double length_scale() const { return length_scale_; }
 
@@ -193,7 +195,8 @@ class Structure final : public System {
 
   Structure(const Structure&) = default;
   Structure(Index unknowns, const IndexLists& blocks) : assembly_(unknowns, blocks) {}
-  void arrange();  // what follows from the elements
+  void arrange();                     // what follows from the elements
+  double weight(Freedom kind) const;  // in the path metric
   template <class ValueOf>
   std::unique_ptr<Structure> updated_at(const ValueOf& value_of) const;
   std::vector<bool> translation_free() const;                  // see Linearization

@@ -176,6 +176,30 @@ PathMethod path_method(deck::PathMethod method) {
   return PathMethod::spherical;
 }
 
+// A column for each direction that is moved and has no monitor of its reaction: `reaction-x-B`.
+void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, std::vector<MonitorColumn>& columns) {
+  const auto add = [&](const std::string& point, bool moved, deck::Component component) {
+    const auto is_monitored = [&](const deck::Monitor& monitor) {
+      return monitor.component == component && !monitor.at.fraction && monitor.at.name == point;
+    };
+    if (!moved || std::any_of(deck.monitors.begin(), deck.monitors.end(), is_monitored)) return;
+    std::string name = text_of(deck::component_words, component) + "-" + point;
+    while (deck::find(deck.monitors, name) != nullptr) name += "-";
+    const auto quantity = observable(from, {.name = point}, component);
+    if (deck::find(columns, name) == nullptr && quantity)
+      columns.push_back({.name = std::move(name),
+                         .unit = unit_of(component, deck.units),
+                         .component = component,
+                         .quantity = quantity,
+                         .raw = quantity});
+  };
+  for (const deck::Prescribed& moved : deck.prescribed) {
+    add(moved.point, moved.x.has_value(), deck::Component::reaction_x);
+    add(moved.point, moved.z.has_value(), deck::Component::reaction_z);
+    add(moved.point, moved.rotation.has_value(), deck::Component::reaction_moment);
+  }
+}
+
 }  // namespace
 
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
@@ -196,9 +220,11 @@ std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measure
     if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(raw, -1.0);
     columns.push_back({.name = monitor.name,
                        .unit = unit_of(monitor.component, deck.units),
+                       .component = monitor.component,
                        .quantity = std::move(quantity),
                        .raw = raw});
   }
+  add_reactions_of_movements(deck, from, columns);
   return columns;
 }
 

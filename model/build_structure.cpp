@@ -282,6 +282,31 @@ void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, Stru
   }
 }
 
+// --- movements of supports ------------------------------------------------------------------------------------------
+
+// Movements of one direction add.
+template <class Joined>
+void move_supports(const deck::Deck& deck, const Joined& joined, DeckProblems& problems, StructureOfDeck& out) {
+  std::map<Index, Driven> moved;
+  for (const deck::Prescribed& one : deck.prescribed) {
+    if (!joined(one.point, one.position, "prescribed.at")) continue;
+    const NodeFreedoms freedoms = freedoms_of_joint(out, one.point);
+    const auto move = [&](Index freedom, double value) {
+      moved[freedom] += one.constant ? Driven{.constant = value} : Driven{.proportional = value};
+    };
+    if (one.x) move(freedoms.x, *one.x);
+    if (one.z) move(freedoms.z, *one.z);
+    if (!one.rotation) continue;
+    if (freedoms.rotation) {
+      move(*freedoms.rotation, *one.rotation);
+    } else {
+      problems.add(one.position, "prescribed.rotation", "no member end at \"" + one.point + "\" has a rotation",
+                   "leave out rotation, or join a beam there without a hinge");
+    }
+  }
+  for (const auto& [freedom, value] : moved) out.builder.fix(freedom, value);
+}
+
 // --- springs --------------------------------------------------------------------------------------------------------
 
 void report_no_rotation(const deck::Spring& spring, const std::string& place, DeckProblems& problems) {
@@ -383,6 +408,7 @@ StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problem
   };
   for (const deck::Support& support : deck.supports)
     if (joined(support.point, support.position, "support." + support.point)) add_support(support, problems, out);
+  move_supports(deck, joined, problems, out);
   bool places_are_known = true;
   for (const deck::Load& load : deck.loads)
     if (const auto* action = std::get_if<deck::PointLoad>(&load.action); action != nullptr && !action->at.fraction)

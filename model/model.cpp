@@ -11,17 +11,35 @@ namespace arcwall {
 
 namespace {
 
-// Forces below the tolerance times this scale count as zero: small against the loads of a step, above the round-off of
-// the mesh.
+// The greatest force by which supports that λ moves begin to move the structure, moments over its length [force].
+double force_of_movements(const Structure& structure) {
+  if (structure.squared_motion_by_lambda({}) == 0.0) return 0.0;
+  const auto start = Tracer(structure, {.x = Vector::Zero(structure.size({}))}, {}).next();
+  if (!start) return 0.0;
+  const Direction& tangent = start->to.tangent;
+  double greatest = 0.0;
+  structure.nodal_terms().for_each_moved_support([&](Index freedom, double) {
+    const Row row = structure.reaction_gradient(start->to.state, freedom);
+    const double rate = std::abs(row.dx.dot(tangent.dx) / tangent.dlambda + row.dlambda);
+    const bool turns = structure.meaning_of_freedom(freedom).freedom == Freedom::rotation;
+    greatest = std::max(greatest, turns ? rate / structure.length_scale() : rate);
+  });
+  return greatest;
+}
+
+// Forces below the tolerance times this scale count as zero: small against what λ brings in a step, above the round-off
+// of the mesh.
 ContactScales contact_scales(const Structure& structure, double first_step) {
   constexpr double steps = 10.0;
   const double tolerance = TraceOptions{}.guard_tolerance;
+  const double force = std::max(structure.force_scale(), force_of_movements(structure));
   return {.length = structure.length_scale(),
-          .force = std::max({steps * structure.force_scale() * std::abs(first_step),
-                             structure.force_roundoff() / tolerance, 1e-300})};
+          .force = std::max({steps * force * std::abs(first_step), structure.force_roundoff() / tolerance, 1e-300})};
 }
 
 bool moves_something(const Structure& structure) {
+  if (structure.size({}) == 0) return false;
+  if (structure.squared_motion_by_lambda({}) > 0.0) return true;
   Linearization now;
   structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
   return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
@@ -59,6 +77,8 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
     if (load.constant)
       problems.add(load.position, "load", "method \"incremental\" has no constant loads",
                    "multiply all loads by lambda, or use method \"spherical\"");
+  for (const deck::Prescribed& moved : deck.prescribed)
+    problems.add(moved.position, "prescribed", "method \"incremental\" moves no supports", "use method \"spherical\"");
   return possible;
 }
 
@@ -74,7 +94,9 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   structure_ = described.builder.build();
   if (!moves_something(*structure_))
     problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
-                 "the loads that λ multiplies act on supports only: nothing moves", "load a free direction");
+                 structure_->size({}) == 0 ? "every direction is held: nothing is left to move"
+                                           : "the loads that λ multiplies act on supports only: nothing moves",
+                 "load a free direction");
   if (takes_increments(deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
   auto candidates = contact_candidates(deck_, *structure_, problems);
@@ -87,8 +109,9 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   options_ = trace_options(deck_, read_off, monitors_, problems);
   problems.raise();
 
-  const auto constant = [](const deck::Load& load) { return load.constant; };
-  const bool ramp = std::any_of(deck_.loads.begin(), deck_.loads.end(), constant);
+  const auto constant = [](const auto& driven) { return driven.constant; };
+  const bool ramp = std::any_of(deck_.loads.begin(), deck_.loads.end(), constant) ||
+                    std::any_of(deck_.prescribed.begin(), deck_.prescribed.end(), constant);
   if (ramp) ramp_structure_ = described.builder.build(true);
   if (!deck_.walls.empty()) {
     const ContactScales scales = contact_scales(*structure_, deck_.path.step);
@@ -151,7 +174,7 @@ std::optional<State> Model::start(std::string& reason) const {
               .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->contact_count()) : 0, 0)};
   if (sliding_) state = sliding_->rest();
   if (!ramp_structure_) return state;
-  // The constant loads grow from nothing along a path of their own, contacts included.
+  // What is constant grows from nothing along a path of their own, contacts included.
   TraceOptions options;
   options.step.first = 0.1;
   options.max_points = 2000;
@@ -167,8 +190,8 @@ std::optional<State> Model::start(std::string& reason) const {
   Tracer tracer(*ramp, state, options);
   while (const auto arc = tracer.next()) state = arc->to.state;
   if (!tracer.end() || tracer.end()->reason != EndReason::stop) {
-    reason = "the constant loads find no equilibrium: their growth ends at " + std::to_string(state.lambda) +
-             " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
+    reason = "the constant loads and movements find no equilibrium: their growth ends at " +
+             std::to_string(state.lambda) + " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
     return std::nullopt;
   }
   state.lambda = 0.0;

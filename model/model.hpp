@@ -18,7 +18,8 @@ namespace arcwall {
 /// A column of path.csv.
 struct MonitorColumn {
   std::string name{};
-  std::string unit{};                            ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
+  std::string unit{};  ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
+  deck::Component component = deck::Component::z;
   std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign
   std::shared_ptr<const Observable> raw{};       ///< without
 };
@@ -65,8 +66,8 @@ class Model {
   /// What the user should know though it is no error: one sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The state at λ = 0 under the constant loads, found by tracing their growth from nothing. `reason` says why there
-  /// is none.
+  /// The state at λ = 0 under the constant loads and movements, found by tracing their growth from nothing. `reason`
+  /// says why there is none.
   std::optional<State> start(std::string& reason) const;
 
   /// Number of closed contact points.

@@ -63,6 +63,8 @@ void add_model(const Model& model, Lines& lines) {
       directions.push_back(deck::text_of(deck::direction_words, direction));
     lines.add("supports", fmt::format("{}: {}", support.point, fmt::join(directions, ", ")));
   }
+  for (const deck::Prescribed& moved : deck.prescribed)
+    lines.add("moved", movement_text(moved, deck.units).text + (moved.constant ? ", constant" : ", times λ"));
   for (const deck::Load& load : deck.loads) {
     lines.add("loads", load_text(load, deck.units).text + (load.constant ? ", constant" : ", times λ"));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <variant>
 
 #include "model/deck/key_list.hpp"
@@ -75,11 +76,32 @@ std::string spring_text(const deck::Spring& spring, const deck::Units& units) {
   return std::visit([&](const auto& kind) { return spring_words(kind, units); }, spring.kind);
 }
 
-std::vector<LoadText> varying_loads(const deck::Deck& deck) {
-  std::vector<LoadText> loads;
-  for (const deck::Load& load : deck.loads)
-    if (!load.constant) loads.push_back(load_text(load, deck.units));
-  return loads;
+// Of one direction the size is that of its value.
+LoadText movement_text(const deck::Prescribed& moved, const deck::Units& units) {
+  LoadText result{.text = "", .name = "", .size = ""};
+  const auto add = [&](const std::string& what, const std::optional<double>& value, const std::string& unit) {
+    if (!value) return;
+    const bool first = result.name.empty();
+    result.name = first ? what + " of " + moved.point : "movement of " + moved.point;
+    result.size = first && !unit.empty() ? with_unit(short_number(std::abs(*value)), unit) : "";
+    result.text += (first ? "" : ", ") + what + " of " + moved.point + " " + with_unit(short_number(*value), unit);
+  };
+  add("displacement in x", moved.x, units.length);
+  add("displacement in z", moved.z, units.length);
+  add("rotation", moved.rotation, "rad");
+  return result;
+}
+
+std::vector<LoadText> driven_by_lambda(const deck::Deck& deck) {
+  std::vector<LoadText> driven;
+  for (const deck::Load& load : deck.loads) {
+    if (load.constant) continue;
+    driven.push_back(load_text(load, deck.units));
+    driven.back().text = "load " + driven.back().text;
+  }
+  for (const deck::Prescribed& moved : deck.prescribed)
+    if (!moved.constant) driven.push_back(movement_text(moved, deck.units));
+  return driven;
 }
 
 }  // namespace arcwall

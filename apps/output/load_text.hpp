@@ -7,21 +7,23 @@
 
 namespace arcwall {
 
-/// A load in words.
+/// What λ multiplies, in words.
 struct LoadText {
-  std::string text{};  ///< `at right: force (-1, 0) kN`
-  std::string size{};  ///< `2 kN`; empty without units, and of a force together with a moment
+  std::string text{};                ///< `load at right force (-1, 0) kN`, `displacement in x of B -1 cm`
+  std::string name = "load factor";  ///< of λ where this alone varies: `displacement in x of B`
+  std::string size{};                ///< `2 kN`; empty without units, and of a force together with a moment
 };
 
 /// A number with its unit; alone where the deck has no units.
 std::string with_unit(const std::string& number, const std::string& unit);
 
 LoadText load_text(const deck::Load& load, const deck::Units& units);
+LoadText movement_text(const deck::Prescribed& moved, const deck::Units& units);
 
 /// A spring in words: `at mid: z 2.5 kN/cm`.
 std::string spring_text(const deck::Spring& spring, const deck::Units& units);
 
-/// Those that λ multiplies.
-std::vector<LoadText> varying_loads(const deck::Deck& deck);
+/// All that λ multiplies.
+std::vector<LoadText> driven_by_lambda(const deck::Deck& deck);
 
 }  // namespace arcwall

@@ -321,7 +321,7 @@ std::string facts(const ReportContent& content) {
 
 ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn) {
   ReportContent content{.description = model.deck().description,
-                        .loads = varying_loads(model.deck()),
+                        .loads = driven_by_lambda(model.deck()),
                         .deck_text = deck::to_toml(model.deck()),
                         .shapes = draw(drawn, setting_of(model))};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
@@ -339,10 +339,11 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
 
 namespace {
 
-// With what λ multiplies, where that is one load: then the axis has a unit.
+// With what λ multiplies, where that is one thing: then the axis has a unit.
 std::string load_title(const ReportContent& content) {
-  const bool one = content.loads.size() == 1 && !content.loads.front().size.empty();
-  return "load factor λ" + (one ? ", times " + shown_name(content.loads.front().size) : "");
+  if (content.loads.size() != 1) return "load factor λ";
+  const LoadText& one = content.loads.front();
+  return shown_name(one.name) + " λ" + (one.size.empty() ? "" : ", times " + shown_name(one.size));
 }
 
 std::string load_note(const ReportContent& content) {
@@ -351,8 +352,7 @@ std::string load_note(const ReportContent& content) {
   for (std::size_t i = 0; i < std::min(content.loads.size(), most); ++i)
     text += (i == 0 ? "" : "; ") + plain(content.loads[i].text, 200);
   if (text.empty()) return "";
-  return "<p class=\"note\">λ multiplies the load " + escaped(text) + (content.loads.size() > most ? "; …" : "") +
-         ".</p>";
+  return "<p class=\"note\">λ multiplies the " + escaped(text) + (content.loads.size() > most ? "; …" : "") + ".</p>";
 }
 
 nlohmann::ordered_json data_of(const Record& record, const ReportContent& content) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "apps/output/path_lines.hpp"
 
@@ -333,6 +334,30 @@ void add_spring(const deck::Deck& deck, const deck::Spring& spring, Scene& to) {
   }
 }
 
+// The directions that supports hold, at rest or moved, in the order of the deck.
+std::vector<std::pair<std::string, HeldPoint>> held_points(const deck::Deck& deck) {
+  std::vector<std::pair<std::string, HeldPoint>> points;
+  const auto at = [&](const std::string& point) -> HeldPoint& {
+    const auto found =
+        std::find_if(points.begin(), points.end(), [&](const auto& other) { return other.first == point; });
+    return found != points.end() ? found->second : points.emplace_back(point, HeldPoint{}).second;
+  };
+  for (const deck::Support& support : deck.supports)
+    for (const Freedom direction : support.directions) {
+      HeldPoint& held = at(support.point);
+      held.x = held.x || direction == Freedom::x;
+      held.z = held.z || direction == Freedom::z;
+      held.rotation = held.rotation || direction == Freedom::rotation;
+    }
+  for (const deck::Prescribed& moved : deck.prescribed) {
+    HeldPoint& held = at(moved.point);
+    held.x = held.x || moved.x;
+    held.z = held.z || moved.z;
+    held.rotation = held.rotation || moved.rotation;
+  }
+  return points;
+}
+
 // Of beams; bars are drawn as lines.
 std::vector<double> section_heights(const deck::Deck& deck) {
   std::vector<double> heights;
@@ -375,12 +400,8 @@ Scene scene_of(const Model& model, const State& state) {
           {.at = *at, .force = factor * Vec2(single->force.x, single->force.z), .moment = factor * single->moment});
   }
   for (const deck::Spring& spring : deck.springs) add_spring(deck, spring, scene);
-  for (const deck::Support& support : deck.supports) {
-    const auto at = position_of(deck, scene.shape, {.name = support.point});
-    const auto holds = [&](Freedom direction) {
-      return std::find(support.directions.begin(), support.directions.end(), direction) != support.directions.end();
-    };
-    const HeldPoint held{.x = holds(Freedom::x), .z = holds(Freedom::z), .rotation = holds(Freedom::rotation)};
+  for (const auto& [point, held] : held_points(deck)) {
+    const auto at = position_of(deck, scene.shape, {.name = point});
     if (!at || !(held.x || held.z || held.rotation)) continue;
     scene.supports.push_back(held);
     scene.supports.back().at = *at;

@@ -80,14 +80,16 @@ std::string key_title(const Collection& collection, const std::string& key) {
   return key + (unit.empty() ? "" : " [" + unit + "]");
 }
 
-// What λ multiplies, where that is one load and the same for all cases.
+// What λ multiplies, where that is one thing and the same for all cases.
 std::string unit_of_lambda(const Collection& collection) {
-  const auto is_load = [](const Key& key) { return key.name.starts_with("load"); };
+  const auto is_load = [](const Key& key) {
+    return key.name.starts_with("load") || key.name.starts_with("prescribed");
+  };
   const auto is_tied_load = [&](const Tie& tie) { return is_load(tie.key); };
   const Sweep& sweep = collection.sweep;
   if (std::any_of(sweep.keys.begin(), sweep.keys.end(), is_load)) return {};
   if (std::any_of(sweep.ties.begin(), sweep.ties.end(), is_tied_load)) return {};
-  const std::vector<LoadText> varying = varying_loads(collection.deck);
+  const std::vector<LoadText> varying = driven_by_lambda(collection.deck);
   return varying.size() == 1 ? plain(varying.front().size, 60) : std::string();
 }
 

@@ -149,7 +149,7 @@ std::vector<Potential> sliding_potentials(const Model& model, const State& state
   return all;
 }
 
-// visit(unknown, load, displacement) for each freedom that carries one.
+// visit(unknown, load, displacement) for each freedom that carries one; the unknown is −1 where a support holds it.
 template <class Visit>
 void for_each_point_load(const Model& model, const State& state, const Visit& visit) {
   const Structure& structure = model.structure();
@@ -161,10 +161,11 @@ void for_each_point_load(const Model& model, const State& state, const Visit& vi
   for (const Index freedom : freedoms) {
     const double load = structure.nodal_terms().load(freedom).at(state.lambda);
     if (load == 0.0) continue;
-    if (model.sliding() == nullptr) {
-      if (const auto i = structure.unknown(freedom)) visit(*i, load, structure.value(state, freedom));
-    } else if (const auto i = model.sliding_structure()->unknown(sliding_mesh(state), freedom)) {
-      visit(*i, load, model.sliding_structure()->value(sliding_mesh(state), mesh_state_of(state), freedom));
+    if (const SlidingStructure* body = model.sliding_structure(); body == nullptr) {
+      visit(structure.unknown(freedom).value_or(-1), load, structure.value(state, freedom));
+    } else {
+      visit(body->unknown(sliding_mesh(state), freedom).value_or(-1), load,
+            body->value(sliding_mesh(state), mesh_state_of(state), freedom));
     }
   }
 }
@@ -254,7 +255,9 @@ Index structure_unknowns(const Model& model, const State& state) {
 
 Vector point_loads(const Model& model, const State& state) {
   Vector loads = Vector::Zero(structure_unknowns(model, state));
-  for_each_point_load(model, state, [&](Index i, double load, double) { loads[i] += load; });
+  for_each_point_load(model, state, [&](Index i, double load, double) {
+    if (i >= 0) loads[i] += load;
+  });
   return loads;
 }
 

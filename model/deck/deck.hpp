@@ -194,6 +194,17 @@ struct Place {
 /// `P` or `column:0.5`, as in a deck.
 std::string to_text(const Place& place);
 
+/// A support that moves a point: the directions that are named are held.
+struct Prescribed {
+  Position position{};
+  std::string point{};
+  std::optional<double> x{}, z{};    ///< displacement [length]; at least one of these
+  std::optional<double> rotation{};  ///< [rad]
+  bool constant = false;             ///< not multiplied by λ
+
+  bool operator==(const Prescribed&) const = default;
+};
+
 struct PointLoad {
   Place at{};
   Vector force{};
@@ -418,7 +429,8 @@ struct Deck {
   std::vector<Point> points{};
   std::vector<Member> members{};  ///< at least one
   std::vector<Support> supports{};
-  std::vector<Load> loads{};  ///< at least one that is neither constant nor zero
+  std::vector<Prescribed> prescribed{};
+  std::vector<Load> loads{};  ///< of these and what is prescribed at least one is neither constant nor zero
   std::vector<Spring> springs{};
   std::vector<Wall> walls{};
   Contact contact{};

@@ -14,10 +14,14 @@ void declare_keys(Keys& root, Deck& deck);
 // Its parts, in the order of the deck that is written.
 void declare_sections(Keys& root, Deck& deck);  ///< labels, materials, sections and points: what refers to nothing else
 void declare_members(Keys& root, Deck& deck);
-void declare_loads(Keys& root, Deck& deck);  ///< supports, too
+bool declare_loads(Keys& root, Deck& deck);  ///< supports and their movements, too; true if all are right
 void declare_springs(Keys& root, Deck& deck);
 void declare_walls(Keys& root, Deck& deck);  ///< and the treatment of contact
 void declare_path(Keys& root, Deck& deck);   ///< and the monitors
+
+/// Reports a deck in which λ drives nothing. What a wrong load would have been cannot be told: only where all are
+/// right.
+void check_driven(Keys& root, const Deck& deck);
 
 /// An array x of the keys x and z: two lists of the same length, at least 2.
 bool curve_keys(Keys& keys, std::vector<double>& x, std::vector<double>& z);

@@ -1,4 +1,4 @@
-// Supports and loads.
+// Supports, movements of supports, and loads.
 #include <algorithm>
 #include <string>
 
@@ -14,6 +14,19 @@ bool support_key(Keys& keys, const Key& key, Support& support, const Deck& deck)
     keys.report_key(key, "no member ends at this point", "support the end of a member");
   keys.words(key, support.directions, direction_words, "is no direction", "the directions that are fixed");
   return true;
+}
+
+void prescribed_keys(Keys& keys, Prescribed& moved, const Deck& deck) {
+  if (keys.name("at", moved.point, Named::point, "a point that is moved; every direction that is given is held") &&
+      !ends_a_member(deck, moved.point))
+    keys.report("at", "no member ends at point " + moved.point, "name a point at the end of a member");
+  keys.number(optional("x", "free"), moved.x, unit::length, any_number, "displacement");
+  keys.number(optional("z", "free"), moved.z, unit::length, any_number, "displacement");
+  keys.number(optional("rotation", "free"), moved.rotation, unit::none, any_number,
+              "of the rigidly joined member ends [rad]");
+  keys.flag(optional("constant"), moved.constant, "held while λ varies, instead of multiplied by λ");
+  if (!keys.has("x") && !keys.has("z") && !keys.has("rotation"))
+    keys.report("at", "nothing is prescribed", "give at least one of x, z and rotation");
 }
 
 void point_load_keys(Keys& keys, PointLoad& load) {
@@ -53,9 +66,14 @@ bool follows_lambda(const Load& load) {
   return !load.constant && std::visit([](const auto& action) { return !is_zero(action); }, load.action);
 }
 
+bool moves_with_lambda(const Prescribed& moved) {
+  return !moved.constant &&
+         (moved.x.value_or(0.0) != 0.0 || moved.z.value_or(0.0) != 0.0 || moved.rotation.value_or(0.0) != 0.0);
+}
+
 }  // namespace
 
-void declare_loads(Keys& root, Deck& deck) {
+bool declare_loads(Keys& root, Deck& deck) {
   root.table(
       optional("support"), Form::header,
       [&](Keys& keys) {
@@ -63,11 +81,19 @@ void declare_loads(Keys& root, Deck& deck) {
                      [&](const Key& key, Support& support) { return support_key(keys, key, support, deck); });
       },
       "");
-  const bool all_right = root.tables(optional("load"), deck.loads, load_keys, "");
-  if (!all_right) return;  // what a wrong load would have been cannot be told
+  const bool moves = root.tables(
+      optional("prescribed"), deck.prescribed,
+      [&](Keys& keys, Prescribed& moved) { prescribed_keys(keys, moved, deck); }, "");
+  return root.tables(optional("load"), deck.loads, load_keys, "") && moves;
+}
+
+void check_driven(Keys& root, const Deck& deck) {
   if (std::any_of(deck.loads.begin(), deck.loads.end(), follows_lambda)) return;
-  if (deck.loads.empty()) return root.report("load", "there is no load", "add a [[load]] with at and force");
-  root.report("load", "no load is multiplied by λ: all are constant or zero", "add a [[load]] that is neither");
+  if (std::any_of(deck.prescribed.begin(), deck.prescribed.end(), moves_with_lambda)) return;
+  const std::string cure = "add a [[load]] with at and force, or a [[prescribed]] movement of a point";
+  if (deck.loads.empty() && deck.prescribed.empty())
+    return root.report("load", "nothing varies with λ: there is no load and no prescribed movement", cure);
+  root.report("load", "nothing varies with λ: all loads and prescribed movements are constant or zero", cure);
 }
 
 }  // namespace arcwall::deck

@@ -197,10 +197,11 @@ void declare_path(Keys& root, Deck& deck) {
 void declare_keys(Keys& root, Deck& deck) {
   declare_sections(root, deck);
   declare_members(root, deck);
-  declare_loads(root, deck);
+  const bool driven_is_known = declare_loads(root, deck);
   declare_springs(root, deck);
   declare_walls(root, deck);
   declare_path(root, deck);
+  if (driven_is_known) check_driven(root, deck);
 }
 
 }  // namespace arcwall::deck

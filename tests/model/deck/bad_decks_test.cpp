@@ -206,6 +206,17 @@ TEST(BadDecks, SupportsAndLoads) {
   });
 }
 
+TEST(BadDecks, Movements) {
+  expect_refused({
+      {"at = \"D\"\nz = -0.5", "z = -0.5", "prescribed.0.at", "is missing", -1},
+      {"at = \"D\"\nz = -0.5", "at = \"Q\"\nz = -0.5", "prescribed.0.at", "not a point of this deck"},
+      {"at = \"D\"\nz = -0.5", "at = \"column:0.5\"\nz = -0.5", "prescribed.0.at", "not a point of this deck"},
+      {"z = -0.5\nrotation = 0.25", "", "prescribed.0.at", "nothing is prescribed", -1},
+      {"z = -0.5\nrotation = 0.25", "z = nan", "prescribed.0.z", "finite"},
+      {"z = -0.5\nrotation = 0.25", "y = 1.0", "prescribed.0.y", "not a key of this table"},
+  });
+}
+
 TEST(BadDecks, Springs) {
   expect_refused({
       {"between = [\"A\", \"C\"]", "", "spring.1.at", "none of `at`, `between` and `on`", -1},
@@ -349,8 +360,12 @@ TEST(BadDecks, ADeckNeedsPointsMembersAndALoadThatVaries) {
   EXPECT_NE(nothing.find("point: is missing"), std::string::npos) << nothing;
   EXPECT_NE(nothing.find("there is no member"), std::string::npos) << nothing;
   EXPECT_NE(nothing.find("there is no load"), std::string::npos) << nothing;
-  EXPECT_NE(constant.find("no load is multiplied by λ"), std::string::npos) << constant;
-  EXPECT_NE(zero.find("no load is multiplied by λ"), std::string::npos) << zero;
+  EXPECT_NE(constant.find("nothing varies with λ"), std::string::npos) << constant;
+  EXPECT_NE(zero.find("nothing varies with λ"), std::string::npos) << zero;
+  const std::string moved = std::string(column_deck.substr(0, column_deck.find("[[load]]")));
+  EXPECT_TRUE(diagnostics_of(moved + "[[prescribed]]\nat = \"B\"\nx = -1.0\n").empty());
+  EXPECT_FALSE(diagnostics_of(moved + "[[prescribed]]\nat = \"B\"\nx = 0.0\n").empty());
+  EXPECT_FALSE(diagnostics_of(moved + "[[prescribed]]\nat = \"B\"\nx = 1.0\nconstant = true\n").empty());
 }
 
 TEST(BadDecks, APointMustEndAMemberToBeSupportedOrLoaded) {

@@ -103,6 +103,8 @@ TEST(UnitOfKey, IsThatOfWhatTheKeyHolds) {
                                                           {"member.column.imperfection.amplitude", "cm"},
                                                           {"member.1.curve.x.3", "cm"},
                                                           {"wall.0.profile.x", "cm"},
+                                                          {"prescribed.0.x", "cm"},
+                                                          {"prescribed.0.rotation", ""},
                                                           {"spring.0.stiffness.z", "kN/cm"},
                                                           {"spring.0.stiffness.rotation", "kN cm"},
                                                           {"spring.1.foundation.x", "kN/cm²"},

@@ -211,6 +211,15 @@ name = "end"
 at = "D"
 component = "reaction-z"
 sign = -1
+
+[[prescribed]]
+at = "D"
+z = -0.5
+rotation = 0.25
+[[prescribed]]
+at = "C"
+x = 0.125
+constant = true
 )toml";
 
 /// The text with its first `from` replaced; the text must contain it.
