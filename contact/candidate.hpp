@@ -27,6 +27,7 @@ class Candidate {
       : point_(std::move(point)), obstacle_(std::move(obstacle)), label_(std::move(label)) {}
 
   const TrackedPoint& point() const { return *point_; }
+  const Obstacle& obstacle() const { return *obstacle_; }
   const ContactLabel& label() const { return label_; }
 
   /// Whether the obstacle has a surface that faces the point.

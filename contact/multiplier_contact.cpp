@@ -122,6 +122,14 @@ double MultiplierContact::energy(const State& state) const {
   return inner_.energy(inner) + springs;
 }
 
+// An obstacle counts as a structure that goes with it would.
+double MultiplierContact::squared_motion_by_lambda(const Piece&) const {
+  double speed = 0.0;
+  for (const Candidate& candidate : candidates_)
+    speed = std::max(speed, candidate.obstacle().greatest_speed(scales_.length) / scales_.length);
+  return inner_.squared_motion_by_lambda({}) + speed * speed;
+}
+
 Vector MultiplierContact::weights(const Piece& piece) const {
   Vector weights = Vector::Zero(size(piece));
   weights.head(inner_.size({})) = inner_.weights({});

@@ -40,7 +40,7 @@ class MultiplierContact final : public System, public ContactQuery {
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
   Vector weights(const Piece& piece) const override;
-  double squared_motion_by_lambda(const Piece&) const override { return inner_.squared_motion_by_lambda({}); }
+  double squared_motion_by_lambda(const Piece&) const override;
   Index multiplier_count(const Piece& piece) const override;
 
   Piece open_piece() const override { return Piece(candidates_.size(), 0); }

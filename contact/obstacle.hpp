@@ -65,6 +65,10 @@ class Obstacle {
   /// Empty: it is straight and goes on.
   virtual const std::vector<double>& knots() const = 0;
 
+  /// By how much λ moves the obstacle per unit, at most, as far as it is within a reach of the point about which it
+  /// turns [length]; 0 of one that stands still.
+  virtual double greatest_speed(double /*reach*/) const { return 0.0; }
+
   /// Points along the surface between two values of x, for pictures; along all of it if it has no part between them.
   virtual std::vector<Vec2> outline(double from, double to, double lambda) const = 0;
 

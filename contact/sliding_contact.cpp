@@ -60,8 +60,12 @@ std::optional<Index> SlidingContact::multiplier_index(const Piece& piece, Index 
   return SlidingUnknowns(piece).force(static_cast<std::size_t>(j));
 }
 
+// An obstacle counts as a structure that goes with it would.
 double SlidingContact::squared_motion_by_lambda(const Piece& piece) const {
-  return sliding_layout(piece).mesh().squared_motion_by_lambda();
+  double speed = 0.0;
+  for (const SlidingObstacle& obstacle : setting_->obstacles)
+    speed = std::max(speed, obstacle.surface->greatest_speed(setting_->scales.length) / setting_->scales.length);
+  return sliding_layout(piece).mesh().squared_motion_by_lambda() + speed * speed;
 }
 
 Vector SlidingContact::weights(const Piece& piece) const {

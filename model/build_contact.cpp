@@ -84,7 +84,18 @@ std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
 
 }  // namespace
 
-std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall) { return obstacle(profile_of(wall), wall.side); }
+RigidMotion motion_of(const deck::Wall& wall) {
+  if (!wall.motion) return {};
+  const deck::WallMotion& motion = *wall.motion;
+  return {.way = {motion.x, motion.z}, .turn = motion.rotation, .about = {motion.about.x, motion.about.z}};
+}
+
+std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall) {
+  std::shared_ptr<const Obstacle> at_rest = obstacle(profile_of(wall), wall.side);
+  const RigidMotion motion = motion_of(wall);
+  if (motion.is_none()) return at_rest;
+  return std::make_shared<MovingObstacle>(std::move(at_rest), motion);
+}
 
 bool concerns(const deck::Wall& wall, const std::string& member) {
   return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();

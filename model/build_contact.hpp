@@ -4,12 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "contact/moving_obstacle.hpp"
 #include "contact/multiplier_contact.hpp"
 #include "contact/sliding_contact.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/build_structure.hpp"
 
 namespace arcwall {
+
+/// How λ moves a wall.
+RigidMotion motion_of(const deck::Wall& wall);
 
 /// What stands in the way where the deck has a wall.
 std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall);

@@ -5,8 +5,10 @@
 
 #include "core/text.hpp"
 #include "elements/member_point.hpp"
+#include "model/build_contact.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/words.hpp"
+#include "model/wall_force.hpp"
 
 namespace arcwall {
 
@@ -31,6 +33,8 @@ std::optional<Component> member_component(deck::Component component) {
     case deck::Component::reaction_moment:
     case deck::Component::axial_force:
     case deck::Component::moment:
+    case deck::Component::force_x:
+    case deck::Component::force_z:
     case deck::Component::thickness:
     case deck::Component::thickness2:
       return std::nullopt;
@@ -53,6 +57,8 @@ std::optional<Freedom> reaction_freedom(deck::Component component) {
     case deck::Component::face_below_z:
     case deck::Component::axial_force:
     case deck::Component::moment:
+    case deck::Component::force_x:
+    case deck::Component::force_z:
     case deck::Component::thickness:
     case deck::Component::thickness2:
       return std::nullopt;
@@ -69,6 +75,8 @@ std::string unit_of(deck::Component component, const deck::Units& units) {
     case deck::Component::reaction_x:
     case deck::Component::reaction_z:
     case deck::Component::axial_force:
+    case deck::Component::force_x:
+    case deck::Component::force_z:
       return unit_text(deck::unit::force, units);
     case deck::Component::reaction_moment:
     case deck::Component::moment:
@@ -176,6 +184,17 @@ PathMethod path_method(deck::PathMethod method) {
   return PathMethod::spherical;
 }
 
+// The resultant force of a wall; null where the deck has other problems, so that nothing is traced.
+std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measured& from,
+                                             const deck::Monitor& monitor) {
+  const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
+  if (from.contacts == nullptr || from.system == nullptr) return std::make_shared<ParameterValue>();
+  const WallForce::What what = monitor.component == deck::Component::force_x   ? WallForce::What::x
+                               : monitor.component == deck::Component::force_z ? WallForce::What::z
+                                                                               : WallForce::What::moment;
+  return std::make_shared<WallForce>(*from.contacts, *from.system, wall.name, what, motion_of(wall).about);
+}
+
 // A column for each direction that is moved and has no monitor of its reaction: `reaction-x-B`.
 void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, std::vector<MonitorColumn>& columns) {
   const auto add = [&](const std::string& point, bool moved, deck::Component component) {
@@ -205,9 +224,12 @@ void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, st
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
   std::vector<MonitorColumn> columns;
   for (const deck::Monitor& monitor : deck.monitors) {
-    auto quantity = monitor.at.fraction || from.places.joints.contains(monitor.at.name)
-                        ? observable(from, monitor.at, monitor.component)
-                        : nullptr;
+    std::shared_ptr<const Observable> quantity;
+    if (!monitor.wall.empty()) {
+      quantity = wall_force(deck, from, monitor);
+    } else if (monitor.at.fraction || from.places.joints.contains(monitor.at.name)) {
+      quantity = observable(from, monitor.at, monitor.component);
+    }
     if (!quantity) {
       problems.add(monitor.position, "monitor.component",
                    "\"" + to_text(monitor.at) + "\" does not have this component",

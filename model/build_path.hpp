@@ -12,6 +12,8 @@ struct Measured {
   const Structure& structure;  ///< of the deck's mesh
   const Body& body;
   const Places& places;
+  const ContactQuery* contacts = nullptr;    ///< of the system's states; null where there are none
+  const UnilateralSystem* system = nullptr;  ///< what is traced
 };
 
 /// The deck's monitors as columns. Adds a problem for a component that its place does not have.

@@ -27,12 +27,34 @@ double force_of_movements(const Structure& structure) {
   return greatest;
 }
 
+// The force that the most flexible member has against a wall that λ moves: 3 EI w/ℓ³ at the end of a cantilever, of a
+// bar EA w/ℓ [force].
+double force_of_walls(const deck::Deck& deck, const Structure& structure) {
+  double speed = 0.0, stiffness = infinity;
+  for (const deck::Wall& wall : deck.walls)
+    speed = std::max(speed, obstacle_of(wall)->greatest_speed(structure.length_scale()));
+  for (std::size_t m = 0; m < deck.members.size(); ++m) {
+    const deck::Member& member = deck.members[m];
+    const deck::SectionProperties section = deck::properties(*deck::find(deck.sections, member.section));
+    const double E = deck::find(deck.materials, member.material)->E, length = structure.members()[m].length;
+    stiffness = std::min(stiffness, member.theory == Theory::truss ? E * section.A / length
+                                                                   : 3.0 * E * section.I / (length * length * length));
+  }
+  return speed > 0.0 ? stiffness * speed : 0.0;
+}
+
+bool moves_walls(const deck::Deck& deck) {
+  return std::any_of(deck.walls.begin(), deck.walls.end(),
+                     [](const deck::Wall& wall) { return !motion_of(wall).is_none(); });
+}
+
 // Forces below the tolerance times this scale count as zero: small against what λ brings in a step, above the round-off
 // of the mesh.
-ContactScales contact_scales(const Structure& structure, double first_step) {
+ContactScales contact_scales(const deck::Deck& deck, const Structure& structure, double first_step) {
   constexpr double steps = 10.0;
   const double tolerance = TraceOptions{}.guard_tolerance;
-  const double force = std::max(structure.force_scale(), force_of_movements(structure));
+  const double force =
+      std::max({structure.force_scale(), force_of_movements(structure), force_of_walls(deck, structure)});
   return {.length = structure.length_scale(),
           .force = std::max({steps * force * std::abs(first_step), structure.force_roundoff() / tolerance, 1e-300})};
 }
@@ -43,6 +65,12 @@ bool moves_something(const Structure& structure) {
   Linearization now;
   structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
   return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
+}
+
+// While what is constant is applied, walls do not move.
+deck::Deck with_walls_at_rest(deck::Deck deck) {
+  for (deck::Wall& wall : deck.walls) wall.motion.reset();
+  return deck;
 }
 
 std::vector<Theory> theories_of(const deck::Deck& deck) {
@@ -92,7 +120,7 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   problems.raise();
 
   structure_ = described.builder.build();
-  if (!moves_something(*structure_))
+  if (!moves_something(*structure_) && (structure_->size({}) == 0 || !moves_walls(deck_)))
     problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
                  structure_->size({}) == 0 ? "every direction is held: nothing is left to move"
                                            : "the loads that λ multiplies act on supports only: nothing moves",
@@ -102,27 +130,18 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   auto candidates = contact_candidates(deck_, *structure_, problems);
   const bool sliding = slides(deck_, described.builder, problems);
   if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
+  if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
                   : body_of(*structure_, theories_of(deck_), incremental_structure_.get());
-  const Measured read_off{.structure = *structure_, .body = *body_, .places = described.places};
+  const Measured read_off{.structure = *structure_,
+                          .body = *body_,
+                          .places = described.places,
+                          .contacts = contacts(),
+                          .system = &system()};
   monitors_ = monitor_columns(deck_, read_off, problems);
   options_ = trace_options(deck_, read_off, monitors_, problems);
   problems.raise();
 
-  const auto constant = [](const auto& driven) { return driven.constant; };
-  const bool ramp = std::any_of(deck_.loads.begin(), deck_.loads.end(), constant) ||
-                    std::any_of(deck_.prescribed.begin(), deck_.prescribed.end(), constant);
-  if (ramp) ramp_structure_ = described.builder.build(true);
-  if (!deck_.walls.empty()) {
-    const ContactScales scales = contact_scales(*structure_, deck_.path.step);
-    const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
-    const ContactLaw law{.method = deck_.contact.method, .stiffness = deck_.contact.penalty.value_or(0.0)};
-    contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
-    if (ramp)
-      ramp_contact_ = std::make_unique<MultiplierContact>(
-          *ramp_structure_, contact_candidates(deck_, *ramp_structure_, problems), scales, law);
-    if (sliding) make_sliding(described.builder, ramp, scales);
-  }
   for (const std::string& name : deck_.path.watch)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
   explore_.policy = deck_.path.branches;
@@ -137,19 +156,37 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }
 
+void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding) {
+  const auto constant = [](const auto& driven) { return driven.constant; };
+  const bool ramp = std::any_of(deck_.loads.begin(), deck_.loads.end(), constant) ||
+                    std::any_of(deck_.prescribed.begin(), deck_.prescribed.end(), constant);
+  if (ramp) ramp_structure_ = builder.build(true);
+  if (!deck_.walls.empty()) {
+    const ContactScales scales = contact_scales(deck_, *structure_, deck_.path.step);
+    const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
+    const ContactLaw law{.method = deck_.contact.method, .stiffness = deck_.contact.penalty.value_or(0.0)};
+    contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
+    DeckProblems known(deck_.source);  // those of the structure itself
+    if (ramp)
+      ramp_contact_ = std::make_unique<MultiplierContact>(
+          *ramp_structure_, contact_candidates(with_walls_at_rest(deck_), *ramp_structure_, known), scales, law);
+    if (sliding) make_sliding(builder, ramp, scales);
+  }
+}
+
 std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilder& builder, bool ramp) const {
   return builder.build_sliding(ramp,
                                [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
 }
 
 void Model::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
-  const auto on = [&](const SlidingStructure& structure) {
-    return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck_, structure), scales);
+  const auto on = [&](const SlidingStructure& structure, const deck::Deck& deck) {
+    return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), scales);
   };
-  sliding_ = on(*sliding_structure_);
+  sliding_ = on(*sliding_structure_, deck_);
   if (!ramp) return;
   sliding_ramp_structure_ = sliding_structure(builder, true);
-  sliding_ramp_ = on(*sliding_ramp_structure_);
+  sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_at_rest(deck_));
 }
 
 const System& Model::system() const {

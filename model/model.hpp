@@ -75,6 +75,8 @@ class Model {
 
  private:
   std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
+  // Also the structure under what is constant alone.
+  void make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding);
   void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
 
   deck::Deck deck_;

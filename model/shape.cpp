@@ -52,17 +52,18 @@ Eigen::AlignedBox2d reach(const Model& model) {
 
 // Of a wall that climbs out of the structure's reach only what lies between its first and last place within; all of one
 // that is nowhere within.
-std::vector<WallShape> wall_shapes(const Model& model) {
+std::vector<WallShape> wall_shapes(const Model& model, double lambda) {
   const Eigen::AlignedBox2d box = reach(model);
   std::vector<WallShape> walls;
   for (const deck::Wall& wall : model.deck().walls) {
-    const std::vector<Vec2> line = obstacle_of(wall)->outline(box.min().x(), box.max().x(), 0.0);
+    const std::vector<Vec2> line = obstacle_of(wall)->outline(box.min().x(), box.max().x(), lambda);
     const auto inside = [&](const Vec2& point) { return box.contains(point); };
     const auto first = std::find_if(line.begin(), line.end(), inside);
     const auto last = std::find_if(line.rbegin(), line.rend(), inside).base();
     walls.push_back({.name = wall.name,
                      .side = wall.side,
-                     .line = first == line.end() || last - first < 2 ? line : std::vector<Vec2>(first, last)});
+                     .line = first == line.end() || last - first < 2 ? line : std::vector<Vec2>(first, last),
+                     .moves = !motion_of(wall).is_none()});
   }
   return walls;
 }

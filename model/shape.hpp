@@ -36,8 +36,11 @@ Shape shape_of(const Model& model, const State& state);
 struct WallShape {
   std::string name{};
   Side side = Side::above;
-  std::vector<Vec2> line{};  ///< x ascends
+  std::vector<Vec2> line{};  ///< x ascends, unless λ has turned the wall upright
+  bool moves = false;        ///< λ moves it
 };
-std::vector<WallShape> wall_shapes(const Model& model);
+
+/// The walls where they are at λ.
+std::vector<WallShape> wall_shapes(const Model& model, double lambda = 0.0);
 
 }  // namespace arcwall

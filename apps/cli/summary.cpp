@@ -65,6 +65,8 @@ void add_model(const Model& model, Lines& lines) {
   }
   for (const deck::Prescribed& moved : deck.prescribed)
     lines.add("moved", movement_text(moved, deck.units).text + (moved.constant ? ", constant" : ", times λ"));
+  for (const deck::Wall& wall : deck.walls)
+    if (wall.motion) lines.add("moved", movement_text(wall, deck.units).text + ", times λ");
   for (const deck::Load& load : deck.loads) {
     lines.add("loads", load_text(load, deck.units).text + (load.constant ? ", constant" : ", times λ"));
   }
@@ -99,8 +101,9 @@ void add_path(const deck::Deck& deck, Lines& lines) {
     lines.add("stops", "at the first " + deck::text_of(deck::stop_event_words, event));
   if (deck.path.stop.contacts) lines.add("stops", fmt::format("at {} closed contacts", *deck.path.stop.contacts));
   for (const deck::Monitor& monitor : deck.monitors)
-    lines.add("monitors", fmt::format("{}: {} of {}", monitor.name,
-                                      deck::text_of(deck::component_words, monitor.component), to_text(monitor.at)));
+    lines.add("monitors",
+              fmt::format("{}: {} of {}", monitor.name, deck::text_of(deck::component_words, monitor.component),
+                          monitor.wall.empty() ? to_text(monitor.at) : "wall " + monitor.wall));
 }
 
 }  // namespace

@@ -92,6 +92,19 @@ LoadText movement_text(const deck::Prescribed& moved, const deck::Units& units) 
   return result;
 }
 
+LoadText movement_text(const deck::Wall& wall, const deck::Units& units) {
+  const deck::WallMotion& motion = *wall.motion;
+  LoadText result{.text = "wall " + wall.name, .name = "way of " + wall.name, .size = ""};
+  const bool goes = motion.x != 0.0 || motion.z != 0.0, turns = motion.rotation != 0.0;
+  if (goes) result.text += " by " + with_unit(pair_text({.x = motion.x, .z = motion.z}), units.length);
+  if (turns) result.text += " turned by " + short_number(motion.rotation) + " rad";
+  if (goes && !turns && !units.length.empty())
+    result.size = with_unit(short_number(std::hypot(motion.x, motion.z)), units.length);
+  if (turns && !goes)
+    result = {.text = result.text, .name = "rotation of " + wall.name, .size = short_number(motion.rotation) + " rad"};
+  return result;
+}
+
 std::vector<LoadText> driven_by_lambda(const deck::Deck& deck) {
   std::vector<LoadText> driven;
   for (const deck::Load& load : deck.loads) {
@@ -101,6 +114,8 @@ std::vector<LoadText> driven_by_lambda(const deck::Deck& deck) {
   }
   for (const deck::Prescribed& moved : deck.prescribed)
     if (!moved.constant) driven.push_back(movement_text(moved, deck.units));
+  for (const deck::Wall& wall : deck.walls)
+    if (wall.motion) driven.push_back(movement_text(wall, deck.units));
   return driven;
 }
 

@@ -19,6 +19,7 @@ std::string with_unit(const std::string& number, const std::string& unit);
 
 LoadText load_text(const deck::Load& load, const deck::Units& units);
 LoadText movement_text(const deck::Prescribed& moved, const deck::Units& units);
+LoadText movement_text(const deck::Wall& wall, const deck::Units& units);  ///< of one that moves
 
 /// A spring in words: `at mid: z 2.5 kN/cm`.
 std::string spring_text(const deck::Spring& spring, const deck::Units& units);

@@ -64,11 +64,13 @@ Box box_of(const std::vector<Scene>& scenes, const Setting& setting) {
   if (swept.low.x() > swept.high.x()) return {.low = Vec2::Zero(), .high = Vec2::Ones()};
   const double reach = 0.2 * swept.size().norm();
   Box box = swept;
-  for (const WallShape& wall : setting.walls) {
-    for (const Vec2& point : between(wall.line, swept.low.x(), swept.high.x())) {
-      if (point.y() > swept.low.y() - reach && point.y() < swept.high.y() + reach) box.include(point);
-    }
-  }
+  const auto include = [&](const std::vector<WallShape>& walls) {
+    for (const WallShape& wall : walls)
+      for (const Vec2& point : between(wall.line, swept.low.x(), swept.high.x()))
+        if (point.y() > swept.low.y() - reach && point.y() < swept.high.y() + reach) box.include(point);
+  };
+  include(setting.walls);
+  for (const Scene& scene : scenes) include(scene.walls);
   return box;
 }
 
@@ -242,13 +244,23 @@ std::string spring_data(const Frame& frame, const DrawnSpring& spring) {
 
 std::vector<std::string> classes_of(const Scene& scene) {
   std::vector<std::string> classes(scene.shape.members.size(), "member");
-  classes.insert(classes.end(), {"springs", "supports", "loads", "forces", "touches"});
+  classes.insert(classes.end(), {"moving", "springs", "supports", "loads", "forces", "touches"});
   return classes;
+}
+
+// A wall's surface, and back behind it.
+std::vector<Vec2> wall_band_of(const Frame& frame, const WallShape& wall) {
+  std::vector<Vec2> places;
+  for (const Vec2& point : wall.line) places.push_back(frame.place(point));
+  const Vec2 behind{0.0, (wall.side == Side::above ? -1.0 : 1.0) * wall_band * longer_side};
+  for (std::size_t i = places.size(); i-- > 0;) places.emplace_back(places[i] + behind);
+  return places;
 }
 
 // The paths in the order of classes_of().
 ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
-  std::string springs, supports, loads, forces, touches;
+  std::string moving, springs, supports, loads, forces, touches;
+  for (const WallShape& wall : scene.walls) moving += path_data(wall_band_of(frame, wall));
   for (const DrawnSpring& spring : scene.springs) springs += spring_data(frame, spring);
   for (const HeldPoint& held : scene.supports) supports += support_data(frame.place(held.at), held);
   for (const AppliedLoad& load : scene.loads) {
@@ -262,17 +274,14 @@ ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_
   }
   ShapePicture picture{.point = point, .contacts = scene.shape.contacts};
   for (const MemberShape& member : scene.shape.members) picture.paths.push_back(member_data(frame, member));
-  picture.paths.insert(picture.paths.end(), {springs, supports, loads, forces, touches});
+  picture.paths.insert(picture.paths.end(), {moving, springs, supports, loads, forces, touches});
   return picture;
 }
 
 void draw_wall(const Frame& frame, const WallShape& wall, ShapePictures& to) {
-  std::vector<Vec2> places;
-  for (const Vec2& point : wall.line) places.push_back(frame.place(point));
-  to.surfaces.push_back(path_data(places));
-  const Vec2 behind{0.0, (wall.side == Side::above ? -1.0 : 1.0) * wall_band * longer_side};
-  for (std::size_t i = places.size(); i-- > 0;) places.emplace_back(places[i] + behind);
-  to.bodies.push_back(path_data(places) + (places.empty() ? "" : "z"));
+  const std::vector<Vec2> band = wall_band_of(frame, wall);
+  to.surfaces.push_back(path_data({band.begin(), band.begin() + static_cast<std::ptrdiff_t>(band.size() / 2)}));
+  to.bodies.push_back(path_data(band) + (band.empty() ? "" : "z"));
 }
 
 // --- what acts from outside -----------------------------------------------------------------------------------------
@@ -399,6 +408,8 @@ Scene scene_of(const Model& model, const State& state) {
       scene.loads.push_back(
           {.at = *at, .force = factor * Vec2(single->force.x, single->force.z), .moment = factor * single->moment});
   }
+  for (WallShape& wall : wall_shapes(model, state.lambda))
+    if (wall.moves) scene.walls.push_back(std::move(wall));
   for (const deck::Spring& spring : deck.springs) add_spring(deck, spring, scene);
   for (const auto& [point, held] : held_points(deck)) {
     const auto at = position_of(deck, scene.shape, {.name = point});
@@ -428,7 +439,9 @@ DrawnScenes scenes_to_draw(const Model& model, const Record& record) {
 }
 
 Setting setting_of(const Model& model) {
-  return {.walls = wall_shapes(model), .heights = section_heights(model.deck())};
+  std::vector<WallShape> walls = wall_shapes(model);
+  std::erase_if(walls, [](const WallShape& wall) { return wall.moves; });
+  return {.walls = std::move(walls), .heights = section_heights(model.deck())};
 }
 
 ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {

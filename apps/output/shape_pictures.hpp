@@ -36,6 +36,7 @@ struct Scene {
   std::vector<AppliedLoad> loads{};
   std::vector<HeldPoint> supports{};
   std::vector<DrawnSpring> springs{};  ///< of a foundation a few
+  std::vector<WallShape> walls{};      ///< those that λ moves
 };
 
 Scene scene_of(const Model& model, const State& state);
@@ -54,8 +55,8 @@ DrawnScenes scenes_to_draw(const Model& model, const Record& record);
 
 /// What is the same in all scenes.
 struct Setting {
-  std::vector<WallShape> walls{};
-  std::vector<double> heights{};  ///< of the members' sections; 0 if unknown [length]
+  std::vector<WallShape> walls{};  ///< those that stand still
+  std::vector<double> heights{};   ///< of the members' sections; 0 if unknown [length]
 };
 
 Setting setting_of(const Model& model);
@@ -75,8 +76,8 @@ struct ShapePictures {
   std::vector<std::string> surfaces{};  ///< of the walls: an open path each
   std::vector<std::string> bodies{};    ///< bands behind the surfaces: a closed path each
   std::vector<double> thickness{};      ///< of the paths; 0: a mere line
-  std::vector<std::string>
-      classes{};  ///< of a picture's paths: `member` for each, `springs`, `supports`, `loads`, `forces`, `touches`
+  std::vector<std::string> classes{};   ///< of a picture's paths: `member` for each, `moving`, `springs`, `supports`,
+                                        ///< `loads`, `forces`, `touches`
   std::vector<ShapePicture> pictures{};
 };
 

@@ -40,7 +40,18 @@ PlainWall::PlainWall(const deck::Wall& wall) : wall_(wall) {
     second_ = spline_second_derivatives(spline->x, spline->z);
 }
 
-bool PlainWall::covers(double x) const {
+// Rigid bodies turn about a point that has gone its way: r = c + λ w + R(λ α) (q − c).
+Vec2 PlainWall::at_rest(const Vec2& point) const {
+  if (!wall_.motion) return point;
+  const deck::WallMotion& motion = *wall_.motion;
+  const Vec2 centre(motion.about.x, motion.about.z), way = lambda_ * Vec2(motion.x, motion.z);
+  const double c = std::cos(turned()), s = std::sin(turned());
+  const Vec2 arm = point - centre - way;
+  return centre + Vec2(c * arm.x() + s * arm.y(), c * arm.y() - s * arm.x());
+}
+
+bool PlainWall::faces(const Vec2& point) const {
+  const double x = at_rest(point).x();
   if (const auto* circle = std::get_if<deck::CircleProfile>(&wall_.profile))
     return std::abs(x - circle->centre.x) < circle->radius * (1.0 - 1e-6);
   if (const auto* spline = std::get_if<deck::SplineProfile>(&wall_.profile))
@@ -48,7 +59,7 @@ bool PlainWall::covers(double x) const {
   return true;
 }
 
-PlainWall::Surface PlainWall::at(double x) const {
+PlainWall::Surface PlainWall::surface(double x) const {
   if (const auto* flat = std::get_if<deck::FlatProfile>(&wall_.profile)) return {flat->z, 0.0, 0.0};
   if (const auto* line = std::get_if<deck::LineProfile>(&wall_.profile))
     return {line->z + line->slope * x, line->slope, 0.0};
@@ -72,18 +83,19 @@ PlainWall::Surface PlainWall::at(double x) const {
           a * m + b * n};
 }
 
-double PlainWall::height(double x) const { return at(x).height; }
-double PlainWall::slope(double x) const { return at(x).slope; }
-double PlainWall::slope_angle(double x) const { return std::atan(slope(x)); }
+double PlainWall::slope_angle(const Vec2& point) const {
+  return std::atan(surface(at_rest(point).x()).slope) + turned();
+}
 
-double PlainWall::curvature(double x) const {
-  const Surface surface = at(x);
-  return surface.second / std::pow(1.0 + surface.slope * surface.slope, 1.5);
+double PlainWall::curvature(const Vec2& point) const {
+  const Surface here = surface(at_rest(point).x());
+  return here.second / std::pow(1.0 + here.slope * here.slope, 1.5);
 }
 
 double PlainWall::gap(const Vec2& point) const {
-  const Surface surface = at(point.x());
-  return side() * (point.y() - surface.height) * std::cos(std::atan(surface.slope));
+  const Vec2 seen = at_rest(point);
+  const Surface here = surface(seen.x());
+  return side() * (seen.y() - here.height) * std::cos(std::atan(here.slope));
 }
 
 double PlainWall::width() const {
@@ -99,6 +111,12 @@ double PlainWall::width() const {
 
 bool PlainWall::concerns(const std::string& member) const {
   return wall_.members.empty() || std::find(wall_.members.begin(), wall_.members.end(), member) != wall_.members.end();
+}
+
+std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lambda) {
+  std::vector<PlainWall> moved;
+  for (const PlainWall& wall : walls) moved.push_back(wall.at(lambda));
+  return moved;
 }
 
 }  // namespace arcwall::verify

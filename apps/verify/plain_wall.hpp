@@ -7,26 +7,32 @@
 
 namespace arcwall::verify {
 
-/// A wall as its deck describes it, evaluated by formulas of its own: what tracing uses has no part in it.
+/// A wall as its deck describes it, where it is at a λ, evaluated by formulas of its own: what tracing uses has no part
+/// in it.
 class PlainWall {
  public:
-  /// `wall` must outlive this.
+  /// At λ = 0; `wall` must outlive this.
   explicit PlainWall(const deck::Wall& wall);
+
+  PlainWall at(double lambda) const {
+    PlainWall moved = *this;
+    moved.lambda_ = lambda;
+    return moved;
+  }
 
   const deck::Wall& deck() const { return wall_; }
 
   /// +1 below the structure, −1 above it.
   double side() const { return wall_.side == Side::below ? 1.0 : -1.0; }
 
-  bool covers(double x) const;
+  /// Whether there is a surface where a point is.
+  bool faces(const Vec2& point) const;
 
-  /// Height of the surface and its slope; where covers(x).
-  double height(double x) const;
-  double slope(double x) const;
-  double slope_angle(double x) const;
-  double curvature(double x) const;
+  /// The surface's angle against the x-axis and its curvature where a point faces it.
+  double slope_angle(const Vec2& point) const;
+  double curvature(const Vec2& point) const;
 
-  /// Vertical distance from the surface times the cosine of its slope, positive outside.
+  /// Distance from the surface across the wall's own x-axis, times the cosine of its slope, positive outside.
   double gap(const Vec2& point) const;
 
   /// Of what stands out of the wall, as far as its outline tells: diameters; ∞ of straight ones [length].
@@ -38,10 +44,16 @@ class PlainWall {
   struct Surface {
     double height, slope, second;
   };
-  Surface at(double x) const;
+  Surface surface(double x) const;        // of the wall at rest
+  Vec2 at_rest(const Vec2& point) const;  // the point as the wall sees it, which moves and turns with λ
+  double turned() const { return wall_.motion ? lambda_ * wall_.motion->rotation : 0.0; }
 
   const deck::Wall& wall_;
+  double lambda_ = 0.0;
   std::vector<double> second_{};  // derivatives of a spline at its knots
 };
+
+/// The walls where they are at a λ.
+std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lambda);
 
 }  // namespace arcwall::verify

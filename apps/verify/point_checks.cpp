@@ -52,13 +52,14 @@ bool is_well_formed(const Model& model, const State& state) {
 PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vector<PlainWall>& walls,
                     const Scales& scales) {
   PointAtHand at{.model = model, .point = point, .scales = scales};
-  at.touches = touches(model, walls, point.state);
+  at.walls = walls_at(walls, point.state.lambda);
+  at.touches = touches(model, at.walls, point.state);
   at.potentials = potentials(model, point.state);
   for (const Potential& potential : at.potentials) at.stiffness.push_back(stiffness(potential));
   return at;
 }
 
-void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, Findings& findings) {
+void check_contacts(const PointAtHand& at, Findings& findings) {
   const double length = 1e-10 * at.scales.length, force = 1e-11 * at.scales.force;
   for (const Touch& touch : at.touches.all) {
     const double gap = touch.gap.value();
@@ -70,8 +71,8 @@ void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, 
       findings.compare("open contacts are outside", -gap, length, named(touch.label));
     }
   }
-  if (at.model.sliding() == nullptr || walls.empty()) return;
-  const Entry entry = deepest_entry(at.model, walls, at.point.state, 2e-9 * at.scales.length);
+  if (at.model.sliding() == nullptr || at.walls.empty()) return;
+  const Entry entry = deepest_entry(at.model, at.walls, at.point.state, 2e-9 * at.scales.length);
   if (std::isfinite(entry.depth))
     findings.compare("no wall is entered between nodes", entry.depth, entry.allowed, entry.where);
   for (const Tangency& tangency : at.touches.tangencies) {

@@ -18,6 +18,7 @@ struct PointAtHand {
   const Model& model;
   const RecordPoint& point;
   const Scales& scales;
+  std::vector<PlainWall> walls{};  ///< where they are at the point; `touches` refers to them
   Touches touches{};
   std::vector<Potential> potentials{};
   std::vector<Matrix> stiffness{};  ///< of each potential
@@ -31,7 +32,7 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
 
 /// Gaps and forces: g ≥ 0 of open contacts, p ≥ 0 and g + c p = 0 of closed ones, nothing inside a wall between nodes;
 /// tangency of contact that slides.
-void check_contacts(const PointAtHand& at, const std::vector<PlainWall>& walls, Findings& findings);
+void check_contacts(const PointAtHand& at, Findings& findings);
 
 /// ∂Π/∂u − Σ p ∂g/∂u = 0, and the contact forces that this leaves at each node.
 void check_equilibrium(const PointAtHand& at, Findings& findings);

@@ -232,7 +232,8 @@ std::vector<ListedEvent> check_events(const std::string& text, const Record& rec
     findings.compare(events_check, std::abs(number(event["arc"]) - point.arc), 0.0, "arc");
     check_monitors(event["monitors"], record, point, findings);
     if (event.contains("contact"))
-      check_named_contacts(event["contact"], model, touches(model, walls, point.state), findings);
+      check_named_contacts(event["contact"], model, touches(model, walls_at(walls, point.state.lambda), point.state),
+                           findings);
   }
   return listed;
 }

@@ -20,7 +20,7 @@ const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string&
   return *std::find_if(walls.begin(), walls.end(), [&](const PlainWall& wall) { return wall.deck().name == name; });
 }
 
-double gap_of(const PlainWall& wall, const Vec2& place) { return wall.covers(place.x()) ? wall.gap(place) : infinity; }
+double gap_of(const PlainWall& wall, const Vec2& place) { return wall.faces(place) ? wall.gap(place) : infinity; }
 
 // --- contact at nodes -----------------------------------------------------------------------------------------------
 
@@ -181,7 +181,7 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   const double stretch = 1.0 + sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
   const double offset = wall.deck().acts_on == deck::ActsOn::face ? -wall.side() * half : 0.0;
-  const double surface = wall.curvature(face_towards(wall, half, place).x());
+  const double surface = wall.curvature(face_towards(wall, half, place));
   const double opening = wall.side() * (travel * curvature - stretch * surface / (1.0 + offset * surface));
   constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
   if (opening * at.body.length_scale() <= touching) return std::nullopt;
@@ -194,7 +194,7 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
   const double half = at->body.half_height(node.strand);
   tangency.tilt.of = [=, &wall, function = tangency.tilt](const Vector& u) {
     const AxisPlace place = at->place(node, function, u);
-    return std::remainder(place.angle - wall.slope_angle(face_towards(wall, half, place).x()), pi);
+    return std::remainder(place.angle - wall.slope_angle(face_towards(wall, half, place)), pi);
   };
   tangency.end_of_pressed = at->on.lies_pressed(point);
   if (at->on.lies_beside(point)) return tangency;

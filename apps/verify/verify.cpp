@@ -141,7 +141,7 @@ class Verifier {
     PathExpectation expected{.contacts = listed_contacts(at.touches)};
     add_monitors(model_, point.state, expected);
     if (!model_.in_increments()) {
-      check_contacts(at, walls_, findings);
+      check_contacts(at, findings);
       check_equilibrium(at, findings);
       expected.energy = energy(at);
       if (count) expected.unstable = unstable_range(at, zero_eigenvalue(record_, point));

@@ -308,6 +308,15 @@ struct SplineProfile {
   bool operator==(const SplineProfile&) const = default;
 };
 
+/// How λ moves a wall as a rigid body: by this times λ.
+struct WallMotion {
+  double x = 0.0, z = 0.0;  ///< [length]
+  double rotation = 0.0;    ///< [rad]
+  Vector about{};           ///< the point about which it turns, where that is at λ = 0
+
+  bool operator==(const WallMotion&) const = default;
+};
+
 struct Wall {
   std::string name{};
   Position position{};
@@ -315,6 +324,7 @@ struct Wall {
   ActsOn acts_on = ActsOn::face;
   std::vector<std::string> members{};  ///< empty: every member
   std::variant<FlatProfile, LineProfile, CircleProfile, ParabolaProfile, SplineProfile> profile{};
+  std::optional<WallMotion> motion{};
 
   bool operator==(const Wall&) const = default;
 };
@@ -342,14 +352,18 @@ enum class Component {
   reaction_moment,
   axial_force,
   moment,
+  force_x,
+  force_z,
   thickness,
   thickness2
 };
 
+/// Of a place of the structure, or of a wall: the resultant of its contact forces on the structure.
 struct Monitor {
   std::string name{};
   Position position{};
   Place at{};
+  std::string wall{};  ///< empty: of the place
   Component component = Component::z;
   int sign = 1;  ///< 1 or -1, multiplies the column
 

@@ -16,7 +16,7 @@ void declare_sections(Keys& root, Deck& deck);  ///< labels, materials, sections
 void declare_members(Keys& root, Deck& deck);
 bool declare_loads(Keys& root, Deck& deck);  ///< supports and their movements, too; true if all are right
 void declare_springs(Keys& root, Deck& deck);
-void declare_walls(Keys& root, Deck& deck);  ///< and the treatment of contact
+bool declare_walls(Keys& root, Deck& deck);  ///< and the treatment of contact; true if all walls are right
 void declare_path(Keys& root, Deck& deck);   ///< and the monitors
 
 /// Reports a deck in which λ drives nothing. What a wrong load would have been cannot be told: only where all are

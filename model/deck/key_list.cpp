@@ -25,6 +25,7 @@ class KeyList final : public Keys {
     return false;
   }
   bool applies(bool, const char*, const std::string&, const std::string&) override { return true; }
+  bool lists() const override { return true; }
 
  protected:
   bool declare(const Key& key, const Target& target, const Declared& declared) override {

@@ -20,6 +20,17 @@ std::vector<std::string> keys_of(const Value& root, std::string_view table) {
   return keys;
 }
 
+// Those of an array of tables.
+std::vector<std::string> names_of(const Value& root, std::string_view array) {
+  std::vector<std::string> names;
+  if (const Value* tables = find(root, array))
+    for (const Value& table : tables->items) {
+      const Value* name = find(table, "name");
+      if (name != nullptr && name->kind == Value::Kind::string) names.push_back(name->string);
+    }
+  return names;
+}
+
 std::optional<double> number_from(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -47,6 +58,8 @@ Candidates candidates(const Names& names, Named of) {
       return {names.points, "is not a point of this deck"};
     case Named::member:
       return {names.members, "is not a member of this deck"};
+    case Named::wall:
+      return {names.walls, "is not a wall of this deck"};
     case Named::monitor:
       return {names.monitors, "is not a monitor of this deck"};
     case Named::column:
@@ -62,11 +75,8 @@ Names names_in(const Value& root) {
               .sections = keys_of(root, "section"),
               .points = keys_of(root, "point"),
               .members = keys_of(root, "member")};
-  if (const Value* monitors = find(root, "monitor"))
-    for (const Value& monitor : monitors->items) {
-      const Value* name = find(monitor, "name");
-      if (name != nullptr && name->kind == Value::Kind::string) names.monitors.push_back(name->string);
-    }
+  names.walls = names_of(root, "wall");
+  names.monitors = names_of(root, "monitor");
   names.columns = names.monitors;
   names.columns.emplace_back("lambda");
   return names;

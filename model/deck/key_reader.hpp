@@ -10,7 +10,7 @@ namespace arcwall::deck {
 
 /// Every name the deck declares, also on tables with errors of their own, so that one error is not reported as two.
 struct Names {
-  std::vector<std::string> materials{}, sections{}, points{}, members{}, monitors{};
+  std::vector<std::string> materials{}, sections{}, points{}, members{}, walls{}, monitors{};
   std::vector<std::string> columns{};  ///< the monitors and lambda
 };
 

@@ -48,7 +48,7 @@ struct Key {
 inline Key optional(const char* key, std::string_view otherwise = {}) { return {key, Presence::optional, otherwise}; }
 
 /// What the parts of a deck that have names are.
-enum class Named { material, section, point, member, monitor, column };  // a column is `lambda` or a monitor
+enum class Named { material, section, point, member, wall, monitor, column };  // a column is `lambda` or a monitor
 
 /// Whether an empty list stands for none, or none is said by leaving the key out.
 enum class EmptyList { means_none, refused };
@@ -230,6 +230,7 @@ class Keys {
   // --- for a reader of the deck that is written ---------------------------------------------------------------------
 
   virtual bool writes() const { return false; }
+  virtual bool lists() const { return false; }  ///< takes down the keys of all alternatives
   virtual void comment(const std::string&) {}
 
  protected:

@@ -87,13 +87,21 @@ bool declare_loads(Keys& root, Deck& deck) {
   return root.tables(optional("load"), deck.loads, load_keys, "") && moves;
 }
 
+bool moves_with_lambda(const Wall& wall) {
+  return wall.motion && (wall.motion->x != 0.0 || wall.motion->z != 0.0 || wall.motion->rotation != 0.0);
+}
+
 void check_driven(Keys& root, const Deck& deck) {
   if (std::any_of(deck.loads.begin(), deck.loads.end(), follows_lambda)) return;
-  if (std::any_of(deck.prescribed.begin(), deck.prescribed.end(), moves_with_lambda)) return;
-  const std::string cure = "add a [[load]] with at and force, or a [[prescribed]] movement of a point";
+  const auto moves = [](const auto& moved) { return moves_with_lambda(moved); };
+  if (std::any_of(deck.prescribed.begin(), deck.prescribed.end(), moves)) return;
+  if (std::any_of(deck.walls.begin(), deck.walls.end(), moves)) return;
+  const std::string cure =
+      "add a [[load]] with at and force, a [[prescribed]] movement of a point, or a motion of a [[wall]]";
   if (deck.loads.empty() && deck.prescribed.empty())
-    return root.report("load", "nothing varies with λ: there is no load and no prescribed movement", cure);
-  root.report("load", "nothing varies with λ: all loads and prescribed movements are constant or zero", cure);
+    return root.report("load", "nothing varies with λ: there is no load, no prescribed movement and no wall that moves",
+                       cure);
+  root.report("load", "nothing varies with λ: all loads and movements are constant or zero", cure);
 }
 
 }  // namespace arcwall::deck

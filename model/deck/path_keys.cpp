@@ -175,11 +175,39 @@ void check_face(Keys& keys, const Deck& deck, const Monitor& monitor) {
               "give the section a height, or monitor \"z\"");
 }
 
+bool is_of_a_wall(Component component) {
+  return component == Component::force_x || component == Component::force_z || component == Component::moment;
+}
+
+// Of a place or of a wall.
+void monitored_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
+  const bool at = keys.has("at"), wall = keys.has("wall");
+  if (keys.reads() && at == wall) {
+    keys.report(at ? "wall" : "at",
+                at ? "the monitor has both `at` and `wall`" : "the monitor has neither `at` nor `wall`",
+                "give `at` for a place or `wall` for the force of a wall");
+    return keys.give_up();
+  }
+  const bool of_wall = keys.reads() ? wall : !monitor.wall.empty();
+  bool right = false;
+  if (keys.applies(!of_wall, "at", "", "")) right = keys.place("at", monitor.at, "a place");
+  if (of_wall || keys.lists())
+    right = keys.name("wall", monitor.wall, Named::wall,
+                      "instead of `at`: the name of a wall, the resultant of whose forces on the structure is shown");
+  if (!keys.word("component", monitor.component, component_words, "see below") || !right) return;
+  if (!of_wall) check_face(keys, deck, monitor);
+  const bool force = monitor.component == Component::force_x || monitor.component == Component::force_z;
+  if (of_wall && !is_of_a_wall(monitor.component))
+    keys.report("component", "a wall has no " + text_of(component_words, monitor.component),
+                "give force-x, force-z or moment");
+  if (!of_wall && force)
+    keys.report("component", text_of(component_words, monitor.component) + " belongs to a wall",
+                "write `wall` instead of `at`, or give reaction-x or reaction-z");
+}
+
 void monitor_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
   name_key(keys, deck, monitor);
-  const bool at = keys.place("at", monitor.at, "a place");
-  const bool component = keys.word("component", monitor.component, component_words, "see below");
-  if (at && component) check_face(keys, deck, monitor);
+  monitored_keys(keys, monitor, deck);
   if (keys.integer(optional("sign"), monitor.sign, {.low = -1, .high = 1}, "1 or −1, multiplies the column") &&
       monitor.sign == 0)
     keys.report("sign", "0 is out of range", "give 1 or -1");
@@ -197,11 +225,11 @@ void declare_path(Keys& root, Deck& deck) {
 void declare_keys(Keys& root, Deck& deck) {
   declare_sections(root, deck);
   declare_members(root, deck);
-  const bool driven_is_known = declare_loads(root, deck);
+  const bool loads_are_right = declare_loads(root, deck);
   declare_springs(root, deck);
-  declare_walls(root, deck);
+  const bool walls_are_right = declare_walls(root, deck);
   declare_path(root, deck);
-  if (driven_is_known) check_driven(root, deck);
+  if (loads_are_right && walls_are_right) check_driven(root, deck);
 }
 
 }  // namespace arcwall::deck

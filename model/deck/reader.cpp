@@ -1,6 +1,7 @@
 #include "model/deck/reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,29 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
+// What other programs and books call parts of a deck, and how that is said here.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 19> said_otherwise{{
+    {"displacement", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"displacements", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"imposed", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"imposed_displacement", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"prescribed_displacement", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"settlement", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"sp", "directions are held by [support] and moved by [[prescribed]]"},
+    {"boundary", "directions are held by [support] and moved by [[prescribed]]"},
+    {"boundaries", "directions are held by [support] and moved by [[prescribed]]"},
+    {"constraint", "directions are held by [support] and moved by [[prescribed]]"},
+    {"fix", "directions are held by [support] and moved by [[prescribed]]"},
+    {"foundation", "a foundation is a [[spring]] with on and foundation"},
+    {"winkler", "a foundation is a [[spring]] with on and foundation"},
+    {"bedding", "a foundation is a [[spring]] with on and foundation"},
+    {"elastic_support", "an elastic support is a [[spring]] with at and stiffness"},
+    {"indenter", "an obstacle is a [[wall]], which moves by its motion"},
+    {"obstacle", "an obstacle is a [[wall]]"},
+    {"contact_surface", "an obstacle is a [[wall]]"},
+    {"nodal_load", "loads are [[load]], with at and force or moment"},
+}};
+
 // A part under another name leaves others without what they refer to, so this is said first.
 void report_unknown_parts(const Value& root, Findings& findings) {
   std::vector<std::string> known, all;
@@ -47,6 +71,13 @@ void report_unknown_parts(const Value& root, Findings& findings) {
   for (const Value& item : root.items) {
     if (std::find(known.begin(), known.end(), item.key) != known.end()) continue;
     constexpr std::size_t longest_compared = 100;
+    const auto known_word = std::find_if(said_otherwise.begin(), said_otherwise.end(),
+                                         [&](const auto& words) { return words.first == item.key; });
+    if (known_word != said_otherwise.end()) {
+      findings.add_first(item.key_position, key_text(item.key), in_quotes(item.key) + " is no part of a deck",
+                         std::string(known_word->second));
+      continue;
+    }
     const std::string near = item.key.size() <= longest_compared ? nearest(item.key, known) : "";
     const auto meant = std::find(known.begin(), known.end(), near) - known.begin();
     findings.add_first(

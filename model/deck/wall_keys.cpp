@@ -61,6 +61,19 @@ void name_key(Keys& keys, const Deck& deck, Wall& wall) {
   }
 }
 
+void motion_keys(Keys& keys, WallMotion& motion) {
+  keys.table(
+      optional("motion", "none"), Form::in_line,
+      [&](Keys& of) {
+        of.number(optional("x"), motion.x, unit::length, any_number, "");
+        of.number(optional("z"), motion.z, unit::length, any_number, "");
+        of.number(optional("rotation"), motion.rotation, unit::none, any_number, "");
+        of.vector(optional("about"), motion.about, unit::length, "");
+      },
+      "the wall moves as a rigid body: by x and z [length] and by the rotation [rad] about a point that goes with it, "
+      "all times λ");
+}
+
 void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
   std::vector<const Member*> members;
   for (const Member& member : deck.members) {
@@ -85,6 +98,7 @@ void wall_keys(Keys& keys, Wall& wall, const Deck& deck) {
   keys.names(optional("members", "all"), wall.members, Named::member, EmptyList::refused, "names");
   keys.table(
       "profile", Form::dotted, [&](Keys& of) { profile_keys(of, wall); }, "one of the following");
+  keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });
   check_faces(keys, deck, wall);
 }
 
@@ -111,11 +125,12 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
 
 }  // namespace
 
-void declare_walls(Keys& root, Deck& deck) {
+bool declare_walls(Keys& root, Deck& deck) {
   const auto keys_of_wall = [&](Keys& keys, Wall& wall) { wall_keys(keys, wall, deck); };
-  root.tables(optional("wall"), deck.walls, keys_of_wall, "");
+  const bool all_right = root.tables(optional("wall"), deck.walls, keys_of_wall, "");
   root.table(
       optional("contact"), Form::header, [&](Keys& keys) { contact_keys(keys, deck, deck.contact); }, "");
+  return all_right;
 }
 
 }  // namespace arcwall::deck

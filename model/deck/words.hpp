@@ -66,7 +66,7 @@ inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier
                                                                     {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"sliding", ContactPoints::sliding}}};
-inline constexpr Words<Component, 12> component_words{{{"x", Component::x},
+inline constexpr Words<Component, 14> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
                                                        {"face-above-z", Component::face_above_z},
@@ -76,6 +76,8 @@ inline constexpr Words<Component, 12> component_words{{{"x", Component::x},
                                                        {"reaction-moment", Component::reaction_moment},
                                                        {"axial-force", Component::axial_force},
                                                        {"moment", Component::moment},
+                                                       {"force-x", Component::force_x},
+                                                       {"force-z", Component::force_z},
                                                        {"thickness", Component::thickness},
                                                        {"thickness2", Component::thickness2}}};
 inline constexpr Words<Component, 3> control_words{

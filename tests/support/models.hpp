@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "contact/moving_obstacle.hpp"
 #include "contact/multiplier_contact.hpp"
 #include "contact/profile.hpp"
 #include "elements/member_point.hpp"
 #include "elements/structure.hpp"
 #include "tests/support/beam_theories.hpp"
 #include "tests/support/branch.hpp"
-#include "tests/support/moving_obstacle.hpp"
 
 /// Structures that several suites use; all numbers that matter are arguments or stand in the comments. Theories that
 /// are flexible in shear take GA, the others leave it out.

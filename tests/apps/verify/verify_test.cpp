@@ -225,15 +225,18 @@ TEST(PlainWall, HasTheGapsOfTheWallsThatAreTraced) {
   std::uniform_real_distribution<double> x(-1.9, 1.9), z(-1.0, 1.0);
   for (const auto& profile : profiles)
     for (const Side side : {Side::above, Side::below}) {
-      const deck::Wall wall{.name = "wall", .side = side, .profile = profile};
-      const PlainWall plain(wall);
+      const deck::WallMotion motion{.x = 0.3, .z = -0.2, .rotation = 0.4, .about = {.x = 0.1, .z = 0.5}};
+      const deck::Wall wall{.name = "wall", .side = side, .profile = profile, .motion = motion};
+      const PlainWall at_rest(wall);
       const auto traced = obstacle_of(wall);
-      for (int i = 0; i < 50; ++i) {
-        const Vec2 at(x(generator), z(generator));
-        EXPECT_NEAR(plain.gap(at), traced->gap(at, 0.0).value, 1e-13);
-        EXPECT_NEAR(plain.slope_angle(at.x()), traced->direction(at, 0.0).value, 1e-13);
-        EXPECT_NEAR(plain.curvature(at.x()), traced->curvature(at, 0.0).value, 1e-11);
-      }
+      for (const double lambda : {0.0, 0.3})
+        for (int i = 0; i < 50; ++i) {
+          const PlainWall plain = at_rest.at(lambda);
+          const Vec2 at = motion_of(wall).moved({x(generator), z(generator)}, lambda);
+          EXPECT_NEAR(plain.gap(at), traced->gap(at, lambda).value, 1e-13);
+          EXPECT_NEAR(plain.slope_angle(at), traced->direction(at, lambda).value, 1e-13);
+          EXPECT_NEAR(plain.curvature(at), traced->curvature(at, lambda).value, 1e-11);
+        }
     }
 }
 

@@ -269,6 +269,19 @@ TEST(BadDecks, WallsAndContact) {
   });
 }
 
+TEST(BadDecks, WallsThatMoveAndTheirForces) {
+  expect_refused({
+      {"motion = { x = 0.5", "motion = { y = 0.5", "wall.2.motion.y", "not a key of this table"},
+      {"motion = { x = 0.5", "motion = { x = inf", "wall.2.motion.x", "finite"},
+      {"about = [1.0, -9.0] }", "about = 1.0 }", "wall.2.motion.about", "wrong type"},
+      {"wall = \"hill\"", "", "monitor.1.at", "neither `at` nor `wall`", -2},
+      {"wall = \"hill\"", "wall = \"hill\"\nat = \"D\"", "monitor.1.wall", "both `at` and `wall`"},
+      {"wall = \"hill\"", "wall = \"hil\"", "monitor.1.wall", "did you mean hill?"},
+      {"component = \"moment\"", "component = \"rotation\"", "monitor.1.component", "a wall has no rotation"},
+      {"component = \"reaction-z\"", "component = \"force-z\"", "monitor.2.component", "belongs to a wall"},
+  });
+}
+
 TEST(BadDecks, Path) {
   expect_refused({
       {"method = \"displacement\"", "method = \"sperical\"", "path.method", "did you mean spherical?"},
@@ -391,6 +404,13 @@ TEST(BadDecks, APartUnderAnotherNameComesFirst) {
 }
 
 TEST(BadDecks, WordsOfOtherBooksAreUnderstood) {
+  for (const auto& [theirs, ours] :
+       {std::pair("displacement", "[[prescribed]]"), std::pair("imposed", "[[prescribed]]"),
+        std::pair("sp", "[[prescribed]]"), std::pair("boundary", "[support]"), std::pair("foundation", "[[spring]]")}) {
+    const auto found = diagnostics_of(std::string(column_deck) + "[[" + theirs + "]]\nat = \"B\"\n");
+    ASSERT_EQ(found.size(), 1u) << theirs;
+    EXPECT_NE(found[0].cure.find(ours), std::string::npos) << found[0].cure;
+  }
   for (const auto& [theirs, ours] : {std::pair("euler", "classic"), std::pair("timoshenko", "exact")}) {
     const auto found =
         diagnostics_of(replaced(column_deck, "theory = \"classic\"", "theory = \"" + std::string(theirs) + "\""));

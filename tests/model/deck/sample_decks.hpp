@@ -168,6 +168,7 @@ name = "hill"
 side = "below"
 members = ["column"]
 profile = { type = "circle", centre = [1.0, -9.0], radius = 4.9 }
+motion = { x = 0.5, z = -1.0, rotation = 0.25, about = [1.0, -9.0] }
 [[wall]]
 name = "bowl"
 side = "below"
@@ -206,6 +207,10 @@ contacts = 40
 name = "mid"
 at = "column:0.5"
 component = "face-below-z"
+[[monitor]]
+name = "push"
+wall = "hill"
+component = "moment"
 [[monitor]]
 name = "end"
 at = "D"
