@@ -58,6 +58,13 @@ Transition with_elements(const SlidingSetting& setting, const SlidingState& at, 
   });
 }
 
+Transition without_point(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                         std::size_t point) {
+  return remeshed(setting, at, forward, [point](LayoutEdit& edit, const SlidingState&) {
+    edit.erase(point, edit.elements_before(point) + edit.elements_behind(point));
+  });
+}
+
 Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change, State guess) {
   Transition transition{};
   transition.change = change;

@@ -24,6 +24,10 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
 Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t segment, int elements);
 
+/// That without a tracked point: its elements stay.
+Transition without_point(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                         std::size_t point);
+
 /// A transition whose first point is where the quantity has the value.
 Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change, State guess);
 

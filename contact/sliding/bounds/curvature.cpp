@@ -34,9 +34,7 @@ Row CurvatureBound::gradient(const SlidingSetting& setting, const SlidingState& 
 std::vector<Transition> CurvatureBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                     const Arrival& arrival) const {
   if (at.is_closed(point_)) return points_to_lines(setting, at, arrival.tolerance);
-  return {remeshed(setting, at, arrival.forward, [k = point_](LayoutEdit& edit, const SlidingState&) {
-    edit.erase(k, edit.elements_before(k) + edit.elements_behind(k));
-  })};
+  return {without_point(setting, at, arrival.forward, point_)};
 }
 
 }  // namespace arcwall::sliding

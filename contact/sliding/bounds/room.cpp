@@ -13,7 +13,15 @@ Row RoomBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
   return elements_wanted_gradient(setting, at, segment_, 1.0);
 }
 
-std::vector<Transition> RoomBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
+// Of open points the one behind is given up first: if both are, the other's bound says so next.
+std::vector<Transition> RoomBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                               const Arrival& arrival) const {
+  const SlidingContactLayout::Segment& segment = at.layout.segments()[segment_];
+  for (const Index k : {segment.last_point, segment.first_point}) {
+    const auto point = static_cast<std::size_t>(k);
+    if (k < 0 || at.is_closed(point)) continue;
+    return {without_point(setting, at, arrival.forward, point)};
+  }
   return {unsupported("a contact point reached the end of its member, or another wall's contact")};
 }
 

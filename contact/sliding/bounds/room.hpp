@@ -4,8 +4,8 @@
 
 namespace arcwall::sliding {
 
-/// The room between a tracked point and the end of its member, or a contact with another obstacle: half an element.
-/// What touches beyond is another kind of contact, which is not modelled.
+/// The room between a tracked point and the end of its strand, or a contact with another obstacle: half an element.
+/// What touches beyond is another kind of contact, which is not modelled; an open point is given up.
 class RoomBound final : public ValidityBound {
  public:
   explicit RoomBound(std::size_t segment) : segment_(segment) {}
