@@ -16,11 +16,19 @@ namespace arcwall {
 
 namespace {
 
-// Each strand in one segment without a tracked point.
+// Without a tracked point: all point loads have nodes.
 std::shared_ptr<const SlidingContactLayout> plain_layout(const SlidingBody& body) {
   ElementsPerSegment elements;
-  for (Index strand = 0; strand < body.strands(); ++strand)
-    elements.push_back({sliding::elements_asked(body, strand, 0.0, body.length(strand), 1)});
+  for (Index strand = 0; strand < body.strands(); ++strand) {
+    const std::vector<double>& loads = body.point_loads(strand);
+    double from = 0.0;
+    elements.emplace_back();
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      elements.back().emplace_back(sliding::elements_asked(body, strand, from, loads[i], 1), static_cast<Index>(i));
+      from = loads[i];
+    }
+    elements.back().emplace_back(sliding::elements_asked(body, strand, from, body.length(strand), 1));
+  }
   return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::vector<SlidingContactLayout::Point>{},
                                                 Vector());
 }

@@ -14,9 +14,21 @@ struct MaterialPoint {
   double s = 0.0;
 };
 
-/// How the strands of a body are meshed: per strand the number of elements of each segment. k breakpoints make k + 1
-/// segments.
-using ElementsPerSegment = std::vector<std::vector<int>>;
+/// Elements of one length, up to a breakpoint, a point load inside the strand or the strand's end.
+struct MeshSegment {
+  MeshSegment() = default;
+  MeshSegment(int number, Index at_load = -1) : elements(number), load(at_load) {}
+
+  int elements = 1;
+  Index load = -1;  ///< at which the segment ends, by SlidingBody::point_loads; −1: elsewhere
+
+  bool ends_at_load() const { return load >= 0; }
+  bool operator==(const MeshSegment&) const = default;
+};
+
+/// How the strands of a body are meshed: the segments of each. k breakpoints and l loads that have nodes make k + l + 1
+/// segments. A load that has none acts inside an element.
+using ElementsPerSegment = std::vector<std::vector<MeshSegment>>;
 
 /// Where a point of the axis is, and the direction of the axis there.
 struct AxisPlace {
@@ -147,6 +159,9 @@ class SlidingBody {
 
   virtual double bending_stiffness(Index strand) const = 0;  ///< EI [force·length²]
   virtual double axial_stiffness(Index strand) const = 0;    ///< EA [force]
+
+  /// Where point loads act inside a strand: material coordinates, ascending [length].
+  virtual const std::vector<double>& point_loads(Index strand) const = 0;
 
   /// What acts along a strand at a place of it that is at this position now: loads, and the springs of a foundation
   /// [force per stress-free length].

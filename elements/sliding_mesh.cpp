@@ -33,7 +33,7 @@ StretchLoad::Matrix6 spread(const Eigen::Matrix4d& Q) {
 SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, ElementsPerSegment cut)
     : structure_(structure), cut_(std::move(cut)) {
   assert(static_cast<Index>(cut_.size()) == structure.strands());
-  Index unknowns = 0, first_element = 0, first_breakpoint = 0, node_count = 0, rotations = 0;
+  Index unknowns = 0, first_element = 0, node_count = 0, rotations = 0;
   unknown_of_freedom_.assign(structure.freedoms_.size(), held);
   const auto number_anchor = [&](const SlidingStructure::End& end) {
     for (const Index freedom : end.freedom) {
@@ -44,23 +44,42 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
   };
   for (Index r = 0; r < structure.strands(); ++r) {
     const SlidingStructure::Run& strand = structure.at(r);
-    const std::vector<int>& segments = cut_[static_cast<std::size_t>(r)];
+    const std::vector<MeshSegment>& segments = cut_[static_cast<std::size_t>(r)];
     MeshedRun meshed{.first_element = first_element};
     number_anchor(strand.ends[0]);
-    const auto last_segment = static_cast<Index>(segments.size()) - 1;
-    for (Index segment = 0; segment <= last_segment; ++segment) {
-      const int n = segments[static_cast<std::size_t>(segment)];
+    std::vector<Index> load_nodes(strand.point_loads.size(), held);
+    SegmentEnd a;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const auto [n, load] = segments[i];
       assert(n >= 1);
-      const Index a = segment == 0 ? held : first_breakpoint + segment - 1;
-      const Index b = segment == last_segment ? held : first_breakpoint + segment;
-      for (int i = 0; i < n; ++i) meshed.nodes.push_back(interpolated(a, b, strand.length, double(i) / n));
+      const bool last = i + 1 == segments.size(), at_load = segments[i].ends_at_load();
+      SegmentEnd b{.breakpoint = held, .fixed = strand.length};
+      if (at_load) {
+        b.fixed = strand.load_places[static_cast<std::size_t>(load)];
+      } else if (!last) {
+        b.breakpoint = static_cast<Index>(breakpoints_.size());
+      }
+      for (int k = 0; k < n; ++k) meshed.nodes.push_back(interpolated(a, b, double(k) / n));
       meshed.elements += n;
-      if (b != held) breakpoints_.emplace_back(r, meshed.elements);
+      if (at_load) load_nodes[static_cast<std::size_t>(load)] = meshed.elements;
+      if (b.breakpoint != held) breakpoints_.emplace_back(r, meshed.elements);
+      a = b;
     }
     meshed.nodes.push_back({.constant = strand.length});
-    first_breakpoint += last_segment;
     first_element += meshed.elements;
     meshed.first_inner = unknowns;
+    for (std::size_t i = 0; i < load_nodes.size(); ++i) {
+      const SlidingStructure::PointLoad& load = strand.point_loads[i];
+      const double s = strand.load_places[i];
+      if (load_nodes[i] == held) {
+        inner_loads_.push_back(
+            {.strand = r, .s = s, .load = &load, .rest = structure.undeformed({.strand = r, .s = s}, true).position});
+        continue;
+      }
+      for (std::size_t j = 0; j < 2; ++j)
+        unknown_of_freedom_[static_cast<std::size_t>(load.freedom[j])] =
+            unknowns + 3 * (load_nodes[i] - 1) + static_cast<Index>(j);
+    }
     unknowns += 3 * (meshed.elements - 1);
     number_anchor(strand.ends[1]);
     node_count += meshed.elements + 1;
@@ -97,18 +116,19 @@ double SlidingStructureMesh::squared_motion_by_lambda() const {
   return sum;
 }
 
-SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(Index a, Index b, double length, double r) const {
+SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(const SegmentEnd& a, const SegmentEnd& b,
+                                                                    double r) {
   Coordinate place;
-  if (a != held) {
-    place.breakpoint[0] = a;
-    place.weight[0] = 1.0 - r;
-  }
-  if (b != held) {
-    place.breakpoint[1] = b;
-    place.weight[1] = r;
-  } else {
-    place.constant = r * length;
-  }
+  const auto add = [&](std::size_t j, const SegmentEnd& end, double weight) {
+    if (end.breakpoint == held) {
+      place.constant += weight * end.fixed;
+    } else {
+      place.breakpoint[j] = end.breakpoint;
+      place.weight[j] = weight;
+    }
+  };
+  add(0, a, 1.0 - r);
+  add(1, b, r);
   return place;
 }
 
@@ -190,6 +210,14 @@ void SlidingStructureMesh::with_beam(Index strand, const StretchReference& stret
 
 SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index position, const MeshState& now,
                                                              bool with_rates) const {
+  Response out = respond_unloaded(strand, position, now, with_rates);
+  for (const InnerLoad& load : inner_loads_)
+    if (load.strand == strand && element_of(load, now) == position) out += respond(load, position, now, with_rates);
+  return out;
+}
+
+SlidingStructureMesh::Response SlidingStructureMesh::respond_unloaded(Index strand, Index position,
+                                                                      const MeshState& now, bool with_rates) const {
   const SlidingStructure::Run& described = structure_.at(strand);
   const Ends at = ends(strand, position, now);
   const StretchReference stretch = reference(strand, position, now);
@@ -233,6 +261,63 @@ void SlidingStructureMesh::add_foundation(const SlidingStructure::Run& strand, c
   for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += response.force_rate[end];
 }
 
+// Derivatives of the place of a load by x1, z1, angle1, x2, z2, angle2 of the element between S1 and S2 that it is in.
+SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_by_ends(const InnerLoad& load, const Ends& at, double S1,
+                                                                      double S2, Vec2* place) const {
+  const SlidingStructure::Run& described = structure_.at(load.strand);
+  const ImperfectAxis& shape = *described.shape;
+  const double from = described.offset + S1, here = described.offset + load.s, to = described.offset + S2;
+  PlaceByEnds by_ends;
+  with_beam(load.strand, stretch_reference(shape, from, to), [&](const auto& beam) {
+    const BeamPlace local = beam.place(at.between(), shape.length(from, here) / shape.length(from, to));
+    if (place != nullptr) *place = at.first + local.offset;
+    for (Index row = 0; row < 2; ++row) {
+      by_ends.row(row) = spread(Eigen::Vector4d(local.offset_gradient.row(row))).transpose();
+      by_ends(row, row) += 1.0;
+    }
+  });
+  return by_ends;
+}
+
+// The potential −P·(r − r₀), r the place of the load in the shape of the element. Its second derivatives are central
+// differences: they have no more than their part in K and ∂F/∂s, to which ten digits are exact.
+SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& load, Index position,
+                                                             const MeshState& now, bool with_rates) const {
+  constexpr double step = 1e-5;
+  const Index strand = load.strand;
+  const Ends at = ends(strand, position, now);
+  const double S1 = coordinate(strand, position, now.s), S2 = coordinate(strand, position + 1, now.s);
+  const Vec2 P = load.at(now.lambda);
+  Vec2 place;
+  const PlaceByEnds by_ends = place_by_ends(load, at, S1, S2, &place);
+  Response out{.energy = -P.dot(place - load.rest),
+               .force = -by_ends.transpose() * P,
+               .force_lambda = -by_ends.transpose() * load.rate()};
+  const auto force = [&](const Ends& ends, double from, double to) {
+    return Six(-place_by_ends(load, ends, from, to, nullptr).transpose() * P);
+  };
+  const double length = S2 - S1;
+  for (Index i = 0; i < 6; ++i) {
+    const double by = i % 3 == 2 ? step : step * length;
+    const auto moved = [&](double way) {
+      Ends ends = at;
+      (i < 3 ? ends.first : ends.second) += i % 3 == 2 ? Vec2(0.0, 0.0) : Vec2(way * by * Vec2::Unit(i % 3));
+      if (i == 2) ends.angle1 += way * by;
+      if (i == 5) ends.angle2 += way * by;
+      return force(ends, S1, S2);
+    };
+    const Six column = (moved(1.0) - moved(-1.0)) / (2.0 * by);
+    out.stiffness.col(i) += 0.5 * column;
+    out.stiffness.row(i) += 0.5 * column.transpose();
+  }
+  if (has_displaced_end(strand, position)) out.force_lambda += out.stiffness * end_rates(strand, position);
+  if (!with_rates) return out;
+  const double by = step * length;
+  out.force_rate[0] = (force(at, S1 + by, S2) - force(at, S1 - by, S2)) / (2.0 * by);
+  out.force_rate[1] = (force(at, S1, S2 + by) - force(at, S1, S2 - by)) / (2.0 * by);
+  return out;
+}
+
 // visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
 template <typename Visit>
 void SlidingStructureMesh::for_each_rate(Index strand, Index position, const Response& response,
@@ -251,12 +336,18 @@ void SlidingStructureMesh::residual(const MeshState& now, Eigen::Ref<Vector> F) 
       now.lambda, [this](Index freedom) { return unknown(freedom); },
       [&](Index freedom) { return structure_.value(*this, now, freedom); }, F.data());
   add_fours(now, F, nullptr);
-  for (const auto& [r, e] : others_) {
-    const Six f = respond(r, e, now, false).force;
-    const auto to = assembly_.unknowns(mesh_of(r).first_element + e);
-    for (std::size_t i = 0; i < 6; ++i)
-      if (to[i] != held) F[to[i]] += f[static_cast<Index>(i)];
+  for (const auto& [r, e] : others_) add_forces(r, e, respond_unloaded(r, e, now, false), F);
+  for (const InnerLoad& load : inner_loads_) {
+    const Index e = element_of(load, now);
+    add_forces(load.strand, e, respond(load, e, now, false), F);
   }
+}
+
+void SlidingStructureMesh::add_forces(Index strand, Index position, const Response& response,
+                                      Eigen::Ref<Vector> F) const {
+  const auto to = assembly_.unknowns(mesh_of(strand).first_element + position);
+  for (std::size_t i = 0; i < 6; ++i)
+    if (to[i] != held) F[to[i]] += response.force[static_cast<Index>(i)];
 }
 
 void SlidingStructureMesh::linearize(const MeshState& now, Linearization& out) const {
@@ -270,21 +361,24 @@ void SlidingStructureMesh::linearize(const MeshState& now, Linearization& out) c
       now.lambda, [this](Index freedom) { return unknown(freedom); },
       [&](Index freedom) { return structure_.value(*this, now, freedom); }, out);
   add_fours(now, out.F, &out);
-  for (const auto& [r, e] : others_) {
-    const Response response = respond(r, e, now, m > 0);
-    const Index block = mesh_of(r).first_element + e;
-    const auto to = assembly_.unknowns(block);
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (to[i] == held) continue;
-      out.F[to[i]] += response.force[static_cast<Index>(i)];
-      out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
-    }
-    assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
-    for_each_rate(r, e, response, [&](Index k, const Six& rate) {
-      for (std::size_t i = 0; i < 6; ++i)
-        if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];
-    });
+  for (const auto& [r, e] : others_) add(r, e, respond_unloaded(r, e, now, m > 0), out);
+  for (const InnerLoad& load : inner_loads_) {
+    const Index e = element_of(load, now);
+    add(load.strand, e, respond(load, e, now, m > 0), out);
   }
+}
+
+void SlidingStructureMesh::add(Index strand, Index position, const Response& response, Linearization& out) const {
+  const Index block = mesh_of(strand).first_element + position;
+  const auto to = assembly_.unknowns(block);
+  add_forces(strand, position, response, out.F);
+  for (std::size_t i = 0; i < 6; ++i)
+    if (to[i] != held) out.F_lambda[to[i]] += response.force_lambda[static_cast<Index>(i)];
+  assembly_.add(block, response.stiffness.data(), 1.0, out.K.valuePtr());
+  for_each_rate(strand, position, response, [&](Index k, const Six& rate) {
+    for (std::size_t i = 0; i < 6; ++i)
+      if (to[i] != held) out.B(to[i], k) += rate[static_cast<Index>(i)];
+  });
 }
 
 double SlidingStructureMesh::energy(const MeshState& now) const {

@@ -11,7 +11,7 @@
 namespace arcwall {
 
 /// The mesh of one cut. Elements are numbered along the strands; each lies between two places that are fixed or move
-/// with breakpoints.
+/// with breakpoints. A point load without a node is inside one element or another, as the breakpoints move.
 class SlidingStructureMesh final : public SlidingMesh {
  public:
   SlidingStructureMesh(const SlidingStructure& structure, ElementsPerSegment cut);
@@ -48,6 +48,12 @@ class SlidingStructureMesh final : public SlidingMesh {
  private:
   static constexpr Index held = -1;  // in place of an unknown, or of a breakpoint
 
+  // An end of a segment: a breakpoint, or a fixed place.
+  struct SegmentEnd {
+    Index breakpoint = held;
+    double fixed = 0.0;
+  };
+
   // A place that is fixed, or moves: S = constant + Σ weight_j s_j over two breakpoints at most.
   struct Coordinate {
     double constant = 0.0;
@@ -74,7 +80,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   };
 
   const MeshedRun& mesh_of(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
-  Coordinate interpolated(Index a, Index b, double length, double r) const;
+  static Coordinate interpolated(const SegmentEnd& a, const SegmentEnd& b, double r);
   Ends ends(Index strand, Index position, const MeshState& now) const;
   double anchor(Index freedom, const MeshState& now) const;
   StretchReference reference(Index strand, Index position, const MeshState& now) const;
@@ -92,21 +98,53 @@ class SlidingStructureMesh final : public SlidingMesh {
   // the force by λ at fixed unknowns, to which ends that supports move belong.
   struct Response {
     double energy = 0.0;
-    Six force{}, force_lambda = Six::Zero();
-    SixBySix stiffness{};
-    std::array<Six, 2> force_rate{};
+    Six force = Six::Zero(), force_lambda = Six::Zero();
+    SixBySix stiffness = SixBySix::Zero();
+    std::array<Six, 2> force_rate{Six::Zero(), Six::Zero()};
+
+    Response& operator+=(const Response& other) {
+      energy += other.energy;
+      force += other.force;
+      force_lambda += other.force_lambda;
+      stiffness += other.stiffness;
+      for (std::size_t end = 0; end < 2; ++end) force_rate[end] += other.force_rate[end];
+      return *this;
+    }
   };
+  // With and without the point loads inside the element.
   Response respond(Index strand, Index position, const MeshState& now, bool with_rates) const;
+  Response respond_unloaded(Index strand, Index position, const MeshState& now, bool with_rates) const;
   static void add_load(const SlidingStructure::Run& strand, const StretchReference& stretch, const Ends& at,
                        double lambda, Response& out);
   static void add_foundation(const SlidingStructure::Run& strand, const StretchReference& stretch,
                              const Vec2& first_at_rest, const Ends& at, Response& out);
 
+  // A point load that has no node.
+  struct InnerLoad {
+    Index strand;
+    double s;
+    const SlidingStructure::PointLoad* load;
+    Vec2 rest;  // where it acts at rest
+
+    Vec2 at(double lambda) const { return {load->force[0].at(lambda), load->force[1].at(lambda)}; }
+    Vec2 rate() const { return {load->force[0].proportional, load->force[1].proportional}; }
+  };
+  Index element_of(const InnerLoad& load, const MeshState& now) const {
+    return element_at({.strand = load.strand, .s = load.s}, now);
+  }
+  using PlaceByEnds = Eigen::Matrix<double, 2, 6>;
+  PlaceByEnds place_by_ends(const InnerLoad& load, const Ends& at, double S1, double S2, Vec2* place) const;
+  Response respond(const InnerLoad& load, Index position, const MeshState& now, bool with_rates) const;
+
+  // Adds what an element answers.
+  void add_forces(Index strand, Index position, const Response& response, Eigen::Ref<Vector> F) const;
+  void add(Index strand, Index position, const Response& response, Linearization& out) const;
+
   // Up to four elements of a segment that are evaluated side by side.
   struct Four {
     Index strand, position;  // of the first
     int count;
-    std::array<Index, 2> breakpoint;                  // between which they lie; held: an end of the strand
+    std::array<Index, 2> breakpoint;                  // between which they lie; held: a fixed place
     std::array<double, Lanes::count + 1> from_first;  // of their nodes: fraction of the way to the second
     bool shifted;                                     // BlockAssembly::are_shifted()
     bool inside;                                      // there are four, and no node is an end of the strand
@@ -129,7 +167,8 @@ class SlidingStructureMesh final : public SlidingMesh {
   ElementsPerSegment cut_;
   std::vector<std::pair<Index, Index>> breakpoints_;
   std::vector<MeshedRun> runs_;
-  std::vector<Index> unknown_of_freedom_;  // of the anchors
+  std::vector<Index> unknown_of_freedom_;  // of the anchors, and of x and z where point loads have nodes
+  std::vector<InnerLoad> inner_loads_;
   BlockAssembly assembly_{0, {}};
   std::vector<Four> fours_;
   std::vector<std::pair<Index, Index>> others_;  // strand and position of the elements that are evaluated one by one

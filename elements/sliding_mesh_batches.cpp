@@ -6,19 +6,19 @@
 namespace arcwall {
 
 void SlidingStructureMesh::number_fours() {
-  Index first_breakpoint = 0;
+  Index breakpoint = 0;  // the next one
   for (Index r = 0; r < structure_.strands(); ++r) {
-    const std::vector<int>& segments = cut_[static_cast<std::size_t>(r)];
-    const auto last_segment = static_cast<Index>(segments.size()) - 1;
-    Index first = 0;
-    for (Index segment = 0; segment <= last_segment; ++segment) {
-      const int n = segments[static_cast<std::size_t>(segment)];
+    const std::vector<MeshSegment>& segments = cut_[static_cast<std::size_t>(r)];
+    Index first = 0, before = held;
+    for (std::size_t segment = 0; segment < segments.size(); ++segment) {
+      const bool last = segment + 1 == segments.size();
+      const Index behind = last || segments[segment].ends_at_load() ? held : breakpoint++;
+      const int n = segments[segment].elements;
       for (int i = 0; i < n; i += Lanes::count) {
         Four four{.strand = r,
                   .position = first + i,
                   .count = std::min(Lanes::count, n - i),
-                  .breakpoint = {segment == 0 ? held : first_breakpoint + segment - 1,
-                                 segment == last_segment ? held : first_breakpoint + segment},
+                  .breakpoint = {before, behind},
                   .from_first = {},
                   .shifted = false,
                   .inside = false};
@@ -37,8 +37,8 @@ void SlidingStructureMesh::number_fours() {
         fours_.push_back(four);
       }
       first += n;
+      before = behind;
     }
-    first_breakpoint += last_segment;
   }
 }
 

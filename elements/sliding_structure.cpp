@@ -133,7 +133,8 @@ bool StructureBuilder::can_slide() const {
   return added_elements_.empty() && std::all_of(descriptions_.begin(), descriptions_.end(), is_slender);
 }
 
-// A member is cut into strands where a load acts inside it; strands that continue each other straight are joined again.
+// A member is cut into strands where more than a force acts inside it; strands that continue each other straight are
+// joined again.
 std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                                                   const SlidingStructure::Alike& alike) const {
   auto structure = std::unique_ptr<SlidingStructure>(new SlidingStructure());
@@ -168,11 +169,24 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                    .angle = mesh.shape[node].angle};
     };
     const auto last = mesh.nodes.size() - 1;
+    const auto coordinate = [&](std::size_t k) { return member.axis->length() * mesh.fraction(k); };
+    std::vector<std::size_t> loaded;  // nodes of the part on which forces act
     std::size_t from = 0;
     for (std::size_t to = 1; to <= last; ++to) {
       if (to < last && !with_terms[static_cast<std::size_t>(mesh.nodes[to])]) continue;
+      if (to < last && carries_force_alone(mesh.nodes[to], *mesh.rotations[to])) {
+        loaded.push_back(to);
+        continue;
+      }
       SlidingStructure::Run part = strand;
-      part.offset = member.axis->length() * mesh.fraction(from);
+      part.offset = coordinate(from);
+      for (const std::size_t k : loaded) {
+        const std::array<Index, 2> freedoms{freedom(mesh.nodes[k], Freedom::x), freedom(mesh.nodes[k], Freedom::z)};
+        part.point_loads.push_back(
+            {.freedom = freedoms, .force = {structure->nodal_.load(freedoms[0]), structure->nodal_.load(freedoms[1])}});
+        part.load_places.push_back(coordinate(k) - part.offset);
+      }
+      loaded.clear();
       part.length = member.axis->length() * mesh.fraction(to) - part.offset;
       part.parts = {{.member = member.name,
                      .from = 0.0,
@@ -224,6 +238,10 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms, c
         if (a == b || !continues(runs_[a], runs_[b])) continue;
         const AxisPlace from = undeformed({.strand = static_cast<Index>(a), .s = 0.0}, false);
         const AxisPlace to = undeformed({.strand = static_cast<Index>(b), .s = runs_[b].length}, false);
+        for (std::size_t i = 0; i < runs_[b].point_loads.size(); ++i) {
+          runs_[a].point_loads.push_back(runs_[b].point_loads[i]);
+          runs_[a].load_places.push_back(runs_[a].length + runs_[b].load_places[i]);
+        }
         for (Part part : runs_[b].parts) {
           part.from += runs_[a].length;
           part.to += runs_[a].length;

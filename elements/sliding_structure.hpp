@@ -18,7 +18,8 @@ class SlidingStructureMesh;
 /// StructureBuilder::build_sliding().
 ///
 /// Members that continue each other straight at a joint without support, load or hinge are one strand: a breakpoint
-/// passes such a joint without notice. Loads inside a member end strands, too.
+/// passes such a joint without notice. Moments and springs inside a member end strands, too. A force does not: it acts
+/// on a node of the mesh, or inside an element where a breakpoint is too near for that.
 class SlidingStructure final : public SlidingBody {
  public:
   /// Whether two members, by name, may be parts of one strand.
@@ -32,6 +33,7 @@ class SlidingStructure final : public SlidingBody {
   double bending_stiffness(Index strand) const override { return at(strand).section.EI(); }
   double axial_stiffness(Index strand) const override { return at(strand).section.EA(); }
   Vec2 load(const MaterialPoint& point, const Vec2& position, double lambda) const override;
+  const std::vector<double>& point_loads(Index strand) const override { return at(strand).load_places; }
   bool end_is_held(Index strand, bool last) const override {
     return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
   }
@@ -87,6 +89,11 @@ class SlidingStructure final : public SlidingBody {
     double first_fraction, last_fraction;  // of the member
     double elements;                       // that it asks for
   };
+  // A force on a node inside a member, by the freedoms x and z of the deck's mesh there.
+  struct PointLoad {
+    std::array<Index, 2> freedom{};
+    std::array<Driven, 2> force{};
+  };
   // An end of a strand: its freedoms x, z, rotation, and the stress-free angle.
   struct End {
     std::array<Index, 3> freedom{};
@@ -104,6 +111,8 @@ class SlidingStructure final : public SlidingBody {
     std::array<End, 2> ends{};
     Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the strand [force/length]
     Vec2 foundation = Vec2::Zero();                          // in x and z [force/length²]
+    std::vector<PointLoad> point_loads{};                    // inside the strand
+    std::vector<double> load_places{};                       // of these
     std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
 
     bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }

@@ -310,6 +310,7 @@ class StructureBuilder {
   double force_scale(const NodalTerms& terms, double length) const;
   // Says of each node whether a load, a support or a spring acts on one of its freedoms.
   std::vector<bool> nodes_with_terms() const;
+  bool carries_force_alone(Index node, Index rotation) const;  // of the terms that a node may have
   Index add_node(const Vec2& position);
   Index add_freedom(Index node, Freedom which);
   void add_middle_node(const MemberDescription& member, const ImperfectAxis& shape, int element, MemberMesh& mesh);

@@ -311,6 +311,14 @@ std::vector<bool> StructureBuilder::nodes_with_terms() const {
   return found;
 }
 
+bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
+  const auto is_free = [&](Index freedom) {
+    return !nodal_.is_held(freedom) && nodal_.ground_stiffness(freedom) == 0.0;
+  };
+  return is_free(freedom(node, Freedom::x)) && is_free(freedom(node, Freedom::z)) && is_free(rotation) &&
+         nodal_.load(rotation).is_zero();
+}
+
 std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   const auto proportional = [&](LoadKind kind) {
     return ramp ? kind == LoadKind::constant : kind == LoadKind::proportional;

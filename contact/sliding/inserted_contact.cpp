@@ -24,31 +24,32 @@ bool is_followed(const SlidingSetting& setting, const SlidingState& at, const Le
   return false;
 }
 
-const SlidingContactLayout::Segment* segment_of(const SlidingSetting& setting, const SlidingState& at,
-                                                const MaterialPoint& place) {
-  for (const SlidingContactLayout::Segment& segment : at.layout.segments()) {
-    const auto [from, to] = at.layout.ends(setting.body, segment, at.now.s);
-    if (segment.strand == place.strand && from <= place.s && place.s < to) return &segment;
+// Takes the nodes of loads beside which there is no room for a point.
+void take_nodes_beside(const MaterialPoint& place, LayoutEdit& edit) {
+  const std::vector<double>& loads = edit.body.point_loads(place.strand);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const auto load = static_cast<Index>(i);
+    const double from = std::min(place.s, loads[i]), to = std::max(place.s, loads[i]);
+    if (edit.has_node(place.strand, load) && edit.body.elements_between(place.strand, from, to) <= nearest_node_of_load)
+      edit.take_node(place.strand, load);
   }
-  return nullptr;
 }
 
-// How many elements a segment has before and behind a point that is inserted, by where this will touch, roughly.
+// How many elements a part has before and behind a point that is inserted, by where this will touch, roughly.
 struct Elements {
   int before, behind;
 };
 
-Elements elements_beside(const SlidingSetting& setting, const SlidingState& at,
-                         const SlidingContactLayout::Segment& segment, const LeastGap& start,
-                         const LeastGap& violated) {
+Elements elements_beside(const LayoutEdit& edit, const LeastGap& start, const LeastGap& violated) {
   const double fallen = start.gap - violated.gap;
   const double part = fallen > 0.0 ? std::clamp(start.gap / fallen, 0.0, 2.0) : 0.0;
   const double touch = start.at.s + part * (violated.at.s - start.at.s);
-  const auto [a, b] = at.layout.ends(setting.body, segment, at.now.s);
-  const int elements = std::max(2, segment.elements);
+  const Index strand = start.at.strand;
+  const auto [a, b, place] = edit.part_at(strand, start.at.s);
+  const int elements = std::max(2, edit.elements[static_cast<std::size_t>(strand)][place].elements);
   const int first = std::clamp(static_cast<int>(std::lround(elements * (touch - a) / (b - a) - 1e-3)), 1, elements - 1);
   const auto at_least = [&](double from, double to) {
-    return static_cast<int>(std::ceil(setting.body.elements_between(segment.strand, from, to) / coarsest));
+    return static_cast<int>(std::ceil(edit.body.elements_between(strand, from, to) / coarsest));
   };
   return {.before = std::max(first, at_least(a, start.at.s)),
           .behind = std::max(elements - first, at_least(start.at.s, b))};
@@ -77,13 +78,14 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   const double nearby = 0.25 * setting.body.length(strand);
   if (!start || std::abs(start->at.s - violated->at.s) > nearby) return std::nullopt;
   if (is_followed(setting, from, *start)) return std::nullopt;
-  const auto* segment = segment_of(setting, from, start->at);
-  if (segment == nullptr) return std::nullopt;
-  const auto elements = elements_beside(setting, from, *segment, *start, *violated);
+  LayoutEdit before = edit_of(setting.body, from);
+  take_nodes_beside(start->at, before);
+  const auto elements = elements_beside(before, *start, *violated);
   std::size_t point = 0;
   Transition transition = remeshed(setting, from, forward, [&](LayoutEdit& edit, const SlidingState& at) {
     // The point follows the least gap, which may move along the member much faster than the body moves.
     const double s = nearest_least_gap(setting, at, *violated).value_or(*start).at.s;
+    take_nodes_beside(start->at, edit);
     point = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = s}, elements.before,
                         elements.behind);
   });

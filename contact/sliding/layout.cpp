@@ -1,5 +1,7 @@
 #include "contact/sliding/layout.hpp"
 
+#include <algorithm>
+
 #include "contact/sliding/validity_bound.hpp"
 
 namespace arcwall {
@@ -7,31 +9,45 @@ namespace arcwall {
 SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh,
                                            std::vector<Point> points, const Vector& s)
     : mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
-  for (Index strand = 0; strand < body.strands(); ++strand) add_segments(strand);
+  Index first_point = 0;
+  for (Index strand = 0; strand < body.strands(); ++strand) first_point = add_segments(strand, first_point);
   bounds_ = sliding::validity_bounds(body, *this);
 }
 
 SlidingContactLayout::~SlidingContactLayout() = default;
 
-void SlidingContactLayout::add_segments(Index strand) {
-  Index point = segments_.empty() ? 0 : static_cast<Index>(segments_.size()) - strand;  // the next one of the strand
-  Index position = 0;
-  const std::vector<int>& elements = mesh_->elements_per_segment()[static_cast<std::size_t>(strand)];
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const bool first = i == 0, last = i + 1 == elements.size();
-    const Point before = first ? Point{} : points_[static_cast<std::size_t>(point - 1)];
+// Tells the first point of the next strand.
+Index SlidingContactLayout::add_segments(Index strand, Index next_point) {
+  Index position = 0, before = -1, load_before = -1;  // the point or load where the segment begins
+  Point touching;                                     // the last point before the segment, if there is one
+  const std::vector<MeshSegment>& segments = mesh_->elements_per_segment()[static_cast<std::size_t>(strand)];
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto [elements, load] = segments[i];
+    const bool to_point = i + 1 < segments.size() && !segments[i].ends_at_load();
+    const Index point = to_point ? next_point++ : -1;
     segments_.push_back({.strand = strand,
-                         .first_point = first ? -1 : point - 1,
-                         .last_point = last ? -1 : point,
-                         .elements = elements[i],
-                         .span = before.behind});
-    if (before.behind == Span::pressed)
-      for (Index node = position + 1; node < position + elements[i]; ++node)
+                         .first_point = before,
+                         .last_point = point,
+                         .first_load = load_before,
+                         .last_load = load,
+                         .elements = elements,
+                         .span = touching.behind,
+                         .place = i});
+    if (touching.behind == Span::pressed)
+      for (Index node = position + 1; node < position + elements; ++node)
         pressed_nodes_.push_back(
-            {.strand = strand, .position = node, .obstacle = before.obstacle, .segment = segments_.size() - 1});
-    position += elements[i];
-    if (!last) ++point;
+            {.strand = strand, .position = node, .obstacle = touching.obstacle, .segment = segments_.size() - 1});
+    position += elements;
+    if (to_point) touching = points_[static_cast<std::size_t>(point)];
+    before = point;
+    load_before = load;
   }
+  return next_point;
+}
+
+bool SlidingContactLayout::has_node(Index strand, Index load) const {
+  return std::any_of(segments_.begin(), segments_.end(),
+                     [&](const Segment& segment) { return segment.strand == strand && segment.last_load == load; });
 }
 
 bool SlidingContactLayout::joins_one_obstacle(const Segment& segment) const {
@@ -52,8 +68,12 @@ bool SlidingContactLayout::parts_pressed(std::size_t point) const {
 
 std::pair<double, double> SlidingContactLayout::ends(const SlidingBody& body, const Segment& segment,
                                                      const Eigen::Ref<const Vector>& s) const {
-  return {segment.first_point < 0 ? 0.0 : s[segment.first_point],
-          segment.last_point < 0 ? body.length(segment.strand) : s[segment.last_point]};
+  const auto place = [&](Index point, Index load, double end) {
+    if (point >= 0) return s[point];
+    return load >= 0 ? body.point_loads(segment.strand)[static_cast<std::size_t>(load)] : end;
+  };
+  return {place(segment.first_point, segment.first_load, 0.0),
+          place(segment.last_point, segment.last_load, body.length(segment.strand))};
 }
 
 }  // namespace arcwall

@@ -34,11 +34,14 @@ class SlidingContactLayout final : public SlidingLayout {
     std::size_t obstacle, segment;
   };
 
-  /// A part of a strand between breakpoints; −1: the end of the strand.
+  /// A part of a strand between tracked points, point loads that have nodes and the strand's ends. −1: no such thing
+  /// at that end.
   struct Segment {
     Index strand, first_point, last_point;
+    Index first_load, last_load;
     int elements;
     Span span;
+    std::size_t place;  ///< among the strand's segments
   };
 
   /// `s`: the material coordinates of the points where the layout begins. A mesh that is too fine already there is not
@@ -73,6 +76,9 @@ class SlidingContactLayout final : public SlidingLayout {
     return points_[point].behind == Span::pressed || span_before(point) == Span::pressed;
   }
 
+  /// Whether a point load of a strand has a node; else it acts inside an element.
+  bool has_node(Index strand, Index load) const;
+
   /// Whether the body lies on the wall on one side of a point.
   bool lies_beside(std::size_t point) const {
     return points_[point].behind != Span::free || span_before(point) != Span::free;
@@ -83,7 +89,7 @@ class SlidingContactLayout final : public SlidingLayout {
                                  const Eigen::Ref<const Vector>& s) const;
 
  private:
-  void add_segments(Index strand);
+  Index add_segments(Index strand, Index next_point);
 
   std::shared_ptr<const SlidingMesh> mesh_;
   std::vector<Point> points_;

@@ -1,10 +1,15 @@
 #include "contact/sliding/layout_edit.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "contact/sliding/spans.hpp"
 
 namespace arcwall::sliding {
 
 namespace {
+
+constexpr double landed = 1e-4;  // elements by which a bound is missed
 
 template <typename T>
 void insert_at(std::vector<T>& values, std::size_t at, T value) {
@@ -38,11 +43,84 @@ std::size_t points_before(const std::vector<Index>& strands, std::size_t point) 
 
 }  // namespace
 
+// Segments that end at a point are those that do not end at a load.
+std::size_t LayoutEdit::segment_before(std::size_t point) const {
+  const std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strands[point])];
+  std::size_t others = points_before(strands, point), place = 0;
+  while (segments[place].ends_at_load() || others-- > 0) ++place;
+  return place;
+}
+
 int& LayoutEdit::segment(std::size_t point, std::size_t beyond) {
-  return elements[static_cast<std::size_t>(strands[point])][points_before(strands, point) + beyond];
+  return elements[static_cast<std::size_t>(strands[point])][segment_before(point) + beyond].elements;
+}
+
+LayoutEdit::Part LayoutEdit::part_at(Index strand, double place) const {
+  const std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
+  Index point = 0;
+  while (point < s.size() && strands[static_cast<std::size_t>(point)] < strand) ++point;
+  Part part{.from = 0.0, .to = 0.0, .place = 0};
+  for (;; ++part.place) {
+    if (part.place + 1 == segments.size()) {
+      part.to = body.length(strand);
+      return part;
+    }
+    const Index load = segments[part.place].load;
+    part.to = load >= 0 ? body.point_loads(strand)[static_cast<std::size_t>(load)] : s[point++];
+    if (place < part.to) return part;
+    part.from = part.to;
+  }
+}
+
+void LayoutEdit::give_node(Index strand, Index load) {
+  const double there = body.point_loads(strand)[static_cast<std::size_t>(load)];
+  const Part part = part_at(strand, there);
+  std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
+  int& behind = segments[part.place].elements;
+  const int all = std::max(2, behind);
+  const int before =
+      std::clamp(static_cast<int>(std::lround(all * (there - part.from) / (part.to - part.from))), 1, all - 1);
+  behind = all - before;
+  insert_at(segments, part.place, MeshSegment(before, load));
+}
+
+void LayoutEdit::take_node(Index strand, Index load) {
+  std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
+  const auto place = static_cast<std::size_t>(
+      std::find_if(segments.begin(), segments.end(), [&](const MeshSegment& at) { return at.load == load; }) -
+      segments.begin());
+  segments[place + 1].elements += segments[place].elements;
+  erase_at(segments, place);
+}
+
+bool LayoutEdit::has_node(Index strand, Index load) const {
+  const std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
+  return std::any_of(segments.begin(), segments.end(), [&](const MeshSegment& at) { return at.load == load; });
+}
+
+bool LayoutEdit::lies_on_wall(Index strand, double place) const {
+  bool lies = false;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (strands[k] == strand && s[static_cast<Index>(k)] < place)
+      lies = points[k].behind != SlidingContactLayout::Span::free;
+  return lies;
+}
+
+double LayoutEdit::elements_to_nearest_point(Index strand, double place) const {
+  double nearest = infinity;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double there = s[static_cast<Index>(k)];
+    if (strands[k] == strand)
+      nearest = std::min(nearest, body.elements_between(strand, std::min(place, there), std::max(place, there)));
+  }
+  return nearest;
 }
 
 std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elements_behind) {
+  std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(entry.strand)];
+  const std::size_t place = part_at(entry.strand, entry.s).place;
+  in_strand[place].elements = elements_behind;
+  insert_at(in_strand, place, MeshSegment(elements_before));
   std::size_t k = 0;
   while (k < points.size() &&
          (strands[k] < entry.strand || (strands[k] == entry.strand && s[static_cast<Index>(k)] < entry.s)))
@@ -52,18 +130,14 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   insert_at(closed, k, static_cast<std::uint8_t>(entry.closed));
   insert_at(forces, k, entry.force);
   s = inserted(s, k, entry.s);
-  const std::size_t before = points_before(strands, k);
-  std::vector<int>& in_strand = elements[static_cast<std::size_t>(entry.strand)];
-  in_strand[before] = elements_before;
-  insert_at(in_strand, before + 1, elements_behind);
   return k;
 }
 
 void LayoutEdit::erase(std::size_t point, int of_both) {
-  const std::size_t before = points_before(strands, point);
-  std::vector<int>& in_strand = elements[static_cast<std::size_t>(strands[point])];
-  in_strand[before] = of_both;
-  erase_at(in_strand, before + 1);
+  const std::size_t before = segment_before(point);
+  std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(strands[point])];
+  in_strand[before + 1].elements = of_both;
+  erase_at(in_strand, before);
   erase_at(points, point);
   erase_at(strands, point);
   erase_at(closed, point);
@@ -71,8 +145,9 @@ void LayoutEdit::erase(std::size_t point, int of_both) {
   s = erased(s, point);
 }
 
-LayoutEdit edit_of(const SlidingState& at) {
-  LayoutEdit edit{.elements = at.mesh.elements_per_segment(), .points = at.layout.points(), .s = at.now.s};
+LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
+  LayoutEdit edit{
+      .body = body, .elements = at.mesh.elements_per_segment(), .points = at.layout.points(), .s = at.now.s};
   for (std::size_t k = 0; k < edit.points.size(); ++k) {
     edit.strands.push_back(at.mesh.breakpoint(static_cast<Index>(k)).first);
     edit.closed.push_back(at.is_closed(k));
@@ -81,8 +156,22 @@ LayoutEdit edit_of(const SlidingState& at) {
   return edit;
 }
 
-std::shared_ptr<const SlidingContactLayout> layout_of(const SlidingBody& body, const LayoutEdit& edit) {
-  return std::make_shared<SlidingContactLayout>(body, body.mesh(edit.elements), edit.points, edit.s);
+void settle_loads(LayoutEdit& edit) {
+  for (Index strand = 0; strand < edit.body.strands(); ++strand) {
+    const std::vector<double>& places = edit.body.point_loads(strand);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto load = static_cast<Index>(i);
+      const bool has_node = edit.has_node(strand, load), on_wall = edit.lies_on_wall(strand, places[i]);
+      const double apart = edit.elements_to_nearest_point(strand, places[i]);
+      if (has_node && (on_wall || apart <= nearest_node_of_load + landed)) edit.take_node(strand, load);
+      if (!has_node && !on_wall && apart >= farthest_load_inside - landed) edit.give_node(strand, load);
+    }
+  }
+}
+
+std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
+  settle_loads(edit);
+  return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s);
 }
 
 }  // namespace arcwall::sliding

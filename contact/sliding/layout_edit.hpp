@@ -9,6 +9,7 @@ namespace arcwall::sliding {
 
 /// A layout to be changed: its points, where they are and what they bear, and the elements between them.
 struct LayoutEdit {
+  const SlidingBody& body;
   ElementsPerSegment elements{};
   std::vector<SlidingContactLayout::Point> points{};
   std::vector<Index> strands{};        ///< of the points, ascending
@@ -37,14 +38,37 @@ struct LayoutEdit {
   /// The segments before and behind a point become one with so many elements.
   void erase(std::size_t point, int of_both);
 
+  /// A part of a strand between its points, the nodes of its loads and its ends.
+  struct Part {
+    double from, to;
+    std::size_t place;  ///< among the strand's segments
+  };
+  Part part_at(Index strand, double s) const;
+
+  /// Gives a point load of a strand a node, which divides a segment, or takes it.
+  void give_node(Index strand, Index load);
+  void take_node(Index strand, Index load);
+  bool has_node(Index strand, Index load) const;
+
+  /// Whether a place is inside a part that lies on a wall.
+  bool lies_on_wall(Index strand, double s) const;
+
+  /// How many elements lie between a place and the nearest point of its strand; infinite where it has none.
+  double elements_to_nearest_point(Index strand, double s) const;
+
  private:
   int& segment(std::size_t point, std::size_t beyond = 0);
+  std::size_t segment_before(std::size_t point) const;
 };
 
 /// The layout of a state, with what its points bear, before any change.
-LayoutEdit edit_of(const SlidingState& at);
+LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at);
 
-/// The layout that has been made of one.
-std::shared_ptr<const SlidingContactLayout> layout_of(const SlidingBody& body, const LayoutEdit& edit);
+/// Takes the nodes of point loads that points have come too near to, and gives one to those that they have left. Loads
+/// inside parts that lie on a wall have none: such a layout is not valid.
+void settle_loads(LayoutEdit& edit);
+
+/// The layout that has been made of one, with its loads settled.
+std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit);
 
 }  // namespace arcwall::sliding

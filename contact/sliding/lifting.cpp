@@ -71,7 +71,7 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
 // Parts with free spans of one length; empty where one of them is too short for its span.
 std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingState& at, const Nodes& nodes,
                                  double length) {
-  LayoutEdit edit = edit_of(at);
+  LayoutEdit edit = edit_of(setting.body, at);
   std::size_t first = 0;  // the first of the new free spans begins behind this point
   for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
     const auto begins_behind = split(setting, at, *node, length, edit);
@@ -79,7 +79,7 @@ std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingSta
     first = *begins_behind;
   }
   Transition transition = up_to(length, std::make_shared<SpanLength>(first), Transition::Change::splits,
-                                mapped_onto(setting, at, edit, layout_of(setting.body, edit)));
+                                mapped_onto(setting, at, edit, layout_of(edit)));
   for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
     const auto* bound = dynamic_cast<const PressureBound*>(at.layout.bounds()[i].get());
     if (bound != nullptr && std::find(nodes.begin(), nodes.end(), bound->node()) != nodes.end())

@@ -29,12 +29,12 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
                     const EditLayout& edit) {
   constexpr double step = 1e-6;  // [path metric]
   const auto edited = [&](const SlidingState& from) {
-    LayoutEdit changed = edit_of(from);
+    LayoutEdit changed = edit_of(setting.body, from);
     edit(changed, from);
     return changed;
   };
   const LayoutEdit here = edited(at);
-  const auto on = layout_of(setting.body, here);
+  const auto on = layout_of(here);
   Transition transition{.change = Transition::Change::remeshed, .guess = mapped_onto(setting, at, here, on)};
   const State moved_on = moved(at.state, forward, step);
   const SlidingState ahead(moved_on);
@@ -48,13 +48,7 @@ Transition with_elements(const SlidingSetting& setting, const SlidingState& at, 
                          std::size_t segment, int elements) {
   const SlidingContactLayout::Segment& changed = at.layout.segments()[segment];
   return remeshed(setting, at, forward, [&changed, elements](LayoutEdit& edit, const SlidingState&) {
-    if (changed.last_point >= 0) {
-      edit.elements_before(static_cast<std::size_t>(changed.last_point)) = elements;
-    } else if (changed.first_point >= 0) {
-      edit.elements_behind(static_cast<std::size_t>(changed.first_point)) = elements;
-    } else {
-      edit.elements[static_cast<std::size_t>(changed.strand)] = {elements};
-    }
+    edit.elements[static_cast<std::size_t>(changed.strand)][changed.place].elements = elements;
   });
 }
 
@@ -87,14 +81,21 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
     return nullptr;
   Index k = 0;
   for (Index strand = 0; strand < body.strands(); ++strand) {
-    const std::vector<int>& in_strand = elements[static_cast<std::size_t>(strand)];
+    const std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(strand)];
+    const std::vector<double>& loads = body.point_loads(strand);
     const double most = 1000.0 + 100.0 * body.elements_between(strand, 0.0, body.length(strand));  // of a segment
-    const auto wrong = [most](int n) { return n < 1 || n > most; };
-    if (in_strand.empty() || std::any_of(in_strand.begin(), in_strand.end(), wrong)) return nullptr;
+    const auto wrong = [&](const MeshSegment& segment) {
+      return segment.elements < 1 || segment.elements > most || segment.load < -1 ||
+             segment.load >= static_cast<Index>(loads.size());
+    };
+    if (in_strand.empty() || in_strand.back().ends_at_load()) return nullptr;
+    if (std::any_of(in_strand.begin(), in_strand.end(), wrong)) return nullptr;
     double before = 0.0;
-    for (std::size_t i = 0; i + 1 < in_strand.size(); ++i, ++k) {
-      if (k == origin.size() || !(origin[k] >= before && origin[k] <= body.length(strand))) return nullptr;
-      before = origin[k];
+    for (std::size_t i = 0; i + 1 < in_strand.size(); ++i) {
+      if (!in_strand[i].ends_at_load() && k == origin.size()) return nullptr;
+      const double end = in_strand[i].ends_at_load() ? loads[static_cast<std::size_t>(in_strand[i].load)] : origin[k++];
+      if (!(end >= before && end <= body.length(strand))) return nullptr;
+      before = end;
     }
   }
   const auto unknown = [&](const Point& point) { return point.obstacle >= setting.obstacles.size(); };

@@ -67,7 +67,7 @@ std::size_t nearest(const SlidingContactLayout& on, const Vector& s, double plac
 template <class Bound>
 Transition back_to(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit, double place,
                    Transition::Change change) {
-  const auto on = layout_of(setting.body, edit);
+  const auto on = layout_of(edit);
   const std::size_t bound = nearest<Bound>(*on, edit.s, place);
   State guess = mapped_onto(setting, at, edit, on);
   const auto guard = static_cast<Index>(guess.piece.size() + bound);
@@ -78,7 +78,7 @@ Transition back_to(const SlidingSetting& setting, const SlidingState& at, const 
 
 // Two points at the ends of each span become one in its middle.
 Transition gathered(const SlidingSetting& setting, const SlidingState& at, const Points& spans) {
-  LayoutEdit edit = edit_of(at);
+  LayoutEdit edit = edit_of(setting.body, at);
   const auto middle = [&](std::size_t k) { return 0.5 * (edit.place(k) + edit.place(k + 1)); };
   const double place = middle(spans.front());
   for (auto k = spans.rbegin(); k != spans.rend(); ++k) {
@@ -93,7 +93,7 @@ Transition gathered(const SlidingSetting& setting, const SlidingState& at, const
 
 // Two pressed parts become one, or a pressed part and a point contact beside it.
 Transition joined(const SlidingSetting& setting, const SlidingState& at, const Points& gaps) {
-  LayoutEdit edit = edit_of(at);
+  LayoutEdit edit = edit_of(setting.body, at);
   const double place = edit.place(gaps.front());
   for (auto k = gaps.rbegin(); k != gaps.rend(); ++k) {
     const bool before = at.layout.span_before(*k) == Span::pressed;

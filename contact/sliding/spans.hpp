@@ -7,6 +7,10 @@ namespace arcwall::sliding {
 /// Sizes of elements, relative to those asked for, at which a segment is meshed anew.
 constexpr double coarsest = 1.25, finest = 0.25;
 
+/// Elements between a point load and the nearest tracked point: nearer than the first, the load has no node, and
+/// farther than the second it has one.
+constexpr double nearest_node_of_load = 0.5, farthest_load_inside = 0.75;
+
 /// How many elements the mesh of a strand asks for between two places.
 int elements_asked(const SlidingBody& body, Index strand, double from, double to, int fewest);
 

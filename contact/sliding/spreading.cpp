@@ -69,12 +69,28 @@ Transition continuum(const SlidingState& at, Index lines, Index ends) {
           .continuum = common};
 }
 
+// Whether a point load is so near to a point that it has no node.
+bool has_load_beside(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const auto k = static_cast<Index>(point);
+  const Index strand = at.mesh.breakpoint(k).first;
+  const std::vector<double>& places = setting.body.point_loads(strand);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double from = std::min(places[i], at.s(k)), to = std::max(places[i], at.s(k));
+    if (!at.layout.has_node(strand, static_cast<Index>(i)) &&
+        setting.body.elements_between(strand, from, to) <= farthest_load_inside)
+      return true;
+  }
+  return false;
+}
+
 // In words: what was looked for behind points that lose their curvature, and why it may be hard to find.
 std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
   const auto straight = [&](std::size_t k) { return obstacle_curvature(setting, at, k) == 0.0; };
   const auto count = static_cast<Index>(points.size());
   std::string text = counted(count, "point") + " of contact " + (count > 1 ? "become stretches" : "becomes a stretch") +
                      ", and no equilibrium with short ones was found";
+  if (std::any_of(points.begin(), points.end(), [&](std::size_t k) { return has_load_beside(setting, at, k); }))
+    text += " beside the point load there";
   const bool others = points.size() < at.layout.points().size();
   if ((count > 1 || others) && std::all_of(points.begin(), points.end(), straight))
     text +=
@@ -86,7 +102,7 @@ std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& 
 // Each of the points, ascending, becomes two, a short way apart.
 Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, Span between,
                   double length) {
-  LayoutEdit edit = edit_of(at);
+  LayoutEdit edit = edit_of(setting.body, at);
   for (auto k = points.rbegin(); k != points.rend(); ++k) {
     const Span span = lies_by_itself(setting, at, *k) ? Span::flat : between;
     const int behind = edit.elements_behind(*k);
@@ -103,7 +119,7 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
     edit.points[*k].behind = span;
   }
   Transition transition = up_to(length, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
-                                mapped_onto(setting, at, edit, layout_of(setting.body, edit)));
+                                mapped_onto(setting, at, edit, layout_of(edit)));
   for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
   return transition;
 }

@@ -3,6 +3,7 @@
 #include "contact/sliding/bounds/flat_part.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/bounds/length.hpp"
+#include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/room.hpp"
 
@@ -21,13 +22,27 @@ void add_if(bool there_is_one, Bounds& to, Place... place) {
 void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std::size_t i, Bounds& to) {
   const SlidingContactLayout::Segment& segment = on.segments()[i];
   const bool flat = segment.span == Span::flat, touched = segment.first_point >= 0 || segment.last_point >= 0;
+  const bool to_load = touched && (segment.first_load >= 0 || segment.last_load >= 0);
   add_if<LengthBound>(on.joins_one_obstacle(segment), to, static_cast<std::size_t>(segment.first_point));
-  add_if<RoomBound>(touched && !on.joins_one_obstacle(segment), to, i);
+  add_if<LoadAheadBound>(to_load, to, i);
+  add_if<RoomBound>(touched && !to_load && !on.joins_one_obstacle(segment), to, i);
   add_if<HalfWaveBound>(flat && segment.elements == 1, to, i);
   add_if<StraightBound>(flat && segment.elements > 1, to, i);
   if (flat || on.points().empty()) return;
   add_if<CoarseBound>(true, to, i);
   add_if<FineBound>(FineBound::is_needed(body, on, segment), to, i);
+}
+
+// Of point loads that act inside elements.
+void add_of_inner_loads(const SlidingBody& body, const SlidingContactLayout& on, Index strand, Bounds& to) {
+  for (std::size_t i = 0; i < body.point_loads(strand).size(); ++i) {
+    const auto load = static_cast<Index>(i);
+    if (on.has_node(strand, load)) continue;
+    add_if<LoadBehindBound>(true, to, strand, load);
+    for (std::size_t j = 0; j < on.segments().size(); ++j)
+      add_if<LoadBesidePartBound>(on.segments()[j].strand == strand && on.segments()[j].span != Span::free, to, load,
+                                  j);
+  }
 }
 
 }  // namespace
@@ -37,6 +52,7 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   Bounds bounds;
   for (std::size_t k = 0; k < on.points().size(); ++k) add_if<CurvatureBound>(!on.lies_beside(k), bounds, k);
   for (std::size_t i = 0; i < on.segments().size(); ++i) add_of_segment(body, on, i, bounds);
+  for (Index strand = 0; strand < body.strands(); ++strand) add_of_inner_loads(body, on, strand, bounds);
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i) add_if<PressureBound>(true, bounds, i);
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (const bool last : {false, true}) {

@@ -22,6 +22,11 @@ void parts(Archive& archive, SlidingContactLayout::Point& point) {
 }
 
 template <typename Archive>
+void parts(Archive& archive, MeshSegment& segment) {
+  archive(segment.elements, segment.load);
+}
+
+template <typename Archive>
 void parts(Archive& archive, State& state) {
   archive(state.x, state.lambda, state.piece);
   if constexpr (Archive::reads) archive.require(archive.model().owns(state));

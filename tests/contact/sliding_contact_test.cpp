@@ -23,7 +23,7 @@ using Span = SlidingContactLayout::Span;
 // A mesh of one strand with its points, at their places, and which of them are closed.
 struct Layouts {
   std::string name;
-  std::vector<int> elements;
+  std::vector<MeshSegment> elements;
   std::vector<Point> points;
   std::vector<double> s;
   std::vector<std::uint8_t> closed;
@@ -34,8 +34,8 @@ Vector of(const std::vector<double>& values) {
 }
 
 Piece piece_of(const SlidingModel& model, const Layouts& on) {
-  const auto layout = std::make_shared<SlidingContactLayout>(model.structure(), model.structure().mesh({on.elements}),
-                                                             on.points, of(on.s));
+  const auto layout = std::make_shared<SlidingContactLayout>(
+      model.structure(), model.structure().mesh(ElementsPerSegment{on.elements}), on.points, of(on.s));
   const std::size_t tied = model.system().open_piece().size();
   Piece piece(on.points.size() + tied, 0, layout);
   for (std::size_t k = 0; k < on.closed.size(); ++k) piece[k] = on.closed[k];
@@ -153,6 +153,146 @@ TEST(SlidingContact, DerivativesAreConsistentOnAFoundation) {
       EXPECT_LE(report.energy, 1e-7);
       EXPECT_LE(report.guard_gradient, 1e-6);
     }
+  }
+}
+
+namespace {
+
+// The same beam with forces at 3/7 of its length, 0.87, and at 5/7 of it, 1.45.
+StructureBuilder beam_with_forces(bool reversed, Theory theory) {
+  StructureBuilder builder = wavy_beam(reversed, theory);
+  const auto add = [&](std::size_t node, double x, double z, LoadKind kind) {
+    builder.add_load(builder.freedom(builder.mesh(0).nodes[node], Freedom::x), x, kind);
+    builder.add_load(builder.freedom(builder.mesh(0).nodes[node], Freedom::z), z, kind);
+  };
+  add(3, 0.5, -2.0, LoadKind::proportional);
+  add(3, 0.0, 0.7, LoadKind::constant);
+  add(5, -1.0, 1.5, LoadKind::proportional);
+  return builder;
+}
+
+// On nodes or inside elements, before and behind points.
+const std::vector<Layouts>& layouts_with_forces() {
+  static const std::vector<Layouts> all{
+      {"on nodes", {{3, 0}, {2, 1}, 2}, {}, {}, {}},
+      {"on nodes behind a closed point", {2, {2, 0}, {2, 1}, 2}, {{.obstacle = 0}}, {0.3}, {1}},
+      {"one inside", {2, {3, 1}, 2}, {{.obstacle = 0}}, {0.3}, {1}},
+      {"the other inside", {2, {3, 0}, 3}, {{.obstacle = 1}}, {0.3}, {0}},
+      {"both inside", {2, 4}, {{.obstacle = 0}}, {0.3}, {1}},
+      {"inside beside points", {3, 2, 3}, {{.obstacle = 0}, {.obstacle = 1}}, {0.3, 0.65}, {1, 1}},
+  };
+  return all;
+}
+
+}  // namespace
+
+// As above. Second derivatives of the places of forces inside elements are differences themselves.
+TEST(SlidingContact, DerivativesAreConsistentWhereForcesActInside) {
+  Numbers numbers(81);
+  const auto walls = two_of(test::all_walls(false), 2);
+  for (const Theory theory : {Theory::classic, Theory::elastica})
+    for (const bool reversed : {false, true}) {
+      const SlidingModel model(beam_with_forces(reversed, theory), walls, 0.1);
+      for (const Layouts& on : layouts_with_forces()) {
+        SCOPED_TRACE(on.name + (reversed ? ", reversed" : ""));
+        const State state = random_state(model, piece_of(model, on), numbers);
+        const auto report = check_derivatives(model.system(), state, 1e-6);
+        EXPECT_LE(report.K, 1e-9);
+        EXPECT_LE(report.F_lambda, 1e-8);
+        EXPECT_EQ(report.consistency, 0.0);
+        EXPECT_LE(report.energy, 1e-7);
+        EXPECT_LE(report.guard_gradient, 1e-6);
+      }
+    }
+}
+
+namespace {
+
+// A cantilever of length 1, EI = 1, with a force at a third of its length and one at its tip, on one segment.
+class CantileverWithForceInside {
+ public:
+  CantileverWithForceInside(Theory theory, int order, double EA, const Vec2& inside, const Vec2& tip)
+      : model_(described(theory, order, EA, inside, tip),
+               {{.name = "floor", .side = Side::below, .profile = flat_profile(-10.0)}}, 0.1) {}
+
+  // At λ = 1 on a mesh of these segments.
+  State solved(const std::vector<MeshSegment>& segments) const {
+    const SlidingStructure& structure = model_.structure();
+    const auto layout = std::make_shared<SlidingContactLayout>(structure, structure.mesh(ElementsPerSegment{segments}),
+                                                               std::vector<Point>{}, Vector());
+    const State rest{.x = structure.rest(layout->mesh(), Vector()),
+                     .lambda = 0.0,
+                     .piece = Piece(model_.system().open_piece().size(), 0, layout)};
+    return test::solved_at(model_.system(), rest, 1.0, 20);
+  }
+
+ private:
+  static StructureBuilder described(Theory theory, int order, double EA, const Vec2& inside, const Vec2& tip) {
+    StructureBuilder builder;
+    builder.add_joint({0.0, 0.0});
+    builder.add_joint({1.0, 0.0});
+    builder.add_member({.name = "beam",
+                        .from = 0,
+                        .to = 1,
+                        .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
+                        .theory = theory,
+                        .order = order,
+                        .section = {.E = 1.0, .A = EA, .I = 1.0, .height = 0.01},
+                        .elements = 3});
+    for (const Freedom which : {Freedom::x, Freedom::z}) {
+      const int i = which == Freedom::x ? 0 : 1;
+      builder.fix(builder.freedom(0, which));
+      builder.add_load(builder.freedom(builder.mesh(0).nodes[1], which), inside[i], LoadKind::proportional);
+      builder.add_load(builder.freedom(1, which), tip[i], LoadKind::proportional);
+    }
+    builder.fix(builder.shared_rotation(0).value());
+    return builder;
+  }
+
+  SlidingModel model_;
+};
+
+// The place of a node from the end.
+AxisPlace node_of(const State& state, Index from_end = 0) {
+  const SlidingMesh& mesh = mesh_of(state);
+  return mesh.node(0, mesh.nodes(0) - 1 - from_end, mesh_state_of(state));
+}
+
+}  // namespace
+
+// A force inside an element does what it does on a node: nodes are where they are in a beam of small deflections, at
+// z = −P S² (3 a − S)/(6 EI) before the force at a and −P a² (3 S − a)/(6 EI) behind it.
+TEST(SlidingContact, ForcesInsideElementsBendAsInABeam) {
+  constexpr double P = 1e-4, a = 1.0 / 3.0;
+  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+    const CantileverWithForceInside beam(theory, 4, 1e4, {0.0, -P}, {0.0, 0.0});
+    const State state = beam.solved({4});
+    for (Index node = 1; node <= 4; ++node) {
+      const double S = double(node) / 4.0;
+      const double z = S < a ? -P * S * S * (3.0 * a - S) / 6.0 : -P * a * a * (3.0 * S - a) / 6.0;
+      EXPECT_NEAR(node_of(state, 4 - node).position.y(), z, 1e-7 * P) << node;
+    }
+  }
+}
+
+// At large deflections the tip converges to that of meshes with a node at the force with order four: the force is at
+// one or two thirds of its element on every mesh.
+TEST(SlidingContact, ForcesInsideElementsConvergeWithOrderFour) {
+  constexpr double EA = 1e5;
+  const Vec2 inside(-1.0, -6.0), tip(-1.5, 2.0);
+  const CantileverWithForceInside reference(Theory::elastica, 6, EA, inside, tip);
+  const State exact = reference.solved({{64, 0}, 128});
+  for (const auto& [theory, order] :
+       {std::pair(Theory::classic, 4), std::pair(Theory::elastica, 4), std::pair(Theory::elastica, 6)}) {
+    const CantileverWithForceInside beam(theory, order, EA, inside, tip);
+    std::vector<double> sizes, errors;
+    for (const int elements : {8, 16, 32}) {
+      const State state = beam.solved({elements});
+      sizes.push_back(1.0 / elements);
+      errors.push_back((node_of(state).position - node_of(exact).position).norm());
+    }
+    EXPECT_GE(test::observed_order(sizes, errors), 3.5) << static_cast<int>(theory) << ", " << order;
+    EXPECT_LE(errors.back(), 1e-6);
   }
 }
 
