@@ -116,7 +116,7 @@ std::vector<Event> LoadIncrements::changes(const Piece& before, const PathPoint&
   std::vector<Event> events;
   for (const EventKind kind : {EventKind::contact_opens, EventKind::contact_closes}) {
     Event event{.kind = kind, .state = after.state, .arc = after.arc, .residual = after.residual};
-    event.localised = 0.5 * std::abs(after.state.lambda - lambda_before);
+    event.localised = std::abs(after.state.lambda - lambda_before);  // it happened on the way
     event.unstable_before = event.unstable_after = after.count.unstable;
     for (std::size_t j = 0; j < before.size(); ++j)
       if (before[j] != after.state.piece[j] && (after.state.piece[j] != 0) == (kind == EventKind::contact_closes))

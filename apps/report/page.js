@@ -13,7 +13,7 @@
     events_at.get(event.point).push(event);
   }
 
-  // Load factors as text: of points with an event that is not located to the last digit no more than is sure.
+  // Load factors as text; at events in no more digits than are sure.
   const uncertain = new Map(data.uncertain);
   const load_factor = (point, digits) => uncertain.get(point) ?? round(points.lambda[point], digits);
 

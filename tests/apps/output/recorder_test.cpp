@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "apps/output/result_json.hpp"
 #include "model/deck/reader.hpp"
+#include "tests/apps/traced_deck.hpp"
 
 namespace arcwall::recorder_test {
 namespace {
@@ -222,6 +226,21 @@ TEST_F(RecorderTest, TheResultSaysWhatWasRunAndHowItEnded) {
   EXPECT_EQ(json["seconds"]["tracing"], 1.5);
   EXPECT_EQ(json["status"], 6);
   EXPECT_EQ(json["branches"][0]["end"]["reason"], "max_points");
+}
+
+// The beam touches at k = M/2.8 with (1 − cos k)/k = 0.08, M = 0.448961, before the end of the increment from 0.4 to
+// 0.45.
+TEST(RecordedIncrements, AnEventLiesWithinTheIncrementAtWhoseEndItIsReported) {
+  const test::TracedDeck run(
+      test::example("foundation"),
+      {"path.method=\"incremental\"", "path.step=0.05", "path.land={lambda=[0.5]}", "path.stop={lambda=[-1.0, 0.5]}"});
+  const auto& events = run.record().events;
+  const auto closes = std::find_if(events.begin(), events.end(),
+                                   [](const RecordEvent& event) { return event.kind == EventKind::contact_closes; });
+  ASSERT_NE(closes, events.end());
+  EXPECT_NEAR(closes->lambda, 0.45, 1e-12);
+  EXPECT_NEAR(closes->localised, 0.05, 1e-12);
+  EXPECT_LE(std::abs(closes->lambda - 0.448961), closes->localised);
 }
 
 }  // namespace
