@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "contact/contact_point.hpp"
 #include "contact/obstacle.hpp"
@@ -42,6 +43,11 @@ class Candidate {
   /// Rate of the gap along a direction; 0 where there is no surface.
   double gap_rate(const State& state, const Direction& direction) const;
 
+  /// The number of the candidate of the same point whose gap is minus this one's wherever the point is: the obstacles
+  /// of both hold it from two sides without clearance. Empty where there is none.
+  std::optional<Index> opposite() const { return opposite_; }
+  void set_opposite(Index other) { opposite_ = other; }
+
   /// The unit vector along which the obstacle presses; only where faces_wall().
   Vec2 normal(const State& state) const { return obstacle_->normal(point_->position(state), state.lambda); }
 
@@ -49,6 +55,7 @@ class Candidate {
   std::unique_ptr<TrackedPoint> point_;
   std::shared_ptr<const Obstacle> obstacle_;
   ContactLabel label_;
+  std::optional<Index> opposite_{};
 };
 
 }  // namespace arcwall

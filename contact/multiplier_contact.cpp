@@ -10,15 +10,7 @@ namespace arcwall {
 
 namespace {
 
-// Calls `visit(j, k)` for each closed candidate j, the k-th of them.
-template <typename Visit>
-void for_each_closed(const Piece& piece, const Visit& visit) {
-  Index k = 0;
-  for (std::size_t j = 0; j < piece.size(); ++j)
-    if (piece[j]) visit(j, k++);
-}
-
-// Guard of a point that faces no wall: as far as the structure is large.
+// Guard of a point that faces no wall, or that two walls hold: as far as the structure is large.
 constexpr double out_of_reach = 1.0;
 
 // The value of an entry that the pattern has.
@@ -44,14 +36,39 @@ MultiplierContact::MultiplierContact(const Equations& inner, std::vector<Candida
   }
 }
 
-Index MultiplierContact::multiplier_count(const Piece& piece) const { return piece.closed_count(); }
+// Whether candidate j is closed and its force an unknown: of two that are opposite the first has that of both.
+bool MultiplierContact::has_force(const Piece& piece, std::size_t j) const {
+  const std::optional<Index> opposite = candidates_[j].opposite();
+  return piece[j] != 0 && !(opposite && *opposite < static_cast<Index>(j));
+}
+
+// Calls `visit(j, k)` for each candidate j that has a force, the k-th of them.
+template <typename Visit>
+void MultiplierContact::for_each_force(const Piece& piece, const Visit& visit) const {
+  Index k = 0;
+  for (std::size_t j = 0; j < piece.size(); ++j)
+    if (has_force(piece, j)) visit(j, k++);
+}
+
+Index MultiplierContact::multiplier_count(const Piece& piece) const {
+  Index count = 0;
+  for_each_force(piece, [&](std::size_t, Index) { ++count; });
+  return count;
+}
+
+Piece MultiplierContact::open_piece() const {
+  Piece piece(candidates_.size(), 0);
+  for (std::size_t j = 0; j < candidates_.size(); ++j)
+    if (candidates_[j].opposite()) piece[j] = 1;
+  return piece;
+}
 
 void MultiplierContact::residual(const State& state, Eigen::Ref<Vector> F) const {
   const State inner = inner_state(state);
   const Index n = inner.x.size();
   inner_.residual(inner, F.head(n));
   Gap gap;
-  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.piece, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
     const double p = state.x[n + k];
     candidates_[j].gap(state, gap);
@@ -76,7 +93,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
   copy_values(inner.K, out.K);
   out.ground = inner.ground;
   Gap gap;
-  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.piece, [&](std::size_t j, Index k) {
     const auto& unknowns = candidates_[j].point().unknowns();
     const double p = state.x[n + k];
     const auto [c, r] = springs_[j];
@@ -103,7 +120,7 @@ void MultiplierContact::linearize(const State& state, Linearization& out) const 
 
 void MultiplierContact::lay_out(const State& state, Linearization& out) const {
   std::vector<RowEntry> entries;
-  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.piece, [&](std::size_t j, Index k) {
     for (const Index unknown : candidates_[j].point().unknowns()) entries.push_back({.row = k, .column = unknown});
   });
   out.K = with_rows_behind(out.inner->K, entries, multiplier_count(state.piece));
@@ -115,7 +132,7 @@ void MultiplierContact::lay_out(const State& state, Linearization& out) const {
 double MultiplierContact::energy(const State& state) const {
   const State inner = inner_state(state);
   double springs = 0.0;
-  for_each_closed(state.piece, [&](std::size_t j, Index k) {
+  for_each_force(state.piece, [&](std::size_t j, Index k) {
     const double p = state.x[inner.x.size() + k];
     springs += 0.5 * springs_[j].c * p * p;
   });
@@ -139,12 +156,19 @@ Vector MultiplierContact::weights(const Piece& piece) const {
 Vector MultiplierContact::guards(const State& state) const {
   Vector guards(contact_count());
   Index k = inner_.size({});
-  for (Index j = 0; j < guards.size(); ++j)
-    guards[j] = state.piece[static_cast<std::size_t>(j)] ? state.x[k++] / scales_.force : open_guard(j, state);
+  for (Index j = 0; j < guards.size(); ++j) {
+    const bool has_force = this->has_force(state.piece, static_cast<std::size_t>(j));
+    const Index own = has_force ? k++ : 0;
+    if (is_two_sided(j))
+      guards[j] = out_of_reach;
+    else
+      guards[j] = has_force ? state.x[own] / scales_.force : open_guard(j, state);
+  }
   return guards;
 }
 
 double MultiplierContact::guard(const State& state, Index j) const {
+  if (is_two_sided(j)) return out_of_reach;
   const auto k = multiplier_index(state.piece, j);
   return k ? state.x[*k] / scales_.force : open_guard(j, state);
 }
@@ -156,6 +180,7 @@ double MultiplierContact::open_guard(Index j, const State& state) const {
 
 Row MultiplierContact::guard_gradient(const State& state, Index j) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (is_two_sided(j)) return row;
   if (const auto k = multiplier_index(state.piece, j)) {
     row.dx[*k] = 1.0 / scales_.force;
   } else if (candidate(j).faces_wall(state)) {
@@ -172,9 +197,15 @@ Row MultiplierContact::guard_gradient(const State& state, Index j) const {
 Vector MultiplierContact::guard_rates(const State& state, const Direction& direction) const {
   Vector rates(contact_count());
   Index k = inner_.size({});
-  for (Index j = 0; j < rates.size(); ++j)
-    rates[j] = state.piece[static_cast<std::size_t>(j)] ? direction.dx[k++] / scales_.force
-                                                        : candidate(j).gap_rate(state, direction) / scales_.length;
+  for (Index j = 0; j < rates.size(); ++j) {
+    const bool has_force = this->has_force(state.piece, static_cast<std::size_t>(j));
+    const Index own = has_force ? k++ : 0;
+    if (is_two_sided(j))
+      rates[j] = 0.0;
+    else
+      rates[j] =
+          has_force ? direction.dx[own] / scales_.force : candidate(j).gap_rate(state, direction) / scales_.length;
+  }
   return rates;
 }
 
@@ -184,9 +215,10 @@ Vector MultiplierContact::unit_force(const State& state, Index j) const {
 }
 
 std::optional<Index> MultiplierContact::multiplier_index(const Piece& piece, Index j) const {
-  if (!piece[static_cast<std::size_t>(j)]) return std::nullopt;
-  return inner_.size({}) +
-         std::count_if(piece.begin(), piece.begin() + j, [](std::uint8_t closed) { return closed != 0; });
+  if (!has_force(piece, static_cast<std::size_t>(j))) return std::nullopt;
+  Index k = inner_.size({});
+  for (std::size_t i = 0; i < static_cast<std::size_t>(j); ++i) k += has_force(piece, i) ? 1 : 0;
+  return k;
 }
 
 Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {
@@ -195,9 +227,10 @@ Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Pie
   moved.head(n) = x.head(n);
   Index source = n, target = n;
   for (std::size_t j = 0; j < to.size(); ++j) {
-    if (from[j] && to[j]) moved[target] = x[source];
-    source += from[j] ? 1 : 0;
-    target += to[j] ? 1 : 0;
+    const bool before = has_force(from, j), behind = has_force(to, j);
+    if (before && behind) moved[target] = x[source];
+    source += before ? 1 : 0;
+    target += behind ? 1 : 0;
   }
   return moved;
 }
@@ -209,8 +242,10 @@ std::optional<std::string> MultiplierContact::invalid_reason(const State& state)
 }
 
 double MultiplierContact::force(const State& state, Index j) const {
-  const auto k = multiplier_index(state.piece, j);
-  return k ? state.x[*k] : 0.0;
+  if (const auto k = multiplier_index(state.piece, j))
+    return is_two_sided(j) ? std::max(state.x[*k], 0.0) : state.x[*k];
+  const auto k = is_two_sided(j) ? multiplier_index(state.piece, *candidate(j).opposite()) : std::nullopt;
+  return k ? std::max(-state.x[*k], 0.0) : 0.0;
 }
 
 ContactPoint MultiplierContact::told(const State& state, std::size_t j, double force) const {
@@ -226,8 +261,16 @@ ContactPoint MultiplierContact::contact(const State& state, Index j) const {
 
 std::vector<ContactPoint> MultiplierContact::closed_contacts(const State& state) const {
   std::vector<ContactPoint> contacts;
+  Vector forces = Vector::Zero(contact_count());
   const Index n = inner_.size({});
-  for_each_closed(state.piece, [&](std::size_t j, Index k) { contacts.push_back(told(state, j, state.x[n + k])); });
+  for_each_force(state.piece, [&](std::size_t j, Index k) {
+    const double p = state.x[n + k];
+    const std::optional<Index> opposite = candidates_[j].opposite();
+    forces[static_cast<Index>(j)] = opposite ? std::max(p, 0.0) : p;
+    if (opposite) forces[*opposite] = std::max(-p, 0.0);
+  });
+  for (std::size_t j = 0; j < candidates_.size(); ++j)
+    if (state.piece[j]) contacts.push_back(told(state, j, forces[static_cast<Index>(j)]));
   return contacts;
 }
 

@@ -28,6 +28,9 @@ struct ContactLaw {
 ///     p_j = 0,   g_j ≥ 0                                     (open)       [ −G                         −c  ]
 ///
 /// with t = p − r g; c = 0 but for the method `penalty`, r = 0 but for `augmented`.
+///
+/// Two candidates that are opposite to each other (Candidate::opposite) are one contact that holds in both senses: both
+/// are closed on every piece of a path, and the first of them has the force of both, of either sign, without a guard.
 class MultiplierContact final : public System, public ContactQuery {
  public:
   /// `inner` must outlive this. Methods other than `rigid` need candidates with tributary
@@ -43,7 +46,7 @@ class MultiplierContact final : public System, public ContactQuery {
   double squared_motion_by_lambda(const Piece&) const override;
   Index multiplier_count(const Piece& piece) const override;
 
-  Piece open_piece() const override { return Piece(candidates_.size(), 0); }
+  Piece open_piece() const override;
   Index contact_count() const { return static_cast<Index>(candidates_.size()); }
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
@@ -51,6 +54,7 @@ class MultiplierContact final : public System, public ContactQuery {
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   double compliance(Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
+  bool is_two_sided(Index j) const override { return candidate(j).opposite().has_value(); }
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
@@ -72,6 +76,9 @@ class MultiplierContact final : public System, public ContactQuery {
     double c = 0.0, r = 0.0;
   };
   const Springs& springs_at(Index j) const { return springs_[static_cast<std::size_t>(j)]; }
+  bool has_force(const Piece& piece, std::size_t j) const;
+  template <typename Visit>
+  void for_each_force(const Piece& piece, const Visit& visit) const;
   double open_guard(Index j, const State& state) const;
   ContactPoint told(const State& state, std::size_t j, double force) const;
   void lay_out(const State& state, Linearization& out) const;

@@ -25,7 +25,9 @@ std::optional<Index> negative_eigenvalues(const Equations& system, const State& 
 Piece strictly_active(const UnilateralSystem& system, const State& state, double force_tolerance) {
   Piece piece = state.piece;
   for (std::size_t j = 0; j < piece.size(); ++j) {
-    const auto force = system.multiplier_index(state.piece, static_cast<Index>(j));
+    const auto contact = static_cast<Index>(j);
+    if (system.is_two_sided(contact)) continue;
+    const auto force = system.multiplier_index(state.piece, contact);
     if (force && state.x[*force] <= force_tolerance * system.multiplier_scale()) piece[j] = 0;
   }
   return piece;

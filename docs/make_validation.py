@@ -215,6 +215,18 @@ def column_on_springs() -> list:
     ]
 
 
+def walls(clearance: float) -> str:
+    """Flat walls below and above the axis z = 0, as one value for --set."""
+    wall = lambda name, side, z: (f"{{name='{name}', side='{side}', acts_on='axis', profile={{type='flat', z={z}}}}}")
+    return f"wall=[{wall('under', 'below', -clearance)}, {wall('over', 'above', clearance)}]"
+
+
+def buckling_on_springs(k: float, EA: float) -> float:
+    """The least P with EI q² − s P q + s² k = 0, q = (mπ/L)² and s = 1 − P/EA, EI = L = 1."""
+    neutral = lambda P, q: q * q - (1 - P / EA) * P * q + (1 - P / EA)**2 * k
+    return min(root(lambda P: neutral(P, (m * math.pi)**2), 0.0, 0.4 * EA) for m in range(1, 5))
+
+
 def cases() -> list:
     EA, h, half_span = 1e5, 0.5, 5.0
     L = math.hypot(half_span, h)
@@ -293,6 +305,10 @@ def cases() -> list:
             Quantity("second buckling load", load("branch-point", 1), buckling(2, 1000.0, 500.0), "closed form"),
         ], always=("member.column.theory='exact'",)),
         *column_on_springs(),
+        Case("Pinned column between springs without clearance", "docs/validation/column.toml",
+             meshes({"column": 1}, [8, 16, 32, 64]), [
+            Quantity("first buckling load", load("branch-point"), buckling_on_springs(1000.0, 1000.0), "closed form"),
+        ], always=(walls(0.0), "contact={method='penalty', penalty=1000.0}", "path.stop.lambda=[-1.0, 80.0]")),
         Case("Clamped column, extensible", "docs/validation/column_clamped.toml",
              meshes({"column": 1}, [6, 12, 24, 48]), [
             Quantity("first buckling load", load("branch-point"), buckling(2, 1000.0), "closed form"),

@@ -42,27 +42,61 @@ std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
 struct TouchAtRest {
   const deck::Wall* wall;
   Index node;
-  ContactLabel label{};
+  std::size_t candidate;
   Vec2 normal{};  ///< of the wall, into the free side
+  bool straight;  ///< the wall
 };
 
-// Two walls that touch a node from both sides hold it before any load. Contact that is open until a load closes it does
-// not know that: stability would be that of the free structure.
-void refuse_what_is_held_between_walls(const std::vector<TouchAtRest>& touches, DeckProblems& problems) {
+// Whether a motion of the structure changes a gap: supports may hold the point across the wall already.
+bool changes(const Candidate& candidate, const State& rest) {
+  constexpr double least = 1e-9;  // of the motion
+  Gap gap;
+  candidate.gap(rest, gap);
+  return gap.gradient.norm() > least;
+}
+
+bool acts_on_axis(const TouchAtRest& touch) { return touch.wall->acts_on == deck::ActsOn::axis; }
+
+// Why two walls that touch a node from both sides do not hold it as one contact, and what to do.
+struct NotOneContact {
+  std::string why, cure;
+};
+
+std::optional<NotOneContact> not_one_contact(const TouchAtRest& a, const TouchAtRest& b) {
+  constexpr double parallel = 1e-12;  // square of the angle between the walls
+  if (!acts_on_axis(a) || !acts_on_axis(b))
+    return NotOneContact{.why = "faces between walls without clearance part from them as soon as the section turns",
+                         .cure = "put both walls at the axis, with acts_on = \"axis\", or leave a clearance"};
+  if (a.straight && b.straight && 1.0 + a.normal.dot(b.normal) <= parallel) return std::nullopt;
+  return NotOneContact{.why = "walls without clearance hold a node for good only where both are straight and parallel",
+                       .cure = "leave a clearance, with contact.points = \"nodes\", or let supports hold the member"};
+}
+
+// Two walls that touch a node from both sides at rest hold it without a force, now and later: its candidates are made
+// opposite to each other. Where the walls would part from it, contact that is closed without a force is not modelled.
+void join_opposite(const std::vector<TouchAtRest>& touches, std::vector<Candidate>& candidates,
+                   DeckProblems& problems) {
   constexpr double opposite = -0.5;  // cosine between the normals
   std::vector<std::pair<const deck::Wall*, const deck::Wall*>> refused;
   for (const TouchAtRest& a : touches)
     for (const TouchAtRest& b : touches) {
       if (&a >= &b || a.node != b.node || a.normal.dot(b.normal) > opposite) continue;
+      const auto odd = not_one_contact(a, b);
+      if (!odd) {
+        Candidate &first = candidates[a.candidate], &second = candidates[b.candidate];
+        if (first.opposite() || second.opposite()) continue;
+        first.set_opposite(static_cast<Index>(b.candidate));
+        second.set_opposite(static_cast<Index>(a.candidate));
+        continue;
+      }
       if (std::find(refused.begin(), refused.end(), std::pair(a.wall, b.wall)) != refused.end()) continue;
       refused.emplace_back(a.wall, b.wall);
-      problems.add(
-          b.wall->position, "wall." + b.wall->name,
-          fmt::format("member \"{}\" touches walls \"{}\" and \"{}\" from both sides at the start, at {}:{:.4g}: "
-                      "such walls hold it without a force, and contact that is closed before any load is not "
-                      "modelled",
-                      b.label.member, a.wall->name, b.wall->name, b.label.member, b.label.fraction),
-          "leave a clearance, or let supports hold the member");
+      const ContactLabel& label = candidates[b.candidate].label();
+      problems.add(b.wall->position, "wall." + b.wall->name,
+                   fmt::format("member \"{}\" touches walls \"{}\" and \"{}\" from both sides at the start, at "
+                               "{}:{:.4g}: {}",
+                               label.member, a.wall->name, b.wall->name, label.member, label.fraction, odd->why),
+                   odd->cure);
     }
 }
 
@@ -137,9 +171,12 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
             deepest.label = candidate.label();
           }
           if (!movable) continue;
-          if (std::abs(gap) <= round_off)
-            touches.push_back(
-                {.wall = &wall, .node = section.node, .label = candidate.label(), .normal = candidate.normal(rest)});
+          if (std::abs(gap) <= round_off && changes(candidate, rest))
+            touches.push_back({.wall = &wall,
+                               .node = section.node,
+                               .candidate = candidates.size(),
+                               .normal = candidate.normal(rest),
+                               .straight = obstacle->knots().empty()});
           candidates.push_back(std::move(candidate));
         }
     }
@@ -149,7 +186,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
                                deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth),
                    how_to_part(wall, deepest));
   }
-  refuse_what_is_held_between_walls(touches, problems);
+  join_opposite(touches, candidates, problems);
   return candidates;
 }
 

@@ -82,8 +82,23 @@ std::vector<Theory> theories_of(const deck::Deck& deck) {
 bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
 
 // Whether contact points slide, which springs, increments and members of other theories do not allow.
-bool slides(const deck::Deck& deck, const StructureBuilder& builder, DeckProblems& problems) {
+bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
+            DeckProblems& problems) {
+  const auto held = std::find_if(candidates.begin(), candidates.end(),
+                                 [](const Candidate& candidate) { return candidate.opposite().has_value(); });
+  if (held != candidates.end() && increments_of(deck))
+    problems.add({}, "path.method",
+                 "method \"incremental\" knows no member that walls hold from both sides without clearance, as " +
+                     held->label().wall + " does",
+                 "use \"spherical\", or leave a clearance");
   if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
+  if (held != candidates.end()) {
+    problems.add({}, "contact.points",
+                 "points = \"sliding\" knows no member that walls hold from both sides without clearance, as " +
+                     held->label().wall + " does",
+                 "use \"nodes\", or leave a clearance");
+    return false;
+  }
   const bool rigid = deck.contact.method == ContactLaw::Method::rigid;
   if (rigid && !increments_of(deck) && builder.can_slide()) return true;
   problems.add({}, "contact.points",
@@ -128,7 +143,7 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   if (takes_increments(deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
   auto candidates = contact_candidates(deck_, *structure_, problems);
-  const bool sliding = slides(deck_, described.builder, problems);
+  const bool sliding = slides(deck_, described.builder, candidates, problems);
   if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
@@ -206,9 +221,8 @@ LoadIncrements Model::increments(State start) {
 }
 
 std::optional<State> Model::start(std::string& reason) const {
-  State state{.x = Vector::Zero(structure_->size({})),
-              .lambda = 0.0,
-              .piece = Piece(contact_ ? static_cast<std::size_t>(contact_->contact_count()) : 0, 0)};
+  State state{.x = {}, .lambda = 0.0, .piece = contact_ ? contact_->open_piece() : Piece()};
+  state.x = Vector::Zero(contact_ ? contact_->size(state.piece) : structure_->size({}));
   if (sliding_) state = sliding_->rest();
   if (!ramp_structure_) return state;
   // What is constant grows from nothing along a path of their own, contacts included.

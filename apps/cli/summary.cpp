@@ -37,7 +37,7 @@ std::string first_gap(const Model& model, const deck::Wall& wall) {
     const Candidate& candidate = contact.candidate(j);
     if (candidate.label().wall != wall.name) continue;
     ++count;
-    const double gap = candidate.gap(at_rest);
+    const double gap = candidate.gap(at_rest) + 0.0;  // no −0
     if (gap >= least) continue;
     least = gap;
     nearest_one = &candidate;

@@ -65,8 +65,8 @@ void check_contacts(const PointAtHand& at, Findings& findings) {
     const double gap = touch.gap.value();
     if (touch.closed) {
       findings.compare("contact forces push", -touch.force, force, named(touch.label));
-      findings.compare("closed contacts touch", std::abs(gap + touch.compliance * touch.force), length,
-                       named(touch.label));
+      findings.compare("closed contacts touch", std::abs(gap + touch.compliance * (touch.force - touch.against)),
+                       length, named(touch.label));
     } else if (std::isfinite(gap)) {
       findings.compare("open contacts are outside", -gap, length, named(touch.label));
     }
@@ -208,19 +208,22 @@ void add_row(Matrix& G, const std::vector<Index>& unknowns, const Vector& gradie
 }  // namespace
 
 // K of the elements, less p ∂²g of the contacts, plus their springs; on the motions that leave closed contacts closed.
+// What walls touch from opposite sides cannot move across them, with or without a force.
 // Lengths and angles are made comparable: D K D has a unit diagonal.
 CountRange unstable_range(const PointAtHand& at, double zero) {
   const Index n = structure_unknowns(at.model, at.point.state);
   Matrix K = Matrix::Zero(n, n), idle_springs = Matrix::Zero(n, n), strong(0, n), all(0, n);
   for (std::size_t e = 0; e < at.potentials.size(); ++e) add_block(K, at.potentials[e].unknowns, at.stiffness[e]);
   for (const Touch& touch : at.touches.all) {
-    if (!touch.closed) continue;
+    if (!touch.closed && !touch.two_sided) continue;
     const Vector gradient = touch.gap.gradient();
-    const bool carries = touch.force > 1e-11 * at.scales.force;
+    const bool carries = touch.force > 1e-11 * at.scales.force || touch.two_sided;
+    const double part = touch.two_sided ? 0.5 : 1.0;  // of the one spring that two walls without clearance are
     add_block(K, touch.gap.unknowns,
               touch.stiffness * gradient * gradient.transpose() - wall_force(touch) * touch.gap.hessian());
     if (touch.compliance > 0.0) {
-      add_block(carries ? K : idle_springs, touch.gap.unknowns, gradient * gradient.transpose() / touch.compliance);
+      add_block(carries ? K : idle_springs, touch.gap.unknowns,
+                part * gradient * gradient.transpose() / touch.compliance);
     } else {
       add_row(all, touch.gap.unknowns, gradient);
       if (carries || !touch.listed) add_row(strong, touch.gap.unknowns, gradient);

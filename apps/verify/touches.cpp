@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "apps/verify/differences.hpp"
 #include "core/text.hpp"
@@ -100,14 +101,45 @@ Touch node_touch(const Model& model, const std::vector<PlainWall>& walls, const 
   return touch;
 }
 
+// What two walls without clearance exert is one unknown, of either sign, which stands where the first of them does.
+void read_forces(const Model& model, const State& state, Touches& touches) {
+  Index next = model.structure().size({});
+  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+    Touch& touch = touches.all[j];
+    touch.closed = state.piece[j] != 0;
+    const auto opposite = model.contact()->candidate(static_cast<Index>(j)).opposite();
+    if (!touch.closed || (opposite && *opposite < static_cast<Index>(j))) continue;
+    const double force = state.x[next++];
+    touch.force = opposite ? std::max(force, 0.0) : force;
+    if (opposite) touches.all[static_cast<std::size_t>(*opposite)].force = std::max(-force, 0.0);
+  }
+}
+
+// Walls that touch a node from opposite sides, their gaps closed whether or not the run says so: no motion takes the
+// node off both.
+void find_opposite(double length, std::vector<Touch>& touches) {
+  constexpr double no_gap = 1e-12, opposite = 1e-7;  // of the structure's length; of the gradients
+  std::map<std::vector<Index>, std::vector<Touch*>> of_node;
+  for (Touch& touch : touches)
+    if (touch.closed || std::abs(touch.gap.value()) <= no_gap * length) of_node[touch.gap.unknowns].push_back(&touch);
+  for (auto& [unknowns, at] : of_node)
+    for (std::size_t i = 0; i < at.size(); ++i)
+      for (std::size_t j = i + 1; j < at.size(); ++j) {
+        Touch &a = *at[i], &b = *at[j];
+        const Vector of_a = a.gap.gradient();
+        if (a.two_sided || b.two_sided || (of_a + b.gap.gradient()).norm() > opposite * of_a.norm()) continue;
+        a.two_sided = b.two_sided = true;
+        a.against = b.force;
+        b.against = a.force;
+      }
+}
+
 Touches node_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
   Touches touches;
-  Index force = model.structure().size({});
-  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+  for (std::size_t j = 0; j < state.piece.size(); ++j)
     touches.all.push_back(node_touch(model, walls, state, static_cast<Index>(j)));
-    touches.all.back().closed = state.piece[j] != 0;
-    if (touches.all.back().closed) touches.all.back().force = state.x[force++];
-  }
+  read_forces(model, state, touches);
+  find_opposite(model.structure().length_scale(), touches.all);
   return touches;
 }
 

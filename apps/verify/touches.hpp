@@ -32,6 +32,8 @@ struct Touch {
   double compliance = 0.0;  ///< gap of a spring per force [length/force]
   double stiffness = 0.0;   ///< spring beside the force, of the augmented Lagrangian [force/length]
   bool listed = true;       ///< in contacts.csv: nodes inside a pressed part are not
+  bool two_sided = false;   ///< another touches the same point from the opposite side
+  double against = 0.0;     ///< the force of that other [force]
 };
 
 /// A point of a mesh that slides, where the structure is tangent to the wall.

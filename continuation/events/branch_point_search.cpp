@@ -68,8 +68,15 @@ PathPoint point_at(TraceTools& tools, const StepOrigin& origin, const SingularPl
   return path_point(tools.system, origin.metric, std::move(result), origin.point().tangent);
 }
 
+// A spring that holds in both senses stays at its place, and so makes none.
 bool made_by_nodes(const TraceTools& tools, const State& state) {
-  return tools.options.node_contacts && tools.system.multiplier_count(state.piece) > 0;
+  if (!tools.options.node_contacts) return false;
+  const System& system = tools.system;
+  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+    const auto contact = static_cast<Index>(j);
+    if (state.piece[j] && !(system.is_two_sided(contact) && system.compliance(contact) > 0.0)) return true;
+  }
+  return false;
 }
 
 }  // namespace arcwall

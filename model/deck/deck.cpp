@@ -46,7 +46,31 @@ std::string to_text(const Place& place) {
   return place.fraction ? place.name + ":" + round_trip(*place.fraction) : place.name;
 }
 
-// Sliding where contact forces are point forces. Springs and increments act at nodes.
+namespace {
+
+// z and slope of a wall that is straight.
+std::optional<LineProfile> line_of(const Wall& wall) {
+  if (const auto* const flat = std::get_if<FlatProfile>(&wall.profile)) return LineProfile{.z = flat->z};
+  if (const auto* const line = std::get_if<LineProfile>(&wall.profile)) return *line;
+  return std::nullopt;
+}
+
+bool have_a_member_in_common(const Wall& a, const Wall& b) {
+  return a.members.empty() || b.members.empty() ||
+         std::any_of(a.members.begin(), a.members.end(), [&](const std::string& name) {
+           return std::find(b.members.begin(), b.members.end(), name) != b.members.end();
+         });
+}
+
+// Straight walls on both sides of an axis between which nothing is left.
+bool leave_no_clearance(const Wall& a, const Wall& b) {
+  return a.side != b.side && a.acts_on == ActsOn::axis && b.acts_on == ActsOn::axis && line_of(a) &&
+         line_of(a) == line_of(b) && have_a_member_in_common(a, b);
+}
+
+}  // namespace
+
+// Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
   if (deck.contact.method != ContactLaw::Method::rigid)
@@ -58,6 +82,11 @@ PointsOfContact points_of_contact(const Deck& deck) {
     if (member.theory != Theory::classic && member.theory != Theory::elastica)
       return {.points = ContactPoints::nodes,
               .why = "member " + member.name + " is of theory " + text_of(theory_words, member.theory)};
+  for (const Wall& a : deck.walls)
+    for (const Wall& b : deck.walls)
+      if (leave_no_clearance(a, b))
+        return {.points = ContactPoints::nodes,
+                .why = "walls " + a.name + " and " + b.name + " leave no clearance between them"};
   return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};
 }
 

@@ -149,22 +149,6 @@ TEST(Model, AWallThatIsEnteredInPartIsOnTheRightSide) {
   EXPECT_NE(found.front().message.find("node column:1 by 0.1581"), std::string::npos) << found.front().message;
 }
 
-// Two walls without clearance hold the column before any load; that it is straight and stable for ever is not modelled.
-TEST(Model, WallsThatTouchANodeFromBothSidesAreRefused) {
-  const auto wall = [](const std::string& name, const std::string& side, const std::string& z) {
-    return "[[wall]]\nname = \"" + name + "\"\nside = \"" + side + "\"\nacts_on = \"axis\"\n" +
-           "profile = { type = \"flat\", z = " + z + " }\n";
-  };
-  const auto between = [&](const std::string& upper) {
-    return std::string(deck::column_deck) + wall("under", "below", "0.0") + wall("over", "above", upper);
-  };
-  EXPECT_TRUE(problems_of(between("0.001")).empty());
-  const auto found = problems_of(between("0.0"));
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found.front().key, "wall.over");
-  EXPECT_NE(found.front().message.find("touches walls \"under\" and \"over\" from both sides"), std::string::npos);
-}
-
 }  // namespace
 // A deck whose author forgot its bounds, and decks with one bound each.
 TEST(Model, WarnsOfAPathThatNothingEnds) {

@@ -116,6 +116,32 @@ TEST(Verify, EveryContactLawHolds) {
   }
 }
 
+// A column that two walls hold without clearance, rigid ones and springs; it buckles on the latter.
+TEST(Verify, WallsOnBothSidesWithoutClearanceHold) {
+  constexpr const char* column = R"toml(
+title = "A column between walls without clearance"
+material.steel = { E = 2.1e5 }
+section.col = { shape = "rectangle", width = 10.0, height = 5.0 }
+point = { a = [0.0, 0.0], b = [1000.0, 100.0] }
+support = { a = ["x", "z", "rotation"] }
+member.col = { from = "a", to = "b", theory = "classic", material = "steel", section = "col", elements = 20 }
+load = [{ at = "b", force = [-1.0, -0.1] }, { on = "col", distributed = [0.0, -0.01], constant = true }]
+wall = [
+  { name = "under", side = "below", acts_on = "axis", profile = { type = "line", z = 0.0, slope = 0.1 } },
+  { name = "over", side = "above", acts_on = "axis", profile = { type = "line", z = 0.0, slope = 0.1 } },
+]
+monitor = [{ name = "mid", at = "col:0.5", component = "z" }]
+path = { step = 50.0, max_step = 0.005, stop = { lambda = [-10.0, 6000.0], mid = [-5.0, 5.0] } }
+)toml";
+  for (const std::string law :
+       {"contact={}", R"(contact={method="augmented",penalty=10.0})", R"(contact={method="penalty",penalty=0.2})"}) {
+    SCOPED_TRACE(law);
+    const TracedDeck traced(column, {law});
+    EXPECT_EQ(traced.record().points.back().contacts, 2 * 20);
+    expect_confirmed(traced);
+  }
+}
+
 TEST(Verify, EveryTheoryAndWallHoldsSlow) {
   for (const std::string theory :
        {"theory = \"classic\"", "theory = \"elastica\"\norder = 4", "theory = \"elastica\"\norder = 6",

@@ -1,0 +1,182 @@
+// Members between walls without clearance: two straight walls that touch an axis from both sides hold it without a
+// force. The references are closed forms of the extensible elastica, straight under P = λ with the stretch 1 − P/EA.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "model/session.hpp"
+
+namespace arcwall::zero_clearance_test {
+namespace {
+
+// A pinned column of EI = 2.1875e7 and EA = 1.05e7 between two walls at the distance GAP from its axis.
+constexpr const char* column = R"toml(
+title = "A column between walls"
+units = { length = "mm", force = "N" }
+material.steel = { E = 2.1e5 }
+section.col = { shape = "rectangle", width = 10.0, height = 5.0 }
+point = { a = [0.0, 0.0], b = [1000.0, 0.0] }
+support = { a = ["x", "z"], b = ["z"] }
+member.col = { from = "a", to = "b", theory = "classic", material = "steel", section = "col", elements = 40 }
+load = [{ at = "b", force = [-1.0, 0.0] }]
+wall = [
+  { name = "under", side = "below", acts_on = "axis", profile = { type = "flat", z = 0.0 } },
+  { name = "over", side = "above", acts_on = "axis", profile = { type = "flat", z = 0.0 } },
+]
+monitor = [{ name = "mid", at = "col:0.5", component = "z" }, { name = "off", at = "col:0.4", component = "z" }]
+path = { step = 50.0, stop = { lambda = [-10.0, 6000.0] } }
+)toml";
+
+constexpr double EI = 2.1875e7, EA = 1.05e7, length = 1000.0;
+const double euler = pi * pi * EI / (length * length);
+
+Session traced(const std::vector<std::string>& assignments = {}) {
+  Session run({.deck = "deck.toml", .deck_text = column, .assignments = assignments});
+  EXPECT_TRUE(run.begin()) << run.problem();
+  while (run.next() != nullptr) {
+  }
+  return run;
+}
+
+std::vector<RecordEvent> events(const Session& run, EventKind kind) {
+  std::vector<RecordEvent> found;
+  for (const RecordEvent& event : run.events())
+    if (event.kind == kind) found.push_back(event);
+  return found;
+}
+
+std::string problem_of(const std::vector<std::string>& assignments) {
+  try {
+    const Session run({.deck = "deck.toml", .deck_text = column, .assignments = assignments});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// The load at which m half waves are neutral on a foundation k on both sides: EI q² − s P q + s² k = 0 with
+// q = (mπ/L)² and the stretch s = 1 − P/EA.
+double load_on_foundation(double k, int m) {
+  const double q = std::pow(m * pi / length, 2);
+  const auto unbalanced = [&](double P) {
+    const double s = 1.0 - P / EA;
+    return EI * q * q - s * P * q + s * s * k;
+  };
+  double low = 0.0, high = 0.1 * EA;
+  for (int i = 0; i < 200; ++i) (unbalanced(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  return low;
+}
+
+int first_half_waves_on_foundation(double k) {
+  int first = 1;
+  while (load_on_foundation(k, first + 1) < load_on_foundation(k, first)) ++first;
+  return first;
+}
+
+double first_load_on_foundation(double k) { return load_on_foundation(k, first_half_waves_on_foundation(k)); }
+
+}  // namespace
+
+// It cannot leave its line at any load: no branch point, and both walls touch every node that is free across them.
+TEST(ZeroClearance, RigidWallsHoldAColumnStraightForEver) {
+  for (const std::string theory : {"classic", "elastica", "exact"})
+    for (const std::string law : {"contact = {}", "contact = { method = \"augmented\", penalty = 10.0 }"}) {
+      SCOPED_TRACE(theory + " " + law);
+      const std::string shear = "material.steel.nu = 0.3";
+      const Session run = traced({"member.col.theory = \"" + theory + "\"", law, shear});
+      ASSERT_EQ(run.record().branches.size(), 1U);
+      EXPECT_EQ(run.record().branches[0].end->reason, EndReason::stop);
+      ASSERT_EQ(run.events().size(), 2U);
+      EXPECT_EQ(run.events()[0].kind, EventKind::start);
+      EXPECT_EQ(run.events()[1].kind, EventKind::end);
+      EXPECT_NEAR(run.points().back().lambda, 6000.0, 1e-9);
+      for (const RecordPoint& point : run.points()) {
+        EXPECT_EQ(point.count.unstable, Index{0});
+        EXPECT_EQ(point.count.stability, Stability::stable);
+        EXPECT_EQ(point.contacts, 2 * 39);
+        ASSERT_EQ(point.forces.size(), 2U * 39U);
+        for (const RecordForce& contact : point.forces) EXPECT_LE(std::abs(contact.force), 1e-8);
+        EXPECT_LE(std::abs(point.monitors[1]), 1e-12);
+      }
+    }
+}
+
+// A load across is borne by the wall that it presses on.
+TEST(ZeroClearance, TheWallThatIsPressedBearsTheLoad) {
+  const Session run = traced(
+      {"load = [{ on = \"col\", distributed = [0.0, -1.0] }]", "path.step = 0.1", "path.stop.lambda = [-1.0, 1.0]"});
+  EXPECT_EQ(run.events().size(), 2U);
+  const auto borne = [](const RecordPoint& point, const std::string& wall) {
+    double sum = 0.0;
+    for (const RecordForce& contact : point.forces)
+      if (contact.label.wall == wall) sum += contact.force;
+    return sum;
+  };
+  // Of 1000 N a free span of 25 mm at each end gives its support less than a half, and no more than 15 N.
+  EXPECT_NEAR(borne(run.points().back(), "under"), 1000.0, 30.0);
+  EXPECT_EQ(borne(run.points().back(), "over"), 0.0);
+  const Session up = traced(
+      {"load = [{ on = \"col\", distributed = [0.0, 1.0] }]", "path.step = 0.1", "path.stop.lambda = [-1.0, 1.0]"});
+  EXPECT_EQ(borne(up.points().back(), "under"), 0.0);
+  EXPECT_NEAR(borne(up.points().back(), "over"), borne(run.points().back(), "under"), 1e-9);
+}
+
+// Walls that are springs are a foundation that holds in both senses.
+TEST(ZeroClearance, SpringsOnBothSidesAreAFoundation) {
+  for (const std::string theory : {"classic", "elastica"})
+    for (const double k : {0.002, 0.2, 1.0}) {
+      SCOPED_TRACE(theory + " " + round_trip(k));
+      const double load = first_load_on_foundation(k);
+      const Session run =
+          traced({"member.col.theory = \"" + theory + "\"",
+                  "contact = { method = \"penalty\", penalty = " + round_trip(k) + " }",
+                  "path.stop.lambda = [-10.0, " + round_trip(1.01 * load) + "]", "path.branches = \"primary\""});
+      const auto found = events(run, EventKind::branch_point);
+      ASSERT_FALSE(found.empty());
+      const double phase = first_half_waves_on_foundation(k) * pi / 40.0;  // of an element
+      EXPECT_NEAR(found[0].lambda, load, std::pow(phase, 4) / 360.0 * load);
+      EXPECT_FALSE(found[0].discretisation);
+      EXPECT_EQ(found[0].unstable_before, Index{0});
+      EXPECT_EQ(found[0].unstable_after, Index{1});
+      EXPECT_TRUE(events(run, EventKind::contact_closes).empty());
+    }
+}
+
+// The way that leaves the straight one is followed.
+TEST(ZeroClearance, BucklesOnSpringsAndIsFollowed) {
+  const Session run = traced({"contact = { method = \"penalty\", penalty = 0.2 }", "path.stop.off = [-5.0, 5.0]"});
+  ASSERT_GE(run.record().branches.size(), 2U);
+  EXPECT_EQ(run.record().branches[0].end->reason, EndReason::branched);
+  EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
+}
+
+// What would not be answered rightly is refused with the walls and what to do.
+TEST(ZeroClearance, IsRefusedWhereItIsNotModelled) {
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(problem_of({"contact.points = \"sliding\""}), "use \"nodes\", or leave a clearance");
+  has(problem_of({"path.method = \"incremental\"", "path.land = { lambda = [1.0] }", "path.stop = {}"}),
+      "use \"spherical\", or leave a clearance");
+  const std::string faces =
+      problem_of({"wall = [{ name = \"under\", side = \"below\", profile = { type = \"flat\", z = -2.5 } }, { name = "
+                  "\"over\", side = "
+                  "\"above\", profile = { type = \"flat\", z = 2.5 } }]"});
+  has(faces, "touches walls \"under\" and \"over\" from both sides at the start");
+  has(faces, "put both walls at the axis, with acts_on = \"axis\", or leave a clearance");
+  const std::string stops =
+      problem_of({"wall = [{ name = \"under\", side = \"below\", acts_on = \"axis\", profile = { type = \"circle\", "
+                  "centre = [500.0, "
+                  "-20.0], radius = 20.0 } }, { name = \"over\", side = \"above\", acts_on = \"axis\", profile = { "
+                  "type = \"circle\", "
+                  "centre = [500.0, 20.0], radius = 20.0 } }]"});
+  has(stops, "touches walls \"under\" and \"over\" from both sides at the start, at col:0.5");
+  has(stops, "leave a clearance");
+}
+
+}  // namespace arcwall::zero_clearance_test
