@@ -68,8 +68,11 @@ std::optional<NotOneContact> not_one_contact(const TouchAtRest& a, const TouchAt
     return NotOneContact{.why = "faces between walls without clearance part from them as soon as the section turns",
                          .cure = "put both walls at the axis, with acts_on = \"axis\", or leave a clearance"};
   if (a.straight && b.straight && 1.0 + a.normal.dot(b.normal) <= parallel) return std::nullopt;
-  return NotOneContact{.why = "walls without clearance hold a node for good only where both are straight and parallel",
-                       .cure = "leave a clearance, with contact.points = \"nodes\", or let supports hold the member"};
+  return NotOneContact{
+      .why = "walls without clearance hold a node for good only where both are straight and parallel",
+      .cure =
+          "let a support hold the place, its rotation too where stops leave the axis no turn, or leave a "
+          "clearance, with contact.points = \"nodes\""};
 }
 
 // Two walls that touch a node from both sides at rest hold it without a force, now and later: its candidates are made
