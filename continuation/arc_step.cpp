@@ -34,6 +34,12 @@ ArcEndSearch events_of(TraceTools& tools, const StepOrigin& origin, StepEnd step
   return {.end = ArcEnd{.point = std::move(step.point), .landing = step.landing, .turn = step.turn}};
 }
 
+// Whether an end that was interpolated violates a contact by more than it is off: the step's end is on another branch.
+bool strays_from_piece(const ArcEnd& end) {
+  const auto contacts = static_cast<Index>(end.point.state.piece.size());
+  return !end.singular.empty() && contacts > 0 && end.point.guards.head(contacts).minCoeff() < -singular_point_accuracy;
+}
+
 // The count at an arc's end.
 StabilityCount count_at(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end) {
   if (!end.singular.empty()) return {};  // an eigenvalue is zero there
@@ -206,7 +212,8 @@ ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s) {
   }
   if (const auto* const why = std::get_if<Rejected>(&step.result)) return rejected(*why);
   ArcEndSearch located = events_of(tools, origin, std::get<StepEnd>(std::move(step.result)));
-  if (!located.end) return rejected({.outcome = StepOutcome::events_unclear, .failure = located.failure});
+  if (!located.end || strays_from_piece(*located.end))
+    return rejected({.outcome = StepOutcome::events_unclear, .failure = located.failure});
   attempt.result = accept(tools, state, origin, std::move(*located.end), s);
   return attempt;
 }

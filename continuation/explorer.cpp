@@ -164,7 +164,12 @@ void Explorer::look_at(const Event& event) {
   if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
 
   const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);
-  if (ways.empty()) return;
+  if (ways.empty()) {
+    if (options_.policy == BranchPolicy::follow)
+      tracer_->stop({.reason = EndReason::min_step,
+                     .detail = "the path goes on unstable behind a branch point, and no step off that succeeds"});
+    return;
+  }
   const bool mirrored = mirror_images(ways);
   const std::optional<Index> unstable = unstable_at(event, ways);
   const int preferred = preferred_sign(options_.preference, point, ways, metric);

@@ -309,6 +309,12 @@ def cases() -> list:
              meshes({"column": 1}, [8, 16, 32, 64]), [
             Quantity("first buckling load", load("branch-point"), buckling_on_springs(1000.0, 1000.0), "closed form"),
         ], always=(walls(0.0), "contact={method='penalty', penalty=1000.0}", "path.stop.lambda=[-1.0, 80.0]")),
+        Case("Pinned column between walls with a clearance of 10⁻⁷ of its length", "docs/validation/column.toml",
+             meshes({"column": 1}, [8, 16, 32, 64]), [
+            Quantity("touch", load("contact-closes"), buckling(1, 1000.0), "closed form in the limit of no clearance"),
+            Quantity("the contact spreads to a line", load("contact-spreads"), buckling(2, 1000.0),
+                     "closed form in the limit of no clearance"),
+        ], always=(walls(1e-7), "path.branches='follow'")),
         Case("Clamped column, extensible", "docs/validation/column_clamped.toml",
              meshes({"column": 1}, [6, 12, 24, 48]), [
             Quantity("first buckling load", load("branch-point"), buckling(2, 1000.0), "closed form"),

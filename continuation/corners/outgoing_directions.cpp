@@ -9,54 +9,95 @@ namespace arcwall {
 
 namespace {
 
-// The rate problem in the degenerate contacts' guards: ġ + c ṗ = λ̇ a + M ṗ, c their compliances.
+// The rate problem in the degenerate contacts' guards: ġ + c ṗ = σ a + M ṗ, c their compliances. σ is the rate of λ, or
+// where K with all of them open is nearly singular that of one of their gaps.
 struct RateProblem {
-  State open{};        // the corner with all degenerate contacts open
-  Vector free_rate{};  // ẋ for λ̇ = 1 without degenerate forces
-  Matrix response{};   // ẋ for unit degenerate forces
+  State open{};                       // the corner with all degenerate contacts open
+  Direction free_rate{};              // for σ = 1 without degenerate forces
+  std::vector<Direction> response{};  // for unit degenerate forces
   Vector a{};
   Matrix M{};
 };
 
-// Rates of λ and of the degenerate contacts' forces.
+// σ and the rates of the degenerate contacts' forces.
 struct Solution {
-  double lambda;
+  double sigma;
   Vector p;
 };
 
+// Fills in a and M from how the structure answers.
+bool add_gap_rates(const UnilateralSystem& system, const std::vector<Index>& degenerate, RateProblem& problem) {
+  const auto w = static_cast<Index>(degenerate.size());
+  problem.a.resize(w);
+  problem.M.resize(w, w);
+  for (Index i = 0; i < w; ++i) {
+    const Index contact = degenerate[static_cast<std::size_t>(i)];
+    const Row gap = system.guard_gradient(problem.open, contact);
+    problem.a[i] = apply(gap, problem.free_rate);
+    for (Index j = 0; j < w; ++j) problem.M(i, j) = apply(gap, problem.response[static_cast<std::size_t>(j)]);
+    problem.M(i, i) += system.compliance(contact);
+  }
+  return problem.a.allFinite() && problem.M.allFinite();
+}
+
+// Whether what resists a motion that the right-hand side makes is told from round-off to a few digits.
+bool is_resisted_surely(const Factorization& K, const Linearization& now, const Eigen::Ref<const Vector>& motion,
+                        const Eigen::Ref<const Vector>& right) {
+  constexpr double digits = 1e4;
+  const Index n = now.K.cols();
+  return std::abs(motion.dot(right)) >= digits * K.roundoff(motion.head(n));
+}
+
+// With σ the rate of the gap of one of the degenerate contacts in place of that of λ: just behind a pitchfork K with
+// all of them open is nearly singular, but hardly anything moves without that gap.
+std::optional<RateProblem> reduce_by_gap(const UnilateralSystem& system, RateProblem problem,
+                                         const std::vector<Index>& degenerate, Index held, CornerWorkspace& workspace) {
+  const Row border = system.guard_gradient(problem.open, degenerate[static_cast<std::size_t>(held)]);
+  const auto free = workspace.solver.solve(border, Vector::Zero(workspace.equations.F.size()), 1.0);
+  if (!free) return std::nullopt;
+  problem.free_rate = *free;
+  problem.response.clear();
+  for (const Index j : degenerate) {
+    auto response = workspace.solver.solve(border, system.unit_force(problem.open, j), 0.0);
+    if (!response) return std::nullopt;
+    problem.response.push_back(std::move(*response));
+  }
+  if (!add_gap_rates(system, degenerate, problem)) return std::nullopt;
+  return problem;
+}
+
 std::optional<RateProblem> reduce(const UnilateralSystem& system, const State& corner,
-                                  const std::vector<Index>& degenerate, CornerWorkspace& workspace) {
+                                  const std::vector<Index>& degenerate, bool small, CornerWorkspace& workspace) {
   RateProblem problem;
   Piece piece = corner.piece;
   for (const Index j : degenerate) piece[static_cast<std::size_t>(j)] = 0;
   problem.open = system.with_piece(corner, piece);
   auto& [now, solver] = workspace;
   system.linearize(problem.open, now);
-  if (solver.factorize(now, system.multiplier_count(piece)) != FactorStatus::ok) return std::nullopt;
+  const FactorStatus status = solver.factorize(now, system.multiplier_count(piece));
+  if (status == FactorStatus::not_finite) return std::nullopt;
   const auto w = static_cast<Index>(degenerate.size());
-  Matrix X(now.F.size(), 1 + w);
-  X.col(0) = -now.F_lambda;
-  for (Index i = 0; i < w; ++i) X.col(1 + i) = system.unit_force(problem.open, degenerate[static_cast<std::size_t>(i)]);
-  if (!solver.solve_inner(X)) return std::nullopt;
-  problem.free_rate = X.col(0);
-  problem.response = X.rightCols(w);
-  problem.a.resize(w);
-  problem.M.resize(w, w);
-  for (Index i = 0; i < w; ++i) {
-    const Row gap = system.guard_gradient(problem.open, degenerate[static_cast<std::size_t>(i)]);
-    problem.a[i] = gap.dx.dot(problem.free_rate) + gap.dlambda;
-    problem.M.row(i) = gap.dx.transpose() * problem.response;
-    problem.M(i, i) += system.compliance(degenerate[static_cast<std::size_t>(i)]);
-  }
-  if (!problem.a.allFinite() || !problem.M.allFinite()) return std::nullopt;
-  return problem;
+  Matrix right(now.F.size(), 1 + w);
+  right.col(0) = -now.F_lambda;
+  for (Index i = 0; i < w; ++i)
+    right.col(1 + i) = system.unit_force(problem.open, degenerate[static_cast<std::size_t>(i)]);
+  Matrix X = right;
+  if (status != FactorStatus::ok || !solver.solve_inner(X))
+    return small ? reduce_by_gap(system, std::move(problem), degenerate, 0, workspace) : std::nullopt;
+  problem.free_rate = {.dx = X.col(0), .dlambda = 1.0};
+  for (Index i = 0; i < w; ++i) problem.response.push_back({.dx = X.col(1 + i), .dlambda = 0.0});
+  if (!add_gap_rates(system, degenerate, problem)) return std::nullopt;
+  Index held = 0;
+  problem.M.diagonal().cwiseAbs().maxCoeff(&held);
+  if (!small || is_resisted_surely(solver.inner(), now, X.col(1 + held), right.col(1 + held))) return problem;
+  return reduce_by_gap(system, std::move(problem), degenerate, held, workspace);
 }
 
-// The direction (λ̇, ṗ_A) with ġ_A + c ṗ_A = 0 and ṗ = 0 outside A: the null vector of [a_A M_AA], up to its length and
+// The direction (σ, ṗ_A) with ġ_A + c ṗ_A = 0 and ṗ = 0 outside A: the null vector of [a_A M_AA], up to its length and
 // sign.
 Solution direction_with(const RateProblem& problem, const std::vector<Index>& active) {
   const auto k = static_cast<Index>(active.size());
-  Solution solution{.lambda = 1.0, .p = Vector::Zero(problem.a.size())};
+  Solution solution{.sigma = 1.0, .p = Vector::Zero(problem.a.size())};
   if (k == 0) return solution;
   Matrix A(k, k + 1);
   for (Index i = 0; i < k; ++i) {
@@ -64,10 +105,14 @@ Solution direction_with(const RateProblem& problem, const std::vector<Index>& ac
     for (Index j = 0; j < k; ++j)
       A(i, j + 1) = problem.M(active[static_cast<std::size_t>(i)], active[static_cast<std::size_t>(j)]);
   }
+  // σ and forces are found in units in which both move the gaps alike, so that neither is round-off beside the other.
+  const double of_sigma = A.col(0).norm(), of_forces = A.rightCols(k).norm() / std::sqrt(double(k));
+  const double unit = of_sigma > 0.0 && of_forces > 0.0 ? of_sigma / of_forces : 1.0;
+  A.rightCols(k) *= unit;
   // The last column of the orthogonal factor of Aᵀ spans the null space of A.
   const Vector null = Eigen::HouseholderQR<Matrix>(A.transpose()).householderQ() * Vector::Unit(k + 1, k);
-  solution.lambda = null[0];
-  for (Index j = 0; j < k; ++j) solution.p[active[static_cast<std::size_t>(j)]] = null[j + 1];
+  solution.sigma = null[0];
+  for (Index j = 0; j < k; ++j) solution.p[active[static_cast<std::size_t>(j)]] = unit * null[j + 1];
   return solution;
 }
 
@@ -121,7 +166,7 @@ std::vector<Solution> enumerate(const RateProblem& problem) {
       if (subset >> j & 1U) active.push_back(static_cast<Index>(j));
     const Solution forward = direction_with(problem, active);
     found.push_back(forward);
-    found.push_back({.lambda = -forward.lambda, .p = -forward.p});
+    found.push_back({.sigma = -forward.sigma, .p = -forward.p});
   }
   return found;
 }
@@ -141,7 +186,7 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
     }
   for (const double sign : {1.0, -1.0})
     for (const Vector& cover : covers)
-      if (const auto p = lemke(M, sign * problem.a, cover)) found.push_back({.lambda = sign, .p = *p / scale});
+      if (const auto p = lemke(M, sign * problem.a, cover)) found.push_back({.sigma = sign, .p = *p / scale});
   return found;
 }
 
@@ -149,10 +194,15 @@ std::vector<Solution> pivoted(const RateProblem& problem) {
 std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, const State& corner,
                                             const std::vector<Index>& degenerate, const RateProblem& problem,
                                             const Solution& solution, const CornerOptions& options) {
-  Direction motion{.dx = solution.lambda * problem.free_rate + problem.response * solution.p,
-                   .dlambda = solution.lambda};
-  Vector gap_rate = solution.lambda * problem.a + problem.M * solution.p;
-  const double length = std::hypot(motion.dx.norm() / std::max(problem.free_rate.norm(), 1e-300), motion.dlambda);
+  Direction motion{.dx = solution.sigma * problem.free_rate.dx, .dlambda = solution.sigma * problem.free_rate.dlambda};
+  for (Index i = 0; i < solution.p.size(); ++i) {
+    const Direction& response = problem.response[static_cast<std::size_t>(i)];
+    motion.dx += solution.p[i] * response.dx;
+    motion.dlambda += solution.p[i] * response.dlambda;
+  }
+  Vector gap_rate = solution.sigma * problem.a + problem.M * solution.p;
+  double length = std::hypot(motion.dx.norm() / std::max(problem.free_rate.dx.norm(), 1e-300), solution.sigma);
+  if (length == 0.0) length = std::abs(motion.dlambda);  // the load grows and nothing moves
   if (!(length > 0.0)) return {};
   const Vector p = solution.p / length;
   gap_rate /= length;
@@ -194,9 +244,9 @@ bool same(const UnilateralSystem& system, Index n, const OutgoingDirection& a, c
 std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& system, const State& corner,
                                                    const std::vector<Index>& degenerate, const CornerOptions& options,
                                                    CornerWorkspace& workspace) {
-  const auto problem = reduce(system, corner, degenerate, workspace);
-  if (!problem) return {};
   const bool small = static_cast<int>(degenerate.size()) <= options.max_enumerated;
+  const auto problem = reduce(system, corner, degenerate, small, workspace);
+  if (!problem) return {};
   const Index n = workspace.equations.K.cols() - system.multiplier_count(problem->open.piece);
   std::vector<OutgoingDirection> found;
   for (const Solution& solution : small ? enumerate(*problem) : pivoted(*problem))

@@ -27,8 +27,9 @@ struct CornerWorkspace {
 ///     0 ≤ ṗ  ⊥  λ̇ a + M ṗ ≥ 0
 ///
 /// `degenerate` are the contacts whose gap and force are both zero there. The direction by which the place was reached
-/// (backwards) is among them. Empty where K with all degenerate contacts open is singular. `workspace` leaves no trace
-/// in the result.
+/// (backwards) is among them. Where K with all degenerate contacts open is singular, or all but singular, the rate of
+/// one of their gaps stands in the place of that of λ; empty where that does not determine the motion either.
+/// `workspace` leaves no trace in the result.
 std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& system, const State& corner,
                                                    const std::vector<Index>& degenerate, const CornerOptions& options,
                                                    CornerWorkspace& workspace);

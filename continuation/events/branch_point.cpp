@@ -14,6 +14,9 @@ namespace {
 constexpr double negligible = 1e-6;  // ratio of two coefficients below which the first is zero
 constexpr double rate_step = 1e-3;   // h of differences for a rate [path metric]
 
+constexpr double shortest_step_off = 1e-9;  // one that is no longer cannot be told from none [path metric]
+constexpr int most_failures = 12;           // of steps off, those aside that only a wall ahead makes shorter
+
 // Algebraic branching equation a α² + 2 b α β = 0 for tangents α φ + β t, t the tangent we came along:
 //   α = 0 (the old branch) or α : β = −2 b : a.
 void find_other_tangent(const Equations& system, const Metric& metric, const Vector& left, BranchPoint& point) {
@@ -29,6 +32,24 @@ void find_other_tangent(const Equations& system, const Metric& metric, const Vec
     other.dlambda += beta * point.along.dlambda;
   }
   point.other = unit(metric, std::move(other));
+}
+
+// The way from a branch point to where a step off it leads. Beyond a wall at some distance a shorter step may fit
+// before it; what is violated from the branch point on is so however short the step.
+enum class Way { is_free, ends_at_a_wall, is_closed };
+
+Way way_to(const System& system, const State& from, const State& to, double guard_tolerance) {
+  constexpr double distant = penetration_tolerance;
+  if (system.guard_count(to.piece) > 0) {
+    const Vector guards = system.guards(to);
+    const auto violated = guards.array() < -guard_tolerance;
+    if (violated.any()) {
+      const bool wall_ahead = to.piece == from.piece && (!violated || system.guards(from).array() > distant).all();
+      return wall_ahead ? Way::ends_at_a_wall : Way::is_closed;
+    }
+  }
+  if (system.admissible(to, -penetration_tolerance)) return Way::is_free;
+  return system.admissible(from, distant) ? Way::ends_at_a_wall : Way::is_closed;
 }
 
 // Of two null vectors at a limit point the combination that is no motion along the path.
@@ -133,20 +154,22 @@ double roundoff_width(Corrector& corrector, const Metric& metric, const Singular
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
                                    const BranchPoint& point, const WayOff& way, double distance,
                                    double guard_tolerance) {
-  constexpr int halvings = 12;
-  for (int attempt = 0; attempt < halvings; ++attempt, distance *= 0.5) {
+  for (int failures = 0; failures < most_failures && distance > shortest_step_off; distance *= 0.5) {
     const double offset = distance * metric.inner(way.forward, way.across);
     const PlaneConstraint plane(metric, point.state, way.across, offset);
     CorrectorResult at =
         corrector.correct(moved(point.state, way.forward, distance), plane, metric, way.forward, distance);
-    if (!at.converged()) continue;
-    at.state.piece = system.canonical_piece(at.state);
-    if (system.guard_count(at.state.piece) > 0 && (system.guards(at.state).array() < -guard_tolerance).any()) continue;
-    if (!system.admissible(at.state, -penetration_tolerance)) continue;
-    const Direction chord = difference(at.state, point.state);
-    if (metric.norm(chord) > 2.0 * distance) continue;
-    Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);
-    return SteppedOff{.state = std::move(at.state), .tangent = std::move(tangent)};
+    if (at.converged()) {
+      at.state.piece = system.canonical_piece(at.state);
+      const Way to = way_to(system, point.state, at.state, guard_tolerance);
+      if (to == Way::ends_at_a_wall) continue;
+      const Direction chord = difference(at.state, point.state);
+      if (to == Way::is_free && metric.norm(chord) <= 2.0 * distance) {
+        Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);
+        return SteppedOff{.state = std::move(at.state), .tangent = std::move(tangent)};
+      }
+    }
+    ++failures;
   }
   return std::nullopt;
 }

@@ -198,14 +198,45 @@ TEST(Corner, MoreThanTwelveWeakContactsAreSolvedByPivotingByDefault) {
       EXPECT_EQ(ray.piece[static_cast<std::size_t>(i)] != 0, a[i] * ray.direction.dlambda < 0.0);
 }
 
-TEST(Corner, ASingularStiffnessGivesNoRays) {
+// A mass without a spring on a stop: it moves off without a load, or is pressed on by one.
+TEST(Corner, WhereTheStiffnessIsSingularAGapTakesThePlaceOfTheLoad) {
   LinearContactToy toy;
   toy.A = Matrix::Zero(1, 1);
-  toy.f = Vector::Ones(1);
+  toy.f = -Vector::Ones(1);
   toy.G = Matrix::Ones(1, 1);
+  toy.gap0 = Vector::Zero(1);
+  const auto found = rays(toy, origin(toy), {0});
+  ASSERT_EQ(found.size(), 2U);
+  for (const OutgoingDirection& ray : found) {
+    const bool pressed = ray.loading[0] != 0;
+    EXPECT_EQ(ray.direction.dlambda > 1e-12, pressed);
+    EXPECT_EQ(ray.direction.dx[0] > 1e-12, !pressed);
+  }
+}
+
+TEST(Corner, AStiffnessThatIsSingularTwiceGivesNoRays) {
+  LinearContactToy toy;
+  toy.A = Matrix::Zero(2, 2);
+  toy.f = Vector::Ones(2);
+  toy.G = Matrix::Identity(1, 2);
   toy.gap0 = Vector::Zero(1);
   CornerWorkspace workspace;
   EXPECT_TRUE(outgoing_directions(toy, origin(toy), {0}, {}, workspace).empty());
+}
+
+// A spring s that is next to nothing beside the one to a second mass: on the stop λ presses with a force of its size,
+// and off it x = −λ/s.
+TEST(Corner, ANearlySingularStiffnessKeepsBothWays) {
+  LinearContactToy toy;
+  for (const double stiffness : {1e-13, -1e-13}) {
+    toy.A = Matrix{{1.0 + stiffness, -1.0}, {-1.0, 1.0}};
+    toy.f = Vector{{-1.0, 0.0}};
+    toy.G = Matrix{{1.0, 0.0}};
+    toy.gap0 = Vector::Zero(1);
+    const auto found = rays(toy, origin(toy), {0});
+    ASSERT_EQ(found.size(), 2U) << stiffness;
+    EXPECT_EQ(with_rising_lambda(found), stiffness < 0.0 ? 2 : 1) << stiffness;
+  }
 }
 
 }  // namespace arcwall::corner_test

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/derivative_check.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/deck/reader.hpp"
+#include "model/model.hpp"
 #include "model/session.hpp"
 
 namespace arcwall::zero_clearance_test {
@@ -126,6 +129,27 @@ TEST(ZeroClearance, TheWallThatIsPressedBearsTheLoad) {
   EXPECT_NEAR(borne(up.points().back(), "over"), borne(run.points().back(), "under"), 1e-9);
 }
 
+// Away from rest, with forces of either sign, on sloped walls; round-off times the ratio of stiffnesses as elsewhere.
+TEST(ZeroClearance, DerivativesAreConsistentWithEveryLaw) {
+  const std::string sloped =
+      "wall = [{ name = \"under\", side = \"below\", acts_on = \"axis\", profile = { type = \"line\", z = 0.0, slope = "
+      "0.1 } "
+      "}, { name = \"over\", side = \"above\", acts_on = \"axis\", profile = { type = \"line\", z = 0.0, slope = 0.1 } "
+      "}]";
+  for (const std::string law : {"contact = {}", "contact = { method = \"augmented\", penalty = 10.0 }",
+                                "contact = { method = \"penalty\", penalty = 10.0 }"}) {
+    SCOPED_TRACE(law);
+    const Model model(deck::read_deck_text(column, "deck.toml", {law, sloped, "point.b = [1000.0, 100.0]"}));
+    std::string reason;
+    State state = *model.start(reason);
+    EXPECT_EQ(state.piece.closed_count(), 2 * 40);
+    EXPECT_EQ(model.system().multiplier_count(state.piece), 40);
+    for (Index i = 0; i < state.x.size(); ++i) state.x[i] = 0.01 * std::sin(1.0 + 7.0 * double(i));
+    state.lambda = 3.0;
+    EXPECT_LE(check_derivatives(model.system(), state).worst(), 1e-7);
+  }
+}
+
 // Walls that are springs are a foundation that holds in both senses.
 TEST(ZeroClearance, SpringsOnBothSidesAreAFoundation) {
   for (const std::string theory : {"classic", "elastica"})
@@ -154,6 +178,82 @@ TEST(ZeroClearance, BucklesOnSpringsAndIsFollowed) {
   EXPECT_EQ(run.record().branches[0].end->reason, EndReason::branched);
   EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
 }
+
+// --- nearly none ----------------------------------------------------------------------------------------------------
+
+std::string clearance(double gap) {
+  const std::string wall = "acts_on = \"axis\", profile = { type = \"flat\", z = ";
+  return "wall = [{ name = \"under\", side = \"below\", " + wall + round_trip(-gap) +
+         " } }, { name = \"over\", side = \"above\", " + wall + round_trip(gap) + " } }]";
+}
+
+// The straight column is neutral to m half waves at P (1 − P/EA) = m² EI π²/L².
+double euler_load(int m) { return 0.5 * EA * (1.0 - std::sqrt(1.0 - 4.0 * m * m * euler / EA)); }
+
+// In the limit of no clearance the column leaves the straight line at its Euler load and touches at once; at 4 times
+// that the point of contact spreads, and at 16 times the flat part buckles (Link 1954; closed forms of the linear
+// theory).
+TEST(NearlyZeroClearance, ThePitchforkIsLeftHoweverShortItsBranch) {
+  for (const std::string theory : {"classic", "elastica"})
+    for (const double gap : {1e-3, 1e-4, 2e-5}) {
+      SCOPED_TRACE(theory + " " + round_trip(gap));
+      const Session run =
+          traced({"member.col.theory = \"" + theory + "\"", clearance(gap), "path.stop.lambda = [-10.0, 3400.0]"});
+      const double error = theory == "classic" ? 4e-6 : 1e-8;
+      ASSERT_EQ(run.record().branches.size(), 2U);
+      EXPECT_EQ(run.record().branches[0].end->reason, EndReason::branched);
+      EXPECT_EQ(run.record().branches[1].end->reason, EndReason::stop);
+      const auto leaves = events(run, EventKind::branch_point), closes = events(run, EventKind::contact_closes),
+                 spreads = events(run, EventKind::contact_spreads);
+      ASSERT_EQ(leaves.size(), 1U);
+      ASSERT_EQ(closes.size(), 1U);
+      ASSERT_EQ(spreads.size(), 1U);
+      EXPECT_NEAR(leaves[0].lambda, euler_load(1), error * euler);
+      EXPECT_NEAR(closes[0].lambda, euler_load(1), error * euler);
+      EXPECT_NEAR(spreads[0].lambda, euler_load(2), 4.0 * error * euler);
+      EXPECT_NEAR(std::abs(run.points().back().monitors[0]), gap, 1e-9 * gap);
+      for (const RecordPoint& point : run.points())
+        EXPECT_TRUE(point.branch == 0 || point.count.unstable.value_or(0) == 0);
+    }
+}
+
+// The greatest load of a column between springs is that of the foundation without clearance, less a part that goes with
+// the clearance to the power of 2/3, as with any small deviation from a pitchfork that is unstable (Koiter 1945).
+TEST(NearlyZeroClearance, SpringsTendToTheFoundation) {
+  const double load = first_load_on_foundation(0.2);
+  std::vector<double> lack;
+  for (const double gap : {0.01, 0.001}) {
+    SCOPED_TRACE(gap);
+    const Session run =
+        traced({clearance(gap), "contact = { method = \"penalty\", penalty = 0.2 }", "path.stop.off = [-20.0, 20.0]"});
+    ASSERT_EQ(run.record().branches.size(), 2U);
+    EXPECT_EQ(run.record().branches[0].end->reason, EndReason::branched);
+    EXPECT_EQ(run.record().branches[1].end->reason, EndReason::stop);
+    const auto limits = events(run, EventKind::limit_point);
+    ASSERT_FALSE(limits.empty());
+    lack.push_back(load - limits.back().lambda);
+    EXPECT_GT(lack.back(), 0.0);
+    EXPECT_LT(lack.back(), 2e-3 * load);
+  }
+  EXPECT_NEAR(lack[0] / lack[1], std::pow(10.0, 2.0 / 3.0), 0.15);
+}
+
+// With an imperfection the path has no pitchfork; many contacts close and open nearly at once.
+TEST(NearlyZeroClearance, AnImperfectColumnBetweenSpringsIsFollowedOnEveryMesh) {
+  for (const int elements : {40, 50, 80}) {
+    SCOPED_TRACE(elements);
+    const Session run = traced({clearance(0.01), "contact = { method = \"penalty\", penalty = 0.2 }",
+                                "member.col.elements = " + std::to_string(elements),
+                                "member.col.imperfection = { shape = \"sine\", amplitude = 0.001, waves = 1 }",
+                                "path.stop.off = [-20.0, 20.0]"});
+    EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
+    const auto limits = events(run, EventKind::limit_point);
+    ASSERT_FALSE(limits.empty());
+    EXPECT_NEAR(limits.back().lambda, first_load_on_foundation(0.2), 2e-3 * first_load_on_foundation(0.2));
+  }
+}
+
+// --- what is not modelled -------------------------------------------------------------------------------------------
 
 // What would not be answered rightly is refused with the walls and what to do.
 TEST(ZeroClearance, IsRefusedWhereItIsNotModelled) {
