@@ -138,6 +138,56 @@ bool concerns(const deck::Wall& wall, const std::string& member) {
   return wall.members.empty() || std::find(wall.members.begin(), wall.members.end(), member) != wall.members.end();
 }
 
+namespace {
+
+// Whether the stress-free member lies on the line, its nodes and its tangents there.
+bool lies_on(const deck::LineProfile& line, const MemberMesh& mesh) {
+  constexpr double roundoff = 1e-12;  // of the member's length
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+    const AxisPoint at = mesh.shape[k];
+    const double off = at.position.y() - line.z - line.slope * at.position.x();
+    const double turned = std::remainder(at.angle - std::atan(line.slope), pi);
+    if (std::abs(off) > roundoff * mesh.length || std::abs(turned) > roundoff) return false;
+  }
+  return true;
+}
+
+// A support may say what the rotation of an end is.
+bool is_turned_by_a_support(const deck::Deck& deck, const std::string& point) {
+  return std::any_of(deck.supports.begin(), deck.supports.end(), [&](const deck::Support& support) {
+    const auto& held = support.directions;
+    return support.point == point && std::find(held.begin(), held.end(), Freedom::rotation) != held.end();
+  });
+}
+
+void hold_rotations(const deck::Deck& deck, const deck::Member& member, const MemberMesh& mesh,
+                    StructureBuilder& builder) {
+  const std::size_t last = mesh.rotations.size() - 1;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const bool held =
+        (k == 0 && is_turned_by_a_support(deck, member.from)) || (k == last && is_turned_by_a_support(deck, member.to));
+    if (mesh.rotations[k] && !held) builder.fix(*mesh.rotations[k]);
+  }
+}
+
+}  // namespace
+
+void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder) {
+  if (deck.contact.method == ContactLaw::Method::penalty) return;
+  for (const deck::Wall& under : deck.walls)
+    for (const deck::Wall& over : deck.walls) {
+      const auto line = under.side == Side::below ? line_without_clearance(under, over) : std::nullopt;
+      if (!line) continue;
+      for (std::size_t m = 0; m < deck.members.size(); ++m) {
+        const deck::Member& member = deck.members[m];
+        const bool turns_with_axis = member.theory == Theory::classic || member.theory == Theory::elastica;
+        const MemberMesh& mesh = builder.mesh(static_cast<Index>(m));
+        if (turns_with_axis && concerns(under, member.name) && concerns(over, member.name) && lies_on(*line, mesh))
+          hold_rotations(deck, member, mesh, builder);
+      }
+    }
+}
+
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
   std::vector<Candidate> candidates;
   std::vector<TouchAtRest> touches;

@@ -21,6 +21,10 @@ std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall);
 /// Whether a wall stands in the way of a member.
 bool concerns(const deck::Wall& wall, const std::string& member);
 
+/// Holds the rotations of straight members that lie on a line between two rigid walls which leave no clearance, where
+/// sections turn with the axis: between its nodes it is on that line, too.
+void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder);
+
 /// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
 /// each wall that a member penetrates at the start.
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);

@@ -129,8 +129,9 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
 
 Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
   DeckProblems problems(deck_.source);
-  const StructureOfDeck described = describe_structure(deck_, problems);
+  StructureOfDeck described = describe_structure(deck_, problems);
   problems.raise();
+  hold_between_walls(deck_, described.builder);
   check_mechanism(deck_, problems);
   problems.raise();
 

@@ -62,13 +62,13 @@ bool have_a_member_in_common(const Wall& a, const Wall& b) {
          });
 }
 
-// Straight walls on both sides of an axis between which nothing is left.
-bool leave_no_clearance(const Wall& a, const Wall& b) {
-  return a.side != b.side && a.acts_on == ActsOn::axis && b.acts_on == ActsOn::axis && line_of(a) &&
-         line_of(a) == line_of(b) && have_a_member_in_common(a, b);
-}
-
 }  // namespace
+
+std::optional<LineProfile> line_without_clearance(const Wall& a, const Wall& b) {
+  const auto line = line_of(a);
+  const bool meet = a.side != b.side && a.acts_on == ActsOn::axis && b.acts_on == ActsOn::axis && line == line_of(b);
+  return meet ? line : std::nullopt;
+}
 
 // Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
 PointsOfContact points_of_contact(const Deck& deck) {
@@ -84,7 +84,7 @@ PointsOfContact points_of_contact(const Deck& deck) {
               .why = "member " + member.name + " is of theory " + text_of(theory_words, member.theory)};
   for (const Wall& a : deck.walls)
     for (const Wall& b : deck.walls)
-      if (leave_no_clearance(a, b))
+      if (line_without_clearance(a, b) && have_a_member_in_common(a, b))
         return {.points = ContactPoints::nodes,
                 .why = "walls " + a.name + " and " + b.name + " leave no clearance between them"};
   return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};
