@@ -274,11 +274,11 @@ TEST(BadDecks, WallsThatMoveAndTheirForces) {
       {"motion = { x = 0.5", "motion = { y = 0.5", "wall.2.motion.y", "not a key of this table"},
       {"motion = { x = 0.5", "motion = { x = inf", "wall.2.motion.x", "finite"},
       {"about = [1.0, -9.0] }", "about = 1.0 }", "wall.2.motion.about", "wrong type"},
-      {"wall = \"hill\"", "", "monitor.1.at", "neither `at` nor `wall`", -2},
-      {"wall = \"hill\"", "wall = \"hill\"\nat = \"D\"", "monitor.1.wall", "both `at` and `wall`"},
-      {"wall = \"hill\"", "wall = \"hil\"", "monitor.1.wall", "did you mean hill?"},
-      {"component = \"moment\"", "component = \"rotation\"", "monitor.1.component", "a wall has no rotation"},
-      {"component = \"reaction-z\"", "component = \"force-z\"", "monitor.2.component", "belongs to a wall"},
+      {"wall = \"hill\"", "", "monitor.2.at", "neither `at` nor `wall`", -2},
+      {"wall = \"hill\"", "wall = \"hill\"\nat = \"D\"", "monitor.2.wall", "both `at` and `wall`"},
+      {"wall = \"hill\"", "wall = \"hil\"", "monitor.2.wall", "did you mean hill?"},
+      {"component = \"moment\"", "component = \"rotation\"", "monitor.2.component", "a wall has no rotation"},
+      {"component = \"reaction-z\"", "component = \"force-z\"", "monitor.1.component", "belongs to a wall"},
   });
 }
 

@@ -208,10 +208,6 @@ name = "mid"
 at = "column:0.5"
 component = "face-below-z"
 [[monitor]]
-name = "push"
-wall = "hill"
-component = "moment"
-[[monitor]]
 name = "end"
 at = "D"
 component = "reaction-z"
@@ -225,6 +221,11 @@ rotation = 0.25
 at = "C"
 x = 0.125
 constant = true
+
+[[monitor]]
+name = "push"
+wall = "hill"
+component = "moment"
 )toml";
 
 /// The text with its first `from` replaced; the text must contain it.
