@@ -37,6 +37,14 @@ std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& poin
   return {part->member, part->first_fraction + t * (part->last_fraction - part->first_fraction)};
 }
 
+std::optional<MaterialPoint> SlidingStructure::inside(Index freedom) const {
+  const Index node = freedoms_[static_cast<std::size_t>(freedom)].node;
+  for (Index r = 0; r < strands(); ++r)
+    for (const InnerJoint& joint : at(r).joints)
+      if (joint.node == node) return MaterialPoint{.strand = r, .s = joint.s};
+  return std::nullopt;
+}
+
 MaterialPoint SlidingStructure::find(const std::string& member, double fraction) const {
   for (Index r = 0; r < strands(); ++r)
     for (const Part& part : at(r).parts)
@@ -181,9 +189,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       SlidingStructure::Run part = strand;
       part.offset = coordinate(from);
       for (const std::size_t k : loaded) {
-        const std::array<Index, 2> freedoms{freedom(mesh.nodes[k], Freedom::x), freedom(mesh.nodes[k], Freedom::z)};
-        part.point_loads.push_back(
-            {.freedom = freedoms, .force = {structure->nodal_.load(freedoms[0]), structure->nodal_.load(freedoms[1])}});
+        part.point_loads.push_back(structure->point_load(mesh.nodes[k]));
         part.load_places.push_back(coordinate(k) - part.offset);
       }
       loaded.clear();
@@ -199,7 +205,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       from = to;
     }
   }
-  structure->join_straight_runs(with_terms, alike);
+  structure->join_straight_runs(
+      with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
     if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load() &&
         !strand.has_foundation())
@@ -207,8 +214,16 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   return structure;
 }
 
-// Runs a and b that meet at a joint where nothing else acts, both straight, perfect and of one section, become one.
-void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms, const Alike& alike) {
+SlidingStructure::PointLoad SlidingStructure::point_load(Index node) const {
+  const std::array<Index, 2> freedoms{freedom(node, Freedom::x), freedom(node, Freedom::z)};
+  return {.freedom = freedoms, .force = {nodal_.load(freedoms[0]), nodal_.load(freedoms[1])}};
+}
+
+// Runs a and b that meet at a joint where no more than a force acts, both straight, perfect and of one section, become
+// one.
+void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms,
+                                          const CarriesForceAlone& carries_force_alone, const Alike& alike) {
+  const auto is_loaded = [&](Index node) -> bool { return with_terms[static_cast<std::size_t>(node)]; };
   const auto node_of = [&](const End& end) { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; };
   const auto straight = [](const Run& strand) {
     const double L = strand.axis->length();
@@ -224,11 +239,12 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms, c
   const auto continues = [&](const Run& a, const Run& b) {
     const End &end = a.ends[1], &next = b.ends[0];
     const Index node = node_of(end);
-    return end.freedom == next.freedom && ends_at(node) == 2 && !with_terms[static_cast<std::size_t>(node)] &&
-           straight(a) && straight(b) && std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory &&
-           a.order == b.order && a.section.E == b.section.E && a.section.A == b.section.A &&
-           a.section.I == b.section.I && a.section.height == b.section.height && a.load == b.load &&
-           a.constant_load == b.constant_load && a.foundation == b.foundation &&
+    return end.freedom == next.freedom && ends_at(node) == 2 &&
+           (!is_loaded(node) || carries_force_alone(node, end.freedom[2])) && straight(a) && straight(b) &&
+           std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory && a.order == b.order &&
+           a.section.E == b.section.E && a.section.A == b.section.A && a.section.I == b.section.I &&
+           a.section.height == b.section.height && a.load == b.load && a.constant_load == b.constant_load &&
+           a.foundation == b.foundation &&
            (!alike || alike(a.parts.back().member, b.parts.front().member));
   };
   for (bool joined = true; joined;) {
@@ -238,6 +254,14 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms, c
         if (a == b || !continues(runs_[a], runs_[b])) continue;
         const AxisPlace from = undeformed({.strand = static_cast<Index>(a), .s = 0.0}, false);
         const AxisPlace to = undeformed({.strand = static_cast<Index>(b), .s = runs_[b].length}, false);
+        const Index joint = node_of(runs_[a].ends[1]);
+        runs_[a].joints.push_back({.node = joint, .s = runs_[a].length});
+        if (is_loaded(joint)) {
+          runs_[a].point_loads.push_back(point_load(joint));
+          runs_[a].load_places.push_back(runs_[a].length);
+        }
+        for (const auto& [node, s] : runs_[b].joints)
+          runs_[a].joints.push_back({.node = node, .s = runs_[a].length + s});
         for (std::size_t i = 0; i < runs_[b].point_loads.size(); ++i) {
           runs_[a].point_loads.push_back(runs_[b].point_loads[i]);
           runs_[a].load_places.push_back(runs_[a].length + runs_[b].load_places[i]);

@@ -17,9 +17,9 @@ class SlidingStructureMesh;
 /// Slender beams between joints, supports and dead loads, to be meshed with breakpoints that move. Built by
 /// StructureBuilder::build_sliding().
 ///
-/// Members that continue each other straight at a joint without support, load or hinge are one strand: a breakpoint
-/// passes such a joint without notice. Moments and springs inside a member end strands, too. A force does not: it acts
-/// on a node of the mesh, or inside an element where a breakpoint is too near for that.
+/// Members that continue each other straight at a joint without support, spring, moment or hinge are one strand: a
+/// breakpoint passes such a joint without notice. What else acts inside a member ends strands, too. A force does not:
+/// it acts on a node of the mesh, or inside an element where a breakpoint is too near for that.
 class SlidingStructure final : public SlidingBody {
  public:
   /// Whether two members, by name, may be parts of one strand.
@@ -45,6 +45,10 @@ class SlidingStructure final : public SlidingBody {
 
   /// The place of a member at a fraction of its length; std::out_of_range if there is none.
   MaterialPoint find(const std::string& member, double fraction) const;
+
+  /// Where a joint's freedom is that lies inside a strand; empty at ends of strands.
+  std::optional<MaterialPoint> inside(Index freedom) const;
+  Freedom kind(Index freedom) const { return freedoms_[static_cast<std::size_t>(freedom)].freedom; }
 
   /// A member, or a part of it, as a stretch of a strand.
   struct MemberPart {
@@ -94,6 +98,11 @@ class SlidingStructure final : public SlidingBody {
     std::array<Index, 2> freedom{};
     std::array<Driven, 2> force{};
   };
+  // A joint that a strand passes, by its node.
+  struct InnerJoint {
+    Index node;
+    double s;
+  };
   // An end of a strand: its freedoms x, z, rotation, and the stress-free angle.
   struct End {
     std::array<Index, 3> freedom{};
@@ -113,6 +122,7 @@ class SlidingStructure final : public SlidingBody {
     Vec2 foundation = Vec2::Zero();                          // in x and z [force/length²]
     std::vector<PointLoad> point_loads{};                    // inside the strand
     std::vector<double> load_places{};                       // of these
+    std::vector<InnerJoint> joints{};                        // inside the strand
     std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
 
     bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
@@ -120,7 +130,11 @@ class SlidingStructure final : public SlidingBody {
   };
 
   SlidingStructure() = default;
-  void join_straight_runs(const std::vector<bool>& with_terms, const Alike& alike);
+  // `carries_force_alone`: of nodes with terms, given with their rotation; a strand passes those.
+  using CarriesForceAlone = std::function<bool(Index node, Index rotation)>;
+  void join_straight_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone,
+                          const Alike& alike);
+  PointLoad point_load(Index node) const;
   double rest_value(Index freedom) const;  // of the mesh's unknown at rest: the position, where that is one
   const Run& at(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
 

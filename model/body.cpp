@@ -23,6 +23,21 @@ std::vector<double> sample_fractions(const MemberMesh& mesh) {
   return fractions;
 }
 
+MemberObservable::Component component_of(Freedom freedom) {
+  using Component = MemberObservable::Component;
+  switch (freedom) {
+    case Freedom::x:
+      return Component::x;
+    case Freedom::z:
+      return Component::z;
+    case Freedom::rotation:
+    case Freedom::thickness:
+    case Freedom::thickness2:
+      break;
+  }
+  return Component::rotation;
+}
+
 class FixedBody final : public Body {
  public:
   FixedBody(const Structure& structure, std::vector<Theory> theories, const IncrementalStructure* increments)
@@ -75,9 +90,7 @@ class SlidingMeshBody final : public Body {
   SlidingMeshBody(const Structure& structure, const SlidingStructure& sliding)
       : structure_(structure), sliding_(sliding) {}
 
-  std::shared_ptr<const Observable> motion(Index freedom) const override {
-    return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::motion);
-  }
+  std::shared_ptr<const Observable> motion(Index freedom) const override;
   std::shared_ptr<const Observable> motion(std::size_t member, std::size_t node,
                                            MemberObservable::Component component) const override {
     const MaterialPoint point = sliding_.find(name(member), structure_.members()[member].fraction(node));
@@ -98,6 +111,13 @@ class SlidingMeshBody final : public Body {
   const Structure& structure_;
   const SlidingStructure& sliding_;
 };
+
+// A joint that a strand passes has no unknowns of its own.
+std::shared_ptr<const Observable> SlidingMeshBody::motion(Index freedom) const {
+  if (const auto inside = sliding_.inside(freedom))
+    return std::make_shared<PlaceObservable>(sliding_, *inside, component_of(sliding_.kind(freedom)));
+  return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::motion);
+}
 
 // A member is one stretch of a strand, or several strands of its own where loads act inside it.
 std::vector<ShapePoint> SlidingMeshBody::shape(std::size_t member, const State& state) const {

@@ -17,28 +17,40 @@ using test::SlidingModel;
 constexpr double L = 2.0, gap = 1e-3;           // of the beam; between its lower face and the floor
 constexpr double small_slopes = 5.0 * gap / L;  // the squares of slopes are less than a thousandth of this
 
-// A beam on two supports, EI = 1, the right one sliding along x, above a floor. λ pushes it down by a force at a, and
-// bends its right end down by a moment.
+// A beam on two supports, EI = 1, the right one sliding along x, above a floor. λ pushes it down by a force at a, where
+// it may have a joint, and bends its right end down by a moment.
 struct Beam {
   int elements;
   Theory theory;
   double a, force, moment = 0.0;
+  bool jointed = false;
 
   SlidingModel model() const {
     StructureBuilder builder;
     const Index left = builder.add_joint({0.0, 0.0}), right = builder.add_joint({L, 0.0});
-    builder.add_member({.name = "beam",
-                        .from = left,
-                        .to = right,
-                        .axis = straight_axis({0.0, 0.0}, {L, 0.0}),
-                        .theory = theory,
-                        .order = 4,
-                        .section = {.E = 1.0, .A = 1e4, .I = 1.0, .height = 0.01},
-                        .elements = elements});
+    const int before = static_cast<int>(std::lround(elements * a / L));
+    const auto add_member = [&](Index from, Index to, double begin, double end, int count) {
+      builder.add_member({.name = std::to_string(begin),
+                          .from = from,
+                          .to = to,
+                          .axis = straight_axis({begin, 0.0}, {end, 0.0}),
+                          .theory = theory,
+                          .order = 4,
+                          .section = {.E = 1.0, .A = 1e4, .I = 1.0, .height = 0.01},
+                          .elements = count});
+    };
+    Index loaded = 0;
+    if (jointed) {
+      loaded = builder.add_joint({a, 0.0});
+      add_member(left, loaded, 0.0, a, before);
+      add_member(loaded, right, a, L, elements - before);
+    } else {
+      add_member(left, right, 0.0, L, elements);
+      loaded = builder.mesh(0).nodes[static_cast<std::size_t>(before)];
+    }
     builder.fix(builder.freedom(left, Freedom::x));
     for (const Index end : {left, right}) builder.fix(builder.freedom(end, Freedom::z));
-    const auto node = static_cast<std::size_t>(std::lround(elements * a / L));
-    builder.add_load(builder.freedom(builder.mesh(0).nodes[node], Freedom::z), -force, LoadKind::proportional);
+    builder.add_load(builder.freedom(loaded, Freedom::z), -force, LoadKind::proportional);
     if (moment != 0.0) builder.add_load(*builder.shared_rotation(right), moment, LoadKind::proportional);
     return {builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-gap - 0.005)}}, 0.05};
   }
@@ -64,13 +76,16 @@ Path path_of(const Beam& beam, double to) {
           .end = branch.record.end->reason};
 }
 
+// expect(beam), with the number of elements, the theory and whether there is a joint at the force.
 template <class Expect>
 void on_every_mesh(const Expect& expect) {
   for (const Theory theory : {Theory::classic, Theory::elastica})
-    for (const int elements : {10, 20, 40, 80}) {
-      SCOPED_TRACE(std::to_string(elements) + (theory == Theory::classic ? ", classic" : ", elastica"));
-      expect(elements, theory);
-    }
+    for (const bool jointed : {false, true})
+      for (const int elements : {10, 20, 40, 80}) {
+        SCOPED_TRACE(std::to_string(elements) + (theory == Theory::classic ? ", classic" : ", elastica") +
+                     (jointed ? ", jointed" : ""));
+        expect(Beam{.elements = elements, .theory = theory, .a = 0.0, .force = 0.0, .jointed = jointed});
+      }
 }
 
 // One event, at this λ, and one contact at the end of the path.
@@ -96,11 +111,13 @@ double root_of(const std::function<double(double)>& f, double from, double to) {
 
 // The middle touches at P = 48 EI g/L³. From there on the floor bears what is added, and nothing moves.
 TEST(SlidingLoads, TouchesUnderTheForce) {
-  on_every_mesh([](int elements, Theory theory) {
+  on_every_mesh([](Beam beam) {
     const double lambda = 48.0 * gap / (L * L * L);
-    const Path path = path_of({.elements = elements, .theory = theory, .a = 0.5 * L, .force = 1.0}, 3.0 * lambda);
+    beam.a = 0.5 * L;
+    beam.force = 1.0;
+    const Path path = path_of(beam, 3.0 * lambda);
     ASSERT_NO_FATAL_FAILURE(expect_one_touch(path, lambda));
-    EXPECT_NEAR(path.contacts[0].label.fraction, 0.5, 1e-9);
+    EXPECT_NEAR(path.contacts[0].place.x(), beam.a, small_slopes * beam.a);
     EXPECT_NEAR(path.contacts[0].force, 2.0 * lambda, small_slopes * lambda);
   });
 }
@@ -108,38 +125,43 @@ TEST(SlidingLoads, TouchesUnderTheForce) {
 // The place of the greatest deflection touches, at (L² − b²)^½/√3 from the left support, b being the distance of the
 // force from the right one. Then the contact divides the beam into two spans that are clamped there, and both have the
 // same moment there: as the force grows, the contact comes ever nearer to it.
-TEST(SlidingLoads, ComesNearAForceThatGrows) {
-  on_every_mesh([](int elements, Theory theory) {
+TEST(SlidingLoads, ComesNearAForceThatGrowsSlow) {
+  on_every_mesh([](Beam beam) {
     const double a = 0.6 * L, b = L - a, touches = 9.0 * std::sqrt(3.0) * L * gap / (b * std::pow(L * L - b * b, 1.5));
     for (const double to : {2.0 * touches, 30.0 * touches}) {
-      const Path path = path_of({.elements = elements, .theory = theory, .a = a, .force = 1.0}, to);
+      beam.a = a;
+      beam.force = 1.0;
+      const Path path = path_of(beam, to);
       ASSERT_NO_FATAL_FAILURE(expect_one_touch(path, touches));
       const auto moment_missing = [&](double x) {
         return 3.0 * gap * (1.0 / ((L - x) * (L - x)) - 1.0 / (x * x)) - to * clamping_moment(a - x, L - x);
       };
       const double x = root_of(moment_missing, 0.5 * L, a);
-      EXPECT_NEAR(path.contacts[0].label.fraction, x / L, small_slopes * x / L) << to;
+      EXPECT_NEAR(path.contacts[0].place.x(), x, small_slopes * x) << to;
     }
   });
 }
 
 // The moment at the right end pulls the contact past the force, which then acts on the left span.
-TEST(SlidingLoads, PassesAForce) {
-  on_every_mesh([](int elements, Theory theory) {
+TEST(SlidingLoads, PassesAForceSlow) {
+  on_every_mesh([](Beam beam) {
     const double a = 0.6 * L, force = 2e-3, moment = 2.6e-3;
+    beam.a = a;
+    beam.force = force;
+    beam.moment = moment;
     const auto lambda_at = [&](double x) {
       const double bent = x < a ? -force * clamping_moment(a - x, L - x) : force * clamping_moment(x - a, x);
       return 3.0 * gap * (1.0 / ((L - x) * (L - x)) - 1.0 / (x * x)) / (0.5 * moment - bent);
     };
     for (const double to : {1.5, 2.1, 3.5}) {
-      const Path path = path_of({.elements = elements, .theory = theory, .a = a, .force = force, .moment = moment}, to);
+      const Path path = path_of(beam, to);
       EXPECT_EQ(path.end, EndReason::stop);
       ASSERT_EQ(path.events.size(), 1U);
       EXPECT_EQ(path.events[0].kind, EventKind::contact_closes);
       ASSERT_EQ(path.contacts.size(), 1U);
       const double x = root_of([&](double at) { return lambda_at(at) - to; }, 0.5 * L, 0.65 * L);
       EXPECT_EQ(x < a, to < 2.0);
-      EXPECT_NEAR(path.contacts[0].label.fraction, x / L, small_slopes * x / L) << to;
+      EXPECT_NEAR(path.contacts[0].place.x(), x, small_slopes * x) << to;
     }
   });
 }
