@@ -313,7 +313,12 @@ std::vector<bool> StructureBuilder::nodes_with_terms() const {
 
 bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
   const auto is_free = [&](Index freedom) {
-    return !nodal_.is_held(freedom) && nodal_.ground_stiffness(freedom) == 0.0;
+    const auto joins = [&](const NodalTerms::Spring& spring) {
+      return spring.first == freedom || spring.second == freedom;
+    };
+    const auto& springs = nodal_.springs();
+    return !nodal_.is_held(freedom) && nodal_.ground_stiffness(freedom) == 0.0 &&
+           std::none_of(springs.begin(), springs.end(), joins);
   };
   return is_free(freedom(node, Freedom::x)) && is_free(freedom(node, Freedom::z)) && is_free(rotation) &&
          nodal_.load(rotation).is_zero();

@@ -139,6 +139,25 @@ TEST(Springs, AreConfirmed) {
   }
 }
 
+// A force and a spring between the same places: with a wall that nothing touches the path is the one without.
+TEST(Springs, ActWhereForcesDoWhateverTheMesh) {
+  const std::string loaded = R"(
+load = [{ at = "B", force = [-0.2, 0.0] }, { at = "mid", force = [0.0, 0.05] }, { at = "first:0.5", force = [0.0, 0.05] }]
+spring = [{ between = ["first:0.5", "mid"], stiffness = { z = 3.0, rotation = 0.4 } }]
+monitor = [{ name = "turn", at = "first:0.5", component = "rotation" }]
+path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
+)";
+  const std::string wall = "wall = [{ name = \"far\", side = \"below\", profile = { type = \"flat\", z = -50.0 } }]\n";
+  const TracedDeck fixed(column(centimetres, loaded)), sliding(column(centimetres, loaded + wall));
+  ASSERT_NE(sliding.model().sliding(), nullptr);
+  const RecordPoint &a = fixed.record().points.back(), &b = sliding.record().points.back();
+  EXPECT_EQ(a.lambda, 1.0);
+  EXPECT_EQ(b.lambda, 1.0);
+  EXPECT_GT(std::abs(a.monitors.at(0)), 1e-3);
+  EXPECT_NEAR(b.monitors.at(0), a.monitors.at(0), 1e-9);
+  expect_confirmed(sliding);
+}
+
 // A beam that nothing but springs holds is no mechanism.
 TEST(Springs, HoldAStructureByThemselves) {
   const std::string held = springs(centimetres);
