@@ -16,6 +16,10 @@ struct RigidMotion {
 
   bool is_none() const { return way.isZero(0.0) && turn == 0.0; }
 
+  friend bool operator==(const RigidMotion& a, const RigidMotion& b) {
+    return a.way == b.way && a.turn == b.turn && a.about == b.about;
+  }
+
   /// Where a point of the body has gone.
   Vec2 moved(const Vec2& at_rest, double lambda) const;
 };

@@ -67,6 +67,9 @@ std::optional<NotOneContact> not_one_contact(const TouchAtRest& a, const TouchAt
   if (!acts_on_axis(a) || !acts_on_axis(b))
     return NotOneContact{.why = "faces between walls without clearance part from them as soon as the section turns",
                          .cure = "put both walls at the axis, with acts_on = \"axis\", or leave a clearance"};
+  if (!(motion_of(*a.wall) == motion_of(*b.wall)))
+    return NotOneContact{.why = "walls without clearance hold a node for good only where they move together",
+                         .cure = "give both walls the same motion, or leave a clearance"};
   if (a.straight && b.straight && 1.0 + a.normal.dot(b.normal) <= parallel) return std::nullopt;
   return NotOneContact{
       .why = "walls without clearance hold a node for good only where both are straight and parallel",

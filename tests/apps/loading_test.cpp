@@ -142,12 +142,30 @@ TEST(Springs, AreConfirmed) {
 // A force and a spring between the same places: with a wall that nothing touches the path is the one without.
 TEST(Springs, ActWhereForcesDoWhateverTheMesh) {
   const std::string loaded = R"(
-load = [{ at = "B", force = [-0.2, 0.0] }, { at = "mid", force = [0.0, 0.05] }, { at = "first:0.5", force = [0.0, 0.05] }]
-spring = [{ between = ["first:0.5", "mid"], stiffness = { z = 3.0, rotation = 0.4 } }]
-monitor = [{ name = "turn", at = "first:0.5", component = "rotation" }]
-path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
+[[load]]
+at = "B"
+force = [-0.2, 0.0]
+[[load]]
+at = "mid"
+force = [0.0, 0.05]
+[[spring]]
+between = ["A", "mid"]
+stiffness = { z = 3.0, rotation = 0.4 }
+[path]
+step = 0.05
+[path.stop]
+lambda = [-1.0, 1.0]
+[[monitor]]
+name = "turn"
+at = "first:0.5"
+component = "rotation"
 )";
-  const std::string wall = "wall = [{ name = \"far\", side = \"below\", profile = { type = \"flat\", z = -50.0 } }]\n";
+  const std::string wall = R"(
+[[wall]]
+name = "far"
+side = "below"
+profile = { type = "flat", z = -50.0 }
+)";
   const TracedDeck fixed(column(centimetres, loaded)), sliding(column(centimetres, loaded + wall));
   ASSERT_NE(sliding.model().sliding(), nullptr);
   const RecordPoint &a = fixed.record().points.back(), &b = sliding.record().points.back();

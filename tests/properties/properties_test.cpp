@@ -121,14 +121,16 @@ Way follow(Tracer& tracer, const IsThere& is_there) {
 }
 
 // The greatest distance between places of the structure in two states, at the fractions of its members that both shapes
-// have: where forces jump or walls touch there are more [its length scale].
+// have: where forces jump or walls touch there are more [its length scale]. By displacements: between nodes two meshes
+// have different stress-free shapes.
 double distance(const Model& model, const State& a, const State& b) {
   const Shape first = shape_of(model, a), second = shape_of(model, b);
   double greatest = 0.0;
   for (std::size_t i = 0; i < first.members.size(); ++i)
     for (const ShapePoint& one : first.members[i].points)
       for (const ShapePoint& other : second.members[i].points)
-        if (one.fraction == other.fraction) greatest = std::max(greatest, (one.position - other.position).norm());
+        if (one.fraction == other.fraction)
+          greatest = std::max(greatest, (one.displacement - other.displacement).norm());
   return greatest / model.structure().length_scale();
 }
 
