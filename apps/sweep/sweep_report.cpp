@@ -83,7 +83,8 @@ std::string key_title(const Collection& collection, const std::string& key) {
 // What λ multiplies, where that is one thing and the same for all cases.
 std::string unit_of_lambda(const Collection& collection) {
   const auto is_load = [](const Key& key) {
-    return key.name.starts_with("load") || key.name.starts_with("prescribed");
+    return key.name.starts_with("load") || key.name.starts_with("prescribed") ||
+           key.name.find(".motion") != std::string::npos;
   };
   const auto is_tied_load = [&](const Tie& tie) { return is_load(tie.key); };
   const Sweep& sweep = collection.sweep;

@@ -1,5 +1,6 @@
 #include "continuation/events/event_detector.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace arcwall {
@@ -15,9 +16,12 @@ EventDetector limit_point_detector(const Metric& metric) {
 EventDetector turning_detector(const Equations& system, const Metric& metric,
                                std::shared_ptr<const Observable> quantity, std::string label) {
   const double lambda_scale = metric.lambda_scale();
+  // The metric has no measure for forces: what depends on these is measured by itself.
   const auto rate = [&system, lambda_scale, quantity](const PathPoint& point) {
     const Row row = quantity->gradient(point.state);
-    const double norm = Metric(system.weights(point.state.piece), lambda_scale).dual_norm(row);
+    const Metric here(system.weights(point.state.piece), lambda_scale);
+    const bool of_forces = ((here.weights().array() == 0.0) && (row.dx.array() != 0.0)).any();
+    const double norm = std::hypot(here.dual_norm(row), of_forces ? quantity->value(point.state) : 0.0);
     return norm > 0.0 ? apply(row, point.tangent) / norm : 0.0;
   };
   return {.kind = EventKind::displacement_limit, .label = std::move(label), .value = rate, .integral = nullptr};
