@@ -35,8 +35,8 @@ class Equations {
   /// multipliers; size(piece) entries.
   virtual Vector weights(const Piece& piece) const { return Vector::Ones(size(piece)) / double(size(piece)); }
 
-  /// Square of the length, in that metric, by which λ moves supports and obstacles themselves per unit, whatever x
-  /// does.
+  /// Square of the length, in that metric, by which λ itself moves supports and obstacles, or makes members
+  /// expand, per unit.
   virtual double squared_motion_by_lambda(const Piece&) const { return 0.0; }
 
   /// How many unknowns at the end of those of K are multipliers: forces and moments that enforce constraints, in whose

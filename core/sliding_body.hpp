@@ -154,8 +154,14 @@ class SlidingBody {
   /// Number of elements that a stretch of a strand asks for, not rounded.
   virtual double elements_between(Index strand, double from, double to) const = 0;
 
-  /// Curvature of the stress-free axis at a place [1/length].
-  virtual double natural_curvature(const MaterialPoint& point) const = 0;
+  /// Curvature that the axis has at a place without force, temperatures included, by stress-free length [1/length].
+  virtual double natural_curvature(const MaterialPoint& point, double lambda) const = 0;
+
+  /// Strain that the axis has without force, and its rate by λ.
+  struct FreeStrain {
+    double value = 0.0, rate = 0.0;
+  };
+  virtual FreeStrain free_strain(Index strand, double lambda) const = 0;
 
   virtual double bending_stiffness(Index strand) const = 0;  ///< EI [force·length²]
   virtual double axial_stiffness(Index strand) const = 0;    ///< EA [force]

@@ -227,6 +227,43 @@ def buckling_on_springs(k: float, EA: float) -> float:
     return min(root(lambda P: neutral(P, (m * math.pi)**2), 0.0, 0.4 * EA) for m in range(1, 5))
 
 
+def driven_otherwise() -> list:
+    """Paths along which λ moves supports, walls or temperatures instead of multiplying a load."""
+    channel = "docs/validation/channel_third_harmonic.toml"
+    in_channel = ("contact.points='sliding'", "member.column.theory='elastica'", "path.branches='follow'",
+                  "monitor.1={name='P', at='right', component='reaction-x', sign=-1}")
+    return [
+        Case("Column in a channel, end shortening prescribed", channel, meshes({"column": 1}, [20, 40, 80]), [
+            Quantity("shortening at the first touch", load("contact-closes"), 0.032143539028, IMPERFECT),
+            Quantity("greatest shortening before the snap", load("limit-point"), 0.140743077449, IMPERFECT),
+            Quantity("force there", monitor("P", "limit-point"), 6.863020510418, IMPERFECT),
+            Quantity("least shortening", load("limit-point", 1), 0.136241802660, IMPERFECT),
+            Quantity("force there", monitor("P", "limit-point", 1), 6.211668066388, IMPERFECT),
+        ], always=(*in_channel, "load=[]", "prescribed=[{at='right', x=-1.0}]", "path.step=0.004",
+                   "path.stop={lambda=[-0.01, 0.33]}")),
+        Case("Column in a channel, heated between fixed ends", channel, meshes({"column": 1}, [20, 40, 80]), [
+            Quantity("strain of heat at the first touch", load("contact-closes"), 0.01581703139244, IMPERFECT),
+            Quantity("greatest heat before the snap", load("limit-point"), 0.06540564515039, IMPERFECT),
+            Quantity("force there", monitor("P", "limit-point"), 6.428468994643, IMPERFECT),
+            Quantity("least heat", load("limit-point", 1), 0.06348366363517, IMPERFECT),
+        ], always=(*in_channel, "material.steel.expansion=1.0", "load=[{on='column', temperature=1.0}]",
+                   "support.right=['x', 'z']", "path.step=0.001", "path.stop={lambda=[-0.01, 0.15]}")),
+        Case("Lee's frame, deflection prescribed", "examples/lee.toml",
+             meshes({"column": 1, "short": 0.2, "long": 0.8}, [10, 20, 40]), [
+            Quantity("deflection at which it snaps", load("limit-point"), 61.002978851425, CHECKED),
+            Quantity("deflection at which it snaps back", load("limit-point", 1), 50.746251363189, CHECKED),
+        ], always=("load=[]", "prescribed=[{at='loaded', z=-1.0}]", "path.step=1.0", "path.watch=[]",
+                   "path.stop={lambda=[-1.0, 90.0]}",
+                   *(f"member.{name}.theory='elastica'" for name in ("column", "short", "long")))),
+        Case("Sine arch under a round indenter", "docs/validation/indenter.toml", meshes({"arch": 1}, [10, 20, 40]), [
+            Quantity("way at the greatest push", load("displacement-limit"), 0.056131352628, SHOOTING),
+            Quantity("greatest push", monitor("F", "displacement-limit"), 0.17024981411406, SHOOTING),
+            Quantity("way at the least push", load("displacement-limit", 1), 0.147704654127, SHOOTING),
+            Quantity("least push", monitor("F", "displacement-limit", 1), 0.039265852399, SHOOTING),
+        ]),
+    ]
+
+
 def cases() -> list:
     EA, h, half_span = 1e5, 0.5, 5.0
     L = math.hypot(half_span, h)
@@ -352,6 +389,7 @@ def cases() -> list:
                 "nearer in these steps (theory.md, section 7)."),
         essenburg_channel(),
         *(force_passed(theory) for theory in ("classic", "elastica")),
+        *driven_otherwise(),
     ]
 
 

@@ -41,11 +41,13 @@ ReissnerBeam::ReissnerBeam(const ExactBeamReference& reference, const ExactBeamS
 //         [ EA t tᵀ + GA n nᵀ   (EA γ − Q) t + (N − GA p) n    0  ]
 //   ∂²U = [         ·           (EA γ − Q) γ − (N − GA p) p    0  ]                                       (3)
 //         [         ·                        ·                 EI ]
-double ReissnerBeam::evaluate(const double* u, double* f, double* K) const {
+double ReissnerBeam::evaluate(const double* u, const Deformation& e, double* f, double* K, const Deformation& e_rate,
+                              double* f_rate) const {
   const auto nodes = static_cast<std::size_t>(order_ + 1), n = 3 * nodes;
   const auto [EA, GA, EI] = stiffness_;
   if (f != nullptr) std::fill(f, f + n, 0.0);
   if (K != nullptr) std::fill(K, K + n * n, 0.0);
+  if (f_rate != nullptr) std::fill(f_rate, f_rate + n, 0.0);
   double U = 0.0;
   for (std::size_t g = 0; g < nodes - 1; ++g) {
     const GaussPoint& at = points_[g];
@@ -61,14 +63,20 @@ double ReissnerBeam::evaluate(const double* u, double* f, double* K) const {
     const double sin = std::sin(theta), half = std::sin(0.5 * theta), less = 2.0 * half * half, cos = 1.0 - less;
     const double strain = cos * along + sin * across - less * at.stretch0;
     const double shear = cos * across - sin * (along + at.stretch0);
-    const double N = EA * strain, Q = GA * shear, M = EI * kappa;
-    U += 0.5 * at.ds * (N * strain + Q * shear + M * kappa);
-    if (f == nullptr && K == nullptr) continue;
+    const double N = EA * (strain - e.strain), Q = GA * shear, M = EI * (kappa - e.curvature);
+    U += 0.5 * at.ds * (N * (strain - e.strain) + Q * shear + M * (kappa - e.curvature));
+    if (f == nullptr && K == nullptr && f_rate == nullptr) continue;
 
     const double p = at.stretch0 + strain;
     const double tx = cos * at.cos0 - sin * at.sin0, tz = sin * at.cos0 + cos * at.sin0;  // n = (−tz, tx)
     if (f != nullptr)
       add_forces(at, nodes, {.x = N * tx - Q * tz, .z = N * tz + Q * tx, .theta = N * shear - Q * p, .kappa = M}, f);
+    if (f_rate != nullptr) {
+      const double N_rate = -EA * e_rate.strain;
+      add_forces(at, nodes,
+                 {.x = N_rate * tx, .z = N_rate * tz, .theta = N_rate * shear, .kappa = -EI * e_rate.curvature},
+                 f_rate);
+    }
     if (K == nullptr) continue;
     const double t = EA * shear - Q, m = N - GA * p;  // of t and n in (3)
     add_stiffness(at, nodes,

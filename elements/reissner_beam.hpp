@@ -43,7 +43,17 @@ class ReissnerBeam final : public Element {
   ReissnerBeam(const ExactBeamReference& reference, const ExactBeamStiffness& stiffness);
 
   int unknown_count() const override { return 3 * (order_ + 1); }
-  double evaluate(const double* u, double* f, double* K) const override;
+  double evaluate(const double* u, double* f, double* K) const override { return evaluate(u, {}, f, K, {}, nullptr); }
+
+  /// A strain and a curvature.
+  struct Deformation {
+    double strain = 0.0, curvature = 0.0;
+  };
+
+  /// The same where sections are without force at a deformation e: U = ½ ∫ (EA (ε − e)² + …). `f_rate`, where it is not
+  /// null, receives the rate of f where e changes at `e_rate`.
+  double evaluate(const double* u, const Deformation& e, double* f, double* K, const Deformation& e_rate,
+                  double* f_rate) const;
 
  private:
   struct GaussPoint {

@@ -39,6 +39,19 @@ struct BeamResponse {
   std::array<Eigen::Vector4d, 2> force_rate{Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero()};
 };
 
+/// From derivatives by q to those by (x1, z1, angle1, x2, z2, angle2) of the ends.
+inline Eigen::Matrix<double, 6, 1> at_ends(const Eigen::Vector4d& by_q) {
+  Eigen::Matrix<double, 6, 1> f;
+  f << -by_q[0], -by_q[1], by_q[2], by_q[0], by_q[1], by_q[3];
+  return f;
+}
+inline Eigen::Matrix<double, 6, 6> at_ends(const Eigen::Matrix4d& by_q) {
+  Eigen::Matrix<double, 4, 6> T = Eigen::Matrix<double, 4, 6>::Zero();
+  T(0, 0) = T(1, 1) = -1.0;
+  T(0, 3) = T(1, 4) = T(2, 2) = T(3, 5) = 1.0;
+  return T.transpose() * by_q * T;
+}
+
 /// A place inside an element.
 struct BeamPlace {
   Vec2 offset = Vec2::Zero();  ///< from the first end [length]

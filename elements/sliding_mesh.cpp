@@ -14,20 +14,6 @@ namespace {
 
 Vec2 tangent(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-// By ∂(chord, angle1, angle2)/∂(x1, z1, angle1, x2, z2, angle2).
-StretchLoad::Vector6 spread(const Eigen::Vector4d& q) {
-  StretchLoad::Vector6 f;
-  f << -q[0], -q[1], q[2], q[0], q[1], q[3];
-  return f;
-}
-
-StretchLoad::Matrix6 spread(const Eigen::Matrix4d& Q) {
-  Eigen::Matrix<double, 4, 6> T = Eigen::Matrix<double, 4, 6>::Zero();
-  T(0, 0) = T(1, 1) = -1.0;
-  T(0, 3) = T(1, 4) = T(2, 2) = T(3, 5) = 1.0;
-  return T.transpose() * Q * T;
-}
-
 }  // namespace
 
 SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, ElementsPerSegment cut)
@@ -113,7 +99,11 @@ double SlidingStructureMesh::squared_motion_by_lambda() const {
     const bool turns = structure_.freedoms_[static_cast<std::size_t>(freedom)].freedom == Freedom::rotation;
     sum += (turns ? rotation_weight_ : displacement_weight_) * rate * rate;
   });
-  return sum;
+  double heat = 0.0;
+  for (const SlidingStructure::Run& strand : structure_.runs_)
+    heat = std::max({heat, std::abs(strand.thermal.strain.proportional),
+                     std::abs(strand.thermal.curvature.proportional) * structure_.length_scale_});
+  return sum + heat * heat;
 }
 
 SlidingStructureMesh::Coordinate SlidingStructureMesh::interpolated(const SegmentEnd& a, const SegmentEnd& b,
@@ -192,20 +182,19 @@ SlidingStructureMesh::Ends SlidingStructureMesh::ends(Index strand, Index positi
 StretchReference SlidingStructureMesh::reference(Index strand, Index position, const MeshState& now) const {
   const SlidingStructure::Run& described = structure_.at(strand);
   using Inside = DividedPart::Inside;
-  return stretch_reference(*described.shape, described.offset + coordinate(strand, position, now.s),
-                           described.offset + coordinate(strand, position + 1, now.s),
-                           described.theory == Theory::elastica ? Inside::wanted : Inside::left_out);
+  return stretch_reference(
+      *described.shape, described.offset + coordinate(strand, position, now.s),
+      described.offset + coordinate(strand, position + 1, now.s),
+      described.theory == Theory::elastica || !described.thermal.is_zero() ? Inside::wanted : Inside::left_out);
 }
 
 template <typename Visit>
-void SlidingStructureMesh::with_beam(Index strand, const StretchReference& stretch, const Visit& visit) const {
+void SlidingStructureMesh::with_beam(Index strand, const StretchReference& stretch, double lambda,
+                                     const Visit& visit) const {
   const SlidingStructure::Run& described = structure_.at(strand);
-  const double EA = described.section.EA(), EI = described.section.EI();
-  if (described.theory == Theory::elastica) {
-    visit(ElasticaBeam(stretch, EA, EI, described.order == 6 ? ElasticaOrder::six : ElasticaOrder::four));
-  } else {
-    visit(ClassicBeam(stretch, EA, EI));
-  }
+  if (described.thermal.is_zero()) return with_slender_beam(stretch, described.slender(), 1.0, visit);
+  const HeatedStretch hot = heated(stretch, described.thermal, lambda);
+  with_slender_beam(hot.reference, described.slender(), hot.stiffer, visit);
 }
 
 SlidingStructureMesh::Response SlidingStructureMesh::respond(Index strand, Index position, const MeshState& now,
@@ -222,11 +211,14 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond_unloaded(Index stra
   const Ends at = ends(strand, position, now);
   const StretchReference stretch = reference(strand, position, now);
   BeamResponse beam_response;
-  with_beam(strand, stretch, [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
+  with_beam(strand, stretch, now.lambda,
+            [&](const auto& beam) { beam.respond(at.between(), with_rates, beam_response); });
   Response out{.energy = beam_response.energy,
-               .force = spread(beam_response.force),
-               .stiffness = spread(beam_response.stiffness),
-               .force_rate = {spread(beam_response.force_rate[0]), spread(beam_response.force_rate[1])}};
+               .force = at_ends(beam_response.force),
+               .stiffness = at_ends(beam_response.stiffness),
+               .force_rate = {at_ends(beam_response.force_rate[0]), at_ends(beam_response.force_rate[1])}};
+  if (!described.thermal.is_zero())
+    out.force_lambda = heat_rate(stretch, described.slender(), described.thermal, now.lambda, at.between());
   if (described.carries_load()) add_load(described, stretch, at, now.lambda, out);
   if (described.has_foundation()) {
     const MaterialPoint first{.strand = strand, .s = coordinate(strand, position, now.s)};
@@ -247,7 +239,7 @@ void SlidingStructureMesh::add_load(const SlidingStructure::Run& strand, const S
     for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
     return response.force;
   };
-  out.force_lambda = add(strand.load, lambda);
+  out.force_lambda += add(strand.load, lambda);
   add(strand.constant_load, 1.0);
 }
 
@@ -392,7 +384,9 @@ double SlidingStructureMesh::energy(const MeshState& now) const {
 // Of the element on that side: its end moment M, loads included, and the force along the axis N there, with the sign ±
 // of what the element does to the node before or behind it.
 //
-//   curvature = κ₀ ± M/EI,   stretch = 1 ± N/EA,   N = f·t
+//   curvature = κ₀ ± M/EI,   stretch = 1 + e ± N/EA,   N = f·t
+//
+// κ₀ and e with what temperatures make.
 AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) const {
   const auto [strand, position] = breakpoint(k);
   const bool before = side == At::before;
@@ -405,10 +399,11 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
   const Vec2 t = tangent(node(strand, position, now).angle);
   const double S = coordinate(strand, position, now.s), step = 1e-5 * described.length;
   const auto natural = [&, strand = strand](double at) {
-    return structure_.natural_curvature({.strand = strand, .s = at});
+    return structure_.natural_curvature({.strand = strand, .s = at}, now.lambda);
   };
   const auto force = response.force.segment<2>(place);
-  AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI, .stretch = 1.0 + force.dot(t) / EA};
+  AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI,
+                    .stretch = 1.0 + described.thermal.strain.at(now.lambda) + force.dot(t) / EA};
 
   const Six curvature_dx = response.stiffness.col(turn) / EI;
   Six stretch_dx = response.stiffness.middleCols<2>(place) * t / EA;
@@ -426,8 +421,8 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
     strain.stretch_ds[j] += rate.segment<2>(place).dot(t) / EA;
   });
   strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
-  strain.curvature_dlambda = response.force_lambda[turn] / EI;
-  strain.stretch_dlambda = response.force_lambda.segment<2>(place).dot(t) / EA;
+  strain.curvature_dlambda = described.thermal.curvature.proportional + response.force_lambda[turn] / EI;
+  strain.stretch_dlambda = described.thermal.strain.proportional + response.force_lambda.segment<2>(place).dot(t) / EA;
   return strain;
 }
 
@@ -457,7 +452,7 @@ AxisPlace SlidingStructureMesh::inside(Index strand, Index position, double frac
   if (fraction >= 1.0) return node(strand, position + 1, now);
   const Ends at = ends(strand, position, now);
   AxisPlace place;
-  with_beam(strand, reference(strand, position, now), [&](const auto& beam) {
+  with_beam(strand, reference(strand, position, now), now.lambda, [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), fraction);
     place = {.position = at.first + local.offset, .angle = local.angle};
   });
@@ -473,10 +468,11 @@ SlidingMesh::PlaceGradient SlidingStructureMesh::place_gradient(const MaterialPo
   gradient.ds.setZero(3, m);
   const Ends at = ends(point.strand, e, now);
   const auto to = assembly_.unknowns(mesh_of(point.strand).first_element + e);
-  with_beam(point.strand, reference(point.strand, e, now), [&](const auto& beam) {
+  with_beam(point.strand, reference(point.strand, e, now), now.lambda, [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), (point.s - S1) / (S2 - S1));
     for (int row = 0; row < 3; ++row) {
-      StretchLoad::Vector6 d = spread(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
+      StretchLoad::Vector6 d =
+          at_ends(Eigen::Vector4d(row < 2 ? local.offset_gradient.row(row) : local.angle_gradient));
       if (row < 2) d[row] += 1.0;
       for (std::size_t i = 0; i < 6; ++i)
         if (to[i] != held) gradient.dx(row, to[i]) += d[static_cast<Index>(i)];

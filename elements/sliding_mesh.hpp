@@ -157,9 +157,9 @@ class SlidingStructureMesh final : public SlidingMesh {
            Linearization* out) const;
   void add_nodal(const Four& four, const Lanes* of_elements, double* to) const;
 
-  // visit(beam) with the beam of a stretch, by value.
+  // visit(beam) with the beam of a stretch, by value, as warm as it is at λ.
   template <typename Visit>
-  void with_beam(Index strand, const StretchReference& stretch, const Visit& visit) const;
+  void with_beam(Index strand, const StretchReference& stretch, double lambda, const Visit& visit) const;
   template <typename Visit>
   void for_each_rate(Index strand, Index position, const Response& response, const Visit& visit) const;
 

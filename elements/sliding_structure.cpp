@@ -15,10 +15,16 @@ double SlidingStructure::elements_between(Index strand, double from, double to) 
   return count;
 }
 
-double SlidingStructure::natural_curvature(const MaterialPoint& point) const {
+SlenderSection SlidingStructure::Run::slender() const {
+  SlenderSection slender{.EA = section.EA(), .EI = section.EI()};
+  if (theory == Theory::elastica) slender.order = order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
+  return slender;
+}
+
+double SlidingStructure::natural_curvature(const MaterialPoint& point, double lambda) const {
   const Run& strand = runs_[static_cast<std::size_t>(point.strand)];
   const DeviatedPoint place = strand.shape->along(strand.offset + std::clamp(point.s, 0.0, strand.length));
-  return place.turning / place.speed;
+  return place.turning / place.speed + strand.thermal.curvature.at(lambda);
 }
 
 Vec2 SlidingStructure::load(const MaterialPoint& point, const Vec2& position, double lambda) const {
@@ -154,6 +160,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   structure->force_scale_ = force_scale(structure->nodal_, structure->length_scale_);
   const auto acts = [&](LoadKind kind) { return !ramp || kind == LoadKind::constant; };
   const auto proportional = [&](LoadKind kind) { return ramp || kind == LoadKind::proportional; };
+  const std::vector<ThermalStrain> thermal = thermal_of(ramp);
   const std::vector<bool> with_terms = nodes_with_terms();
   for (std::size_t m = 0; m < descriptions_.size(); ++m) {
     const MemberDescription& member = descriptions_[m];
@@ -164,7 +171,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                  .theory = member.theory,
                                  .order = member.order,
                                  .section = member.section,
-                                 .foundation = foundations_[m]};
+                                 .foundation = foundations_[m],
+                                 .thermal = thermal[m]};
     for (const DistributedLoad& load : distributed_loads_) {
       if (load.member != static_cast<Index>(m) || !acts(load.kind)) continue;
       (proportional(load.kind) ? strand.load : strand.constant_load) += load.load;
@@ -209,7 +217,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
     if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load() &&
-        !strand.has_foundation())
+        !strand.has_foundation() && strand.thermal.is_zero())
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
   return structure;
 }
@@ -244,7 +252,7 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms,
            std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory && a.order == b.order &&
            a.section.E == b.section.E && a.section.A == b.section.A && a.section.I == b.section.I &&
            a.section.height == b.section.height && a.load == b.load && a.constant_load == b.constant_load &&
-           a.foundation == b.foundation &&
+           a.foundation == b.foundation && a.thermal == b.thermal &&
            (!alike || alike(a.parts.back().member, b.parts.front().member));
   };
   for (bool joined = true; joined;) {

@@ -7,6 +7,7 @@
 
 #include "core/observable.hpp"
 #include "core/sliding_body.hpp"
+#include "elements/heated_beam.hpp"
 #include "elements/member_point.hpp"
 #include "elements/sliding_beam_lanes.hpp"
 
@@ -29,9 +30,13 @@ class SlidingStructure final : public SlidingBody {
   double length(Index strand) const override { return at(strand).length; }
   double half_height(Index strand) const override { return 0.5 * at(strand).section.height.value_or(0.0); }
   double elements_between(Index strand, double from, double to) const override;
-  double natural_curvature(const MaterialPoint& point) const override;
+  double natural_curvature(const MaterialPoint& point, double lambda) const override;
   double bending_stiffness(Index strand) const override { return at(strand).section.EI(); }
   double axial_stiffness(Index strand) const override { return at(strand).section.EA(); }
+  FreeStrain free_strain(Index strand, double lambda) const override {
+    const Driven& strain = at(strand).thermal.strain;
+    return {.value = strain.at(lambda), .rate = strain.proportional};
+  }
   Vec2 load(const MaterialPoint& point, const Vec2& position, double lambda) const override;
   const std::vector<double>& point_loads(Index strand) const override { return at(strand).load_places; }
   bool end_is_held(Index strand, bool last) const override {
@@ -126,6 +131,9 @@ class SlidingStructure final : public SlidingBody {
     std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
 
     bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
+    ThermalStrain thermal{};
+
+    SlenderSection slender() const;
     bool has_foundation() const { return !foundation.isZero(0.0); }
   };
 

@@ -258,7 +258,7 @@ double Structure::squared_motion_by_lambda(const Piece&) const {
   double sum = 0.0;
   nodal_.for_each_moved_support(
       [&](Index freedom, double rate) { sum += weight(meaning_of_freedom(freedom).freedom) * rate * rate; });
-  return sum;
+  return sum + heat_rate_ * heat_rate_;
 }
 
 std::optional<Index> Structure::unknown(Index freedom) const {

@@ -18,6 +18,7 @@
 #include "elements/essenburg_beam.hpp"
 #include "elements/nodal_terms.hpp"
 #include "elements/section.hpp"
+#include "elements/thermal_strain.hpp"
 #include "elements/truss.hpp"
 
 namespace arcwall {
@@ -115,7 +116,8 @@ class Structure final : public System {
   /// Diagonal of the box around the stress-free structure [length].
   double length_scale() const { return length_scale_; }
 
-  /// Greatest reference load, moments divided by the length scale [force]; 0 if no load varies.
+  /// Greatest reference load, moments divided by the length scale, or what holds a member that is heated from
+  /// expanding [force]; 0 if none varies.
   double force_scale() const { return force_scale_; }
 
   /// Size of the round-off in nodal forces: stiff short elements between nodes that are far from the origin [force].
@@ -231,7 +233,7 @@ class Structure final : public System {
   NodalTerms nodal_;
   BlockAssembly assembly_;
   double rotations_ = 1.0;  // how many there are
-  double length_scale_ = 1.0, force_scale_ = 0.0;
+  double length_scale_ = 1.0, force_scale_ = 0.0, heat_rate_ = 0.0;
 };
 
 /// Describes a structure step by step; build() makes it.
@@ -265,6 +267,10 @@ class StructureBuilder {
 
   void add_load(Index freedom, double value, LoadKind kind);
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
+
+  /// A strain and a curvature that the sections of a member take without force, as temperatures make them. Not for the
+  /// Essenburg theory; bars have no curvature.
+  void add_thermal_strain(Index member, const ThermalStrain& thermal);
 
   /// Springs to the ground all along a member that is no bar: force per length of the stress-free axis and of
   /// displacement, in x and in z [force/length²]. find_mechanism() does not see them.
@@ -328,7 +334,9 @@ class StructureBuilder {
   std::vector<MemberMesh> meshes_;
   NodalTerms nodal_;
   std::vector<DistributedLoad> distributed_loads_;
-  std::vector<Vec2> foundations_;  // of each member
+  std::vector<Vec2> foundations_;       // of each member
+  std::vector<ThermalStrain> thermal_;  // likewise
+  std::vector<ThermalStrain> thermal_of(bool ramp) const;
   std::vector<AddedElement> added_elements_;
 };
 

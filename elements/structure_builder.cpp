@@ -9,6 +9,7 @@
 #include "elements/elastica_beam.hpp"
 #include "elements/essenburg_beam.hpp"
 #include "elements/foundation.hpp"
+#include "elements/heated_beam.hpp"
 #include "elements/reissner_beam.hpp"
 #include "elements/structure.hpp"
 
@@ -93,6 +94,29 @@ EssenburgStiffness essenburg_stiffness(const Section& section) {
           .points = section.points};
 }
 
+// Under temperatures.
+std::unique_ptr<Element> make_heated_element(const Stretch& stretch, const ThermalStrain& thermal) {
+  const Section& section = stretch.member.section;
+  SlenderSection slender{.EA = section.EA(), .EI = section.EI()};
+  if (stretch.member.theory == Theory::elastica)
+    slender.order = stretch.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
+  switch (stretch.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<HeatedBeam>(slender_reference(stretch), slender, thermal);
+    case Theory::exact:
+      return std::make_unique<HeatedReissnerBeam>(
+          exact_reference(stretch), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()},
+          thermal);
+    case Theory::truss:
+      return std::make_unique<HeatedTruss>(beam_reference(stretch).chord, section.EA(), stretch.member.strain,
+                                           thermal.strain);
+    case Theory::essenburg:
+      break;
+  }
+  return nullptr;
+}
+
 std::unique_ptr<Element> make_element(const Stretch& stretch) {
   const Section& section = stretch.member.section;
   switch (stretch.member.theory) {
@@ -113,15 +137,19 @@ std::unique_ptr<Element> make_element(const Stretch& stretch) {
 }
 
 // Of a member, in turn. Those that are alike are one object, where it knows no more of its place than the chord.
-void add_elements(const MemberDescription& member, const MemberMesh& mesh, ElementList& elements) {
+void add_elements(const MemberDescription& member, const MemberMesh& mesh, const ThermalStrain& thermal,
+                  ElementList& elements) {
   const ImperfectAxis shape(*member.axis, member.imperfection);
   const auto element = [&](std::size_t k) { return Stretch{.member = member, .shape = shape, .mesh = mesh, .k = k}; };
   const std::size_t count = mesh.nodes.size() - 1;
+  const auto make = [&](std::size_t k) {
+    return thermal.is_zero() ? make_element(element(k)) : make_heated_element(element(k), thermal);
+  };
   const bool knows_places = member.theory == Theory::exact || member.theory == Theory::essenburg;
   if (!knows_places && element(0).is_like_all_others())
-    elements.add(make_element(element(0)), count);
+    elements.add(make(0), count);
   else
-    for (std::size_t k = 0; k < count; ++k) elements.add(make_element(element(k)));
+    for (std::size_t k = 0; k < count; ++k) elements.add(make(k));
 }
 
 std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
@@ -245,6 +273,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
   meshes_.push_back(std::move(mesh));
   descriptions_.push_back(std::move(member));
   foundations_.emplace_back(0.0, 0.0);
+  thermal_.emplace_back();
   return static_cast<Index>(meshes_.size()) - 1;
 }
 
@@ -266,6 +295,23 @@ void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
 
 void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind) {
   distributed_loads_.push_back({.member = member, .load = load, .kind = kind});
+}
+
+void StructureBuilder::add_thermal_strain(Index member, const ThermalStrain& thermal) {
+  assert(descriptions_[static_cast<std::size_t>(member)].theory != Theory::essenburg);
+  thermal_[static_cast<std::size_t>(member)] += thermal;
+}
+
+// Of a ramp the constant parts grow with λ and the others are left out.
+std::vector<ThermalStrain> StructureBuilder::thermal_of(bool ramp) const {
+  std::vector<ThermalStrain> thermal = thermal_;
+  const auto grow = [](Driven& value) { value = {.constant = 0.0, .proportional = value.constant}; };
+  for (ThermalStrain& one : thermal)
+    if (ramp) {
+      grow(one.strain);
+      grow(one.curvature);
+    }
+  return thermal;
 }
 
 void StructureBuilder::add_foundation(Index member, const Vec2& stiffness) {
@@ -364,10 +410,11 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->element_freedoms_ = std::move(freedoms_of_elements);
   structure->length_scale_ = box_diagonal(positions_);
 
+  const std::vector<ThermalStrain> thermal = thermal_of(ramp);
   std::vector<Index> first_element;
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     first_element.push_back(static_cast<Index>(structure->elements_.size()));
-    add_elements(descriptions_[m], meshes_[m], structure->elements_);
+    add_elements(descriptions_[m], meshes_[m], thermal[m], structure->elements_);
   }
   structure->first_added_ = static_cast<Index>(structure->elements_.size());
   for (const AddedElement& added : added_elements_) structure->elements_.add(added.element);
@@ -389,6 +436,13 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
            .element = first_element[m] + static_cast<Index>(k)});
     if (proportional(load.kind))
       structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
+  }
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const double strain = std::abs(thermal[m].strain.proportional), bend = std::abs(thermal[m].curvature.proportional);
+    const double L = structure->length_scale_;
+    const Section& section = descriptions_[m].section;
+    structure->heat_rate_ = std::max({structure->heat_rate_, strain, bend * L});
+    structure->force_scale_ = std::max({structure->force_scale_, section.EA() * strain, section.EI() * bend / L});
   }
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     if (foundations_[m].isZero(0.0)) continue;

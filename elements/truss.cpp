@@ -30,16 +30,19 @@ Strain strain_of(TrussStrain measure, double growth, double L) {
 // With d = (−Δ, Δ) the current chord in the nodal unknowns, ∂a = 2d and ∂²a = 2D, D = [I −I; −I I]:
 //
 //   f = EA L ε ε′ 2d,     K = EA L [(ε′² + ε ε″) 4 d dᵀ + ε ε′ 2 D]                                     (1)
-double Truss::evaluate(const double* u, double* f, double* K) const {
+double Truss::evaluate(const double* u, double free, double* f, double* K, double* f_strain) const {
   const double du = u[2] - u[0], dw = u[3] - u[1];
   const Vec2 chord = chord_ + Vec2(du, dw);
   const double growth = du * (chord_.x() + chord.x()) + dw * (chord_.y() + chord.y());
-  const Strain e = strain_of(strain_, growth, length_);
+  Strain e = strain_of(strain_, growth, length_);
+  e.value -= free;
   const double d[4] = {-chord.x(), -chord.y(), chord.x(), chord.y()};
   const double slope = 2.0 * EA_ * length_ * e.value * e.first;
   const double curvature = 4.0 * EA_ * length_ * (e.first * e.first + e.value * e.second);
   if (f != nullptr)
     for (int i = 0; i < 4; ++i) f[i] = slope * d[i];
+  if (f_strain != nullptr)
+    for (int i = 0; i < 4; ++i) f_strain[i] = -2.0 * EA_ * length_ * e.first * d[i];
   if (K != nullptr)
     for (int j = 0; j < 4; ++j)
       for (int i = j; i < 4; ++i)

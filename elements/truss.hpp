@@ -19,7 +19,11 @@ class Truss final : public Element {
       : chord_(chord), length_(chord.norm()), EA_(EA), strain_(strain) {}
 
   int unknown_count() const override { return 4; }
-  double evaluate(const double* u, double* f, double* K) const override;
+  double evaluate(const double* u, double* f, double* K) const override { return evaluate(u, 0.0, f, K, nullptr); }
+
+  /// The same where the bar is without force at a strain e: U = ½ EA L (ε − e)². `f_strain`, where it is not null,
+  /// receives ∂f/∂e.
+  double evaluate(const double* u, double e, double* f, double* K, double* f_strain) const;
 
  private:
   Vec2 chord_;

@@ -269,10 +269,23 @@ void add_point_load(const deck::Load& load, const deck::PointLoad& action, bool 
   }
 }
 
+// Hotter on the left the section bends to the right.
+void add_heat(const deck::Deck& deck, const deck::Heat& heat, bool constant, StructureOfDeck& out) {
+  const deck::Member& member = *deck::find(deck.members, heat.member);
+  const double expansion = deck::find(deck.materials, member.material)->expansion.value();
+  const auto driven = [constant](double value) {
+    return constant ? Driven{.constant = value} : Driven{.proportional = value};
+  };
+  out.builder.add_thermal_strain(out.places.members.at(heat.member), {.strain = driven(expansion * heat.temperature),
+                                                                      .curvature = driven(-expansion * heat.gradient)});
+}
+
 void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, StructureOfDeck& out) {
   for (const deck::Load& load : deck.loads) {
     if (const auto* at_point = std::get_if<deck::PointLoad>(&load.action)) {
       add_point_load(load, *at_point, coarse, problems, out);
+    } else if (const auto* heat = std::get_if<deck::Heat>(&load.action)) {
+      if (!coarse && out.places.members.contains(heat->member)) add_heat(deck, *heat, load.constant, out);
     } else {
       const auto& on_member = std::get<deck::MemberLoad>(load.action);
       if (out.places.members.contains(on_member.member))

@@ -120,6 +120,9 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
     if (load.constant)
       problems.add(load.position, "load", "method \"incremental\" has no constant loads",
                    "multiply all loads by lambda, or use method \"spherical\"");
+  for (const deck::Load& load : deck.loads)
+    if (std::holds_alternative<deck::Heat>(load.action))
+      problems.add(load.position, "load", "method \"incremental\" knows no temperatures", "use method \"spherical\"");
   for (const deck::Prescribed& moved : deck.prescribed)
     problems.add(moved.position, "prescribed", "method \"incremental\" moves no supports", "use method \"spherical\"");
   return possible;

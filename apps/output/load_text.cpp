@@ -62,6 +62,14 @@ std::string spring_words(const deck::Foundation& foundation, const deck::Units& 
          with_unit(pair_text({.x = foundation.x, .z = foundation.z}), unit_text(deck::unit::stress, units));
 }
 
+LoadText load_words(const deck::Heat& heat, const deck::Units&) {
+  LoadText result{.text = "on " + heat.member, .name = "heat of " + heat.member, .size = ""};
+  if (heat.temperature != 0.0) result.text += " temperature " + short_number(heat.temperature);
+  if (heat.gradient != 0.0) result.text += " gradient " + short_number(heat.gradient);
+  if (heat.gradient == 0.0) result = {.text = result.text, .name = "temperature of " + heat.member, .size = ""};
+  return result;
+}
+
 }  // namespace
 
 std::string with_unit(const std::string& number, const std::string& unit) {

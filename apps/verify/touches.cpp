@@ -208,9 +208,10 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   const Eigen::Vector3d& end = ends[before ? 1 : 0];
   const AxisPlace place = at.mesh.node(node.strand, node.position, at.now);
   const double s = at.mesh.coordinate(node.strand, node.position, at.now.s), half = at.body.half_height(node.strand);
-  const double curvature = at.body.natural_curvature({.strand = node.strand, .s = s}) +
+  const double curvature = at.body.natural_curvature({.strand = node.strand, .s = s}, at.now.lambda) +
                            sign * end[2] / at.body.bending_stiffness(node.strand);
-  const double stretch = 1.0 + sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
+  const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
+                         sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
   const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
   const double offset = wall.deck().acts_on == deck::ActsOn::face ? -wall.side() * half : 0.0;
   const double surface = wall.curvature(face_towards(wall, half, place));
@@ -351,7 +352,8 @@ double curvature_error(const ElementBeside& beside, int places) {
     const double moment = -r * ends[0][2] + t * ends[1][2] +
                           cross(beside.place(t).position - first - t * chord, ends[0].head<2>()) -
                           0.5 * t * r * cross(chord, load);
-    const double natural = at.body.natural_curvature({.strand = strand, .s = beside.coordinate(0) + t * length});
+    const double natural =
+        at.body.natural_curvature({.strand = strand, .s = beside.coordinate(0) + t * length}, at.now.lambda);
     const double curvature = (beside.place(t + step).angle - beside.place(t - step).angle) / (2.0 * step * length);
     worst = std::max(worst, std::abs(curvature - natural - moment / at.body.bending_stiffness(strand)));
   }

@@ -11,7 +11,7 @@ SlidingMesh::At free_side(const SlidingContactLayout& on, std::size_t point) {
   return on.span_before(point) == SlidingContactLayout::Span::free ? SlidingMesh::At::before : SlidingMesh::At::behind;
 }
 
-AxisStrain free_strain(const SlidingState& at, std::size_t point) {
+AxisStrain strain_of_free_side(const SlidingState& at, std::size_t point) {
   return at.mesh.strain(static_cast<Index>(point), free_side(at.layout, point), at.now);
 }
 
@@ -33,7 +33,7 @@ CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at
   const double along = travel(axis), offset = along * touch.offset;
   const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
   const double side = sign_of(obstacle.side());
-  const AxisStrain strain = free_strain(at, point);
+  const AxisStrain strain = strain_of_free_side(at, point);
   const LinearField wall = obstacle.curvature(face(touch.offset, axis), at.now.lambda);
   const double shrink = 1.0 / (1.0 + touch.offset * wall.value);
   const double parallel = wall.value * shrink;
@@ -65,14 +65,15 @@ double holding_pressure(const SlidingSetting& setting, const SlidingState& at, s
   const double L = body.length(touch.strand), step = 0.01 * L, S = at.s(static_cast<Index>(point));
   const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
   const auto second = [step](const auto& f) { return (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (step * step); };
-  const double natural =
-      second([&](double i) { return body.natural_curvature({.strand = touch.strand, .s = S + i * step}); });
+  const double natural = second(
+      [&](double i) { return body.natural_curvature({.strand = touch.strand, .s = S + i * step}, at.now.lambda); });
   const auto wall = [&](double i) {
     const Vec2 there = axis.position + i * step * Vec2(std::cos(axis.angle), std::sin(axis.angle));
     return obstacle.faces(there, at.now.lambda) ? obstacle.curvature(there, at.now.lambda).value : 0.0;
   };
   const double EI = body.bending_stiffness(touch.strand), EA = body.axial_stiffness(touch.strand);
-  const double thrust = -EA * (free_strain(at, point).stretch - 1.0);
+  const double free = body.free_strain(touch.strand, at.now.lambda).value;
+  const double thrust = -EA * (strain_of_free_side(at, point).stretch - 1.0 - free);
   const Vec2 up = along * normal(axis.angle);
   const Vec2 load = body.load({.strand = touch.strand, .s = S}, axis.position, at.now.lambda);
   const double q =
@@ -92,7 +93,7 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
     const auto point = static_cast<std::size_t>(k);
     if (at.layout.lies_beside(point)) continue;
     const Touch touch = touch_of_contact(setting, at.layout, point);
-    const AxisStrain strain = free_strain(at, point);
+    const AxisStrain strain = strain_of_free_side(at, point);
     const AxisPlace axis = touch.axis(at);
     const Vec2 along = strain.stretch * Vec2(std::cos(axis.angle), std::sin(axis.angle));
     const double rate =

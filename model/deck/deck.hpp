@@ -54,8 +54,9 @@ struct Units {
 struct Material {
   std::string name{};
   Position position{};
-  double E = 0.0;              ///< Young's modulus, > 0 [force/length²]
-  std::optional<double> nu{};  ///< Poisson's ratio, in (-1, 1/2); there for every theory that needs it
+  double E = 0.0;                     ///< Young's modulus, > 0 [force/length²]
+  std::optional<double> nu{};         ///< Poisson's ratio, in (-1, 1/2); there for every theory that needs it
+  std::optional<double> expansion{};  ///< thermal expansion, there for members that are heated [1/degree]
 
   bool operator==(const Material&) const = default;
 };
@@ -220,9 +221,18 @@ struct MemberLoad {
   bool operator==(const MemberLoad&) const = default;
 };
 
+/// A change of temperature of a member that can expand.
+struct Heat {
+  std::string member{};
+  double temperature = 0.0;  ///< [degree]
+  double gradient = 0.0;     ///< hotter to the left of the direction of travel; 0 of a truss [degree/length]
+
+  bool operator==(const Heat&) const = default;
+};
+
 struct Load {
   Position position{};
-  std::variant<PointLoad, MemberLoad> action{};
+  std::variant<PointLoad, MemberLoad, Heat> action{};
   bool constant = false;  ///< not multiplied by λ
 
   bool operator==(const Load&) const = default;

@@ -40,27 +40,60 @@ void point_load_keys(Keys& keys, PointLoad& load) {
 }
 
 void member_load_keys(Keys& keys, MemberLoad& load) {
-  keys.name("on", load.member, Named::member, "instead of `at`: a member, with `distributed`");
+  keys.name("on", load.member, Named::member, "instead of `at`: a member, with `distributed` or a temperature");
   keys.vector("distributed", load.distributed, unit::line_load, "`[x, z]`, dead, by length of the undeformed axis");
   for (const char* key : {"force", "moment"})
     keys.applies(false, key, "belongs to a load at a point", "write `at` instead of `on`, or give distributed");
 }
 
-void load_keys(Keys& keys, Load& load) {
+void check_heat(Keys& keys, const Deck& deck, const Heat& heat) {
+  const Member* member = find(deck.members, heat.member);
+  if (member == nullptr) return;
+  const Material* material = find(deck.materials, member->material);
+  if (material != nullptr && !material->expansion)
+    keys.report("on", "material " + material->name + " of member " + member->name + " has no expansion",
+                "add expansion to material." + material->name);
+  if (member->theory == Theory::essenburg)
+    keys.report("on", "member " + member->name + " is of theory essenburg, which knows no temperatures",
+                "take theory \"exact\"");
+  if (member->theory == Theory::truss && heat.gradient != 0.0)
+    keys.report("gradient", "member " + member->name + " is a truss, which does not bend", "leave it out");
+}
+
+void heat_keys(Keys& keys, Heat& heat, const Deck& deck) {
+  const bool on = keys.lists() || keys.name("on", heat.member, Named::member, "");
+  keys.number(optional("temperature"), heat.temperature, unit::none, any_number,
+              "instead of `distributed`: change of temperature of the whole member [degree]");
+  keys.number(
+      optional("gradient"), heat.gradient, unit::curvature, any_number,
+      "change of temperature [degree] by length across the height, hotter to the left of the direction of travel; "
+      "not of trusses");
+  for (const char* key : {"distributed", "force", "moment"})
+    keys.applies(keys.lists(), key, "does not go together with a temperature", "write two loads");
+  if (keys.reads() && on) check_heat(keys, deck, heat);
+}
+
+void load_keys(Keys& keys, Load& load, const Deck& deck) {
   const bool at = keys.has("at"), on = keys.has("on");
+  const bool heats = keys.reads() ? on && (keys.has("temperature") || keys.has("gradient"))
+                                  : std::holds_alternative<Heat>(load.action);
   if (keys.reads() && at == on) {
     keys.report(at ? "on" : "at", at ? "the load has both `at` and `on`" : "the load has neither `at` nor `on`",
                 "give `at` for a point or `on` for a member");
     keys.give_up();
   } else {
     keys.alternative<PointLoad>("at", load.action, [&](PointLoad& action) { point_load_keys(keys, action); });
-    keys.alternative<MemberLoad>("on", load.action, [&](MemberLoad& action) { member_load_keys(keys, action); });
+    if (!heats || keys.lists())
+      keys.alternative<MemberLoad>("on", load.action, [&](MemberLoad& action) { member_load_keys(keys, action); });
+    if (heats || keys.lists())
+      keys.alternative<Heat>("on", load.action, [&](Heat& action) { heat_keys(keys, action, deck); });
   }
   keys.flag(optional("constant"), load.constant, "held while λ varies, instead of multiplied by λ");
 }
 
 bool is_zero(const PointLoad& load) { return load.force == Vector{} && load.moment == 0.0; }
 bool is_zero(const MemberLoad& load) { return load.distributed == Vector{}; }
+bool is_zero(const Heat& heat) { return heat.temperature == 0.0 && heat.gradient == 0.0; }
 
 bool follows_lambda(const Load& load) {
   return !load.constant && std::visit([](const auto& action) { return !is_zero(action); }, load.action);
@@ -84,7 +117,9 @@ bool declare_loads(Keys& root, Deck& deck) {
   const bool moves = root.tables(
       optional("prescribed"), deck.prescribed,
       [&](Keys& keys, Prescribed& moved) { prescribed_keys(keys, moved, deck); }, "");
-  return root.tables(optional("load"), deck.loads, load_keys, "") && moves;
+  return root.tables(
+             optional("load"), deck.loads, [&](Keys& keys, Load& load) { load_keys(keys, load, deck); }, "") &&
+         moves;
 }
 
 bool moves_with_lambda(const Wall& wall) {

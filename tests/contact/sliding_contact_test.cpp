@@ -136,26 +136,6 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
   }
 }
 
-// Springs along the beam go with it where the mesh slides.
-TEST(SlidingContact, DerivativesAreConsistentOnAFoundation) {
-  Numbers numbers(79);
-  for (const Theory theory : {Theory::classic, Theory::elastica}) {
-    StructureBuilder builder = wavy_beam(false, theory);
-    builder.add_foundation(0, {3.0, 5.0});
-    const SlidingModel model(builder, two_of(test::all_walls(false), 2), 0.1);
-    for (const Layouts& on : layouts()) {
-      SCOPED_TRACE(on.name);
-      const State state = random_state(model, piece_of(model, on), numbers);
-      const auto report = check_derivatives(model.system(), state, 1e-6);
-      EXPECT_LE(report.K, 1e-9);
-      EXPECT_LE(report.F_lambda, 1e-8);
-      EXPECT_EQ(report.consistency, 0.0);
-      EXPECT_LE(report.energy, 1e-7);
-      EXPECT_LE(report.guard_gradient, 1e-6);
-    }
-  }
-}
-
 namespace {
 
 // The same beam with forces at 3/7 of its length, 0.87, and at 5/7 of it, 1.45.
@@ -316,6 +296,46 @@ void expect_rates(const SlidingContact& system, const State& state) {
 }
 
 }  // namespace
+
+// Among walls that stand still, while λ heats the beam.
+TEST(SlidingContact, KnowsTheRatesOfHeat) {
+  Numbers numbers(77);
+  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+    StructureBuilder builder = wavy_beam(false, theory);
+    builder.add_thermal_strain(
+        0, {.strain = {.constant = 0.02, .proportional = 0.1}, .curvature = {.constant = 0.1, .proportional = -0.2}});
+    const SlidingModel model(builder, two_of(test::all_walls(false), 2), 0.1);
+    for (const Layouts& on : layouts()) {
+      SCOPED_TRACE(on.name);
+      const State state = random_state(model, piece_of(model, on), numbers);
+      const auto report = check_derivatives(model.system(), state, 1e-6);
+      EXPECT_LE(report.K, 1e-9);
+      EXPECT_LE(report.energy, 1e-7);
+      EXPECT_LE(report.guard_gradient, 1e-6);
+      expect_rates(model.system(), state);
+    }
+  }
+}
+
+// Springs along the beam go with it where the mesh slides.
+TEST(SlidingContact, DerivativesAreConsistentOnAFoundation) {
+  Numbers numbers(79);
+  for (const Theory theory : {Theory::classic, Theory::elastica}) {
+    StructureBuilder builder = wavy_beam(false, theory);
+    builder.add_foundation(0, {3.0, 5.0});
+    const SlidingModel model(builder, two_of(test::all_walls(false), 2), 0.1);
+    for (const Layouts& on : layouts()) {
+      SCOPED_TRACE(on.name);
+      const State state = random_state(model, piece_of(model, on), numbers);
+      const auto report = check_derivatives(model.system(), state, 1e-6);
+      EXPECT_LE(report.K, 1e-9);
+      EXPECT_LE(report.F_lambda, 1e-8);
+      EXPECT_EQ(report.consistency, 0.0);
+      EXPECT_LE(report.energy, 1e-7);
+      EXPECT_LE(report.guard_gradient, 1e-6);
+    }
+  }
+}
 
 // Among walls that λ moves and turns.
 TEST(SlidingContact, KnowsTheRatesOfWallsThatMove) {

@@ -50,6 +50,7 @@ E = 2.1e4
 nu = 0.29
 [material.plain]
 E = 7
+expansion = 1.2e-5
 
 [section.square]
 shape = "rectangle"
@@ -221,6 +222,11 @@ rotation = 0.25
 at = "C"
 x = 0.125
 constant = true
+
+[[load]]
+on = "column"
+temperature = 20.0
+gradient = 0.5
 
 [[monitor]]
 name = "push"
