@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
+#include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
 
 namespace arcwall {
@@ -66,7 +67,8 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   return begun;
 }
 
-// The count just behind a branch point, where it is regular again; empty where that cannot be told.
+// A point just behind a branch point, where K is regular again, with its count; empty where there is none, as between
+// walls that are too near.
 std::optional<PathPoint> just_behind(TraceTools& tools, const Metric& metric, const BranchStart& start) {
   constexpr double nearly = 0.05;  // of the first step
   const double s = nearly * start.distance;
@@ -75,6 +77,8 @@ std::optional<PathPoint> just_behind(TraceTools& tools, const Metric& metric, co
   CorrectorResult result = tools.corrector.correct(moved(start.state, forward, s), plane, metric, forward, s);
   if (!result.converged() || metric.distance(result.state, start.state) > 2.0 * s) return std::nullopt;
   PathPoint at = path_point(tools.system, metric, std::move(result), forward);
+  const bool is_outside = at.guards.size() == 0 || at.guards.minCoeff() >= -tools.options.guard_tolerance;
+  if (!is_outside || !tools.system.admissible(at.state, -penetration_tolerance)) return std::nullopt;
   decide_count(tools, at);
   return at;
 }

@@ -255,16 +255,16 @@ void SlidingStructureMesh::add_foundation(const SlidingStructure::Run& strand, c
 
 // Derivatives of the place of a load by x1, z1, angle1, x2, z2, angle2 of the element between S1 and S2 that it is in.
 SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_by_ends(const InnerLoad& load, const Ends& at, double S1,
-                                                                      double S2, Vec2* place) const {
+                                                                      double S2, double lambda, Vec2* place) const {
   const SlidingStructure::Run& described = structure_.at(load.strand);
   const ImperfectAxis& shape = *described.shape;
   const double from = described.offset + S1, here = described.offset + load.s, to = described.offset + S2;
   PlaceByEnds by_ends;
-  with_beam(load.strand, stretch_reference(shape, from, to), [&](const auto& beam) {
+  with_beam(load.strand, stretch_reference(shape, from, to), lambda, [&](const auto& beam) {
     const BeamPlace local = beam.place(at.between(), shape.length(from, here) / shape.length(from, to));
     if (place != nullptr) *place = at.first + local.offset;
     for (Index row = 0; row < 2; ++row) {
-      by_ends.row(row) = spread(Eigen::Vector4d(local.offset_gradient.row(row))).transpose();
+      by_ends.row(row) = at_ends(Eigen::Vector4d(local.offset_gradient.row(row))).transpose();
       by_ends(row, row) += 1.0;
     }
   });
@@ -281,14 +281,21 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& lo
   const double S1 = coordinate(strand, position, now.s), S2 = coordinate(strand, position + 1, now.s);
   const Vec2 P = load.at(now.lambda);
   Vec2 place;
-  const PlaceByEnds by_ends = place_by_ends(load, at, S1, S2, &place);
+  const PlaceByEnds by_ends = place_by_ends(load, at, S1, S2, now.lambda, &place);
   Response out{.energy = -P.dot(place - load.rest),
                .force = -by_ends.transpose() * P,
                .force_lambda = -by_ends.transpose() * load.rate()};
-  const auto force = [&](const Ends& ends, double from, double to) {
-    return Six(-place_by_ends(load, ends, from, to, nullptr).transpose() * P);
+  const auto force_at = [&](const Ends& ends, double from, double to, double lambda) {
+    return Six(-place_by_ends(load, ends, from, to, lambda, nullptr).transpose() * P);
   };
+  const auto force = [&](const Ends& ends, double from, double to) { return force_at(ends, from, to, now.lambda); };
   const double length = S2 - S1;
+  const ThermalStrain& thermal = structure_.at(strand).thermal;
+  const double heat = std::abs(thermal.strain.proportional) + length * std::abs(thermal.curvature.proportional);
+  if (heat > 0.0) {
+    const double by = step / heat;
+    out.force_lambda += (force_at(at, S1, S2, now.lambda + by) - force_at(at, S1, S2, now.lambda - by)) / (2.0 * by);
+  }
   for (Index i = 0; i < 6; ++i) {
     const double by = i % 3 == 2 ? step : step * length;
     const auto moved = [&](double way) {

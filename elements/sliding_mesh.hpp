@@ -133,7 +133,8 @@ class SlidingStructureMesh final : public SlidingMesh {
     return element_at({.strand = load.strand, .s = load.s}, now);
   }
   using PlaceByEnds = Eigen::Matrix<double, 2, 6>;
-  PlaceByEnds place_by_ends(const InnerLoad& load, const Ends& at, double S1, double S2, Vec2* place) const;
+  PlaceByEnds place_by_ends(const InnerLoad& load, const Ends& at, double S1, double S2, double lambda,
+                            Vec2* place) const;
   Response respond(const InnerLoad& load, Index position, const MeshState& now, bool with_rates) const;
 
   // Adds what an element answers.

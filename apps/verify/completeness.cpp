@@ -46,7 +46,7 @@ std::vector<Branch> branches_of(const Record& record, const std::vector<ListedEv
 // --- unstable directions --------------------------------------------------------------------------------------------
 
 // From an event to the next the count is one: what the first left, what the points between have, what the next found.
-// Where a branch begins on another several counts are right.
+// Where a branch begins on another, or a contact has no force, several counts are right.
 void check_counts(const Branch& branch, Findings& findings) {
   for (std::size_t i = 0; i + 1 < branch.events.size(); ++i) {
     const ListedEvent &from = branch.events[i], &to = branch.events[i + 1];
@@ -55,7 +55,9 @@ void check_counts(const Branch& branch, Findings& findings) {
     if (!begins) count = from.unstable_after;
     Index since = from.step;
     for (const RecordPoint& point : branch.points) {
-      if (point.step <= from.step || point.step >= to.step || !point.count.unstable) continue;
+      if (point.step <= from.step || point.step >= to.step || !point.count.unstable ||
+          point.count.stability == Stability::undecided)
+        continue;
       findings.at("events.json", branch.id, point.step);
       findings.require(complete, !count || *count == *point.count.unstable,
                        fmt::format("unstable goes from {} to {} between steps {} and {} without an event",

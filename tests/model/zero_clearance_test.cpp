@@ -226,8 +226,8 @@ TEST(NearlyZeroClearance, ThePitchforkIsLeftHoweverShortItsBranch) {
       EXPECT_NEAR(closes[0].lambda, euler_load(1), error * euler);
       EXPECT_NEAR(spreads[0].lambda, euler_load(2), 4.0 * error * euler);
       EXPECT_NEAR(std::abs(run.points().back().monitors[0]), gap, 1e-9 * gap);
-      for (const RecordPoint& point : run.points())
-        EXPECT_TRUE(point.branch == 0 || point.count.unstable.value_or(0) == 0);
+      for (const RecordPoint& point : run.points())  // undecided where the wall has hardly a force yet
+        EXPECT_TRUE(point.branch == 0 || point.count.stability != Stability::unstable);
     }
 }
 
