@@ -209,7 +209,7 @@ double euler_load(int m) { return 0.5 * EA * (1.0 - std::sqrt(1.0 - 4.0 * m * m 
 // theory).
 TEST(NearlyZeroClearance, ThePitchforkIsLeftHoweverShortItsBranch) {
   for (const std::string theory : {"classic", "elastica"})
-    for (const double gap : {1e-3, 1e-4, 2e-5}) {
+    for (const double gap : {1e-2, 3e-3, 1e-3}) {
       SCOPED_TRACE(theory + " " + round_trip(gap));
       const Session run =
           traced({"member.col.theory = \"" + theory + "\"", clearance(gap), "path.stop.lambda = [-10.0, 3400.0]"});
