@@ -28,7 +28,8 @@ ModalStiffness modal_stiffness(const TraceTools& tools, const State& state, cons
           .roundoff = std::numeric_limits<double>::epsilon() * bound.maxCoeff()};
 }
 
-// Along the tangent t by which the structure moves by 1, with the eigenpairs (μ, Φ) of K nearest zero, it is the least |s| with
+// Along the tangent t by which the structure moves by 1, with the eigenpairs (μ, Φ) of K nearest zero, it is the least
+// |s| with
 //
 //     det(diag(μ) + s Φᵀ (∂K/∂s) Φ) = 0.
 //

@@ -47,8 +47,8 @@ struct SteppedOff {
   Direction tangent{};  ///< away from the branch point, of unit length
 };
 
-/// Leaves the branch point along a way by `distance`, halved until it fits before the walls that are near, and some times
-/// more while a guard is violated by more than the tolerance or the step falls back onto the old branch.
+/// Leaves the branch point along a way by `distance`, halved until it fits before the walls that are near, and some
+/// times more while a guard is violated by more than the tolerance or the step falls back onto the old branch.
 std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, const Metric& metric,
                                    const BranchPoint& point, const WayOff& way, double distance,
                                    double guard_tolerance);
