@@ -7,14 +7,9 @@
 #include "elements/classic_beam.hpp"
 #include "elements/elastica_beam.hpp"
 #include "elements/foundation.hpp"
+#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
-
-namespace {
-
-Vec2 tangent(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
-}  // namespace
 
 SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, ElementsPerSegment cut)
     : structure_(structure), cut_(std::move(cut)) {
@@ -403,7 +398,7 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
   const double sign = before ? 1.0 : -1.0;
   const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
   const Response response = respond(strand, e, now, true);
-  const Vec2 t = tangent(node(strand, position, now).angle);
+  const Vec2 t = unit_tangent(node(strand, position, now).angle);
   const double S = coordinate(strand, position, now.s), step = 1e-5 * described.length;
   const auto natural = [&, strand = strand](double at) {
     return structure_.natural_curvature({.strand = strand, .s = at}, now.lambda);

@@ -3,6 +3,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
+#include "elements/unit_tangent.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -27,8 +29,6 @@ Vec2 mean(const Function& function) {
   return sum;
 }
 
-Vec2 tangent(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 }  // namespace
 
 // The bent stretch turns about its middle: θ(t) = θ⁰(t) + κ h (t − ½), t the part of its length. Its chord differs from
@@ -47,15 +47,16 @@ HeatedStretch heated(const StretchReference& cold, const ThermalStrain& thermal,
       for (std::size_t i = 0; i < 2; ++i) hot.angle_rate[i][k] += kappa * cold.length_rate[i] * (t - 0.5);
     }
     const auto at_rest = [&](double t) { return interpolated(cold.angles, t); };
-    chord += h * mean([&](double t) { return Vec2(tangent(at_rest(t) + added(t)) - tangent(at_rest(t))); });
-    chord_by_kappa = h * mean([&](double t) { return Vec2(h * (t - 0.5) * perp(tangent(at_rest(t) + added(t)))); });
+    chord += h * mean([&](double t) { return Vec2(unit_tangent(at_rest(t) + added(t)) - unit_tangent(at_rest(t))); });
+    chord_by_kappa =
+        h * mean([&](double t) { return Vec2(h * (t - 0.5) * perp(unit_tangent(at_rest(t) + added(t)))); });
     for (std::size_t i = 0; i < 2; ++i) {
       const auto turns = [&](double t) { return interpolated(cold.angle_rate[i], t); };
       hot.chord_rate[i] +=
           cold.length_rate[i] / h * (chord - cold.chord) +
           h * mean([&](double t) {
             const double angle = at_rest(t) + added(t), more = kappa * cold.length_rate[i] * (t - 0.5);
-            return Vec2((turns(t) + more) * perp(tangent(angle)) - turns(t) * perp(tangent(at_rest(t))));
+            return Vec2((turns(t) + more) * perp(unit_tangent(angle)) - turns(t) * perp(unit_tangent(at_rest(t))));
           });
     }
   }
