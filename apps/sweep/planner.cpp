@@ -121,15 +121,15 @@ void check_cases(const Plan& plan, const std::string& deck_file) {
   complaints.throw_if_any();
 }
 
-std::string content(const fs::path& file) {
+std::string content_if_any(const fs::path& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored) ? deck::read_text_file(file.string()) : std::string();
 }
 
 bool holds(const fs::path& folder, const Plan& plan) {
-  return content(folder / sweep_file_name) == plan.sweep_text &&
-         content(folder / case_list_name) == to_text(plan.cases) &&
-         content(folder / plan.cases.front().deck) == plan.deck_text;
+  return content_if_any(folder / sweep_file_name) == plan.sweep_text &&
+         content_if_any(folder / case_list_name) == to_text(plan.cases) &&
+         content_if_any(folder / plan.cases.front().deck) == plan.deck_text;
 }
 
 }  // namespace
