@@ -67,9 +67,10 @@ std::optional<NotOneContact> not_one_contact(const TouchAtRest& a, const TouchAt
   if (!acts_on_axis(a) || !acts_on_axis(b))
     return NotOneContact{.why = "faces between walls without clearance part from them as soon as the section turns",
                          .cure = "put both walls at the axis, with acts_on = \"axis\", or leave a clearance"};
-  if (!(motion_of(*a.wall) == motion_of(*b.wall)))
-    return NotOneContact{.why = "walls without clearance hold a node for good only where they move together",
-                         .cure = "give both walls the same motion, or leave a clearance"};
+  const RigidMotion motion = motion_of(*a.wall);
+  if (!(motion == motion_of(*b.wall)) || motion.turn != 0.0)
+    return NotOneContact{.why = "walls without clearance hold a node for good only where they move together, unturned",
+                         .cure = "give both walls the same motion, without a rotation, or leave a clearance"};
   if (a.straight && b.straight && 1.0 + a.normal.dot(b.normal) <= parallel) return std::nullopt;
   return NotOneContact{
       .why = "walls without clearance hold a node for good only where both are straight and parallel",

@@ -291,12 +291,17 @@ TEST(ZeroClearance, IsRefusedWhereItIsNotModelled) {
                   "centre = [500.0, 20.0], radius = 20.0 } }]"});
   has(stops, "touches walls \"under\" and \"over\" from both sides at the start, at col:0.5");
   has(stops, "leave a clearance");
-  const std::string parting = problem_of(
-      {"wall = [{ name = \"under\", side = \"below\", acts_on = \"axis\", profile = { type = \"flat\", z = 0.0 } }, "
-       "{ name = \"over\", side = \"above\", acts_on = \"axis\", profile = { type = \"flat\", z = 0.0 }, "
-       "motion = { z = 1.0 } }]"});
-  has(parting, "only where they move together");
-  has(parting, "give both walls the same motion, or leave a clearance");
+  const auto moving = [](const std::string& under, const std::string& over) {
+    return problem_of(
+        {"wall = [{ name = \"under\", side = \"below\", acts_on = \"axis\", profile = { type = \"flat\", z = 0.0 }" +
+         under + " }, { name = \"over\", side = \"above\", acts_on = \"axis\", profile = { type = \"flat\", z = 0.0 }" +
+         over + " }]"});
+  };
+  const std::string turn = ", motion = { rotation = 0.1 }";
+  for (const std::string& problem : {moving("", ", motion = { z = 1.0 }"), moving(turn, turn)}) {
+    has(problem, "only where they move together");
+    has(problem, "give both walls the same motion, without a rotation, or leave a clearance");
+  }
 }
 
 }  // namespace arcwall::zero_clearance_test
