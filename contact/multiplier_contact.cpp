@@ -154,16 +154,14 @@ Vector MultiplierContact::weights(const Piece& piece) const {
 }
 
 Vector MultiplierContact::guards(const State& state) const {
-  Vector guards(contact_count());
-  Index k = inner_.size({});
-  for (Index j = 0; j < guards.size(); ++j) {
-    const bool has_force = this->has_force(state.piece, static_cast<std::size_t>(j));
-    const Index own = has_force ? k++ : 0;
-    if (is_two_sided(j))
-      guards[j] = out_of_reach;
-    else
-      guards[j] = has_force ? state.x[own] / scales_.force : open_guard(j, state);
-  }
+  Vector guards = Vector::Constant(contact_count(), out_of_reach);
+  const Index n = inner_.size({});
+  for (Index j = 0; j < guards.size(); ++j)
+    if (!state.piece[static_cast<std::size_t>(j)] && !is_two_sided(j)) guards[j] = open_guard(j, state);
+  for_each_force(state.piece, [&](std::size_t j, Index k) {
+    if (const auto contact = static_cast<Index>(j); !is_two_sided(contact))
+      guards[contact] = state.x[n + k] / scales_.force;
+  });
   return guards;
 }
 
@@ -195,17 +193,15 @@ Row MultiplierContact::guard_gradient(const State& state, Index j) const {
 }
 
 Vector MultiplierContact::guard_rates(const State& state, const Direction& direction) const {
-  Vector rates(contact_count());
-  Index k = inner_.size({});
-  for (Index j = 0; j < rates.size(); ++j) {
-    const bool has_force = this->has_force(state.piece, static_cast<std::size_t>(j));
-    const Index own = has_force ? k++ : 0;
-    if (is_two_sided(j))
-      rates[j] = 0.0;
-    else
-      rates[j] =
-          has_force ? direction.dx[own] / scales_.force : candidate(j).gap_rate(state, direction) / scales_.length;
-  }
+  Vector rates = Vector::Zero(contact_count());
+  const Index n = inner_.size({});
+  for (Index j = 0; j < rates.size(); ++j)
+    if (!state.piece[static_cast<std::size_t>(j)] && !is_two_sided(j))
+      rates[j] = candidate(j).gap_rate(state, direction) / scales_.length;
+  for_each_force(state.piece, [&](std::size_t j, Index k) {
+    if (const auto contact = static_cast<Index>(j); !is_two_sided(contact))
+      rates[contact] = direction.dx[n + k] / scales_.force;
+  });
   return rates;
 }
 

@@ -79,12 +79,12 @@ std::optional<Index> unstable_at(const Event& event, const std::vector<TriedWay>
   return least;
 }
 
-BranchStart start_along(const Event& event, const TriedWay& way, std::optional<Index> unstable) {
+BranchStart start_along(const Event& event, const TriedWay& tried, std::optional<Index> unstable) {
   const BranchPoint& point = *event.branching;
   BranchStart start{.state = point.state};
-  start.state.piece = way.step.state.piece;
-  start.forward = way.way.forward;
-  start.mode = way.way.across;
+  start.state.piece = tried.step.state.piece;
+  start.forward = tried.way.forward;
+  start.mode = tried.way.across;
   start.unstable = unstable;
   return start;
 }
