@@ -69,9 +69,8 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
 
 // A point just behind a branch point, where K is regular again, with its count; empty where there is none, as between
 // walls that are too near.
-std::optional<PathPoint> just_behind(TraceTools& tools, const Metric& metric, const BranchStart& start) {
-  constexpr double nearly = 0.05;  // of the first step
-  const double s = nearly * start.distance;
+std::optional<PathPoint> point_just_behind(TraceTools& tools, const Metric& metric, const BranchStart& start) {
+  const double s = just_behind * start.distance;
   const Direction& forward = *start.forward;
   const PlaneConstraint plane(metric, start.state, start.mode, s * metric.inner(forward, start.mode));
   CorrectorResult result = tools.corrector.correct(moved(start.state, forward, s), plane, metric, forward, s);
@@ -97,7 +96,7 @@ BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
   BranchBegun begun{.arc = first_arc(at, {}), .step_length = start.distance};
   begun.from.signs = signs_at(tools.detectors, at);
   begun.from.point = std::move(at);
-  if (const auto behind = just_behind(tools, metric, start)) {
+  if (const auto behind = point_just_behind(tools, metric, start)) {
     begun.from.negative_eigenvalues = behind->negative_eigenvalues;
     begun.from.count_after = tools.counter.count(behind->state, behind->negative_eigenvalues);
     begun.from.zero_eigenvalues = 1;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/events/branch_point.hpp"
+#include "continuation/path_tolerances.hpp"
 #include "continuation/stability.hpp"
 
 namespace arcwall {
@@ -66,14 +67,15 @@ int preferred_sign(const std::vector<std::shared_ptr<const Observable>>& prefere
   return ways.front().sign;  // along the mode, whose largest component is positive
 }
 
-// The unstable directions at a branch point, where one that is neutral does not count.
-std::optional<Index> unstable_at(const Event& event, const std::vector<TriedWay>& ways) {
+// The unstable directions at a branch point, where one that is neutral does not count. `near` are its ways, so short
+// that no other singular point lies between.
+std::optional<Index> unstable_at(const Event& event, const std::vector<TriedWay>& near) {
   std::optional<Index> least;
   const auto consider = [&](std::optional<Index> count) {
     if (count && (!least || *count < *least)) least = count;
   };
   if (event.branching->ends_its_own_branch())
-    for (const TriedWay& way : ways) consider(way.count.unstable);
+    for (const TriedWay& way : near) consider(way.count.unstable);
   else if (event.unstable_before && event.unstable_after)
     for (const auto& count : {event.unstable_before, event.unstable_after}) consider(count);
   return least;
@@ -171,7 +173,8 @@ void Explorer::look_at(const Event& event) {
     return;
   }
   const bool mirrored = mirror_images(ways);
-  const std::optional<Index> unstable = unstable_at(event, ways);
+  const std::optional<Index> unstable = unstable_at(
+      event, mirror_ahead ? tried_ways(system_, trace_, point, metric, just_behind * options_.distance) : ways);
   const int preferred = preferred_sign(options_.preference, point, ways, metric);
   if (options_.policy == BranchPolicy::all) {
     for (const TriedWay& way : ways)

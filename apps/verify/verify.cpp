@@ -61,18 +61,22 @@ void add_monitors(const Model& model, const State& state, PathExpectation& expec
   }
 }
 
-// Where the stiffness is singular, eigenvalues are as near to zero as the place is sure. A contact that slides moves
-// its mesh, which this second variation does not know of: it turns some 5e-4 of arc length from where the other does.
+// Where the stiffness is singular, as where a branch leaves another, eigenvalues are as near to zero as the place is
+// sure. A contact that slides moves its mesh, which this second variation does not know of: it turns some 5e-4 of arc
+// length from where the other does.
 double zero_eigenvalue(const Model& model, const Record& record, const RecordPoint& point) {
-  constexpr double near = 1e-3;
+  constexpr double near = 1e-3, singular_zero = 1e-6;
   const bool slides = model.sliding() != nullptr && point.contacts > 0;
+  const auto is_here = [&](double arc, Index step) {
+    return slides ? std::abs(arc - point.arc) <= near : step == point.step;
+  };
+  if (record.branches.at(static_cast<std::size_t>(point.branch)).origin && is_here(0.0, 0)) return singular_zero;
   const auto singular = [&](const RecordEvent& event) {
-    if (event.branch != point.branch) return false;
-    if (slides ? std::abs(event.arc - point.arc) > near : event.step != point.step) return false;
+    if (event.branch != point.branch || !is_here(event.arc, event.step)) return false;
     return event.kind == EventKind::limit_point || event.kind == EventKind::branch_point ||
            (event.branch_end && event.branch_end->reason == EndReason::continuum);
   };
-  return std::any_of(record.events.begin(), record.events.end(), singular) ? 1e-6 : 1e-11;
+  return std::any_of(record.events.begin(), record.events.end(), singular) ? singular_zero : 1e-11;
 }
 
 Index listed_contacts(const Touches& touches) {
