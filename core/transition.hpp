@@ -37,6 +37,7 @@ struct Transition {
   /// through the guess across `forward`.
   std::shared_ptr<const Observable> quantity{};
   double value = 0.0;
+  double least = 0.0;  ///< of the quantity, below which round-off hides what it does
 };
 
 }  // namespace arcwall

@@ -456,6 +456,9 @@ What is no structure of a deck is compared in `tests/published` with closed form
 exact folds of its difference scheme, the sinusoidal shallow arch, the star dome with its double points, and the normal forms of
 singular points.
 
+Parts that lift off a straight wall are compared with the place where κ₀″ = 0 on four meshes each, and no wall pulls
+(`tests/apps/lifting_parts_test.cpp`).
+
 Whole runs of ten decks are compared in `tests/apps/deck_answers_test.cpp`, event by event, six of them with closed forms and
 shooting and four with finer meshes and shorter steps: bounds just behind the spreading of a touch, stops that are smaller than an
 element or shorter than the structure, a snap-fit, a slender column, a toggle on a floor and columns between walls.

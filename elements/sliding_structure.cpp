@@ -27,6 +27,25 @@ double SlidingStructure::natural_curvature(const MaterialPoint& point, double la
   return place.turning / place.speed + strand.thermal.curvature.at(lambda);
 }
 
+// By central differences of sixth order; κ and the speed v, by which the curve is longer than its axis, are functions
+// of the axis' arc length a: d²κ/dS² = (κ_aa − κ_a v_a/v)/v². Temperatures are the same all along a strand.
+double SlidingStructure::natural_curvature_second(const MaterialPoint& point) const {
+  const Run& strand = runs_[static_cast<std::size_t>(point.strand)];
+  const double h = 0.005 * strand.length;
+  const double centre = strand.offset + std::clamp(point.s, 3.0 * h, strand.length - 3.0 * h);
+  const Eigen::Matrix<double, 7, 1> first(-1.0 / 60.0, 3.0 / 20.0, -3.0 / 4.0, 0.0, 3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0);
+  const Eigen::Matrix<double, 7, 1> second(1.0 / 90.0, -3.0 / 20.0, 3.0 / 2.0, -49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0,
+                                           1.0 / 90.0);
+  Eigen::Matrix<double, 7, 1> curvature, speed;
+  for (Index i = 0; i < 7; ++i) {
+    const DeviatedPoint place = strand.shape->along(centre + double(i - 3) * h);
+    curvature[i] = place.turning / place.speed;
+    speed[i] = place.speed;
+  }
+  const double v = speed[3], v_a = first.dot(speed) / h, bend = second.dot(curvature) / (h * h);
+  return (bend - first.dot(curvature) / h * v_a / v) / (v * v);
+}
+
 Vec2 SlidingStructure::load(const MaterialPoint& point, const Vec2& position, double lambda) const {
   const Run& strand = at(point.strand);
   const Vec2 load = lambda * strand.load + strand.constant_load;

@@ -31,6 +31,7 @@ class SlidingStructure final : public SlidingBody {
   double half_height(Index strand) const override { return 0.5 * at(strand).section.height.value_or(0.0); }
   double elements_between(Index strand, double from, double to) const override;
   double natural_curvature(const MaterialPoint& point, double lambda) const override;
+  double natural_curvature_second(const MaterialPoint& point) const override;
   double bending_stiffness(Index strand) const override { return at(strand).section.EI(); }
   double axial_stiffness(Index strand) const override { return at(strand).section.EA(); }
   FreeStrain free_strain(Index strand, double lambda) const override {

@@ -55,30 +55,100 @@ double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at,
   return setting.obstacles[touch.obstacle].surface->curvature(touch.axis(at).position, at.now.lambda).value;
 }
 
-// ± [EI (κ̂″ − κ₀″) + P κ̂ − q·n], q the load along the body. Its sign says whether the body lies on the wall there,
-// its vanishing that it does so by itself.
-double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const SlidingBody& body = setting.body;
+namespace {
+
+Vec2 place_ahead(const AxisPlace& axis, double stretch, double ahead) {
+  return axis.position + ahead * stretch * Vec2(std::cos(axis.angle), std::sin(axis.angle));
+}
+
+}  // namespace
+
+bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
   const Touch touch = touch_of_contact(setting, at.layout, point);
   const AxisPlace axis = touch.axis(at);
-  const double along = travel(axis);
-  const double L = body.length(touch.strand), step = 0.01 * L, S = at.s(static_cast<Index>(point));
   const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
-  const auto second = [step](const auto& f) { return (f(1.0) - 2.0 * f(0.0) + f(-1.0)) / (step * step); };
-  const double natural = second(
-      [&](double i) { return body.natural_curvature({.strand = touch.strand, .s = S + i * step}, at.now.lambda); });
-  const auto wall = [&](double i) {
-    const Vec2 there = axis.position + i * step * Vec2(std::cos(axis.angle), std::sin(axis.angle));
-    return obstacle.faces(there, at.now.lambda) ? obstacle.curvature(there, at.now.lambda).value : 0.0;
+  const auto is_straight = [&](double part) {
+    const Vec2 there = place_ahead(axis, 1.0, part * ahead);
+    return !obstacle.faces(there, at.now.lambda) || obstacle.curvature(there, at.now.lambda).value == 0.0;
   };
-  const double EI = body.bending_stiffness(touch.strand), EA = body.axial_stiffness(touch.strand);
-  const double free = body.free_strain(touch.strand, at.now.lambda).value;
-  const double thrust = -EA * (strain_of_free_side(at, point).stretch - 1.0 - free);
-  const Vec2 up = along * normal(axis.angle);
-  const Vec2 load = body.load({.strand = touch.strand, .s = S}, axis.position, at.now.lambda);
-  const double q =
-      sign_of(obstacle.side()) * (EI * (second(wall) - along * natural) + thrust * wall(0.0) - load.dot(up));
-  const double noise = 1e-7 * EI / (L * L * L);
+  return is_straight(0.0) && (ahead == 0.0 || (is_straight(0.5) && is_straight(1.0)));
+}
+
+HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  const AxisPlace axis = touch.axis(at);
+  return {.touch = touch,
+          .ahead = ahead,
+          .s = at.s(static_cast<Index>(point)) + ahead,
+          .position = axis.position,
+          .angle = axis.angle,
+          .stretch = strain_of_free_side(at, point).stretch,
+          .lambda = at.now.lambda};
+}
+
+// ∓ (EI κ₀″/Λ + q·n), q the load along the body.
+double straight_pressure(const SlidingSetting& setting, const HeldAxis& held) {
+  const SlidingBody& body = setting.body;
+  const Index strand = held.touch.strand;
+  const MaterialPoint here{.strand = strand, .s = held.s};
+  const AxisPlace axis{.position = held.position, .angle = held.angle};
+  const Vec2 load = body.load(here, place_ahead(axis, held.stretch, held.ahead), held.lambda);
+  const double bending = body.bending_stiffness(strand) * body.natural_curvature_second(here) / held.stretch;
+  const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
+  return -side * travel(axis) * (bending + load.dot(normal(held.angle)));
+}
+
+// ± [EI (κ̂″ − κ₀″/Λ) + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it does
+// so by itself.
+double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
+  const SlidingBody& body = setting.body;
+  const HeldAxis held = held_axis(setting, at, point, ahead);
+  const Index strand = held.touch.strand;
+  const Obstacle& obstacle = *setting.obstacles[held.touch.obstacle].surface;
+  const auto wall = [&](double farther) {
+    const Vec2 there = place_ahead({.position = held.position, .angle = held.angle}, 1.0, ahead + farther);
+    return obstacle.faces(there, held.lambda) ? obstacle.curvature(there, held.lambda).value : 0.0;
+  };
+  const double step = 0.01 * body.length(strand);
+  const double wall_second = (wall(step) - 2.0 * wall(0.0) + wall(-step)) / (step * step);
+  const double strain = held.stretch - 1.0 - body.free_strain(strand, held.lambda).value;
+  const double by_wall =
+      body.bending_stiffness(strand) * wall_second - body.axial_stiffness(strand) * strain * wall(0.0);
+  return straight_pressure(setting, held) + sign_of(obstacle.side()) * by_wall;
+}
+
+Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
+  constexpr double step = 1e-4;
+  const HeldAxis held = held_axis(setting, at, point, ahead);
+  const auto by = [&](double scale, const auto& move) {
+    HeldAxis less = held, more = held;
+    move(less, -step * scale);
+    move(more, step * scale);
+    return (straight_pressure(setting, more) - straight_pressure(setting, less)) / (2.0 * step * scale);
+  };
+  const double length = setting.body.length(held.touch.strand);
+  const double by_x = by(length, [](HeldAxis& there, double d) { there.position.x() += d; });
+  const double by_z = by(length, [](HeldAxis& there, double d) { there.position.y() += d; });
+  const double by_angle = by(1.0, [](HeldAxis& there, double d) { there.angle += d; });
+  const double by_stretch = by(1.0, [](HeldAxis& there, double d) { there.stretch += d; });
+  const double by_s = by(length, [](HeldAxis& there, double d) { there.s += d; });
+  const double by_lambda = by(1.0, [](HeldAxis& there, double d) { there.lambda += d; });
+
+  const AxisStrain strain = strain_of_free_side(at, point);
+  const Touch& touch = held.touch;
+  Row row = at.no_slope();
+  row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx;
+  row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds;
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), Eigen::Vector3d(by_x, by_z, by_angle), row.dx);
+  row.dx[at.index.coordinate(static_cast<Index>(point))] += by_s;
+  row.dlambda = by_lambda + by_stretch * strain.stretch_dlambda;
+  return row;
+}
+
+double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
+  const double L = setting.body.length(strand), noise = 1e-7 * setting.body.bending_stiffness(strand) / (L * L * L);
+  const double q = pressure_to_hold(setting, at, point, 0.0);
   return std::abs(q) > noise ? q : 0.0;
 }
 

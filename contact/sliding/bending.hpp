@@ -19,8 +19,32 @@ CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at
 /// Curvature of the obstacle at a tracked point [1/length].
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
-/// Force per length that would hold the body on the obstacle at a tracked point; > 0 where the obstacle would press,
-/// 0 where that is round-off (8.7).
+/// Whether the obstacle is straight beside a tracked point and up to `ahead` of it along the body.
+bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead = 0.0);
+
+/// The axis beside a tracked point, held straight on a straight obstacle, and a place on it.
+struct HeldAxis {
+  Touch touch;
+  double ahead;    ///< of the point, where the place is [length]
+  double s;        ///< material coordinate of the place [length]
+  Vec2 position;   ///< of the point
+  double angle;    ///< of the axis [rad]
+  double stretch;  ///< of the axis
+  double lambda;
+};
+HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+
+/// Force per length with which a straight obstacle holds the axis straight at that place; > 0 where it presses (8.7).
+double straight_pressure(const SlidingSetting& setting, const HeldAxis& held);
+
+/// Its derivatives by all unknowns and by λ, at a place that stays as far ahead of the point.
+Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+
+/// Force per length that would hold the body on the obstacle at a tracked point, or `ahead` of it along the body; > 0
+/// where the obstacle would press (8.7). Exact beside a straight obstacle.
+double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+
+/// The same at the point itself, 0 where that is round-off.
 double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// Whether the body needs no pressure to lie on a straight obstacle behind a tracked point.

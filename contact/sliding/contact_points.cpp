@@ -26,7 +26,7 @@ ContactPoint at_node(const SlidingSetting& setting, const SlidingState& at, cons
 // Where the pressure is least that a bound watches.
 ContactPoint at_least_pressure(const SlidingSetting& setting, const SlidingState& at, const PressureBound& bound) {
   const SlidingContactLayout::PressedNode& node = at.layout.pressed_nodes()[bound.node()];
-  const MaterialPoint least{.strand = node.strand, .s = least_pressure(at, bound.node()).s};
+  const MaterialPoint least{.strand = node.strand, .s = least_pressure(setting, at, bound.node()).s};
   return {.label = label_of(setting, node.obstacle, least),
           .place = face(setting.face_offset(node.obstacle, node.strand), at.mesh.place(least, at.now))};
 }

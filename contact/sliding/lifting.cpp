@@ -1,8 +1,10 @@
 #include "contact/sliding/lifting.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "contact/sliding/bending.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
@@ -16,8 +18,6 @@ namespace {
 using Nodes = std::vector<std::size_t>;
 using Span = SlidingContactLayout::Span;
 
-constexpr int fewest_pressed = 6;  // elements of a pressed part that lifts off inside
-
 // Pressed nodes where a part lifts off: of neighbours the one with the least pressure.
 Nodes lifting_nodes(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
   const auto& pressed = at.layout.pressed_nodes();
@@ -30,11 +30,29 @@ Nodes lifting_nodes(const SlidingSetting& setting, const SlidingState& at, doubl
     last_reached = node;
     if (!neighbour) {
       nodes.push_back(node);
-    } else if (least_pressure(at, node).value < least_pressure(at, nodes.back()).value) {
+    } else if (least_pressure(setting, at, node).value < least_pressure(setting, at, nodes.back()).value) {
       nodes.back() = node;
     }
   }
   return nodes;
+}
+
+const SlidingContactLayout::Segment& part_of(const SlidingState& at, std::size_t node) {
+  return at.layout.segments()[at.layout.pressed_nodes()[node].segment];
+}
+
+bool is_on_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
+  return obstacle_is_straight(setting, at, static_cast<std::size_t>(part_of(at, node).first_point));
+}
+
+enum class Where { first_end, inside, last_end };
+
+// Where a part lifts off. On a curved obstacle the pressure is known between nodes no better than by them.
+Where lifts_off_at(const SlidingSetting& setting, const SlidingState& at, std::size_t node, double length) {
+  const SlidingContactLayout::Segment& part = part_of(at, node);
+  const double place = least_pressure(setting, at, node).s, begin = at.s(part.first_point), end = at.s(part.last_point);
+  const double near = 0.5 * (is_on_straight(setting, at, node) ? length : (end - begin) / part.elements);
+  return place - begin < near ? Where::first_end : end - place < near ? Where::last_end : Where::inside;
 }
 
 // Splits the part of a pressed node by a free span where its pressure is least; tells the point behind which the span
@@ -43,23 +61,23 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
                                  LayoutEdit& edit) {
   const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
   const SlidingContactLayout::Segment& part = at.layout.segments()[pressed.segment];
-  const double place = least_pressure(at, node).s;
-  const double begin = at.s(part.first_point), end = at.s(part.last_point), h = (end - begin) / part.elements;
-  const bool at_first = place - begin < 0.5 * h, at_last = end - place < 0.5 * h;
+  const double place = least_pressure(setting, at, node).s;
+  const double begin = at.s(part.first_point), end = at.s(part.last_point);
+  const Where where = lifts_off_at(setting, at, node, length);
+  const bool at_first = where == Where::first_end, at_last = where == Where::last_end;
   const double left = at_first ? begin : at_last ? end - length : place - 0.5 * length;
   const double next = edit.s[part.first_point + 1];  // up to where it has lifted before
-  const double least_between = 8.0 * shortest_span(setting.body, pressed.strand);
-  const bool fits = left >= begin && left + length <= next;
-  if (!fits || (!at_first && !at_last && length < least_between)) return std::nullopt;
+  const double least = where == Where::inside ? 8.0 * shortest_span(setting.body, pressed.strand) : 0.0;
+  if (left < begin || left + length > next || length < least) return std::nullopt;
 
-  const auto elements = [&](double from, double to, int fewest) {
-    return elements_asked(setting.body, pressed.strand, from, to, fewest);
+  const auto elements = [&](double from, double to, int fewest) {  // with room to grow before the part is meshed anew
+    return std::max(fewest, static_cast<int>(std::ceil(setting.body.elements_between(pressed.strand, from, to))));
   };
-  const int across = elements(left, left + length, 2), behind = elements(left + length, next, fewest_pressed);
+  const int fewest = fewest_pressed(is_on_straight(setting, at, node));
+  const int across = elements(left, left + length, 2), behind = elements(left + length, next, fewest);
   LayoutEdit::Entry edge{.point = {.obstacle = pressed.obstacle}, .strand = pressed.strand, .s = left, .closed = true};
-  const std::size_t first = at_first
-                                ? static_cast<std::size_t>(part.first_point)
-                                : edit.insert(edge, elements(begin, left, fewest_pressed), at_last ? across : behind);
+  const std::size_t first = at_first ? static_cast<std::size_t>(part.first_point)
+                                     : edit.insert(edge, elements(begin, left, fewest), at_last ? across : behind);
   edit.points[first].behind = Span::free;
   if (at_last) return first;
   edge.point.behind = Span::pressed;
@@ -92,10 +110,29 @@ std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingSta
 
 std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
   const Nodes nodes = lifting_nodes(setting, at, tolerance);
-  const double length = 2.0 * shortest_span(setting.body, at.layout.pressed_nodes()[nodes.front()].strand);
+  const SlidingContactLayout::Segment& part = part_of(at, nodes.front());
+  const auto first_point = static_cast<std::size_t>(part.first_point);
+  const double shortest = shortest_span_on_straight(setting.body, part.strand);
+  const bool at_ends_on_straight = std::all_of(nodes.begin(), nodes.end(), [&](std::size_t node) {
+    return is_on_straight(setting, at, node) && lifts_off_at(setting, at, node, shortest) != Where::inside;
+  });
   std::vector<Transition> transitions;
-  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
-    if (auto transition = lifted(setting, at, nodes, factor * length)) transitions.push_back(std::move(*transition));
+  const auto try_length = [&](double length, double least) {
+    auto transition = lifted(setting, at, nodes, length);
+    if (!transition) return;
+    transition->least = least;
+    transitions.push_back(std::move(*transition));
+  };
+  if (at_ends_on_straight) {
+    const double ahead = least_pressure(setting, at, nodes.front()).s - at.s(part.first_point);
+    const double sure = shortest_sure_arch(setting, at, first_point, ahead);
+    for (const double factor : {2.0, 4.0, 8.0, 16.0, 1.0, 0.5})
+      if (factor * sure > shortest) try_length(factor * sure, sure);
+    try_length(2.0 * shortest, sure);
+  } else {
+    for (const double factor : {2.0, 4.0, 8.0, 16.0, 32.0})
+      try_length(factor * shortest_span(setting.body, part.strand), 0.0);
+  }
   transitions.push_back(unsupported(
       "a part that is pressed on a wall lifts off inside, and no equilibrium with one free stretch was found"));
   return transitions;

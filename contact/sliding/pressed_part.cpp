@@ -1,7 +1,10 @@
 #include "contact/sliding/pressed_part.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+
+#include "contact/sliding/bending.hpp"
 
 namespace arcwall::sliding {
 
@@ -75,24 +78,111 @@ Place least_near(const Vector& force, Index i) {
   return least;
 }
 
+// A pressed node and the part that it belongs to.
+struct PartOfNode {
+  const SlidingContactLayout::PressedNode& pressed;
+  const SlidingContactLayout::Segment& segment;
+  Index node, nodes;  // which of the part's nodes it is, and how many there are
+
+  PartOfNode(const SlidingContactLayout& layout, std::size_t number)
+      : pressed(layout.pressed_nodes()[number]), segment(layout.segments()[pressed.segment]) {
+    node = pressed.position - layout.mesh().breakpoint(segment.first_point).second - 1;
+    nodes = segment.elements - 1;
+  }
+  double from(const SlidingState& at) const { return at.s(segment.first_point); }
+  double length(const SlidingState& at) const { return at.s(segment.last_point) - from(at); }
+};
+
+// --- on a curved obstacle: by the forces of the nodes --------------------------------------------------------------
+
+struct ByForces {
+  Index first = 0;      // the first force of the part among the unknowns
+  Vector weights{};     // of the forces of the part's nodes: their sum is the pressure times the length of an element
+  double offset = 0.0;  // of the place from the node, in elements
+};
+
+ByForces least_by_forces(const SlidingState& at, std::size_t number, const PartOfNode& part) {
+  ByForces out{.first = at.index.pressed_force(number - static_cast<std::size_t>(part.node))};
+  const Matrix smooth = smoothing(part.nodes);
+  const Place least = least_near(smooth * at.state.x.segment(out.first, part.nodes), part.node);
+  out.weights = smooth.transpose() * least.weights;
+  out.offset = least.offset;
+  return out;
+}
+
+// --- on a straight obstacle: the axis is straight, so that its pressure is known -------------------------------------
+
+// A place of a part by its fraction r, and the pressure there.
+struct AtFraction {
+  double r, pressure;
+};
+
+double pressure_at(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part, double r) {
+  const auto first = static_cast<std::size_t>(part.segment.first_point);
+  return straight_pressure(setting, held_axis(setting, at, first, r * part.length(at)));
+}
+
+// The least of what the node sees, at an end or between.
+AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  constexpr int digits = 26;  // binary, of the place
+  const double h = 1.0 / part.segment.elements;
+  const double from = part.node == 0 ? 0.0 : (double(part.node) + 0.5) * h;
+  const double to = part.node == part.nodes - 1 ? 1.0 : (double(part.node) + 1.5) * h;
+  const auto pressure = [&](double r) { return pressure_at(setting, at, part, r); };
+  const auto at_fraction = [&](double r) { return AtFraction{.r = r, .pressure = pressure(r)}; };
+  const AtFraction first = at_fraction(from), middle = at_fraction(0.5 * (from + to)), last = at_fraction(to);
+  const AtFraction least = first.pressure <= last.pressure ? first : last;
+  const double bend = first.pressure - 2.0 * middle.pressure + last.pressure;
+  if (!(2.0 * bend > std::abs(first.pressure - last.pressure))) return least;  // their parabola is least at an end
+  const auto [r, value] = boost::math::tools::brent_find_minima(pressure, from, to, digits);
+  return value < least.pressure ? AtFraction{.r = r, .pressure = value} : least;
+}
+
+// The place is at a fraction of the part, whose ends move: it moves along the axis with them.
+Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  constexpr double step = 1e-4;  // of the strand
+  const double r = least_on_straight(setting, at, part).r, length = part.length(at);
+  const double ahead = step * setting.body.length(part.pressed.strand) / length;
+  const double slope =
+      (pressure_at(setting, at, part, r + ahead) - pressure_at(setting, at, part, r - ahead)) / (2.0 * ahead * length);
+  const auto first = static_cast<std::size_t>(part.segment.first_point);
+  Row row = straight_pressure_gradient(setting, at, first, r * length);
+  row.dx[at.index.coordinate(part.segment.first_point)] -= r * slope;
+  row.dx[at.index.coordinate(part.segment.last_point)] += r * slope;
+  return row;
+}
+
+bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  return obstacle_is_straight(setting, at, static_cast<std::size_t>(part.segment.first_point), part.length(at));
+}
+
 }  // namespace
 
-LeastPressure least_pressure(const SlidingState& at, std::size_t node) {
-  const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
-  const SlidingContactLayout::Segment& segment = at.layout.segments()[pressed.segment];
-  const Index count = segment.elements - 1;
-  const Index i = pressed.position - at.mesh.breakpoint(segment.first_point).second - 1;
-  const std::size_t first = node - static_cast<std::size_t>(i);
-  const auto forces = at.state.x.segment(at.index.pressed_force(first), count);
-  const Matrix smooth = smoothing(count);
-  const Place least = least_near(smooth * forces, i);
+LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
+  const PartOfNode part(at.layout, node);
+  const double length = part.length(at);
+  if (lies_on_straight(setting, at, part)) {
+    const AtFraction least = least_on_straight(setting, at, part);
+    return {.value = least.pressure, .s = part.from(at) + least.r * length};
+  }
+  const ByForces least = least_by_forces(at, node, part);
+  const double element = length / part.segment.elements;
+  return {.value = least.weights.dot(at.state.x.segment(least.first, part.nodes)) / element,
+          .s = at.mesh.coordinate(part.pressed.strand, part.pressed.position, at.now.s) + least.offset * element};
+}
 
-  LeastPressure out{.first = first, .weights = smooth.transpose() * least.weights};
-  const double length = at.s(segment.last_point) - at.s(segment.first_point);
-  out.element = length / segment.elements;
-  out.value = out.weights.dot(forces) * segment.elements / length;
-  out.s = at.mesh.coordinate(pressed.strand, pressed.position, at.now.s) + least.offset * out.element;
-  return out;
+// The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this.
+Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
+  const PartOfNode part(at.layout, node);
+  if (lies_on_straight(setting, at, part)) return gradient_on_straight(setting, at, part);
+  const ByForces least = least_by_forces(at, node, part);
+  const double length = part.length(at), per_force = part.segment.elements / length;
+  const double p = least.weights.dot(at.state.x.segment(least.first, part.nodes));
+  Row row = at.no_slope();
+  row.dx.segment(least.first, part.nodes) = per_force * least.weights;
+  row.dx[at.index.coordinate(part.segment.last_point)] = -per_force * p / length;
+  row.dx[at.index.coordinate(part.segment.first_point)] = per_force * p / length;
+  return row;
 }
 
 }  // namespace arcwall::sliding

@@ -1,18 +1,24 @@
 #pragma once
 
+#include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
 
 namespace arcwall::sliding {
 
 /// The pressure on a pressed part, seen from one of its nodes: up to the middles of the elements on both sides, and
-/// from the first and the last node up to the end of the part.
+/// from the first and the last node up to the end of the part. On a straight obstacle by (8.7), which is exact there;
+/// on a curved one by the forces of the nodes (8.11).
 struct LeastPressure {
-  double value = 0.0;     ///< force per length of axis; < 0 where the part would lift off
-  double s = 0.0;         ///< material coordinate of the place where it is least [length]
-  std::size_t first = 0;  ///< the first pressed node of the part
-  Vector weights{};       ///< of the forces of the part's nodes: their sum is `value` times the length of an element
-  double element = 0.0;   ///< length of an element of the part [length]
+  double value = 0.0;  ///< force per length of axis; < 0 where the part would lift off
+  double s = 0.0;      ///< material coordinate of the place where it is least [length]
 };
-LeastPressure least_pressure(const SlidingState& at, std::size_t node);
+LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t node);
+
+/// Its derivatives by all unknowns and by λ.
+Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node);
+
+/// Fewest elements of a part that is pressed on a straight obstacle, or on a curved one, where four forces and more
+/// show the pressure up to the ends.
+constexpr int fewest_pressed(bool straight) { return straight ? 2 : 8; }
 
 }  // namespace arcwall::sliding

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/sliding/bending.hpp"
+
 namespace arcwall::sliding {
 
 using Span = SlidingContactLayout::Span;
@@ -11,18 +13,38 @@ int elements_asked(const SlidingBody& body, Index strand, double from, double to
   return std::max(fewest, static_cast<int>(std::lround(body.elements_between(strand, from, to))));
 }
 
-double shortest_span(const SlidingBody& body, Index strand) {
-  const double L = body.length(strand);
-  return std::max(0.125 * L / body.elements_between(strand, 0.0, L), 1e-3 * L);
+double shortest_span_on_straight(const SlidingBody& body, Index strand) { return 1e-3 * body.length(strand); }
+
+// The nodes of the arch's two elements are known to some ε L, their forces to EI/(d/2)³ times that; a tenth of p̄′
+// d²/20.
+double shortest_sure_arch(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
+  constexpr double roundoff = 1e-12, longest = 0.02, step = 1e-3;
+  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
+  const double L = setting.body.length(strand);
+  const auto pressure = [&](double there) {
+    return straight_pressure(setting, held_axis(setting, at, point, ahead + there));
+  };
+  const double slope = std::abs(pressure(step * L) - pressure(-step * L)) / (2.0 * step * L);
+  const double lost = std::pow(roundoff * setting.body.bending_stiffness(strand) * L / slope, 0.2);
+  return std::clamp(lost, shortest_span_on_straight(setting.body, strand), longest * L);
 }
 
-// Between two pressed parts the pressure that is left at the edges goes with the square of the span, and is lost in the
+double shortest_span(const SlidingBody& body, Index strand) {
+  const double L = body.length(strand);
+  return std::max(0.125 * L / body.elements_between(strand, 0.0, L), shortest_span_on_straight(body, strand));
+}
+
+// Between two pressed parts the force that is left at the edges goes with the cube of the span, and is lost in the
 // error of the elements where these are much longer.
-double shortest_span(const SlidingBody& body, const SlidingContactLayout& on, std::size_t point) {
-  const bool between_parts = on.points()[point].behind == Span::free && on.span_before(point) == Span::pressed &&
-                             on.points()[point + 1].behind == Span::pressed;
+double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const SlidingContactLayout& on = at.layout;
+  const bool before = on.span_before(point) == Span::pressed, behind = on.points()[point + 1].behind == Span::pressed;
+  const Span span = on.points()[point].behind;
   const Index strand = on.mesh().breakpoint(static_cast<Index>(point)).first;
-  return (between_parts ? 4.0 : 1.0) * shortest_span(body, strand);
+  if (span == Span::free && before && behind) return 4.0 * shortest_span(setting.body, strand);
+  const bool is_pressed = span == Span::pressed || (span == Span::free && (before || behind));
+  if (is_pressed && obstacle_is_straight(setting, at, point)) return shortest_span_on_straight(setting.body, strand);
+  return shortest_span(setting.body, strand);
 }
 
 }  // namespace arcwall::sliding

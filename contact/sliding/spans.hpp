@@ -1,6 +1,7 @@
 #pragma once
 
-#include "contact/sliding/layout.hpp"
+#include "contact/sliding/setting.hpp"
+#include "contact/sliding/unknowns.hpp"
 
 namespace arcwall::sliding {
 
@@ -17,7 +18,15 @@ int elements_asked(const SlidingBody& body, Index strand, double from, double to
 /// Length below which a part of the body between two contacts is none [length].
 double shortest_span(const SlidingBody& body, Index strand);
 
+/// The same of parts that are pressed on a straight obstacle and of arches between them and a point: their ends do not
+/// depend on the mesh.
+double shortest_span_on_straight(const SlidingBody& body, Index strand);
+
+/// The length of such an arch, `ahead` of a tracked point along the body, below which round-off hides what it does:
+/// where the part ends, the pressure grows at a rate p̄′, and the force there is p̄′ d²/20.
+double shortest_sure_arch(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+
 /// The same of the span behind a tracked point.
-double shortest_span(const SlidingBody& body, const SlidingContactLayout& on, std::size_t point);
+double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 }  // namespace arcwall::sliding

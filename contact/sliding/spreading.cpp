@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
+#include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
@@ -108,7 +111,11 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
     const int behind = edit.elements_behind(*k);
     double& s = edit.place(*k);
     s -= 0.5 * length;
-    const int between_them = span == Span::flat ? 1 : elements_asked(setting.body, edit.strands[*k], s, s + length, 2);
+    const int between_them =
+        span == Span::flat
+            ? 1
+            : elements_asked(setting.body, edit.strands[*k], s, s + length,
+                             span == Span::pressed ? fewest_pressed(obstacle_is_straight(setting, at, *k)) : 2);
     edit.forces[*k] *= 0.5;
     edit.insert({.point = edit.points[*k],
                  .strand = edit.strands[*k],
@@ -120,6 +127,70 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
   }
   Transition transition = up_to(length, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
                                 mapped_onto(setting, at, edit, layout_of(edit)));
+  for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
+  return transition;
+}
+
+// A stretch about a point, on a straight wall, in which the pressure that would hold the body there changes its sign:
+// pressed where that is positive, it arches off where it is negative, up to an edge that stays behind as a point.
+struct HalfPressed {
+  double from, lift_off, to;
+  bool pressed_first;
+};
+
+// With the pressure p̄′ (S − S₀) the arch has EI g⁗ = −p̄′ (S − S₀), g = g′ = 0 at both ends and g″ = 0 where the part is
+// pressed: 3/5 of it lie beyond S₀ (8.7a). Empty where the pressure has one sign, or a span would be too short.
+std::optional<HalfPressed> half_pressed(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
+                                        double length) {
+  constexpr double beyond = 0.6;
+  if (!obstacle_is_straight(setting, at, point)) return std::nullopt;
+  const auto pressure = [&](double ahead) { return pressure_to_hold(setting, at, point, ahead); };
+  double pressed = -0.5 * length, free = 0.5 * length;
+  if (pressure(pressed) < pressure(free)) std::swap(pressed, free);
+  if (!(pressure(pressed) > 0.0 && pressure(free) < 0.0)) return std::nullopt;
+  double edge = free;
+  for (double a = pressed, b = free; std::abs(b - a) > 1e-6 * length;)
+    (pressure(edge = 0.5 * (a + b)) > 0.0 ? a : b) = edge;
+  const double lift_off = free - (free - edge) / beyond;
+  const double sign = free > pressed ? 1.0 : -1.0, s = at.s(static_cast<Index>(point));
+  const double least_pressed =
+      shortest_span_on_straight(setting.body, at.mesh.breakpoint(static_cast<Index>(point)).first);
+  const double least_arch = 2.0 * shortest_sure_arch(setting, at, point, edge);
+  if (sign * (lift_off - pressed) < least_pressed || sign * (free - lift_off) < least_arch) return std::nullopt;
+  return HalfPressed{
+      .from = s - 0.5 * length, .lift_off = s + lift_off, .to = s + 0.5 * length, .pressed_first = free > pressed};
+}
+
+// Each of the points, ascending, becomes three; empty where the pressure beside one of them has one sign.
+std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, const SlidingState& at,
+                                              const Points& points, double length) {
+  LayoutEdit edit = edit_of(setting.body, at);
+  double first_span = 0.0;
+  for (auto k = points.rbegin(); k != points.rend(); ++k) {
+    const auto stretch = half_pressed(setting, at, *k, length);
+    if (!stretch) return std::nullopt;
+    const Index strand = edit.strands[*k];
+    const auto elements = [&](double from, double to, bool pressed) {
+      return elements_asked(setting.body, strand, from, to, pressed ? fewest_pressed(true) : 2);
+    };
+    const int behind = edit.elements_behind(*k);
+    const int first = elements(stretch->from, stretch->lift_off, stretch->pressed_first);
+    const int second = elements(stretch->lift_off, stretch->to, !stretch->pressed_first);
+    LayoutEdit::Entry end{.point = edit.points[*k], .strand = strand, .s = stretch->to, .closed = true};
+    LayoutEdit::Entry middle = end;
+    middle.s = stretch->lift_off;
+    middle.point.behind = stretch->pressed_first ? Span::free : Span::pressed;
+    edit.place(*k) = stretch->from;
+    edit.forces[*k] *= 0.5;
+    end.force = edit.forces[*k];
+    edit.points[*k].behind = stretch->pressed_first ? Span::pressed : Span::free;
+    edit.insert(middle, first, behind);
+    edit.insert(end, second, behind);
+    first_span = stretch->lift_off - stretch->from;
+  }
+  Transition transition = up_to(first_span, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
+                                mapped_onto(setting, at, edit, layout_of(edit)));
+  transition.least = 0.5 * first_span;  // its arch is at least twice the shortest there is
   for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
   return transition;
 }
@@ -139,6 +210,9 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
     return holding_pressure(setting, at, k) < 0.0 && obstacle_curvature(setting, at, k) == 0.0;
   };
   std::vector<Transition> transitions;
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
+    if (auto transition = spread_half_pressed(setting, at, points, factor * length))
+      transitions.push_back(std::move(*transition));
   if (is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); })) {
     transitions.push_back(spread_to(Span::flat, 1.0));
   } else if (is_all(lifts_off_straight)) {

@@ -102,11 +102,23 @@ CorrectorResult arrive(TraceTools& tools, const Transition& transition, const Pa
   return moved_back.converged() ? moved_back : result;
 }
 
+// Whether behind a bound there is the same piece on another mesh: a state beyond it is none the worse.
+bool is_of_mesh(const System& system, const State& state, const Direction& forward, Index guard, double slack) {
+  if (guard < static_cast<Index>(state.piece.size())) return false;
+  const std::vector<Transition> ahead = system.transitions(state, forward, guard, slack);
+  return !ahead.empty() && ahead.front().change == Transition::Change::remeshed;
+}
+
 // Whether the side conditions hold at the first point of a piece.
-bool holds(const System& system, const Transition& transition, const State& state) {
+bool holds(const System& system, const Transition& transition, const State& state, const Direction& forward) {
   constexpr double slack = 1e-6;  // of guards that were near zero on the piece behind, too
   if (!system.admissible(state, -penetration_tolerance)) return false;
-  return transition.change == Transition::Change::remeshed || !(system.guards(state).array() < -slack).any();
+  if (transition.change == Transition::Change::remeshed) return true;
+  const Vector guards = system.guards(state);
+  if (begins_with_length(transition.change)) return !(guards.array() < -slack).any();
+  for (Index j = 0; j < guards.size(); ++j)
+    if (guards[j] < -slack && !is_of_mesh(system, state, forward, j, slack)) return false;
+  return true;
 }
 
 // What the corrector arrived at, with its count.
@@ -162,7 +174,9 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
   };
   double part = 1.0, kept = 0.5;
   while (kept < most_kept && (part > counted || (part > least && value_is_nearer()))) {
-    auto nearer = with_span(tools, transition, metric, begin, kept * part * transition.value);
+    const double length = kept * part * transition.value;
+    if (length < transition.least) break;
+    auto nearer = with_span(tools, transition, metric, begin, length);
     if (!nearer) {
       kept = 0.5 * (1.0 + kept);
       continue;
@@ -202,6 +216,13 @@ std::optional<Index> shifted_bound(const PathPoint& at, double tolerance) {
   return contacts + bound;
 }
 
+// A bound of the mesh alone that another transition has left behind.
+std::optional<Index> mesh_bound_behind(const System& system, const PathPoint& at, double tolerance) {
+  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && is_of_mesh(system, at.state, at.tangent, j, tolerance)) return j;
+  return std::nullopt;
+}
+
 // The corner's events: the transition's own, and what turns with it. `ahead` is the nearest point of the piece ahead.
 void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& at, const Entered& entered,
                 const PathPoint& ahead, std::vector<Event>& events) {
@@ -229,6 +250,7 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
 CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
   CornerPassed passed{.at = std::move(corner.at), .without_progress = corner.without_progress};
   double tolerance = std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
+  bool only_remeshed = true;
   for (;;) {
     const std::vector<Transition> transitions =
         tools.system.transitions(passed.at.state, passed.at.tangent, bound, tolerance);
@@ -245,9 +267,15 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
     }
     add_events(tools, corner, passed.at, *entered, entered->at, passed.events);
     passed.at = std::move(entered->at);
-    if (entered->transition->change != Transition::Change::remeshed) return passed;
-    const auto next = shifted_bound(passed.at, tools.options.guard_tolerance);
-    if (!next) return passed;
+    only_remeshed = only_remeshed && entered->transition->change == Transition::Change::remeshed;
+    const auto next = only_remeshed ? shifted_bound(passed.at, tools.options.guard_tolerance)
+                                    : mesh_bound_behind(tools.system, passed.at, tools.options.guard_tolerance);
+    if (!next) {
+      for (Event& event : passed.events)
+        if (event.kind == EventKind::contact_gathers || event.kind == EventKind::contact_closes)
+          event.state = passed.at.state;
+      return passed;
+    }
     if (++passed.without_progress > most_bounds_at_one_place) {
       passed.end = {.reason = EndReason::no_ray, .detail = "the mesh keeps changing at one point; try a finer one"};
       return passed;
@@ -261,7 +289,7 @@ std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, 
                                double lambda_scale, Effort effort) {
   const Ahead ahead = ahead_of(tools, transition, lambda_scale);
   CorrectorResult result = arrive(tools, transition, from, ahead, effort);
-  if (!result.converged() || !holds(tools.system, transition, result.state)) return std::nullopt;
+  if (!result.converged() || !holds(tools.system, transition, result.state, ahead.along)) return std::nullopt;
   return entered_point(tools, transition, ahead, std::move(result), from.arc);
 }
 

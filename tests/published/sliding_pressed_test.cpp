@@ -107,11 +107,8 @@ TEST_P(SlidingPressedPart, LiftsOffInside) {
     edges.push_back(path.points()[1] / 0.597779134756 - 1.0);
     if (elements == 40) path.expect_invariants();
   }
-  for (const std::size_t finer : {1U, 2U}) {
-    EXPECT_GE(order(loads, finer), 4.0);
-    EXPECT_GE(order(edges, finer), 3.6);
-  }
-  EXPECT_LE(std::abs(loads[2]), 1e-5);
+  for (const std::size_t finer : {1U, 2U}) EXPECT_GE(order(edges, finer), 3.6);
+  for (const double load : loads) EXPECT_LE(std::abs(load), 1e-9);  // no mesh is in the pressure on a straight wall
   EXPECT_LE(std::abs(edges[2]), 1e-5);
 }
 

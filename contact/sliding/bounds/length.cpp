@@ -8,7 +8,7 @@ namespace arcwall::sliding {
 
 double LengthBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto k = static_cast<Index>(point_);
-  return (at.s(k + 1) - at.s(k) - shortest_span(setting.body, at.layout, point_)) / setting.scales.length;
+  return (at.s(k + 1) - at.s(k) - shortest_span(setting, at, point_)) / setting.scales.length;
 }
 
 Row LengthBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {

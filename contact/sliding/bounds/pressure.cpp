@@ -6,21 +6,14 @@
 namespace arcwall::sliding {
 
 double PressureBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return least_pressure(at, node_).value * setting.scales.length / setting.scales.force;
+  return least_pressure(setting, at, node_).value * setting.scales.length / setting.scales.force;
 }
 
-// The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this.
 Row PressureBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  const LeastPressure least = least_pressure(at, node_);
-  const SlidingContactLayout::Segment& part = at.layout.segments()[at.layout.pressed_nodes()[node_].segment];
-  const double length = at.s(part.last_point) - at.s(part.first_point);
-  const double per_force = setting.scales.length * part.elements / (length * setting.scales.force);
-  const Index first = at.index.pressed_force(least.first), count = least.weights.size();
-  const double p = least.weights.dot(at.state.x.segment(first, count));
-  Row row = at.no_slope();
-  row.dx.segment(first, count) = per_force * least.weights;
-  row.dx[at.index.coordinate(part.last_point)] = -per_force * p / length;
-  row.dx[at.index.coordinate(part.first_point)] = per_force * p / length;
+  Row row = least_pressure_gradient(setting, at, node_);
+  const double scale = setting.scales.length / setting.scales.force;
+  row.dx *= scale;
+  row.dlambda *= scale;
   return row;
 }
 

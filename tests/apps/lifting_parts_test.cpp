@@ -1,0 +1,98 @@
+// Columns with imperfections of several waves that lie down on a straight wall: the pressure on the part that lies
+// there changes its sign where the curvature of the stress-free axis has no second derivative, κ₀″ = 0. The part lifts
+// off when it gets there, on any mesh alike, and no wall pulls.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "apps/output/exit_status.hpp"
+#include "apps/verify/verify.hpp"
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/stored_files_of.hpp"
+
+namespace arcwall::lifting_parts_test {
+namespace {
+
+// First and last wave: half waves and amplitude over the length of 86.
+std::string column(const std::string& held, int waves, double first, double last, int elements, double to) {
+  return fmt::format(R"toml(
+title = "a column that lies down on a wall"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 11.0, height = 1.9 }}
+point = {{ left = [0.0, 0.0], right = [86.0, 0.0] }}
+support = {{ left = ["x", "z"], right = [{}] }}
+load = [{{ at = "right", force = [-180.0, 0.0] }}]
+monitor = [{{ name = "shortening", at = "right", component = "x", sign = -1 }}]
+path = {{ step = 0.05, stop = {{ lambda = [-1.0, {}] }} }}
+member.column = {{ from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = {}, imperfection = [{{ shape = "sine", amplitude = {}, waves = 1 }}, {{ shape = "sine", amplitude = {}, waves = {} }}] }}
+[[wall]]
+name = "upper"
+side = "above"
+profile = {{ type = "flat", z = 2.6 }}
+acts_on = "axis"
+[[wall]]
+name = "lower"
+side = "below"
+profile = {{ type = "flat", z = -1.4 }}
+acts_on = "axis"
+)toml",
+                     held, to, elements, first, last, waves);
+}
+
+// Ends at the bound, is verified, and nowhere does a wall pull.
+void expect_whole(const test::TracedDeck& traced) {
+  const Record& record = traced.record();
+  EXPECT_EQ(exit_status(record.branches.back().end.value().reason), ExitStatus::success);
+  const verify::Verdict verdict = verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
+  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+}
+
+std::string kinds_of(const Record& record) {
+  std::string kinds;
+  for (const RecordEvent& event : record.events) kinds += std::string(to_text(event.kind)) + " ";
+  return kinds;
+}
+
+}  // namespace
+
+// κ₀″ = 0 where sin πξ + 81 (e₃/e₁) sin 3πξ = 0, sin² πξ = (3 + e₁/(81 e₃))/4: at ξ = 0.3837975 for e₃/e₁ = 1/40, but
+// for the square of the slopes. The touch spreads where the part would be pressed, and its end goes there.
+TEST(LiftingParts, LiftOffWhereTheStressFreeAxisHasNoPressure) {
+  constexpr double first = 0.4, third = 0.01;
+  const double place = std::asin(std::sqrt((3.0 + first / (81.0 * third)) / 4.0)) / std::numbers::pi;
+  double load = 0.0;
+  for (const int elements : {20, 40, 80, 160}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(column(R"("z", "rotation")", 3, first, third, elements, 8.0));
+    const Record& record = traced.record();
+    ASSERT_EQ(kinds_of(record), "start contact-closes contact-spreads contact-opens end ");
+    const RecordEvent& opens = record.events[3];
+    EXPECT_NEAR(opens.contacts.front().label.fraction, place, 2e-4);
+    if (load != 0.0) {
+      EXPECT_NEAR(opens.lambda, load, 1e-5);
+    }
+    load = opens.lambda;
+    expect_whole(traced);
+  }
+}
+
+// κ₀″ = 0 beside the touch itself: when it spreads, one half of the part is pressed and the other arches off at once.
+TEST(LiftingParts, LiftOffAtOnceBesideAPlaceWithoutPressure) {
+  double load = 0.0;
+  for (const int elements : {12, 24, 48, 96}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(column(R"("z")", 2, 0.0046, -0.0064, elements, 9.5));
+    const Record& record = traced.record();
+    ASSERT_EQ(kinds_of(record), "start contact-closes contact-spreads end ");
+    if (load != 0.0) {
+      EXPECT_NEAR(record.events[2].lambda, load, elements == 24 ? 2e-3 : 1e-4);
+    }
+    load = record.events[2].lambda;
+    expect_whole(traced);
+  }
+}
+
+}  // namespace arcwall::lifting_parts_test
