@@ -43,6 +43,7 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
                                  LayoutEdit& edit) {
   const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
   const SlidingContactLayout::Segment& part = at.layout.segments()[pressed.segment];
+  if (part.first_point < 0 || part.last_point < 0) return std::nullopt;  // it reaches the end of its member
   const double place = least_pressure(at, node).s;
   const double begin = at.s(part.first_point), end = at.s(part.last_point), h = (end - begin) / part.elements;
   const bool at_first = place - begin < 0.5 * h, at_last = end - place < 0.5 * h;

@@ -81,14 +81,16 @@ LeastPressure least_pressure(const SlidingState& at, std::size_t node) {
   const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
   const SlidingContactLayout::Segment& segment = at.layout.segments()[pressed.segment];
   const Index count = segment.elements - 1;
-  const Index i = pressed.position - at.mesh.breakpoint(segment.first_point).second - 1;
+  const Index begin = segment.first_point < 0 ? 0 : at.mesh.breakpoint(segment.first_point).second;
+  const Index i = pressed.position - begin - 1;
   const std::size_t first = node - static_cast<std::size_t>(i);
   const auto forces = at.state.x.segment(at.index.pressed_force(first), count);
   const Matrix smooth = smoothing(count);
   const Place least = least_near(smooth * forces, i);
 
   LeastPressure out{.first = first, .weights = smooth.transpose() * least.weights};
-  const double length = at.s(segment.last_point) - at.s(segment.first_point);
+  const double length = at.mesh.coordinate(pressed.strand, begin + segment.elements, at.now.s) -
+                        at.mesh.coordinate(pressed.strand, begin, at.now.s);
   out.element = length / segment.elements;
   out.value = out.weights.dot(forces) * segment.elements / length;
   out.s = at.mesh.coordinate(pressed.strand, pressed.position, at.now.s) + least.offset * out.element;

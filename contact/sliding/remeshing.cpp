@@ -12,15 +12,15 @@ using Point = SlidingContactLayout::Point;
 
 State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                   const std::shared_ptr<const SlidingContactLayout>& on) {
-  const std::size_t points = edit.points.size(), before = at.layout.points().size(), ends = setting.free_ends.size();
+  const std::size_t points = edit.points.size(), ends = setting.free_ends.size();
   Piece piece(points + ends, 0, on);
   for (std::size_t k = 0; k < points; ++k) piece[k] = edit.closed[k];
-  for (std::size_t j = 0; j < ends; ++j) piece[points + j] = at.state.piece[before + j];
+  for (std::size_t j = 0; j < ends; ++j) piece[points + j] = edit.ends_closed[j];
   const SlidingUnknowns index(piece);
   State out{.x = Vector::Zero(index.size()), .lambda = at.now.lambda, .piece = piece};
   out.x.head(index.nodes) = at.mesh.transferred(at.now, on->mesh(), edit.s);
   for (std::size_t j = 0; j < piece.size(); ++j)
-    if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : at.force(before + j - points);
+    if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : edit.end_forces[j - points];
   out.x.tail(edit.s.size()) = edit.s;
   return out;
 }

@@ -13,14 +13,15 @@ double PressureBound::value(const SlidingSetting& setting, const SlidingState& a
 Row PressureBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   const LeastPressure least = least_pressure(at, node_);
   const SlidingContactLayout::Segment& part = at.layout.segments()[at.layout.pressed_nodes()[node_].segment];
-  const double length = at.s(part.last_point) - at.s(part.first_point);
+  const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
+  const double length = to - from;
   const double per_force = setting.scales.length * part.elements / (length * setting.scales.force);
   const Index first = at.index.pressed_force(least.first), count = least.weights.size();
   const double p = least.weights.dot(at.state.x.segment(first, count));
   Row row = at.no_slope();
   row.dx.segment(first, count) = per_force * least.weights;
-  row.dx[at.index.coordinate(part.last_point)] = -per_force * p / length;
-  row.dx[at.index.coordinate(part.first_point)] = per_force * p / length;
+  if (part.last_point >= 0) row.dx[at.index.coordinate(part.last_point)] = -per_force * p / length;
+  if (part.first_point >= 0) row.dx[at.index.coordinate(part.first_point)] = per_force * p / length;
   return row;
 }
 
