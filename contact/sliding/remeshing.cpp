@@ -10,6 +10,16 @@ namespace arcwall::sliding {
 using Span = SlidingContactLayout::Span;
 using Point = SlidingContactLayout::Point;
 
+namespace {
+
+// The length by which a direction moves the nodes of a mesh, in the path metric.
+double motion_of(const SlidingMesh& mesh, const Direction& direction) {
+  const auto dx = direction.dx.head(mesh.unknowns());
+  return std::sqrt(dx.dot(mesh.weights().cwiseProduct(dx)));
+}
+
+}  // namespace
+
 State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                   const std::shared_ptr<const SlidingContactLayout>& on) {
   const std::size_t points = edit.points.size(), ends = setting.free_ends.size();
@@ -41,6 +51,9 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
   transition.forward = difference(mapped_onto(setting, ahead, edited(ahead), on), transition.guess);
   transition.forward.dx /= step;
   transition.forward.dlambda /= step;
+  // Where a point slides fast along a body that hardly moves, little but the error of the mesh is left.
+  constexpr double sure = 0.01;
+  if (motion_of(on->mesh(), transition.forward) < sure * motion_of(at.mesh, forward)) transition.forward.dx.setZero();
   return transition;
 }
 

@@ -16,6 +16,8 @@ double shortest_span(const SlidingBody& body, Index strand) {
   return std::max(0.125 * L / body.elements_between(strand, 0.0, L), 1e-3 * L);
 }
 
+double shortest_tail(const SlidingBody& body, Index strand) { return 1e-3 * body.length(strand); }
+
 // Between two pressed parts the pressure that is left at the edges goes with the square of the span, and is lost in the
 // error of the elements where these are much longer.
 double shortest_span(const SlidingBody& body, const SlidingContactLayout& on, std::size_t point) {

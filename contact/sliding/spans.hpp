@@ -17,6 +17,9 @@ int elements_asked(const SlidingBody& body, Index strand, double from, double to
 /// Length below which a part of the body between two contacts is none [length].
 double shortest_span(const SlidingBody& body, Index strand);
 
+/// The same of a part between a contact and a tip: the contact is at the tip.
+double shortest_tail(const SlidingBody& body, Index strand);
+
 /// The same of the span behind a tracked point.
 double shortest_span(const SlidingBody& body, const SlidingContactLayout& on, std::size_t point);
 

@@ -8,6 +8,7 @@
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tips.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::sliding {
@@ -163,6 +164,9 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   Points points;
   for (const CurvatureBound* bound : reached<CurvatureBound>(setting, at, tolerance))
     if (at.is_closed(bound->point())) points.push_back(bound->point());
+  if (points.size() == 1)
+    if (auto touches = tip_touches_with(setting, at, points.front()))
+      return {std::move(*touches), unsupported("a tip touches with the part beside it, and no equilibrium was found")};
   Index lines =
       std::count_if(points.begin(), points.end(), [&](std::size_t k) { return lies_by_itself(setting, at, k); });
   const bool new_lines = lines > 0;

@@ -6,6 +6,7 @@
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/bound_value.hpp"
+#include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/bounds/tail.hpp"
 #include "contact/sliding/remeshing.hpp"
@@ -113,7 +114,7 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
       tips.push_back(closed_tip(setting, at, end));
     }
   if (tips.empty()) return {none};
-  const double length = 2.0 * shortest_span(setting.body, tips.front().strand);
+  const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
   const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Span::free), length);
   std::vector<std::vector<Span>> ways;
   for (const ClosedTip& tip : tips) {
@@ -165,6 +166,33 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
                                 lay ? Change::gathers : Change::passes, std::move(guess));
   for (const std::size_t end : ends) transition.contacts.push_back(static_cast<Index>(on->points().size() + end));
   return {transition, unsupported("contact came to the free end of a member, and no equilibrium was found there")};
+}
+
+std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  constexpr double touching = 1e-8;  // gap at the tip, scaled
+  const std::size_t points = at.layout.points().size(), obstacle = at.layout.points()[point].obstacle;
+  for (std::size_t end = 0; end < setting.free_ends.size(); ++end) {
+    const FreeEnd& tip = setting.free_ends[end];
+    if (tip.obstacle != obstacle || at.is_closed(points + end) || !setting.body.is_tip(tip.strand, tip.last)) continue;
+    if (at.layout.point_at_end(tip.strand, tip.last) != point) continue;
+    if (at.layout.span_at_end(tip.strand, tip.last) != Span::free) continue;
+    const double gap = face_gap(setting, touch_of_contact(setting, at.layout, points + end), at);
+    if (!(std::abs(gap) <= touching * setting.scales.length)) continue;
+    LayoutEdit edit = edit_of(setting.body, at);
+    edit.ends_closed[end] = 1;
+    const auto on = layout_of(edit);
+    std::size_t loses_curvature = 0;
+    const auto is_of_point = [&](const auto& bound) {
+      const auto* same = dynamic_cast<const CurvatureBound*>(bound.get());
+      return same != nullptr && same->point() == point;
+    };
+    while (!is_of_point(on->bounds()[loses_curvature])) ++loses_curvature;
+    Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, loses_curvature), Change::joins,
+                                  mapped_onto(setting, at, edit, on));
+    transition.contacts = {static_cast<Index>(points + end)};
+    return transition;
+  }
+  return std::nullopt;
 }
 
 }  // namespace arcwall::sliding

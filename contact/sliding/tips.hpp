@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "contact/sliding/setting.hpp"
@@ -15,5 +16,9 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
 
 /// The reverse, where points have come to tips: the contact there is at the tip.
 std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at, double tolerance);
+
+/// Where the body behind a point that loses its curvature gap bends all along as the obstacle does, up to a tip that it
+/// thereby touches: the contact of the tip closes. Empty elsewhere.
+std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 }  // namespace arcwall::sliding
