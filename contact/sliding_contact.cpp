@@ -106,11 +106,12 @@ Vector SlidingContact::guards(const State& state) const {
 }
 
 double SlidingContact::guard(const State& state, Index j) const {
-  constexpr double out_of_reach = 1.0;  // of a contact that faces no wall: as far as the structure is large
+  constexpr double out_of_reach = 1.0;  // of a contact that faces no wall, or that lies on it without force
   const SlidingState at(state);
   if (is_bound(at, j)) return bound_of(at, j).value(*setting_, at);
   const auto contact = static_cast<std::size_t>(j);
   if (at.is_closed(contact)) return at.force(contact) / scales().force;
+  if (sliding::lies_flat(*setting_, at.layout, contact)) return out_of_reach;
   const double gap = sliding::face_gap(*setting_, sliding::touch_of_contact(*setting_, at.layout, contact), at);
   return std::isfinite(gap) ? gap / scales().length : out_of_reach;
 }
@@ -123,6 +124,7 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
     row.dx[*p] = 1.0 / scales().force;
     return row;
   }
+  if (sliding::lies_flat(*setting_, at.layout, static_cast<std::size_t>(j))) return row;
   const sliding::Touch touch = sliding::touch_of_contact(*setting_, at.layout, static_cast<std::size_t>(j));
   if (!std::isfinite(sliding::face_gap(*setting_, touch, at))) return row;
   const sliding::NodeFunction gap = sliding::touch_gap(*setting_, touch, at).gap;

@@ -180,6 +180,9 @@ class SlidingBody {
   /// Whether a support holds the end of a strand in z.
   virtual bool end_is_held(Index strand, bool last) const = 0;
 
+  /// Whether an end of a strand is a tip: free to move in z and to turn, with no other strand at it.
+  virtual bool is_tip(Index strand, bool last) const = 0;
+
   /// Words for messages: member and fraction of its length.
   virtual std::pair<std::string, double> label(const MaterialPoint& point) const = 0;
 

@@ -154,6 +154,25 @@ def force_passed(theory: str) -> Case:
                 "in the last four rows, and on 40 in the last two.")
 
 
+def tips(theory: str) -> list:
+    """Cantilevers whose tips lie down on a floor, and on a cylinder where the contact moves inside."""
+    shooting = "extensible elastica shot from the contact to the clamp"
+    return [
+        Case(f"Tip that lies down on a floor, theory {theory}", "docs/validation/tip_on_floor.toml",
+             meshes({"strip": 1}, [10, 20, 40, 80]), [
+            Quantity("load of the touch", load("contact-closes"), 0.4008018816, shooting),
+            Quantity("load at which the tip lies down", load("contact-spreads"), 3.6092847770, shooting),
+            Quantity("force of the clamp, at three times that", landed("V", 10.827854330940692), 5.4915969725, shooting),
+        ], always=(f"member.strip.theory='{theory}'",), note="The elements take a load along them to order 4."),
+        Case(f"Tip that slides onto a cylinder, theory {theory}", "docs/validation/tip_on_cylinder.toml",
+             meshes({"strip": 1}, [10, 20, 40, 80]), [
+            Quantity("load of the touch", load("contact-closes"), 0.2135655724265, shooting),
+            Quantity("load at which contact leaves the tip", load("contact-passes"), 2.6229685102, shooting),
+            Quantity("force of the contact, at λ = 8", landed("p", 8.0), 5.794849810795 * math.cos(0.154871139219), shooting),
+        ], always=(f"member.strip.theory='{theory}'",)),
+    ]
+
+
 def root(f: Callable[[float], float], low: float, high: float) -> float:
     """A zero of f by bisection."""
     rises = f(high) > 0.0
@@ -389,6 +408,7 @@ def cases() -> list:
                 "nearer in these steps (theory.md, section 7)."),
         essenburg_channel(),
         *(force_passed(theory) for theory in ("classic", "elastica")),
+        *(case for theory in ("classic", "elastica") for case in tips(theory)),
         *driven_otherwise(),
     ]
 

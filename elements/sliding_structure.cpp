@@ -46,6 +46,14 @@ double SlidingStructure::natural_curvature_second(const MaterialPoint& point) co
   return (bend - first.dot(curvature) / h * v_a / v) / (v * v);
 }
 
+bool SlidingStructure::is_tip(Index strand, bool last) const {
+  const End& end = at(strand).ends[last ? 1 : 0];
+  Index strands_there = 0;
+  for (const Run& run : runs_)
+    for (const End& other : run.ends) strands_there += other.freedom[1] == end.freedom[1];
+  return strands_there == 1 && !nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+}
+
 Vec2 SlidingStructure::load(const MaterialPoint& point, const Vec2& position, double lambda) const {
   const Run& strand = at(point.strand);
   const Vec2 load = lambda * strand.load + strand.constant_load;

@@ -13,6 +13,7 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::contact_opens,
                                  EventKind::contact_spreads,
                                  EventKind::contact_gathers,
+                                 EventKind::contact_passes,
                                  EventKind::limit_point,
                                  EventKind::contact_limit_point,
                                  EventKind::displacement_limit,
@@ -48,6 +49,8 @@ std::string_view to_text(EventKind kind) {
       return "contact-spreads";
     case EventKind::contact_gathers:
       return "contact-gathers";
+    case EventKind::contact_passes:
+      return "contact-passes";
     case EventKind::limit_point:
       return "limit-point";
     case EventKind::contact_limit_point:
@@ -138,6 +141,7 @@ bool changes_contact(EventKind kind) {
     case EventKind::contact_opens:
     case EventKind::contact_spreads:
     case EventKind::contact_gathers:
+    case EventKind::contact_passes:
       return true;
     case EventKind::start:
     case EventKind::end:

@@ -35,6 +35,8 @@ EventMark mark_of(EventKind kind) {
       return {.symbol = "diamond-wide", .outline = polygon(4, 0.0, {1.3, 0.8}), .filled = filled};
     case EventKind::contact_gathers:
       return {.symbol = "diamond-wide", .outline = polygon(4, 0.0, {1.3, 0.8}), .filled = !filled};
+    case EventKind::contact_passes:
+      return {.symbol = "diamond-tall", .outline = polygon(4, 0.0, {0.8, 1.3}), .filled = !filled};
     case EventKind::limit_point:
       return {.symbol = "circle", .outline = polygon(24, 0.0, {1.0}), .filled = filled};
     case EventKind::contact_limit_point:
@@ -64,6 +66,8 @@ std::string_view meaning(EventKind kind) {
       return "a touch at a point becomes a stretch";
     case EventKind::contact_gathers:
       return "a stretch becomes a touch at a point";
+    case EventKind::contact_passes:
+      return "a touch moves from a free end to the inside, or back";
     case EventKind::limit_point:
       return "the load turns: a dead load snaps here";
     case EventKind::contact_limit_point:

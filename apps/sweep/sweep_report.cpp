@@ -52,9 +52,10 @@ Load load(const Collection& collection, std::string title, Value value) {
 // Kinds of the cases' events, in a fixed order.
 std::vector<std::string> kinds(const Collection& collection) {
   std::vector<std::string> found;
-  for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_opens, EventKind::contact_spreads,
-                               EventKind::contact_gathers, EventKind::limit_point, EventKind::contact_limit_point,
-                               EventKind::displacement_limit, EventKind::branch_point}) {
+  for (const EventKind kind :
+       {EventKind::contact_closes, EventKind::contact_opens, EventKind::contact_spreads, EventKind::contact_gathers,
+        EventKind::contact_passes, EventKind::limit_point, EventKind::contact_limit_point,
+        EventKind::displacement_limit, EventKind::branch_point}) {
     const std::string name(to_text(kind));
     const auto has_it = [&](const CaseResult& result) { return first_load(result, {name}).has_value(); };
     if (std::any_of(collection.results.begin(), collection.results.end(), has_it)) found.push_back(name);

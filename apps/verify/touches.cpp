@@ -221,17 +221,18 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   return force * stretch / opening;
 }
 
+// Of a point, or of a tip up to which the body is pressed.
 Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
-                  const SlidingNode& node, std::size_t point) {
+                  const SlidingNode& node, std::optional<std::size_t> point) {
   Tangency tangency{.label = touch.label, .tilt = at->unknowns(node)};
   const double half = at->body.half_height(node.strand);
   tangency.tilt.of = [=, &wall, function = tangency.tilt](const Vector& u) {
     const AxisPlace place = at->place(node, function, u);
     return std::remainder(place.angle - wall.slope_angle(face_towards(wall, half, place)), pi);
   };
-  tangency.end_of_pressed = at->on.lies_pressed(point);
-  if (at->on.lies_beside(point)) return tangency;
-  tangency.spring = touch.closed ? contact_spring(*at, wall, node, point, touch.force) : 0.0;
+  if (!point || at->on.lies_pressed(*point)) tangency.end_of_pressed = true;
+  if (!point || at->on.lies_beside(*point)) return tangency;
+  tangency.spring = touch.closed ? contact_spring(*at, wall, node, *point, touch.force) : 0.0;
   return tangency;
 }
 
@@ -259,6 +260,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
   };
   const auto& points = at->on.points();
   const Index moments = state.x.size() - 2 * at->mesh.breakpoints();
+  const auto& tips = at->on.pressed_tips();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [strand, position] = at->mesh.breakpoint(static_cast<Index>(k));
     const SlidingNode node{.strand = strand, .position = position};
@@ -266,6 +268,12 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     const Touch& touch = add(wall, node, state.piece[k] != 0);
     touches.tangencies.push_back(tangency(at, wall, touch, node, k));
     touches.tangencies.back().moment = state.x[moments + static_cast<Index>(k)];
+  }
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    const SlidingNode node{.strand = tips[i].strand, .position = tips[i].position};
+    const PlainWall& wall = walls[tips[i].obstacle];
+    touches.tangencies.push_back(tangency(at, wall, sliding_touch(at, wall, node), node, std::nullopt));
+    touches.tangencies.back().moment = state.x[moments - static_cast<Index>(tips.size() - i)];
   }
   const auto ends = free_ends(*at, walls);
   for (std::size_t i = 0; i < ends.size(); ++i)

@@ -20,6 +20,13 @@ void for_each_force(const SlidingSetting& setting, const SlidingState& at, const
     visit(touch_of_node(setting, node), force++);
 }
 
+// visit(touch, index of its moment) for all pressed tips.
+template <typename Visit>
+void for_each_tip_moment(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
+  const auto& tips = at.layout.pressed_tips();
+  for (std::size_t i = 0; i < tips.size(); ++i) visit(touch_of_tip(setting, tips[i]), at.index.tip_moment(i));
+}
+
 NodeUnknowns unknowns_of(const SlidingState& at, const Touch& touch) {
   return at.mesh.node_unknowns(touch.strand, touch.position);
 }
@@ -30,6 +37,11 @@ void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::R
     const TouchGap touching = touch_gap(setting, touch, at);
     add_at_node(unknowns_of(at, touch), -at.state.x[p] * touching.gap.gradient, F);
     F[p] = -touching.gap.value;
+  });
+  for_each_tip_moment(setting, at, [&](const Touch& touch, Index m) {
+    const TouchGap touching = touch_gap(setting, touch, at);
+    add_at_node(unknowns_of(at, touch), -at.state.x[m] * touching.tilt.gradient, F);
+    F[m] = -touching.tilt.value;
   });
   for (Index k = 0; k < at.index.points; ++k) {
     const auto point = static_cast<std::size_t>(k);
@@ -77,6 +89,7 @@ void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearizatio
       if (unknown >= 0) entries.push_back({.row = row - at.index.nodes, .column = unknown});
   };
   for_each_force(setting, at, add);
+  for_each_tip_moment(setting, at, add);
   out.holding.clear();
   for (Index k = 0; k < at.index.points; ++k) {
     add(touch_of_contact(setting, at.layout, static_cast<std::size_t>(k)), at.index.moment(k));
@@ -118,6 +131,9 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
   out.border_rates = border_rates(setting, at);
   for_each_force(setting, at, [&](const Touch& touch, Index p) {
     add_constraint(touch_gap(setting, touch, at).gap, unknowns_of(at, touch), p, at, out);
+  });
+  for_each_tip_moment(setting, at, [&](const Touch& touch, Index m) {
+    add_constraint(touch_gap(setting, touch, at).tilt, unknowns_of(at, touch), m, at, out);
   });
   out.C.setZero(at.index.points, at.index.size());
   for (Index k = 0; k < at.index.points; ++k) {

@@ -5,6 +5,7 @@
 
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/room.hpp"
+#include "contact/sliding/bounds/tail.hpp"
 #include "contact/sliding/least_gaps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
@@ -62,7 +63,8 @@ bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t poi
   return std::any_of(at.layout.bounds().begin(), at.layout.bounds().end(), [&](const auto& bound) {
     const auto* curvature = dynamic_cast<const CurvatureBound*>(bound.get());
     const bool is_its_own = curvature != nullptr && curvature->point() == point;
-    const bool is_room = dynamic_cast<const RoomBound*>(bound.get()) != nullptr;
+    const bool is_room = dynamic_cast<const RoomBound*>(bound.get()) != nullptr ||
+                         dynamic_cast<const TailBound*>(bound.get()) != nullptr;
     return (is_its_own || is_room) && bound->value(setting, at) <= 0.0;
   });
 }

@@ -19,8 +19,12 @@ SlidingContactLayout::~SlidingContactLayout() = default;
 // Tells the first point of the next strand.
 Index SlidingContactLayout::add_segments(Index strand, Index next_point) {
   Index position = 0, before = -1, load_before = -1;  // the point or load where the segment begins
-  Point touching;                                     // the last point before the segment, if there is one
   const std::vector<MeshSegment>& segments = mesh_->elements_per_segment()[static_cast<std::size_t>(strand)];
+  Point touching;  // the last point before the segment, or what lies before the first one
+  if (std::count_if(segments.begin(), segments.end(), [](const MeshSegment& at) { return !at.ends_at_load(); }) > 1) {
+    const Point& first = points_[static_cast<std::size_t>(next_point)];
+    touching = {.obstacle = first.obstacle, .behind = first.before};
+  }
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const auto [elements, load] = segments[i];
     const bool to_point = i + 1 < segments.size() && !segments[i].ends_at_load();
@@ -37,7 +41,11 @@ Index SlidingContactLayout::add_segments(Index strand, Index next_point) {
       for (Index node = position + 1; node < position + elements; ++node)
         pressed_nodes_.push_back(
             {.strand = strand, .position = node, .obstacle = touching.obstacle, .segment = segments_.size() - 1});
+    if (touching.behind == Span::pressed && i == 0)
+      pressed_tips_.push_back({.strand = strand, .position = 0, .obstacle = touching.obstacle});
     position += elements;
+    if (touching.behind == Span::pressed && !to_point && i + 1 == segments.size())
+      pressed_tips_.push_back({.strand = strand, .position = position, .obstacle = touching.obstacle});
     if (to_point) touching = points_[static_cast<std::size_t>(point)];
     before = point;
     load_before = load;
@@ -58,7 +66,20 @@ bool SlidingContactLayout::joins_one_obstacle(const Segment& segment) const {
 
 SlidingContactLayout::Span SlidingContactLayout::span_before(std::size_t point) const {
   const auto strand = [this](std::size_t k) { return mesh_->breakpoint(static_cast<Index>(k)).first; };
-  return point == 0 || strand(point) != strand(point - 1) ? Span::free : points_[point - 1].behind;
+  return point == 0 || strand(point) != strand(point - 1) ? points_[point].before : points_[point - 1].behind;
+}
+
+const SlidingContactLayout::Segment& SlidingContactLayout::segment_at_end(Index strand, bool last) const {
+  const auto is_on_it = [strand](const Segment& segment) { return segment.strand == strand; };
+  return last ? *std::find_if(segments_.rbegin(), segments_.rend(), is_on_it)
+              : *std::find_if(segments_.begin(), segments_.end(), is_on_it);
+}
+
+std::optional<std::size_t> SlidingContactLayout::point_at_end(Index strand, bool last) const {
+  std::optional<std::size_t> found;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (mesh_->breakpoint(static_cast<Index>(k)).first == strand && (last || !found)) found = k;
+  return found;
 }
 
 bool SlidingContactLayout::parts_pressed(std::size_t point) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/sliding_body.hpp"
@@ -15,23 +16,30 @@ class ValidityBound;
 /// a wall between two of them. The layout also knows the bounds within which it is valid.
 class SlidingContactLayout final : public SlidingLayout {
  public:
-  /// How the body runs on behind a point.
+  /// How the body runs between a point and the next one, or the end of its strand.
   enum class Span {
-    free,     ///< off the wall, or to the end
-    flat,     ///< on the wall up to the next point, straight and without pressure
-    pressed,  ///< on the wall up to the next point; the nodes between are pressed on it
+    free,     ///< off the wall
+    flat,     ///< on the wall, straight and without pressure
+    pressed,  ///< on the wall; the nodes between are pressed on it
   };
 
   /// A tracked point: one a breakpoint of the mesh.
   struct Point {
     std::size_t obstacle = 0;
     Span behind = Span::free;
+    Span before = Span::free;  ///< of a strand's first point: up to it from the strand's beginning
   };
 
   /// A node inside a pressed part, which is a segment.
   struct PressedNode {
     Index strand, position;
     std::size_t obstacle, segment;
+  };
+
+  /// A tip up to which the body is pressed: the wall holds its slope, as it does at the other end of the part.
+  struct PressedTip {
+    Index strand, position;
+    std::size_t obstacle;
   };
 
   /// A part of a strand between tracked points, point loads that have nodes and the strand's ends. −1: no such thing
@@ -54,6 +62,7 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::shared_ptr<const SlidingMesh>& shared_mesh() const { return mesh_; }
   const std::vector<Point>& points() const { return points_; }
   const std::vector<PressedNode>& pressed_nodes() const { return pressed_nodes_; }
+  const std::vector<PressedTip>& pressed_tips() const { return pressed_tips_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
   /// The bounds within which the layout is valid: guards behind those of the contacts.
@@ -67,6 +76,12 @@ class SlidingContactLayout final : public SlidingLayout {
 
   /// How the body runs up to a point.
   Span span_before(std::size_t point) const;
+
+  /// How the body runs between the end of a strand and the point nearest to it; free where the strand has none.
+  Span span_at_end(Index strand, bool last) const { return segment_at_end(strand, last).span; }
+
+  /// The point nearest an end of a strand; empty where the strand has none.
+  std::optional<std::size_t> point_at_end(Index strand, bool last) const;
 
   /// Whether the part behind a point is free with a pressed part on one side.
   bool parts_pressed(std::size_t point) const;
@@ -90,10 +105,12 @@ class SlidingContactLayout final : public SlidingLayout {
 
  private:
   Index add_segments(Index strand, Index next_point);
+  const Segment& segment_at_end(Index strand, bool last) const;
 
   std::shared_ptr<const SlidingMesh> mesh_;
   std::vector<Point> points_;
   std::vector<PressedNode> pressed_nodes_;
+  std::vector<PressedTip> pressed_tips_;
   std::vector<Segment> segments_;
   Vector origin_;
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;

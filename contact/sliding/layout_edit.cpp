@@ -99,11 +99,13 @@ bool LayoutEdit::has_node(Index strand, Index load) const {
 }
 
 bool LayoutEdit::lies_on_wall(Index strand, double place) const {
-  bool lies = false;
+  using Span = SlidingContactLayout::Span;
+  Span span = Span::free;
+  for (std::size_t k = points.size(); k-- > 0;)
+    if (strands[k] == strand) span = points[k].before;  // of the strand's first point, in the end
   for (std::size_t k = 0; k < points.size(); ++k)
-    if (strands[k] == strand && s[static_cast<Index>(k)] < place)
-      lies = points[k].behind != SlidingContactLayout::Span::free;
-  return lies;
+    if (strands[k] == strand && s[static_cast<Index>(k)] < place) span = points[k].behind;
+  return span != Span::free;
 }
 
 double LayoutEdit::elements_to_nearest_point(Index strand, double place) const {
@@ -152,6 +154,10 @@ LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
     edit.strands.push_back(at.mesh.breakpoint(static_cast<Index>(k)).first);
     edit.closed.push_back(at.is_closed(k));
     edit.forces.push_back(at.force(k));
+  }
+  for (std::size_t j = edit.points.size(); j < at.contacts(); ++j) {
+    edit.ends_closed.push_back(at.is_closed(j));
+    edit.end_forces.push_back(at.force(j));
   }
   return edit;
 }

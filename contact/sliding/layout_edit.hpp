@@ -17,6 +17,10 @@ struct LayoutEdit {
   std::vector<double> forces{};        ///< of the points; those of open ones do not matter
   Vector s{};                          ///< of the points
 
+  /// Of the free ends, in the order of SlidingSetting::free_ends.
+  std::vector<std::uint8_t> ends_closed{};
+  std::vector<double> end_forces{};
+
   /// Elements of the segment before a point, and of that behind it.
   int& elements_before(std::size_t point) { return segment(point); }
   int& elements_behind(std::size_t point) { return segment(point, 1); }

@@ -98,8 +98,11 @@ std::vector<Watched> watched_elements(const SlidingState& at, Index strand, std:
     if (on != strand || points[k].obstacle != obstacle) continue;
     watched[static_cast<std::size_t>(position) - 1].at_last = true;
     watched[static_cast<std::size_t>(position)].at_first = true;
+    if (points[k].before != Span::free)
+      for (Index e = 0; e < position; ++e) watched[static_cast<std::size_t>(e)].along = true;
     if (points[k].behind == Span::free) continue;
-    const Index last = at.mesh.breakpoint(static_cast<Index>(k) + 1).second;
+    const bool to_end = at.layout.point_at_end(strand, true) == k;
+    const Index last = to_end ? at.mesh.nodes(strand) - 1 : at.mesh.breakpoint(static_cast<Index>(k) + 1).second;
     for (Index e = position; e < last; ++e) watched[static_cast<std::size_t>(e)].along = true;
   }
   return watched;

@@ -41,8 +41,13 @@ const SlidingContactLayout::Segment& part_of(const SlidingState& at, std::size_t
   return at.layout.segments()[at.layout.pressed_nodes()[node].segment];
 }
 
+// The tracked point at one of a part's ends; the other may be a tip.
+std::size_t point_of(const SlidingContactLayout::Segment& part) {
+  return static_cast<std::size_t>(part.first_point >= 0 ? part.first_point : part.last_point);
+}
+
 bool is_on_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
-  return obstacle_is_straight(setting, at, static_cast<std::size_t>(part_of(at, node).first_point));
+  return obstacle_is_straight(setting, at, point_of(part_of(at, node)));
 }
 
 enum class Where { first_end, inside, last_end };
@@ -50,7 +55,8 @@ enum class Where { first_end, inside, last_end };
 // Where a part lifts off. On a curved obstacle the pressure is known between nodes no better than by them.
 Where lifts_off_at(const SlidingSetting& setting, const SlidingState& at, std::size_t node, double length) {
   const SlidingContactLayout::Segment& part = part_of(at, node);
-  const double place = least_pressure(setting, at, node).s, begin = at.s(part.first_point), end = at.s(part.last_point);
+  const double place = least_pressure(setting, at, node).s;
+  const auto [begin, end] = at.layout.ends(setting.body, part, at.now.s);
   const double near = 0.5 * (is_on_straight(setting, at, node) ? length : (end - begin) / part.elements);
   return place - begin < near ? Where::first_end : end - place < near ? Where::last_end : Where::inside;
 }
@@ -61,6 +67,7 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
                                  LayoutEdit& edit) {
   const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
   const SlidingContactLayout::Segment& part = at.layout.segments()[pressed.segment];
+  if (part.first_point < 0 || part.last_point < 0) return std::nullopt;  // it reaches the end of its member
   const double place = least_pressure(setting, at, node).s;
   const double begin = at.s(part.first_point), end = at.s(part.last_point);
   const Where where = lifts_off_at(setting, at, node, length);
@@ -111,7 +118,6 @@ std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingSta
 std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
   const Nodes nodes = lifting_nodes(setting, at, tolerance);
   const SlidingContactLayout::Segment& part = part_of(at, nodes.front());
-  const auto first_point = static_cast<std::size_t>(part.first_point);
   const double shortest = shortest_span_on_straight(setting.body, part.strand);
   const bool at_ends_on_straight = std::all_of(nodes.begin(), nodes.end(), [&](std::size_t node) {
     return is_on_straight(setting, at, node) && lifts_off_at(setting, at, node, shortest) != Where::inside;
@@ -124,8 +130,9 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
     transitions.push_back(std::move(*transition));
   };
   if (at_ends_on_straight) {
-    const double ahead = least_pressure(setting, at, nodes.front()).s - at.s(part.first_point);
-    const double sure = shortest_sure_arch(setting, at, first_point, ahead);
+    const std::size_t point = point_of(part);
+    const double ahead = least_pressure(setting, at, nodes.front()).s - at.s(static_cast<Index>(point));
+    const double sure = shortest_sure_arch(setting, at, point, ahead);
     for (const double factor : {2.0, 4.0, 8.0, 16.0, 1.0, 0.5})
       if (factor * sure > shortest) try_length(factor * sure, sure);
     try_length(2.0 * shortest, sure);

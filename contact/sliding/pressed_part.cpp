@@ -86,12 +86,26 @@ struct PartOfNode {
 
   PartOfNode(const SlidingContactLayout& layout, std::size_t number)
       : pressed(layout.pressed_nodes()[number]), segment(layout.segments()[pressed.segment]) {
-    node = pressed.position - layout.mesh().breakpoint(segment.first_point).second - 1;
+    const Index begin = segment.first_point < 0 ? 0 : layout.mesh().breakpoint(segment.first_point).second;
+    node = pressed.position - begin - 1;
     nodes = segment.elements - 1;
   }
-  double from(const SlidingState& at) const { return at.s(segment.first_point); }
-  double length(const SlidingState& at) const { return at.s(segment.last_point) - from(at); }
+
+  /// The tracked point at one of its ends; the other may be a tip.
+  std::size_t point() const {
+    return static_cast<std::size_t>(segment.first_point >= 0 ? segment.first_point : segment.last_point);
+  }
 };
+
+// Material coordinates of a part's ends.
+struct Extent {
+  double from, length;
+};
+
+Extent extent(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  const auto [from, to] = at.layout.ends(setting.body, part.segment, at.now.s);
+  return {.from = from, .length = to - from};
+}
 
 // --- on a curved obstacle: by the forces of the nodes --------------------------------------------------------------
 
@@ -117,9 +131,13 @@ struct AtFraction {
   double r, pressure;
 };
 
+double ahead_of_point(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part, double r) {
+  const auto [from, length] = extent(setting, at, part);
+  return from + r * length - at.s(static_cast<Index>(part.point()));
+}
+
 double pressure_at(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part, double r) {
-  const auto first = static_cast<std::size_t>(part.segment.first_point);
-  return straight_pressure(setting, held_axis(setting, at, first, r * part.length(at)));
+  return straight_pressure(setting, held_axis(setting, at, part.point(), ahead_of_point(setting, at, part, r)));
 }
 
 // The least of what the node sees, at an end or between.
@@ -141,29 +159,31 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
 // The place is at a fraction of the part, whose ends move: it moves along the axis with them.
 Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
   constexpr double step = 1e-4;  // of the strand
-  const double r = least_on_straight(setting, at, part).r, length = part.length(at);
+  const double r = least_on_straight(setting, at, part).r, length = extent(setting, at, part).length;
   const double ahead = step * setting.body.length(part.pressed.strand) / length;
   const double slope =
       (pressure_at(setting, at, part, r + ahead) - pressure_at(setting, at, part, r - ahead)) / (2.0 * ahead * length);
-  const auto first = static_cast<std::size_t>(part.segment.first_point);
-  Row row = straight_pressure_gradient(setting, at, first, r * length);
-  row.dx[at.index.coordinate(part.segment.first_point)] -= r * slope;
-  row.dx[at.index.coordinate(part.segment.last_point)] += r * slope;
+  const SlidingContactLayout::Segment& ends = part.segment;
+  Row row = straight_pressure_gradient(setting, at, part.point(), ahead_of_point(setting, at, part, r));
+  row.dx[at.index.coordinate(static_cast<Index>(part.point()))] -= slope;
+  if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] += (1.0 - r) * slope;
+  if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] += r * slope;
   return row;
 }
 
 bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
-  return obstacle_is_straight(setting, at, static_cast<std::size_t>(part.segment.first_point), part.length(at));
+  return obstacle_is_straight(setting, at, part.point(), ahead_of_point(setting, at, part, 0.0)) &&
+         obstacle_is_straight(setting, at, part.point(), ahead_of_point(setting, at, part, 1.0));
 }
 
 }  // namespace
 
 LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
-  const double length = part.length(at);
+  const auto [from, length] = extent(setting, at, part);
   if (lies_on_straight(setting, at, part)) {
     const AtFraction least = least_on_straight(setting, at, part);
-    return {.value = least.pressure, .s = part.from(at) + least.r * length};
+    return {.value = least.pressure, .s = from + least.r * length};
   }
   const ByForces least = least_by_forces(at, node, part);
   const double element = length / part.segment.elements;
@@ -176,12 +196,13 @@ Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& a
   const PartOfNode part(at.layout, node);
   if (lies_on_straight(setting, at, part)) return gradient_on_straight(setting, at, part);
   const ByForces least = least_by_forces(at, node, part);
-  const double length = part.length(at), per_force = part.segment.elements / length;
+  const double length = extent(setting, at, part).length, per_force = part.segment.elements / length;
   const double p = least.weights.dot(at.state.x.segment(least.first, part.nodes));
   Row row = at.no_slope();
   row.dx.segment(least.first, part.nodes) = per_force * least.weights;
-  row.dx[at.index.coordinate(part.segment.last_point)] = -per_force * p / length;
-  row.dx[at.index.coordinate(part.segment.first_point)] = per_force * p / length;
+  const SlidingContactLayout::Segment& ends = part.segment;
+  if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] = -per_force * p / length;
+  if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] = per_force * p / length;
   return row;
 }
 

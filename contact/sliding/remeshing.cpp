@@ -10,17 +10,27 @@ namespace arcwall::sliding {
 using Span = SlidingContactLayout::Span;
 using Point = SlidingContactLayout::Point;
 
+namespace {
+
+// The length by which a direction moves the nodes of a mesh, in the path metric.
+double motion_of(const SlidingMesh& mesh, const Direction& direction) {
+  const auto dx = direction.dx.head(mesh.unknowns());
+  return std::sqrt(dx.dot(mesh.weights().cwiseProduct(dx)));
+}
+
+}  // namespace
+
 State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                   const std::shared_ptr<const SlidingContactLayout>& on) {
-  const std::size_t points = edit.points.size(), before = at.layout.points().size(), ends = setting.free_ends.size();
+  const std::size_t points = edit.points.size(), ends = setting.free_ends.size();
   Piece piece(points + ends, 0, on);
   for (std::size_t k = 0; k < points; ++k) piece[k] = edit.closed[k];
-  for (std::size_t j = 0; j < ends; ++j) piece[points + j] = at.state.piece[before + j];
+  for (std::size_t j = 0; j < ends; ++j) piece[points + j] = edit.ends_closed[j];
   const SlidingUnknowns index(piece);
   State out{.x = Vector::Zero(index.size()), .lambda = at.now.lambda, .piece = piece};
   out.x.head(index.nodes) = at.mesh.transferred(at.now, on->mesh(), edit.s);
   for (std::size_t j = 0; j < piece.size(); ++j)
-    if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : at.force(before + j - points);
+    if (const auto p = index.force(j)) out.x[*p] = j < points ? edit.forces[j] : edit.end_forces[j - points];
   out.x.tail(edit.s.size()) = edit.s;
   return out;
 }
@@ -41,6 +51,9 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
   transition.forward = difference(mapped_onto(setting, ahead, edited(ahead), on), transition.guess);
   transition.forward.dx /= step;
   transition.forward.dlambda /= step;
+  // Where a point slides fast along a body that hardly moves, little but the error of the mesh is left.
+  constexpr double sure = 0.01;
+  if (motion_of(on->mesh(), transition.forward) < sure * motion_of(at.mesh, forward)) transition.forward.dx.setZero();
   return transition;
 }
 

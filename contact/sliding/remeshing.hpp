@@ -9,8 +9,8 @@
 
 namespace arcwall::sliding {
 
-/// The state on an edited layout: its shape interpolated, the forces of its points those of the edit, moments and
-/// forces of pressed nodes zero. `on` is layout_of(edit).
+/// The state on an edited layout: its shape interpolated, the forces of its points and free ends those of the edit,
+/// moments and forces of pressed nodes zero. `on` is layout_of(edit).
 State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                   const std::shared_ptr<const SlidingContactLayout>& on);
 

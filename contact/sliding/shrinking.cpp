@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "contact/sliding/bound_value.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
@@ -15,24 +16,6 @@ namespace {
 
 using Points = std::vector<std::size_t>;
 using Span = SlidingContactLayout::Span;
-
-// The value of a bound, by its number in the layout of the states that it is asked about.
-class BoundValue final : public Observable {
- public:
-  BoundValue(const SlidingSetting& setting, std::size_t bound) : setting_(setting), bound_(bound) {}
-  double value(const State& state) const override {
-    const SlidingState at(state);
-    return at.layout.bounds()[bound_]->value(setting_, at);
-  }
-  Row gradient(const State& state) const override {
-    const SlidingState at(state);
-    return at.layout.bounds()[bound_]->gradient(setting_, at);
-  }
-
- private:
-  const SlidingSetting& setting_;
-  std::size_t bound_;
-};
 
 // The coordinate of what a bound watches on an edited layout.
 double place_of(const CurvatureBound& bound, const SlidingContactLayout&, const Vector& s) {

@@ -11,6 +11,7 @@
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/tips.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::sliding {
@@ -58,12 +59,16 @@ Index straightened_ends(const SlidingSetting& setting, const SlidingState& at, s
   return count;
 }
 
+// One that reaches the end of its member has a length of its own: no force is in it.
+bool is_flat_between_points(const SlidingContactLayout::Segment& segment) {
+  return segment.span == Span::flat && segment.first_point >= 0 && segment.last_point >= 0;
+}
+
 // `lines`: of contacts that lie on walls by themselves, `ends`: of clamped ends where straight parts begin to grow.
 Transition continuum(const SlidingState& at, Index lines, Index ends) {
   Continuum common{.energy = at.mesh.energy(at.now)};
-  for (std::size_t k = 0; k < at.layout.points().size(); ++k)
-    if (at.layout.points()[k].behind == Span::flat)
-      common.length += at.s(static_cast<Index>(k) + 1) - at.s(static_cast<Index>(k));
+  for (const SlidingContactLayout::Segment& segment : at.layout.segments())
+    if (is_flat_between_points(segment)) common.length += at.s(segment.last_point) - at.s(segment.first_point);
   return {.change = Transition::Change::continuum,
           .detail = counted(lines, "contact") + (ends > 0 ? " and " + counted(ends, "clamped end") : "") +
                     " become lines together: only the sum of their lengths is determined, " +
@@ -233,10 +238,14 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   Points points;
   for (const CurvatureBound* bound : reached<CurvatureBound>(setting, at, tolerance))
     if (at.is_closed(bound->point())) points.push_back(bound->point());
+  if (points.size() == 1)
+    if (auto touches = tip_touches_with(setting, at, points.front()))
+      return {std::move(*touches), unsupported("a tip touches with the part beside it, and no equilibrium was found")};
   Index lines =
       std::count_if(points.begin(), points.end(), [&](std::size_t k) { return lies_by_itself(setting, at, k); });
   const bool new_lines = lines > 0;
-  for (const SlidingContactLayout::Point& point : at.layout.points()) lines += point.behind == Span::flat;
+  const auto& segments = at.layout.segments();
+  lines += std::count_if(segments.begin(), segments.end(), is_flat_between_points);
   const Index ends = new_lines ? straightened_ends(setting, at, points.front()) : 0;
   if (new_lines && lines + ends > 1) return {continuum(at, lines, ends)};
   return spreads(setting, at, points);

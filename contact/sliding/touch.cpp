@@ -53,11 +53,26 @@ Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout
           .offset = setting.face_offset(end.obstacle, end.strand)};
 }
 
+bool lies_flat(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact) {
+  if (contact < layout.points().size()) return false;
+  const FreeEnd& end = setting.free_ends[contact - layout.points().size()];
+  const auto point = layout.point_at_end(end.strand, end.last);
+  return point && layout.points()[*point].obstacle == end.obstacle &&
+         layout.span_at_end(end.strand, end.last) == SlidingContactLayout::Span::flat;
+}
+
 Touch touch_of_node(const SlidingSetting& setting, const SlidingContactLayout::PressedNode& node) {
   return {.strand = node.strand,
           .position = node.position,
           .obstacle = node.obstacle,
           .offset = setting.face_offset(node.obstacle, node.strand)};
+}
+
+Touch touch_of_tip(const SlidingSetting& setting, const SlidingContactLayout::PressedTip& tip) {
+  return {.strand = tip.strand,
+          .position = tip.position,
+          .obstacle = tip.obstacle,
+          .offset = setting.face_offset(tip.obstacle, tip.strand)};
 }
 
 double travel(const AxisPlace& axis) { return std::cos(axis.angle) >= 0.0 ? 1.0 : -1.0; }

@@ -16,7 +16,11 @@ struct Touch {
 
 /// The node of contact j of a piece: a tracked point's or a free end's.
 Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
+/// Whether a contact is that of a free end up to which the body lies on the same obstacle without pressure.
+bool lies_flat(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
+
 Touch touch_of_node(const SlidingSetting& setting, const SlidingContactLayout::PressedNode& node);
+Touch touch_of_tip(const SlidingSetting& setting, const SlidingContactLayout::PressedTip& tip);
 
 /// 1 where the axis runs with x, −1 where it runs against it.
 double travel(const AxisPlace& axis);

@@ -12,6 +12,7 @@ namespace arcwall {
 ///     x   `nodes`    positions and rotations of the mesh's nodes              unknowns of the mesh
 ///     p   `closed`   forces of the closed contacts, in the piece's order      multipliers, with −g = 0
 ///     p   `pressed`  forces of the pressed nodes, in the layout's order       multipliers, with −g = 0
+///     m   `tips`     moments that hold the tangency at pressed tips           multipliers, with −t = 0
 ///     m   `points`   moments that hold the tangency at the tracked points     multipliers, with −t = 0
 ///     s   `points`   material coordinates of the tracked points               the border
 ///
@@ -24,9 +25,10 @@ class SlidingUnknowns {
   Index nodes = 0;    ///< entries of x
   Index closed = 0;   ///< forces of closed contacts
   Index pressed = 0;  ///< forces of pressed nodes
+  Index tips = 0;     ///< pressed tips
   Index points = 0;   ///< tracked points
 
-  Index multipliers() const { return closed + pressed + points; }
+  Index multipliers() const { return closed + pressed + tips + points; }
   Index of_K() const { return nodes + multipliers(); }
   Index size() const { return of_K() + points; }
 
@@ -34,7 +36,8 @@ class SlidingUnknowns {
   std::optional<Index> force(std::size_t contact) const;
 
   Index pressed_force(std::size_t node) const { return nodes + closed + static_cast<Index>(node); }
-  Index moment(Index point) const { return nodes + closed + pressed + point; }
+  Index tip_moment(std::size_t tip) const { return nodes + closed + pressed + static_cast<Index>(tip); }
+  Index moment(Index point) const { return nodes + closed + pressed + tips + point; }
   Index coordinate(Index point) const { return of_K() + point; }
 
  private:

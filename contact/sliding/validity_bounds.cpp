@@ -6,6 +6,7 @@
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/room.hpp"
+#include "contact/sliding/bounds/tail.hpp"
 
 namespace arcwall::sliding {
 
@@ -21,11 +22,14 @@ void add_if(bool there_is_one, Bounds& to, Place... place) {
 
 void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std::size_t i, Bounds& to) {
   const SlidingContactLayout::Segment& segment = on.segments()[i];
-  const bool flat = segment.span == Span::flat, touched = segment.first_point >= 0 || segment.last_point >= 0;
+  const bool touched = segment.first_point >= 0 || segment.last_point >= 0;
+  const bool flat = segment.span == Span::flat && segment.first_point >= 0 && segment.last_point >= 0;
   const bool to_load = touched && (segment.first_load >= 0 || segment.last_load >= 0);
   add_if<LengthBound>(on.joins_one_obstacle(segment), to, static_cast<std::size_t>(segment.first_point));
   add_if<LoadAheadBound>(to_load, to, i);
-  add_if<RoomBound>(touched && !to_load && !on.joins_one_obstacle(segment), to, i);
+  const bool to_tip = (segment.first_point < 0 && body.is_tip(segment.strand, false)) ||
+                      (segment.last_point < 0 && body.is_tip(segment.strand, true));
+  add_if<RoomBound>(touched && !to_load && !to_tip && !on.joins_one_obstacle(segment), to, i);
   add_if<HalfWaveBound>(flat && segment.elements == 1, to, i);
   add_if<StraightBound>(flat && segment.elements > 1, to, i);
   if (flat || on.points().empty()) return;
@@ -59,6 +63,8 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
       const bool free = !body.end_is_held(strand, last);
       add_if<LiesDownBound>(free, bounds, strand, last);
       add_if<UprightBound>(free, bounds, strand, last);
+      const auto point = on.point_at_end(strand, last);
+      add_if<TailBound>(point && body.is_tip(strand, last), bounds, strand, last, point.value_or(0));
     }
   return bounds;
 }

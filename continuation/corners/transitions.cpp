@@ -27,6 +27,8 @@ EventKind kind_of(Transition::Change change) {
       return EventKind::contact_opens;
     case Transition::Change::joins:
       return EventKind::contact_closes;
+    case Transition::Change::passes:
+      return EventKind::contact_passes;
     case Transition::Change::remeshed:
     case Transition::Change::continuum:
     case Transition::Change::unsupported:
@@ -53,8 +55,10 @@ BranchEnd end_before(const std::vector<Transition>& transitions) {
 }
 
 // Whether the first point on the piece ahead lies a little beyond the bound, with a new stretch of some length.
-bool begins_with_length(Transition::Change change) {
-  return change == Transition::Change::spreads || change == Transition::Change::splits;
+bool begins_with_length(const Transition& transition) {
+  const Transition::Change change = transition.change;
+  return change == Transition::Change::spreads || change == Transition::Change::splits ||
+         (change == Transition::Change::passes && transition.value > 0.0);
 }
 
 // The piece ahead: its metric, and a direction in which it is entered.
@@ -235,7 +239,7 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
               .guards = transition.contacts};
   if (transition.change != Transition::Change::remeshed) {
     event.kind = kind_of(transition.change);
-    if (!begins_with_length(transition.change)) {
+    if (!begins_with_length(transition)) {
       event.state = entered.at.state;
       event.residual = entered.at.residual;
     }
@@ -259,7 +263,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       passed.end = end_before(transitions);
       return passed;
     }
-    if (begins_with_length(entered->transition->change)) {
+    if (begins_with_length(*entered->transition)) {
       const PathPoint begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
       passed.entered = EnteredPiece{.begin = begin, .first = std::move(entered->at)};

@@ -18,7 +18,7 @@ constexpr std::int64_t greatest(SlidingContactLayout::Span) {
 
 template <typename Archive>
 void parts(Archive& archive, SlidingContactLayout::Point& point) {
-  archive(point.obstacle, point.behind);
+  archive(point.obstacle, point.behind, point.before);
 }
 
 template <typename Archive>

@@ -95,10 +95,11 @@ inline constexpr Words<BranchPolicy, 3> branches_words{
 inline constexpr Words<EventSearch, 3> events_words{
     {{"locate", EventSearch::locate}, {"detect", EventSearch::detect}, {"none", EventSearch::none}}};
 
-inline constexpr Words<EventKind, 8> stop_event_words{{{"contact-closes", EventKind::contact_closes},
+inline constexpr Words<EventKind, 9> stop_event_words{{{"contact-closes", EventKind::contact_closes},
                                                        {"contact-opens", EventKind::contact_opens},
                                                        {"contact-spreads", EventKind::contact_spreads},
                                                        {"contact-gathers", EventKind::contact_gathers},
+                                                       {"contact-passes", EventKind::contact_passes},
                                                        {"limit-point", EventKind::limit_point},
                                                        {"contact-limit-point", EventKind::contact_limit_point},
                                                        {"displacement-limit", EventKind::displacement_limit},

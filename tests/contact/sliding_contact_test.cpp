@@ -78,6 +78,9 @@ const std::vector<Layouts>& layouts() {
        {{.obstacle = 0, .behind = Span::flat}, {.obstacle = 0}, {.obstacle = 1}},
        {0.3, 0.65, 1.0},
        {1, 1, 1}},
+      {"a flat tail", {3, 4}, {{.obstacle = 0, .behind = Span::flat}}, {0.3}, {1}},
+      {"a pressed tail", {3, 6}, {{.obstacle = 1, .behind = Span::pressed}}, {0.3}, {1}},
+      {"a pressed tail before a point", {6, 2}, {{.obstacle = 1, .before = Span::pressed}}, {0.3}, {1}},
       {"more elements than asked for", {8, 24}, {{.obstacle = 0}}, {0.3}, {1}},
   };
   return all;

@@ -300,34 +300,22 @@ TEST(SlidingContactPath, FindsItsEventsBetweenInclinedWallsSlow) {
   limits(meshes, {branches, touches, spreads, branches, touches, corner});
 }
 
-// A cantilever of length 1 above a floor, bent by a load along it or by a moment at its tip. The tip bears a force with
-// free rotation, until it would lie down on the floor, or stand upright on it. Under the load q the tip of a linear
-// beam, g above the floor, touches at q L⁴/8 = g EI and is parallel to the floor, bearing q L/3, at q L⁴/72 = g EI.
-TEST(SlidingContactPath, EndsWhereAFreeEndLiesDownOrStandsUpright) {
-  const auto path = [](double gap, double lateral, double moment) {
-    StructureBuilder builder;
-    const Index root = builder.add_joint({0.0, 0.0}), tip = builder.add_joint({1.0, 0.0});
-    builder.add_member({.name = "0",
-                        .from = root,
-                        .to = tip,
-                        .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
-                        .section = {.E = 1e4, .A = 0.1, .I = 1e-4, .height = 0.05},
-                        .elements = 16});
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(root, which));
-    builder.fix(builder.shared_rotation(root).value());
-    if (lateral != 0.0) builder.add_distributed_load(0, {0.0, lateral}, LoadKind::proportional);
-    if (moment != 0.0) builder.add_load(builder.shared_rotation(tip).value(), moment, LoadKind::proportional);
-    return path_of(
-        SlidingModel(builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-gap - 0.025)}}, 0.05),
-        100.0);
-  };
-  const Path lies = path(0.02, -1.0, 0.0);
-  EXPECT_EQ(lies.end(), EndReason::unsupported);
-  EXPECT_EQ(lies.branches.back().record.end->detail, "the free end of a member lies down on a wall");
-  ASSERT_EQ(lies.events().size(), 1U);
-  EXPECT_NEAR(lies.events()[0].state.lambda, 8.0 * 0.02, 1e-3 * 8.0 * 0.02);
-  EXPECT_NEAR(lies.branches.back().arcs.back().to.state.lambda, 72.0 * 0.02, 1e-3 * 72.0 * 0.02);
-  const Path stands = path(0.2, 0.0, -1.0);
+// A cantilever of length 1 above a floor, bent by a moment at its tip. The tip bears a force with free rotation, until
+// it would stand upright on the floor.
+TEST(SlidingContactPath, EndsWhereAFreeEndStandsUpright) {
+  StructureBuilder builder;
+  const Index root = builder.add_joint({0.0, 0.0}), tip = builder.add_joint({1.0, 0.0});
+  builder.add_member({.name = "0",
+                      .from = root,
+                      .to = tip,
+                      .axis = straight_axis({0.0, 0.0}, {1.0, 0.0}),
+                      .section = {.E = 1e4, .A = 0.1, .I = 1e-4, .height = 0.05},
+                      .elements = 16});
+  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(root, which));
+  builder.fix(builder.shared_rotation(root).value());
+  builder.add_load(builder.shared_rotation(tip).value(), -1.0, LoadKind::proportional);
+  const Path stands = path_of(
+      SlidingModel(builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-0.225)}}, 0.05), 100.0);
   EXPECT_EQ(stands.end(), EndReason::unsupported);
   EXPECT_EQ(stands.branches.back().record.end->detail,
             "the free end of a member stands upright against a wall: its other corner would touch");

@@ -1,21 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ostream>
 
 #include "tests/support/branch.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/invariants.hpp"
 #include "tests/support/sliding_models.hpp"
-
-namespace arcwall {
-
-// In the names of tests.
-static void PrintTo(Theory theory, std::ostream* out) {
-  *out << (theory == Theory::classic ? "classic" : theory == Theory::elastica ? "elastica" : "another theory");
-}
-
-}  // namespace arcwall
 
 // Parts of a beam that are pressed on a wall over a length: they lift off inside and lie down again, and wrap a
 // cylinder. References are the extensible elastica between its contacts, θ′ = κ₀ + M/EI, (x′, z′) = (1 + N/EA)(cos θ,

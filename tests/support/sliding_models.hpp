@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,15 @@
 #include "continuation/explorer.hpp"
 #include "elements/sliding_structure.hpp"
 #include "tests/support/models.hpp"
+
+namespace arcwall {
+
+/// In the names of tests.
+inline void PrintTo(Theory theory, std::ostream* out) {
+  *out << (theory == Theory::classic ? "classic" : theory == Theory::elastica ? "elastica" : "another theory");
+}
+
+}  // namespace arcwall
 
 /// Columns and beams among walls, with contact points that slide along them.
 namespace arcwall::test {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/tips.hpp"
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
@@ -19,9 +20,10 @@ struct TouchingEnd {
   Touch touch;
 };
 
-// The contact of an end of a strand that is closed, if one is.
+// The contact of an end of a strand that is closed, if one is and the body does not lie on the obstacle beside it.
 std::optional<TouchingEnd> touching_end(const SlidingSetting& setting, const SlidingState& at, Index strand,
                                         bool last) {
+  if (at.layout.span_at_end(strand, last) != SlidingContactLayout::Span::free) return std::nullopt;
   const std::size_t points = at.layout.points().size();
   for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
     const FreeEnd& end = setting.free_ends[j];
@@ -56,8 +58,9 @@ Row LiesDownBound::gradient(const SlidingSetting& setting, const SlidingState& a
   return row;
 }
 
-std::vector<Transition> LiesDownBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
-  return {unsupported("the free end of a member lies down on a wall")};
+std::vector<Transition> LiesDownBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                   const Arrival& arrival) const {
+  return tips_lie_down(setting, at, arrival.tolerance);
 }
 
 double UprightBound::value(const SlidingSetting& setting, const SlidingState& at) const {

@@ -14,6 +14,9 @@ class LiesDownBound final : public ValidityBound {
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 
+  Index strand() const { return strand_; }
+  bool last() const { return last_; }
+
  private:
   Index strand_;
   bool last_;

@@ -94,6 +94,8 @@ struct NearestEnd {
 
 NearestEnd nearest_end(const SlidingState& at, const SlidingContactLayout::Segment& part, double load) {
   const Index first = part.first_point, last = part.last_point;
+  if (first < 0) return {.point = last, .outwards = -1.0};
+  if (last < 0) return {.point = first, .outwards = 1.0};
   return at.s(first) - load > load - at.s(last) ? NearestEnd{.point = first, .outwards = 1.0}
                                                 : NearestEnd{.point = last, .outwards = -1.0};
 }

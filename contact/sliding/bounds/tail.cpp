@@ -1,0 +1,27 @@
+#include "contact/sliding/bounds/tail.hpp"
+
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/spans.hpp"
+#include "contact/sliding/tips.hpp"
+
+namespace arcwall::sliding {
+
+double TailBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  const double s = at.s(static_cast<Index>(point_));
+  const double length = last_ ? setting.body.length(strand_) - s : s;
+  return (length - shortest_tail(setting.body, strand_)) / setting.scales.length;
+}
+
+Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  Row row = at.no_slope();
+  row.dx[at.index.coordinate(static_cast<Index>(point_))] = (last_ ? -1.0 : 1.0) / setting.scales.length;
+  return row;
+}
+
+std::vector<Transition> TailBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                               const Arrival& arrival) const {
+  if (!at.is_closed(point_)) return {without_point(setting, at, arrival.forward, point_)};
+  return contacts_come_to_tips(setting, at, arrival.tolerance);
+}
+
+}  // namespace arcwall::sliding

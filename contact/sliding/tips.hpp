@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contact/sliding/setting.hpp"
+#include "contact/sliding/unknowns.hpp"
+#include "core/transition.hpp"
+
+namespace arcwall::sliding {
+
+/// What may lie behind a state where tips that touch become tangent to their obstacles, the likeliest first: all that
+/// do so within `tolerance` together. Contact moves inside, and the tip lifts off, where the body bends away from the
+/// obstacle there; where it bends with it, it lies on the obstacle up to the tip.
+std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, double tolerance);
+
+/// The reverse, where points have come to tips: the contact there is at the tip.
+std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at, double tolerance);
+
+/// Where the body behind a point that loses its curvature gap bends all along as the obstacle does, up to a tip that it
+/// thereby touches: the contact of the tip closes. Empty elsewhere.
+std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+
+}  // namespace arcwall::sliding
