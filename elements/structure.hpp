@@ -268,6 +268,14 @@ class StructureBuilder {
   void add_load(Index freedom, double value, LoadKind kind);
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
 
+  /// A pressure on the deformed axis of a member that is no bar, to the right of the direction of travel, by length of
+  /// this axis [force/length]. It has a potential where open_pressed_joint() finds nothing.
+  void add_pressure(Index member, const Driven& pressure);
+
+  /// A joint where the pressure on members ends and that no support holds in x or z: there the work of the pressure
+  /// depends on the way.
+  std::optional<Index> open_pressed_joint() const;
+
   /// A strain and a curvature that the sections of a member take without force, as temperatures make them. Not for the
   /// Essenburg theory; bars have no curvature.
   void add_thermal_strain(Index member, const ThermalStrain& thermal);
@@ -337,6 +345,12 @@ class StructureBuilder {
   std::vector<Vec2> foundations_;       // of each member
   std::vector<ThermalStrain> thermal_;  // likewise
   std::vector<ThermalStrain> thermal_of(bool ramp) const;
+  std::vector<Driven> pressures_;  // likewise
+  std::vector<Driven> pressures_of(bool ramp) const;
+  // With the ends of pressed members, whose places are counted from the first joint.
+  Vec2 origin() const { return positions_.front(); }
+  std::vector<NodalTerms::PressedEnd> pressed_ends() const;
+  NodalTerms nodal_terms(bool ramp) const;
   std::vector<AddedElement> added_elements_;
 };
 

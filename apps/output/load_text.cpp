@@ -70,6 +70,14 @@ LoadText load_words(const deck::Heat& heat, const deck::Units&) {
   return result;
 }
 
+LoadText load_words(const deck::Pressure& load, const deck::Units& units) {
+  const std::string unit = unit_text(deck::unit::line_load, units);
+  LoadText result{.text = "on " + load.member + " pressure " + with_unit(short_number(load.pressure), unit),
+                  .name = "pressure on " + load.member};
+  if (!unit.empty()) result.size = with_unit(short_number(std::abs(load.pressure)), unit);
+  return result;
+}
+
 }  // namespace
 
 std::string with_unit(const std::string& number, const std::string& unit) {

@@ -73,9 +73,9 @@ double holding_pressure(const SlidingSetting& setting, const SlidingState& at, s
   };
   const double EI = body.bending_stiffness(touch.strand), EA = body.axial_stiffness(touch.strand);
   const double free = body.free_strain(touch.strand, at.now.lambda).value;
-  const double thrust = -EA * (strain_of_free_side(at, point).stretch - 1.0 - free);
+  const double stretch = strain_of_free_side(at, point).stretch, thrust = -EA * (stretch - 1.0 - free);
   const Vec2 up = along * normal(axis.angle);
-  const Vec2 load = body.load({.strand = touch.strand, .s = S}, axis.position, at.now.lambda);
+  const Vec2 load = body.load({.strand = touch.strand, .s = S}, axis, stretch, at.now.lambda);
   const double q =
       sign_of(obstacle.side()) * (EI * (second(wall) - along * natural) + thrust * wall(0.0) - load.dot(up));
   const double noise = 1e-7 * EI / (L * L * L);

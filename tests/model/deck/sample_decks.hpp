@@ -228,6 +228,11 @@ on = "column"
 temperature = 20.0
 gradient = 0.5
 
+[[load]]
+on = "column"
+pressure = -0.5
+constant = true
+
 [[monitor]]
 name = "push"
 wall = "hill"
