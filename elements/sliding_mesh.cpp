@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "elements/axis_load.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/elastica_beam.hpp"
 #include "elements/foundation.hpp"
@@ -181,7 +182,9 @@ StretchReference SlidingStructureMesh::reference(Index strand, Index position, c
   return stretch_reference(
       *described.shape, described.offset + coordinate(strand, position, now.s),
       described.offset + coordinate(strand, position + 1, now.s),
-      described.theory == Theory::elastica || !described.thermal.is_zero() ? Inside::wanted : Inside::left_out);
+      described.theory == Theory::elastica || !described.thermal.is_zero() || described.carries_axis_load()
+          ? Inside::wanted
+          : Inside::left_out);
 }
 
 template <typename Visit>
@@ -216,6 +219,7 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond_unloaded(Index stra
   if (!described.thermal.is_zero())
     out.force_lambda = heat_rate(stretch, described.slender(), described.thermal, now.lambda, at.between());
   if (described.carries_load()) add_load(described, stretch, at, now.lambda, out);
+  if (described.carries_axis_load()) add_axis_load(strand, position, stretch, at, now, out);
   if (described.has_foundation()) {
     const MaterialPoint first{.strand = strand, .s = coordinate(strand, position, now.s)};
     add_foundation(described, stretch, structure_.undeformed(first, true).position, at, out);
@@ -238,6 +242,24 @@ void SlidingStructureMesh::add_load(const SlidingStructure::Run& strand, const S
   };
   out.force_lambda += add(strand.load, lambda);
   add(strand.constant_load, 1.0);
+}
+
+void SlidingStructureMesh::add_axis_load(Index strand, Index position, const StretchReference& stretch, const Ends& at,
+                                         const MeshState& now, Response& out) const {
+  const SlidingStructure::Run& described = structure_.at(strand);
+  const MaterialPoint start{.strand = strand, .s = coordinate(strand, position, now.s)};
+  const Vec2 rest = structure_.undeformed(start, true).position;
+  const auto add = [&](const Vec2& load, double factor) {
+    const auto response =
+        StretchAxisLoad(stretch, load).respond(at.first - rest, at.angle1, at.second - rest, at.angle2);
+    out.energy += factor * response.energy;
+    out.force += factor * response.force;
+    out.stiffness += factor * response.stiffness;
+    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
+    return response.force;
+  };
+  out.force_lambda += add(described.axis_load, now.lambda);
+  add(described.constant_axis_load, 1.0);
 }
 
 void SlidingStructureMesh::add_pressure(Index strand, Index position, const Ends& at, const MeshState& now,

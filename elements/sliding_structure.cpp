@@ -31,6 +31,11 @@ double SlidingStructure::natural_curvature(const MaterialPoint& point, double la
 Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {
   const Run& strand = at(point.strand);
   Vec2 load = lambda * strand.load + strand.constant_load;
+  if (strand.carries_axis_load()) {
+    const Vec2 given = lambda * strand.axis_load + strand.constant_axis_load;
+    const Vec2 t = unit_tangent(undeformed(point, true).angle);
+    load += given.x() * t + given.y() * perp(t);
+  }
   if (!strand.pressure.is_zero()) load -= strand.pressure.at(lambda) * stretch * perp(unit_tangent(place.angle));
   if (!strand.has_foundation()) return load;
   return load - strand.foundation.cwiseProduct(place.position - undeformed(point, true).position);
@@ -182,7 +187,12 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
         std::max(structure->force_scale_, std::abs(pressures[m].proportional) * member.axis->length());
     for (const DistributedLoad& load : distributed_loads_) {
       if (load.member != static_cast<Index>(m) || !acts(load.kind)) continue;
-      (proportional(load.kind) ? strand.load : strand.constant_load) += load.load;
+      const bool grows = proportional(load.kind);
+      if (load.frame == LoadFrame::member) {
+        (grows ? strand.axis_load : strand.constant_axis_load) += load.load;
+      } else {
+        (grows ? strand.load : strand.constant_load) += load.load;
+      }
       if (proportional(load.kind))
         structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
     }
@@ -224,7 +234,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
     if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load() &&
-        !strand.has_foundation() && strand.pressure.is_zero() && strand.thermal.is_zero())
+        !strand.carries_axis_load() && !strand.has_foundation() && strand.pressure.is_zero() &&
+        strand.thermal.is_zero())
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
   return structure;
 }
@@ -259,7 +270,8 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms,
            std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory && a.order == b.order &&
            a.section.E == b.section.E && a.section.A == b.section.A && a.section.I == b.section.I &&
            a.section.height == b.section.height && a.load == b.load && a.constant_load == b.constant_load &&
-           a.foundation == b.foundation && a.pressure == b.pressure && a.thermal == b.thermal &&
+           a.axis_load == b.axis_load && a.constant_axis_load == b.constant_axis_load && a.foundation == b.foundation &&
+           a.pressure == b.pressure && a.thermal == b.thermal &&
            (!alike || alike(a.parts.back().member, b.parts.front().member));
   };
   for (bool joined = true; joined;) {

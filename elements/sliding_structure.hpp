@@ -123,15 +123,17 @@ class SlidingStructure final : public SlidingBody {
     double length = 0.0, offset = 0.0;  // of the strand; where it begins on the axis
     std::vector<Part> parts{};
     std::array<End, 2> ends{};
-    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the strand [force/length]
-    Vec2 foundation = Vec2::Zero();                          // in x and z [force/length²]
-    Driven pressure{};                                       // on its right [force/length]
-    std::vector<PointLoad> point_loads{};                    // inside the strand
-    std::vector<double> load_places{};                       // of these
-    std::vector<InnerJoint> joints{};                        // inside the strand
-    std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
+    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();            // along the strand [force/length]
+    Vec2 axis_load = Vec2::Zero(), constant_axis_load = Vec2::Zero();  // the same, along its axis and across it
+    Vec2 foundation = Vec2::Zero();                                    // in x and z [force/length²]
+    Driven pressure{};                                                 // on its right [force/length]
+    std::vector<PointLoad> point_loads{};                              // inside the strand
+    std::vector<double> load_places{};                                 // of these
+    std::vector<InnerJoint> joints{};                                  // inside the strand
+    std::optional<SlidingBeamLanes> beams{};                           // where they can be evaluated side by side
 
     bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
+    bool carries_axis_load() const { return !axis_load.isZero() || !constant_axis_load.isZero(); }
     ThermalStrain thermal{};
 
     SlenderSection slender() const;

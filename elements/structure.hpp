@@ -32,6 +32,10 @@ enum class Theory { classic, elastica, exact, essenburg, truss };
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
 
+/// Whether a load along a member is given in x and z, or along its stress-free axis and across it to the left at each
+/// place. It is dead either way.
+enum class LoadFrame { global, member };
+
 /// A sequence of elements between two joints.
 struct MemberDescription {
   std::string name{};
@@ -266,7 +270,7 @@ class StructureBuilder {
   void add_spring(Index first, Index second, double stiffness) { nodal_.add_spring(first, second, stiffness); }
 
   void add_load(Index freedom, double value, LoadKind kind);
-  void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
+  void add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame = LoadFrame::global);
 
   /// A pressure on the deformed axis of a member that is no bar, to the right of the direction of travel, by length of
   /// this axis [force/length]. It has a potential where open_pressed_joint() finds nothing.
@@ -305,6 +309,7 @@ class StructureBuilder {
     Index member;
     Vec2 load;
     LoadKind kind;
+    LoadFrame frame;
   };
 
   struct AddedElement {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "elements/axis_load.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"
@@ -13,6 +14,7 @@
 #include "elements/pressure.hpp"
 #include "elements/reissner_beam.hpp"
 #include "elements/structure.hpp"
+#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 
@@ -171,6 +173,29 @@ std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
   return nullptr;
 }
 
+// Along and across the stress-free axis, in x and z at a fraction of the element.
+Vec2 turned_load(const Stretch& stretch, const Vec2& load, double fraction) {
+  const Vec2 t = unit_tangent(stretch.shape.at(stretch.at(fraction)).angle);
+  return load.x() * t + load.y() * perp(t);
+}
+
+// The same along and across the stress-free axis.
+std::unique_ptr<Element> make_axis_load(const Stretch& stretch, const Vec2& load) {
+  const auto turned = [&](double fraction) { return turned_load(stretch, load, fraction); };
+  switch (stretch.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamAxisLoad>(slender_reference(stretch), load);
+    case Theory::exact:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), turned);
+    case Theory::essenburg:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), turned, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      return std::make_unique<TrussDistributedLoad>(beam_reference(stretch).length * turned(0.5));
+  }
+  return nullptr;
+}
+
 std::unique_ptr<Element> make_foundation(const Stretch& stretch, const Vec2& stiffness) {
   switch (stretch.member.theory) {
     case Theory::classic:
@@ -314,8 +339,8 @@ void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
   nodal_.add_load(freedom, kind == LoadKind::proportional ? Driven{.proportional = value} : Driven{.constant = value});
 }
 
-void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind) {
-  distributed_loads_.push_back({.member = member, .load = load, .kind = kind});
+void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame) {
+  distributed_loads_.push_back({.member = member, .load = load, .kind = kind, .frame = frame});
 }
 
 void StructureBuilder::add_thermal_strain(Index member, const ThermalStrain& thermal) {
@@ -490,11 +515,14 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     const MemberDescription& member = descriptions_[m];
     const ImperfectAxis shape(*member.axis, member.imperfection);
     const Driven factor = proportional(load.kind) ? Driven{.proportional = 1.0} : Driven{.constant = 1.0};
-    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k) {
+      const Stretch stretch{.member = member, .shape = shape, .mesh = meshes_[m], .k = k};
       structure->element_loads_.push_back(
           {.potential = std::make_shared<DrivenLoad>(
-               make_load({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, load.load), factor),
+               load.frame == LoadFrame::member ? make_axis_load(stretch, load.load) : make_load(stretch, load.load),
+               factor),
            .element = first_element[m] + static_cast<Index>(k)});
+    }
     if (proportional(load.kind))
       structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
   }

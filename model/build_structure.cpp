@@ -295,7 +295,7 @@ void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, Stru
       const auto& on_member = std::get<deck::MemberLoad>(load.action);
       if (out.places.members.contains(on_member.member))
         out.builder.add_distributed_load(out.places.members.at(on_member.member), vec(on_member.distributed),
-                                         load.constant ? LoadKind::constant : LoadKind::proportional);
+                                         load.constant ? LoadKind::constant : LoadKind::proportional, on_member.frame);
     }
   }
 }

@@ -322,11 +322,19 @@ void add_spread_load(const deck::Deck& deck, const std::string& member, const Lo
   }
 }
 
-void add_load(const deck::Deck& deck, const deck::MemberLoad& load, double factor, Scene& to) {
-  const auto everywhere = [&](const MemberShape&, double) {
-    return Vec2(factor * load.distributed.x, factor * load.distributed.z);
+// In axes of the member it is turned as these are at rest.
+void add_load(const Model& model, const deck::MemberLoad& load, double factor, Scene& to) {
+  const Vec2 given(factor * load.distributed.x, factor * load.distributed.z);
+  const auto everywhere = [&](const MemberShape& shape, double fraction) -> Vec2 {
+    if (load.frame == LoadFrame::global) return given;
+    const auto& members = model.structure().members();
+    const MemberMesh& mesh = members[static_cast<std::size_t>(&shape - to.shape.members.data())];
+    const double elements = double(mesh.nodes.size() - 1);
+    const double angle = mesh.shape[static_cast<std::size_t>(std::lround(fraction * elements))].angle;
+    const Vec2 t(std::cos(angle), std::sin(angle));
+    return given.x() * t + given.y() * perp(t);
   };
-  add_spread_load(deck, load.member, everywhere, to);
+  add_spread_load(model.deck(), load.member, everywhere, to);
 }
 
 void add_load(const deck::Deck& deck, const deck::Pressure& load, double factor, Scene& to) {
@@ -419,7 +427,7 @@ Scene scene_of(const Model& model, const State& state) {
   Scene scene{.shape = shape_of(model, state)};
   for (const deck::Load& load : deck.loads) {
     const double factor = load.constant ? 1.0 : state.lambda;
-    if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(deck, *spread, factor, scene);
+    if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(model, *spread, factor, scene);
     if (const auto* pressure = std::get_if<deck::Pressure>(&load.action)) add_load(deck, *pressure, factor, scene);
     const auto* single = std::get_if<deck::PointLoad>(&load.action);
     const auto at = single == nullptr ? std::nullopt : position_of(deck, scene.shape, single->at);

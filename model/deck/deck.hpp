@@ -217,6 +217,7 @@ struct PointLoad {
 struct MemberLoad {
   std::string member{};
   Vector distributed{};  ///< dead [force/length of the undeformed axis]
+  LoadFrame frame = LoadFrame::global;
 
   bool operator==(const MemberLoad&) const = default;
 };

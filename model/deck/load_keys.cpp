@@ -43,6 +43,9 @@ void member_load_keys(Keys& keys, MemberLoad& load) {
   keys.name("on", load.member, Named::member,
             "instead of `at`: a member, with `distributed`, `pressure` or a temperature");
   keys.vector("distributed", load.distributed, unit::line_load, "`[x, z]`, dead, by length of the undeformed axis");
+  keys.word(
+      optional("frame"), load.frame, frame_words,
+      "of `distributed`: `\"member\"` gives it along the stress-free axis at each place and across it, to the left");
   for (const char* key : {"force", "moment"})
     keys.applies(false, key, "belongs to a load at a point", "write `at` instead of `on`, or give distributed");
 }

@@ -42,7 +42,10 @@ void move(deck::Load& load, const Isometry& isometry) {
                           at.force = isometry.turned(at.force);
                           at.moment *= isometry.mirrored ? -1.0 : 1.0;
                         },
-                        [&](deck::MemberLoad& on) { on.distributed = isometry.turned(on.distributed); },
+                        [&](deck::MemberLoad& on) {
+                          if (on.frame == LoadFrame::global) on.distributed = isometry.turned(on.distributed);
+                          if (on.frame == LoadFrame::member && isometry.mirrored) on.distributed.z = -on.distributed.z;
+                        },
                         [&](deck::Heat& heat) { heat.gradient *= isometry.mirrored ? -1.0 : 1.0; },
                         [&](deck::Pressure& on) { on.pressure *= isometry.mirrored ? -1.0 : 1.0; }},
              load.action);

@@ -17,11 +17,13 @@ namespace arcwall::pressed_arches_test {
 namespace {
 
 enum class Ends { pinned, clamped, on_lines_of_symmetry };
+enum class Load { pressure, dead_radial };
 
 constexpr double hardly_stretching = 1e8;  // EA
 
 // First branch point of an arch from π/2 + α to `to` on the circle, anticlockwise angles, drawn from left to right.
-double first_branch_point(double from, double to, Ends ends, const test::BeamTheory& theory, int elements, double EA) {
+double first_branch_point(double from, double to, Ends ends, const test::BeamTheory& theory, int elements, double EA,
+                          Load load = Load::pressure) {
   StructureBuilder builder;
   const auto on_circle = [](double angle) { return Vec2(std::cos(angle), std::sin(angle)); };
   const double places[] = {from, 0.5 * (from + to), to};
@@ -36,7 +38,11 @@ double first_branch_point(double from, double to, Ends ends, const test::BeamThe
                         .order = theory.order,
                         .section = test::section_of(EA, 1.0, EA),
                         .elements = elements / 2});
-    builder.add_pressure(m, {.proportional = 1.0});
+    if (load == Load::pressure) {
+      builder.add_pressure(m, {.proportional = 1.0});
+    } else {
+      builder.add_distributed_load(m, {0.0, -1.0}, LoadKind::proportional, LoadFrame::member);
+    }
   }
   const bool symmetric = ends == Ends::on_lines_of_symmetry;
   for (const Index end : {0, 2}) {
@@ -90,5 +96,22 @@ TEST(PressedArch, ThatStretchesBucklesWithOrderFour) {
 }
 
 TEST(PressedArch, OfReissnersBeamsBucklesAlike) { EXPECT_NEAR(half_circle(Ends::pinned, exact, 48), 3.0, 1e-4); }
+
+// Loads that stay radial as they were buckle a ring at 4 (Bresse's 3 belongs to pressure; Singer and Babcock 1970) and
+// a pinned half circle at 3.271245 (the smallest root of its boundary value problem, by shooting).
+TEST(DeadRadialLoad, BucklesARingAndAnArchLaterThanPressure) {
+  for (const test::BeamTheory& theory : {elastica, classic}) {
+    SCOPED_TRACE(theory.name);
+    std::vector<double> found;
+    for (const int elements : {4, 8, 16})
+      found.push_back(first_branch_point(0.5 * pi, 0.0, Ends::on_lines_of_symmetry, theory, elements, hardly_stretching,
+                                         Load::dead_radial));
+    test::expect_convergence(found, {.exact = 4.0, .order = 4.0});
+  }
+  EXPECT_NEAR(first_branch_point(pi, 0.0, Ends::pinned, elastica, 48, hardly_stretching, Load::dead_radial), 3.271245,
+              2e-5);
+  EXPECT_NEAR(first_branch_point(pi, 0.0, Ends::pinned, exact, 48, hardly_stretching, Load::dead_radial), 3.271245,
+              1e-4);
+}
 
 }  // namespace arcwall::pressed_arches_test

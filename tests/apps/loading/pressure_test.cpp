@@ -148,6 +148,33 @@ TEST(PressedDeck, IsAppliedBeforeThePathWhereItIsConstant) {
   expect_confirmed(before);
 }
 
+// Loads in the frame of the member, on both meshes.
+TEST(LoadInTheFrameOfItsMember, IsConfirmedAndTheSameOnAMeshThatSlides) {
+  const auto deck = [](const UnitsOf& in, const std::string& more, const std::string& theory) {
+    std::string text = pressed_arch(in, more, theory, "\"z\"");
+    const std::size_t at = text.find("pressure = ");
+    const std::string load =
+        fmt::format("distributed = [{:.17g}, {:.17g}]\nframe = \"member\"\n", in.per_length(0.3), in.per_length(-1.0));
+    return text.replace(at, text.find('\n', at) - at, load);
+  };
+  const std::vector<std::string> landing{"path.land.lambda=[0.1]", "path.stop.lambda=[-0.1,0.1]", "path.step=0.01"};
+  const TracedDeck fixed(deck(centimetres, "", "elastica"), landing);
+  const TracedDeck sliding(deck(centimetres, floor_at(centimetres, -50.0), "elastica"), landing);
+  ASSERT_NE(sliding.model().sliding(), nullptr);
+  const RecordPoint &a = fixed.record().points.back(), &b = sliding.record().points.back();
+  ASSERT_EQ(a.lambda, 0.1);
+  for (std::size_t i = 0; i < a.monitors.size(); ++i)
+    EXPECT_NEAR(b.monitors[i], a.monitors[i], 1e-8 * (1e-2 + std::abs(a.monitors[i]))) << i;
+  EXPECT_NEAR(b.energy, a.energy, 1e-9 * std::abs(a.energy));
+  expect_confirmed(sliding);
+  for (const std::string theory : {"classic", "elastica", "exact", "essenburg"})
+    expect_confirmed(TracedDeck(deck(centimetres, "", theory)));
+  expect_same_events(TracedDeck(deck(centimetres, "", "classic")), TracedDeck(deck(metres, "", "classic")), 1e-8);
+  const TracedDeck down(deck(centimetres, floor_at(centimetres, -0.11), "elastica"));
+  EXPECT_FALSE(events_of(down, EventKind::contact_closes).empty());
+  expect_confirmed(down);
+}
+
 TEST(PressedDeck, IsRefusedWhereItHasNoEnergy) {
   EXPECT_EQ(problem_of(pressed_arch(centimetres, "")), "");
   EXPECT_EQ(problem_of(pressed_arch(centimetres, "", "elastica", "\"x\"")), "");

@@ -143,6 +143,7 @@ constant = true
 [[load]]
 on = "arch"
 distributed = [0.0, -3.0]
+frame = "member"
 
 [[spring]]
 at = "column:0.5"
