@@ -173,9 +173,9 @@ class SlidingBody {
   /// Where point loads act inside a strand: material coordinates, ascending [length].
   virtual const std::vector<double>& point_loads(Index strand) const = 0;
 
-  /// What acts along a strand at a place of it that is at this position now: loads, and the springs of a foundation
-  /// [force per stress-free length].
-  virtual Vec2 load(const MaterialPoint& point, const Vec2& position, double lambda) const = 0;
+  /// What acts along a strand at a place of it that is here now, where the axis has this stretch: loads, pressure, and
+  /// the springs of a foundation [force per stress-free length].
+  virtual Vec2 load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const = 0;
 
   /// Whether a support holds the end of a strand in z.
   virtual bool end_is_held(Index strand, bool last) const = 0;

@@ -24,6 +24,8 @@ FIRST_INTEGRAL = "extensible elastica between its contacts, by its first integra
 BETWEEN_CONTACTS = "extensible elastica between its contacts, by shooting and by quadrature of its first integral"
 IMPERFECT = "extensible elastica with the imperfection as its stress-free shape, by shooting"
 PAST_A_FORCE = "extensible elastica between support, contact, force and support, by shooting"
+PRESSED = "extensible elastica under pressure, by multiple shooting"
+UNSTRETCHED = "closed form where the axis does not stretch"
 ELEMENTS = "an independent finite element program, quadratic elements, converged with up to 640 on half of the beam"
 ENDED_EARLY = 3  # what was traced is written; such runs are marked on the page
 RUN_IS_USABLE = (0, ENDED_EARLY)
@@ -234,6 +236,20 @@ def column_on_springs() -> list:
     ]
 
 
+def under_pressure() -> list:
+    """Pressure that follows the axis of an arch and of a quarter of a ring."""
+    arch = lambda theory: Case(
+        f"Pinned semicircular arch under pressure, theory {theory}", "docs/validation/pressed_arch.toml",
+        meshes({"west": 1, "east": 1}, [8, 16, 32, 64]),
+        [Quantity("pressure at which it sways", load("branch-point"), 3.00127583475769, PRESSED)],
+        always=tuple(f"member.{m}.theory='{theory}'" for m in ("west", "east")))
+    return [
+        arch("classic"), arch("elastica"),
+        Case("Ring under pressure", "docs/validation/pressed_ring.toml", meshes({"quarter": 1}, [4, 8, 16]),
+             [Quantity("pressure at which it buckles", load("branch-point"), 3.0, UNSTRETCHED)]),
+    ]
+
+
 def walls(clearance: float) -> str:
     """Flat walls below and above the axis z = 0, as one value for --set."""
     wall = lambda name, side, z: (f"{{name='{name}', side='{side}', acts_on='axis', profile={{type='flat', z={z}}}}}")
@@ -342,6 +358,7 @@ def cases() -> list:
             Quantity("way there", monitor("down", "branch-point"), 293.892593560, SHOOTING),
             Quantity("second limit load", load("limit-point", 1), -477.994067635700, SHOOTING),
         ]),
+        *under_pressure(),
         Case("Pinned semicircular arch", "docs/validation/semicircle.toml", meshes({"west": 1, "east": 1}, [8, 16, 32, 64]), [
             Quantity("load at which it sways", load("branch-point"), 20.8420786502809, CHECKED),
             Quantity("way there", monitor("down", "branch-point"), 24.7455260913, SHOOTING),

@@ -16,6 +16,12 @@ double DrivenLoad::evaluate_at(const double* u, double lambda, double* f, double
   return factor * V;
 }
 
+void DrivenLoad::complete_end_forces(const double* u, double lambda, double* f) const {
+  double unit[max_unknowns] = {};
+  load_->complete_end_forces(u, lambda, unit);
+  for (int i = 0; i < unknown_count(); ++i) f[i] += factor_.at(lambda) * unit[i];
+}
+
 double BeamDistributedLoad::evaluate(const double* u, double* f, double* K) const {
   const double h = reference_.length;
   const Vec2 chord = reference_.chord + Vec2(u[3] - u[0], u[4] - u[1]);

@@ -18,6 +18,7 @@ class DrivenLoad final : public DrivenElement {
 
   int unknown_count() const override { return load_->unknown_count(); }
   double evaluate_at(const double* u, double lambda, double* f, double* K, double* f_lambda) const override;
+  void complete_end_forces(const double* u, double lambda, double* f) const override;
 
  private:
   std::unique_ptr<const Element> load_;

@@ -29,6 +29,10 @@ class Element {
     return evaluate(u, f, K);
   }
 
+  /// Makes of the gradient f at (u, λ) the forces on the ends of this element alone. They differ where the potential
+  /// has parts that cancel between neighbours: see BeamPressure.
+  virtual void complete_end_forces(const double* /*u*/, double /*lambda*/, double* /*f*/) const {}
+
   /// The same material in the updated Lagrangian formulation, at the end of an increment that led to u: see
   /// UpdatedElement. A stress-free element begins at u = 0. Null where a theory has no such form.
   virtual std::unique_ptr<Element> updated(const double* /*u*/) const { return nullptr; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/linearization.hpp"
+#include "core/types.hpp"
 #include "elements/driven.hpp"
 
 namespace arcwall {
@@ -36,12 +37,31 @@ class NodalTerms {
     springs_.push_back({.first = first, .second = second, .stiffness = k});
   }
 
+  /// A joint where the pressure on members ends, and which a support holds in x or z or both. Where the pressures on
+  /// the members that end there less those on the members that begin there leave p, their potentials, areas about an
+  /// origin, leave a part of the force on it: ½ p (−z, x) with its place (x, z). In a direction that is free this has a
+  /// potential, as the other one is given.
+  struct PressedEnd {
+    Index x, z;     ///< freedoms
+    Vec2 rest;      ///< stress-free place, from the origin
+    Driven excess;  ///< p [force/length]
+
+    bool joins(Index freedom) const { return freedom == x || freedom == z; }
+    Index other(Index freedom) const { return freedom == x ? z : x; }
+    /// By the place in the other direction [1/length].
+    double factor(Index freedom) const { return freedom == x ? -0.5 : 0.5; }
+    double rest_of_other(Index freedom) const { return freedom == x ? rest.y() : rest.x(); }
+  };
+  void add_pressed_end(const PressedEnd& end) { pressed_ends_.push_back(end); }
+  const std::vector<PressedEnd>& pressed_ends() const { return pressed_ends_; }
+
   /// The terms of a path in λ from 0 to 1 that applies the constant parts of loads and supports: there these are the
   /// proportional parts, and those that were are left out. Springs stay.
   NodalTerms ramp() const {
     NodalTerms terms = *this;
     for (auto* list : {&terms.loads_, &terms.supports_})
       for (auto& [freedom, value] : *list) value = {.constant = 0.0, .proportional = value.constant};
+    for (PressedEnd& end : terms.pressed_ends_) end.excess = {.constant = 0.0, .proportional = end.excess.constant};
     return terms;
   }
 
@@ -96,6 +116,9 @@ class NodalTerms {
       if (const Index i = unknown_of(spring.first); i >= 0) F[i] -= force;
       if (const Index i = unknown_of(spring.second); i >= 0) F[i] += force;
     }
+    for (const PressedEnd& end : pressed_ends_)
+      for (const Index freedom : {end.x, end.z})
+        if (const Index i = unknown_of(freedom); i >= 0) F[i] += force_of(end, freedom, lambda, displacement_of);
   }
 
   /// Adds these forces and their derivatives to F, K and F_λ, and lists the stiffnesses in `ground`. K has the pattern
@@ -113,6 +136,10 @@ class NodalTerms {
         out.ground.push_back({.row = i, .column = i, .stiffness = k});
       }
     for (const Spring& spring : springs_) linearize(spring, unknown_of, out);
+    for (const PressedEnd& end : pressed_ends_)
+      for (const Index freedom : {end.x, end.z})
+        if (const Index i = unknown_of(freedom); i >= 0)
+          out.F_lambda[i] += force_rate_of(end, freedom, lambda, displacement_of);
   }
 
   /// Σ ½ k u² − Σ p u, over free and held freedoms, and the energy of springs between them.
@@ -128,6 +155,9 @@ class NodalTerms {
       const double stretch = displacement_of(spring.second) - displacement_of(spring.first);
       energy += 0.5 * spring.stiffness * stretch * stretch;
     }
+    for (const PressedEnd& end : pressed_ends_)
+      for (const Index freedom : {end.x, end.z})
+        if (!is_held(freedom)) energy += force_of(end, freedom, lambda, displacement_of) * displacement_of(freedom);
     return energy;
   }
 
@@ -138,12 +168,15 @@ class NodalTerms {
     for (const Spring& spring : springs_)
       if (spring.joins(freedom))
         force += spring.stiffness * (displacement_of(freedom) - displacement_of(spring.other(freedom)));
+    for (const PressedEnd& end : pressed_ends_)
+      if (end.joins(freedom)) force += force_of(end, freedom, lambda, displacement_of);
     return force;
   }
 
   /// Adds its derivatives by the unknowns, a vector, and by λ.
-  template <class UnknownOf, class Derivatives>
-  void add_support_force_gradient(Index freedom, const UnknownOf& unknown_of, Derivatives& by_unknowns,
+  template <class UnknownOf, class DisplacementOf, class Derivatives>
+  void add_support_force_gradient(Index freedom, double lambda, const UnknownOf& unknown_of,
+                                  const DisplacementOf& displacement_of, Derivatives& by_unknowns,
                                   double& by_lambda) const {
     by_lambda += ground_stiffness(freedom) * support(freedom).proportional - load(freedom).proportional;
     for (const Spring& spring : springs_) {
@@ -151,6 +184,12 @@ class NodalTerms {
       const Index other = spring.other(freedom), i = unknown_of(other);
       by_lambda += spring.stiffness * (support(freedom).proportional - support(other).proportional);
       if (i >= 0) by_unknowns[i] -= spring.stiffness;
+    }
+    for (const PressedEnd& end : pressed_ends_) {
+      if (!end.joins(freedom)) continue;
+      by_lambda += force_rate_of(end, freedom, lambda, displacement_of);
+      if (const Index i = unknown_of(end.other(freedom)); i >= 0)
+        by_unknowns[i] += end.factor(freedom) * end.excess.at(lambda);
     }
   }
 
@@ -180,6 +219,20 @@ class NodalTerms {
     return found == nullptr ? Value{} : *found;
   }
 
+  // The force of a pressed end on one of its freedoms, and its rate by λ at fixed unknowns.
+  template <class DisplacementOf>
+  static double force_of(const PressedEnd& end, Index freedom, double lambda, const DisplacementOf& displacement_of) {
+    const double place = end.rest_of_other(freedom) + displacement_of(end.other(freedom));
+    return end.factor(freedom) * end.excess.at(lambda) * place;
+  }
+  template <class DisplacementOf>
+  double force_rate_of(const PressedEnd& end, Index freedom, double lambda,
+                       const DisplacementOf& displacement_of) const {
+    const double place = end.rest_of_other(freedom) + displacement_of(end.other(freedom));
+    return end.factor(freedom) *
+           (end.excess.proportional * place + end.excess.at(lambda) * support(end.other(freedom)).proportional);
+  }
+
   // A spring whose other end is held is one to a ground that may move.
   template <class UnknownOf>
   void linearize(const Spring& spring, const UnknownOf& unknown_of, Linearization& out) const {
@@ -199,6 +252,7 @@ class NodalTerms {
   List<Driven> loads_, supports_;
   List<double> ground_;
   std::vector<Spring> springs_;
+  std::vector<PressedEnd> pressed_ends_;
 };
 
 }  // namespace arcwall

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -83,7 +84,13 @@ class ReissnerBeam final : public Element {
 class ExactDistributedLoad final : public Element {
  public:
   /// `load` [force/length]. Of the unknowns of each node the first two are the displacements.
-  ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load, int unknowns_a_node = 3);
+  ExactDistributedLoad(const ExactBeamReference& reference, const Vec2& load, int unknowns_a_node = 3)
+      : ExactDistributedLoad(
+            reference, [load](double) { return load; }, unknowns_a_node) {}
+
+  /// The load at a fraction of the stretch.
+  ExactDistributedLoad(const ExactBeamReference& reference, const std::function<Vec2(double)>& load_at,
+                       int unknowns_a_node = 3);
 
   int unknown_count() const override { return stride_ * static_cast<int>(forces_.size()); }
   double evaluate(const double* u, double* f, double* K) const override;

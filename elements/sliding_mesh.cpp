@@ -4,9 +4,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "elements/axis_load.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/elastica_beam.hpp"
 #include "elements/foundation.hpp"
+#include "elements/pressure.hpp"
 #include "elements/unit_tangent.hpp"
 
 namespace arcwall {
@@ -180,7 +182,9 @@ StretchReference SlidingStructureMesh::reference(Index strand, Index position, c
   return stretch_reference(
       *described.shape, described.offset + coordinate(strand, position, now.s),
       described.offset + coordinate(strand, position + 1, now.s),
-      described.theory == Theory::elastica || !described.thermal.is_zero() ? Inside::wanted : Inside::left_out);
+      described.theory == Theory::elastica || !described.thermal.is_zero() || described.carries_axis_load()
+          ? Inside::wanted
+          : Inside::left_out);
 }
 
 template <typename Visit>
@@ -215,10 +219,12 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond_unloaded(Index stra
   if (!described.thermal.is_zero())
     out.force_lambda = heat_rate(stretch, described.slender(), described.thermal, now.lambda, at.between());
   if (described.carries_load()) add_load(described, stretch, at, now.lambda, out);
+  if (described.carries_axis_load()) add_axis_load(strand, position, stretch, at, now, out);
   if (described.has_foundation()) {
     const MaterialPoint first{.strand = strand, .s = coordinate(strand, position, now.s)};
     add_foundation(described, stretch, structure_.undeformed(first, true).position, at, out);
   }
+  if (!described.pressure.is_zero()) add_pressure(strand, position, at, now, out);
   if (has_displaced_end(strand, position)) out.force_lambda += out.stiffness * end_rates(strand, position);
   return out;
 }
@@ -236,6 +242,63 @@ void SlidingStructureMesh::add_load(const SlidingStructure::Run& strand, const S
   };
   out.force_lambda += add(strand.load, lambda);
   add(strand.constant_load, 1.0);
+}
+
+void SlidingStructureMesh::add_axis_load(Index strand, Index position, const StretchReference& stretch, const Ends& at,
+                                         const MeshState& now, Response& out) const {
+  const SlidingStructure::Run& described = structure_.at(strand);
+  const MaterialPoint start{.strand = strand, .s = coordinate(strand, position, now.s)};
+  const Vec2 rest = structure_.undeformed(start, true).position;
+  const auto add = [&](const Vec2& load, double factor) {
+    const auto response =
+        StretchAxisLoad(stretch, load).respond(at.first - rest, at.angle1, at.second - rest, at.angle2);
+    out.energy += factor * response.energy;
+    out.force += factor * response.force;
+    out.stiffness += factor * response.stiffness;
+    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
+    return response.force;
+  };
+  out.force_lambda += add(described.axis_load, now.lambda);
+  add(described.constant_axis_load, 1.0);
+}
+
+void SlidingStructureMesh::add_pressure(Index strand, Index position, const Ends& at, const MeshState& now,
+                                        Response& out) const {
+  const Vec2& origin = structure_.origin_;
+  const auto at_rest = [&](Index node) {
+    return structure_.undeformed({.strand = strand, .s = coordinate(strand, node, now.s)}, true);
+  };
+  const AxisPlace first = at_rest(position), second = at_rest(position + 1);
+  const auto rest = pressure_on_stretch(first.position - origin, first.angle, second.position - origin, second.angle);
+  const auto response = pressure_on_stretch(at.first - origin, at.angle1, at.second - origin, at.angle2);
+  const Driven& pressure = structure_.at(strand).pressure;
+  const double p = pressure.at(now.lambda);
+  out.energy += p * (response.energy - rest.energy);
+  out.force += p * response.force;
+  out.stiffness += p * response.stiffness;
+  out.force_lambda += pressure.proportional * response.force;
+}
+
+// With the forces on the ends of this element alone: what pressure on the next one cancels in their sum makes the
+// stiffness unsymmetric.
+SlidingStructureMesh::Response SlidingStructureMesh::with_end_forces(Response response, Index strand, Index position,
+                                                                     const MeshState& now) const {
+  const Driven& pressure = structure_.at(strand).pressure;
+  if (pressure.is_zero()) return response;
+  const Ends at = ends(strand, position, now);
+  const Six rates = end_rates(strand, position);
+  const double p = pressure.at(now.lambda);
+  Eigen::Matrix2d turn;
+  turn << 0.0, -1.0, 1.0, 0.0;
+  for (const Index end : {0, 3}) {
+    const double sign = end == 0 ? -1.0 : 1.0;
+    const Vec2 force = sign * pressure_at_end((end == 0 ? at.first : at.second) - structure_.origin_);
+    response.force.segment<2>(end) += p * force;
+    response.force_lambda.segment<2>(end) +=
+        pressure.proportional * force + 0.5 * sign * p * turn * rates.segment<2>(end);
+    response.stiffness.block<2, 2>(end, end) += 0.5 * sign * p * turn;
+  }
+  return response;
 }
 
 void SlidingStructureMesh::add_foundation(const SlidingStructure::Run& strand, const StretchReference& stretch,
@@ -397,7 +460,7 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
   const SlidingStructure::Run& described = structure_.at(strand);
   const double sign = before ? 1.0 : -1.0;
   const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
-  const Response response = respond(strand, e, now, true);
+  const Response response = with_end_forces(respond(strand, e, now, true), strand, e, now);
   const Vec2 t = unit_tangent(node(strand, position, now).angle);
   const double S = coordinate(strand, position, now.s), step = 1e-5 * described.length;
   const auto natural = [&, strand = strand](double at) {
@@ -407,8 +470,8 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
   AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI,
                     .stretch = 1.0 + described.thermal.strain.at(now.lambda) + force.dot(t) / EA};
 
-  const Six curvature_dx = response.stiffness.col(turn) / EI;
-  Six stretch_dx = response.stiffness.middleCols<2>(place) * t / EA;
+  const Six curvature_dx = response.stiffness.row(turn).transpose() / EI;
+  Six stretch_dx = response.stiffness.middleRows<2>(place).transpose() * t / EA;
   stretch_dx[turn] += force.dot(perp(t)) / EA;
   strain.curvature_dx = strain.stretch_dx = Vector::Zero(n);
   strain.curvature_ds = strain.stretch_ds = Vector::Zero(m);
@@ -429,7 +492,7 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
 }
 
 SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index position, const MeshState& now) const {
-  const Six force = respond(strand, position, now, false).force;
+  const Six force = with_end_forces(respond(strand, position, now, false), strand, position, now).force;
   return {force.head<3>(), force.tail<3>()};
 }
 
@@ -517,9 +580,10 @@ SlidingStructure::Reaction SlidingStructureMesh::reaction(const MeshState& now, 
   SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
   if (unknown(freedom) != held) return reaction;
   const NodalTerms& terms = structure_.nodal_;
-  reaction.value = terms.support_force(freedom, now.lambda, [&](Index of) { return structure_.value(*this, now, of); });
+  const auto displacement_of = [&](Index of) { return structure_.value(*this, now, of); };
+  reaction.value = terms.support_force(freedom, now.lambda, displacement_of);
   terms.add_support_force_gradient(
-      freedom, [this](Index of) { return unknown(of); }, reaction.dx, reaction.dlambda);
+      freedom, now.lambda, [this](Index of) { return unknown(of); }, displacement_of, reaction.dx, reaction.dlambda);
   for (Index r = 0; r < structure_.strands(); ++r)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& freedoms = structure_.at(r).ends[end].freedom;

@@ -116,6 +116,10 @@ class SlidingStructureMesh final : public SlidingMesh {
   Response respond_unloaded(Index strand, Index position, const MeshState& now, bool with_rates) const;
   static void add_load(const SlidingStructure::Run& strand, const StretchReference& stretch, const Ends& at,
                        double lambda, Response& out);
+  void add_axis_load(Index strand, Index position, const StretchReference& stretch, const Ends& at,
+                     const MeshState& now, Response& out) const;
+  void add_pressure(Index strand, Index position, const Ends& at, const MeshState& now, Response& out) const;
+  Response with_end_forces(Response response, Index strand, Index position, const MeshState& now) const;
   static void add_foundation(const SlidingStructure::Run& strand, const StretchReference& stretch,
                              const Vec2& first_at_rest, const Ends& at, Response& out);
 

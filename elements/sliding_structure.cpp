@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "elements/sliding_mesh.hpp"
+#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 
@@ -54,11 +55,17 @@ bool SlidingStructure::is_tip(Index strand, bool last) const {
   return strands_there == 1 && !nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
 }
 
-Vec2 SlidingStructure::load(const MaterialPoint& point, const Vec2& position, double lambda) const {
+Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {
   const Run& strand = at(point.strand);
-  const Vec2 load = lambda * strand.load + strand.constant_load;
+  Vec2 load = lambda * strand.load + strand.constant_load;
+  if (strand.carries_axis_load()) {
+    const Vec2 given = lambda * strand.axis_load + strand.constant_axis_load;
+    const Vec2 t = unit_tangent(undeformed(point, true).angle);
+    load += given.x() * t + given.y() * perp(t);
+  }
+  if (!strand.pressure.is_zero()) load -= strand.pressure.at(lambda) * stretch * perp(unit_tangent(place.angle));
   if (!strand.has_foundation()) return load;
-  return load - strand.foundation.cwiseProduct(position - undeformed(point, true).position);
+  return load - strand.foundation.cwiseProduct(place.position - undeformed(point, true).position);
 }
 
 std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& point) const {
@@ -182,12 +189,14 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
   structure->positions_ = positions_;
   structure->first_freedom_ = first_freedom_;
   structure->freedoms_ = freedoms_;
-  structure->nodal_ = ramp ? nodal_.ramp() : nodal_;
+  structure->nodal_ = nodal_terms(ramp);
+  structure->origin_ = origin();
   structure->length_scale_ = box_diagonal(positions_);
   structure->force_scale_ = force_scale(structure->nodal_, structure->length_scale_);
   const auto acts = [&](LoadKind kind) { return !ramp || kind == LoadKind::constant; };
   const auto proportional = [&](LoadKind kind) { return ramp || kind == LoadKind::proportional; };
   const std::vector<ThermalStrain> thermal = thermal_of(ramp);
+  const std::vector<Driven> pressures = pressures_of(ramp);
   const std::vector<bool> with_terms = nodes_with_terms();
   for (std::size_t m = 0; m < descriptions_.size(); ++m) {
     const MemberDescription& member = descriptions_[m];
@@ -199,10 +208,18 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                  .order = member.order,
                                  .section = member.section,
                                  .foundation = foundations_[m],
+                                 .pressure = pressures[m],
                                  .thermal = thermal[m]};
+    structure->force_scale_ =
+        std::max(structure->force_scale_, std::abs(pressures[m].proportional) * member.axis->length());
     for (const DistributedLoad& load : distributed_loads_) {
       if (load.member != static_cast<Index>(m) || !acts(load.kind)) continue;
-      (proportional(load.kind) ? strand.load : strand.constant_load) += load.load;
+      const bool grows = proportional(load.kind);
+      if (load.frame == LoadFrame::member) {
+        (grows ? strand.axis_load : strand.constant_axis_load) += load.load;
+      } else {
+        (grows ? strand.load : strand.constant_load) += load.load;
+      }
       if (proportional(load.kind))
         structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
     }
@@ -244,7 +261,8 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
     if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load() &&
-        !strand.has_foundation() && strand.thermal.is_zero())
+        !strand.carries_axis_load() && !strand.has_foundation() && strand.pressure.is_zero() &&
+        strand.thermal.is_zero())
       strand.beams.emplace(*strand.shape, strand.section.EA(), strand.section.EI());
   return structure;
 }
@@ -279,7 +297,8 @@ void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms,
            std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory && a.order == b.order &&
            a.section.E == b.section.E && a.section.A == b.section.A && a.section.I == b.section.I &&
            a.section.height == b.section.height && a.load == b.load && a.constant_load == b.constant_load &&
-           a.foundation == b.foundation && a.thermal == b.thermal &&
+           a.axis_load == b.axis_load && a.constant_axis_load == b.constant_axis_load && a.foundation == b.foundation &&
+           a.pressure == b.pressure && a.thermal == b.thermal &&
            (!alike || alike(a.parts.back().member, b.parts.front().member));
   };
   for (bool joined = true; joined;) {

@@ -38,7 +38,7 @@ class SlidingStructure final : public SlidingBody {
     const Driven& strain = at(strand).thermal.strain;
     return {.value = strain.at(lambda), .rate = strain.proportional};
   }
-  Vec2 load(const MaterialPoint& point, const Vec2& position, double lambda) const override;
+  Vec2 load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const override;
   const std::vector<double>& point_loads(Index strand) const override { return at(strand).load_places; }
   bool end_is_held(Index strand, bool last) const override {
     return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
@@ -125,14 +125,17 @@ class SlidingStructure final : public SlidingBody {
     double length = 0.0, offset = 0.0;  // of the strand; where it begins on the axis
     std::vector<Part> parts{};
     std::array<End, 2> ends{};
-    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();  // along the strand [force/length]
-    Vec2 foundation = Vec2::Zero();                          // in x and z [force/length²]
-    std::vector<PointLoad> point_loads{};                    // inside the strand
-    std::vector<double> load_places{};                       // of these
-    std::vector<InnerJoint> joints{};                        // inside the strand
-    std::optional<SlidingBeamLanes> beams{};                 // where they can be evaluated side by side
+    Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();            // along the strand [force/length]
+    Vec2 axis_load = Vec2::Zero(), constant_axis_load = Vec2::Zero();  // the same, along its axis and across it
+    Vec2 foundation = Vec2::Zero();                                    // in x and z [force/length²]
+    Driven pressure{};                                                 // on its right [force/length]
+    std::vector<PointLoad> point_loads{};                              // inside the strand
+    std::vector<double> load_places{};                                 // of these
+    std::vector<InnerJoint> joints{};                                  // inside the strand
+    std::optional<SlidingBeamLanes> beams{};                           // where they can be evaluated side by side
 
     bool carries_load() const { return !load.isZero() || !constant_load.isZero(); }
+    bool carries_axis_load() const { return !axis_load.isZero() || !constant_axis_load.isZero(); }
     ThermalStrain thermal{};
 
     SlenderSection slender() const;
@@ -153,6 +156,7 @@ class SlidingStructure final : public SlidingBody {
   std::vector<Index> first_freedom_;  // of the builder's nodes
   std::vector<Structure::Meaning> freedoms_;
   NodalTerms nodal_;
+  Vec2 origin_ = Vec2::Zero();  // of the areas under pressure
   double length_scale_ = 1.0, force_scale_ = 0.0;
 };
 

@@ -333,7 +333,8 @@ Row Structure::reaction_gradient(const State& state, Index freedom) const {
   if (unknown(freedom)) return row;
   Local local;
   nodal_.add_support_force_gradient(
-      freedom, [this](Index of) { return unknown_or_held(of); }, row.dx, row.dlambda);
+      freedom, state.lambda, [this](Index of) { return unknown_or_held(of); },
+      [&](Index of) { return value(state, of); }, row.dx, row.dlambda);
   for_each_with(freedom, [&](const Element& element, Index block) {
     evaluate(element, block, state, local, true);
     const std::size_t n = element_freedoms(block).size(), i = element_freedoms(block).place_of(freedom);

@@ -32,6 +32,10 @@ enum class Theory { classic, elastica, exact, essenburg, truss };
 /// A load is multiplied by λ or held while λ varies.
 enum class LoadKind { proportional, constant };
 
+/// Whether a load along a member is given in x and z, or along its stress-free axis and across it to the left at each
+/// place. It is dead either way.
+enum class LoadFrame { global, member };
+
 /// A sequence of elements between two joints.
 struct MemberDescription {
   std::string name{};
@@ -266,7 +270,15 @@ class StructureBuilder {
   void add_spring(Index first, Index second, double stiffness) { nodal_.add_spring(first, second, stiffness); }
 
   void add_load(Index freedom, double value, LoadKind kind);
-  void add_distributed_load(Index member, const Vec2& load, LoadKind kind);
+  void add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame = LoadFrame::global);
+
+  /// A pressure on the deformed axis of a member that is no bar, to the right of the direction of travel, by length of
+  /// this axis [force/length]. It has a potential where open_pressed_joint() finds nothing.
+  void add_pressure(Index member, const Driven& pressure);
+
+  /// A joint where the pressure on members ends and that no support holds in x or z: there the work of the pressure
+  /// depends on the way.
+  std::optional<Index> open_pressed_joint() const;
 
   /// A strain and a curvature that the sections of a member take without force, as temperatures make them. Not for the
   /// Essenburg theory; bars have no curvature.
@@ -297,6 +309,7 @@ class StructureBuilder {
     Index member;
     Vec2 load;
     LoadKind kind;
+    LoadFrame frame;
   };
 
   struct AddedElement {
@@ -337,6 +350,12 @@ class StructureBuilder {
   std::vector<Vec2> foundations_;       // of each member
   std::vector<ThermalStrain> thermal_;  // likewise
   std::vector<ThermalStrain> thermal_of(bool ramp) const;
+  std::vector<Driven> pressures_;  // likewise
+  std::vector<Driven> pressures_of(bool ramp) const;
+  // With the ends of pressed members, whose places are counted from the first joint.
+  Vec2 origin() const { return positions_.front(); }
+  std::vector<NodalTerms::PressedEnd> pressed_ends() const;
+  NodalTerms nodal_terms(bool ramp) const;
   std::vector<AddedElement> added_elements_;
 };
 

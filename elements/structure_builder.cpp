@@ -4,14 +4,17 @@
 #include <cstdint>
 #include <numeric>
 
+#include "elements/axis_load.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
 #include "elements/elastica_beam.hpp"
 #include "elements/essenburg_beam.hpp"
 #include "elements/foundation.hpp"
 #include "elements/heated_beam.hpp"
+#include "elements/pressure.hpp"
 #include "elements/reissner_beam.hpp"
 #include "elements/structure.hpp"
+#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 
@@ -94,6 +97,9 @@ EssenburgStiffness essenburg_stiffness(const Section& section) {
           .points = section.points};
 }
 
+// What a ramp makes of a value: its constant part grows with λ, the other is left out.
+Driven ramp_of(const Driven& value) { return {.constant = 0.0, .proportional = value.constant}; }
+
 // Under temperatures.
 std::unique_ptr<Element> make_heated_element(const Stretch& stretch, const ThermalStrain& thermal) {
   const Section& section = stretch.member.section;
@@ -167,6 +173,29 @@ std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
   return nullptr;
 }
 
+// Along and across the stress-free axis, in x and z at a fraction of the element.
+Vec2 turned_load(const Stretch& stretch, const Vec2& load, double fraction) {
+  const Vec2 t = unit_tangent(stretch.shape.at(stretch.at(fraction)).angle);
+  return load.x() * t + load.y() * perp(t);
+}
+
+// The same along and across the stress-free axis.
+std::unique_ptr<Element> make_axis_load(const Stretch& stretch, const Vec2& load) {
+  const auto turned = [&](double fraction) { return turned_load(stretch, load, fraction); };
+  switch (stretch.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamAxisLoad>(slender_reference(stretch), load);
+    case Theory::exact:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), turned);
+    case Theory::essenburg:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), turned, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      return std::make_unique<TrussDistributedLoad>(beam_reference(stretch).length * turned(0.5));
+  }
+  return nullptr;
+}
+
 std::unique_ptr<Element> make_foundation(const Stretch& stretch, const Vec2& stiffness) {
   switch (stretch.member.theory) {
     case Theory::classic:
@@ -176,6 +205,22 @@ std::unique_ptr<Element> make_foundation(const Stretch& stretch, const Vec2& sti
       return std::make_unique<ExactFoundation>(exact_reference(stretch), stiffness);
     case Theory::essenburg:
       return std::make_unique<ExactFoundation>(exact_reference(stretch), stiffness, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      break;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Element> make_pressure(const Stretch& stretch, const Vec2& origin) {
+  const Vec2 first = stretch.mesh.shape[stretch.k].position - origin;
+  switch (stretch.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamPressure>(beam_reference(stretch), first);
+    case Theory::exact:
+      return std::make_unique<ExactPressure>(exact_reference(stretch), first);
+    case Theory::essenburg:
+      return std::make_unique<ExactPressure>(exact_reference(stretch), first, EssenburgBeam::unknowns_a_node);
     case Theory::truss:
       break;
   }
@@ -274,6 +319,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
   descriptions_.push_back(std::move(member));
   foundations_.emplace_back(0.0, 0.0);
   thermal_.emplace_back();
+  pressures_.emplace_back();
   return static_cast<Index>(meshes_.size()) - 1;
 }
 
@@ -293,8 +339,8 @@ void StructureBuilder::add_load(Index freedom, double value, LoadKind kind) {
   nodal_.add_load(freedom, kind == LoadKind::proportional ? Driven{.proportional = value} : Driven{.constant = value});
 }
 
-void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind) {
-  distributed_loads_.push_back({.member = member, .load = load, .kind = kind});
+void StructureBuilder::add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame) {
+  distributed_loads_.push_back({.member = member, .load = load, .kind = kind, .frame = frame});
 }
 
 void StructureBuilder::add_thermal_strain(Index member, const ThermalStrain& thermal) {
@@ -305,13 +351,53 @@ void StructureBuilder::add_thermal_strain(Index member, const ThermalStrain& the
 // Of a ramp the constant parts grow with λ and the others are left out.
 std::vector<ThermalStrain> StructureBuilder::thermal_of(bool ramp) const {
   std::vector<ThermalStrain> thermal = thermal_;
-  const auto grow = [](Driven& value) { value = {.constant = 0.0, .proportional = value.constant}; };
   for (ThermalStrain& one : thermal)
-    if (ramp) {
-      grow(one.strain);
-      grow(one.curvature);
-    }
+    if (ramp) one = {.strain = ramp_of(one.strain), .curvature = ramp_of(one.curvature)};
   return thermal;
+}
+
+void StructureBuilder::add_pressure(Index member, const Driven& pressure) {
+  assert(descriptions_[static_cast<std::size_t>(member)].theory != Theory::truss);
+  pressures_[static_cast<std::size_t>(member)] += pressure;
+}
+
+std::vector<Driven> StructureBuilder::pressures_of(bool ramp) const {
+  std::vector<Driven> pressures = pressures_;
+  for (Driven& pressure : pressures)
+    if (ramp) pressure = ramp_of(pressure);
+  return pressures;
+}
+
+std::vector<NodalTerms::PressedEnd> StructureBuilder::pressed_ends() const {
+  std::vector<Driven> excess(positions_.size());
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const auto [constant, proportional] = pressures_[m];
+    excess[static_cast<std::size_t>(meshes_[m].nodes.back())] += pressures_[m];
+    excess[static_cast<std::size_t>(meshes_[m].nodes.front())] +=
+        {.constant = -constant, .proportional = -proportional};
+  }
+  std::vector<NodalTerms::PressedEnd> ends;
+  for (std::size_t node = 0; node < excess.size(); ++node) {
+    const auto joint = static_cast<Index>(node);
+    if (!excess[node].is_zero())
+      ends.push_back({.x = freedom(joint, Freedom::x),
+                      .z = freedom(joint, Freedom::z),
+                      .rest = positions_[node] - origin(),
+                      .excess = excess[node]});
+  }
+  return ends;
+}
+
+std::optional<Index> StructureBuilder::open_pressed_joint() const {
+  for (const NodalTerms::PressedEnd& end : pressed_ends())
+    if (!nodal_.is_held(end.x) && !nodal_.is_held(end.z)) return freedoms_[static_cast<std::size_t>(end.x)].node;
+  return std::nullopt;
+}
+
+NodalTerms StructureBuilder::nodal_terms(bool ramp) const {
+  NodalTerms terms = nodal_;
+  for (const NodalTerms::PressedEnd& end : pressed_ends()) terms.add_pressed_end(end);
+  return ramp ? terms.ramp() : terms;
 }
 
 void StructureBuilder::add_foundation(Index member, const Vec2& stiffness) {
@@ -419,7 +505,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->first_added_ = static_cast<Index>(structure->elements_.size());
   for (const AddedElement& added : added_elements_) structure->elements_.add(added.element);
   structure->elements_.shrink_to_fit();
-  structure->nodal_ = ramp ? nodal_.ramp() : nodal_;
+  structure->nodal_ = nodal_terms(ramp);
   structure->arrange();
 
   structure->force_scale_ = force_scale(structure->nodal_, structure->length_scale_);
@@ -429,11 +515,14 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     const MemberDescription& member = descriptions_[m];
     const ImperfectAxis shape(*member.axis, member.imperfection);
     const Driven factor = proportional(load.kind) ? Driven{.proportional = 1.0} : Driven{.constant = 1.0};
-    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k) {
+      const Stretch stretch{.member = member, .shape = shape, .mesh = meshes_[m], .k = k};
       structure->element_loads_.push_back(
           {.potential = std::make_shared<DrivenLoad>(
-               make_load({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, load.load), factor),
+               load.frame == LoadFrame::member ? make_axis_load(stretch, load.load) : make_load(stretch, load.load),
+               factor),
            .element = first_element[m] + static_cast<Index>(k)});
+    }
     if (proportional(load.kind))
       structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
   }
@@ -454,6 +543,19 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
                make_foundation({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, foundations_[m]),
            .element = first_element[m] + static_cast<Index>(k),
            .is_grounded = true});
+  }
+  const std::vector<Driven> pressures = pressures_of(ramp);
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    if (pressures[m].is_zero()) continue;
+    const MemberDescription& member = descriptions_[m];
+    const ImperfectAxis shape(*member.axis, member.imperfection);
+    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+      structure->element_loads_.push_back(
+          {.potential = std::make_shared<DrivenLoad>(
+               make_pressure({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, origin()), pressures[m]),
+           .element = first_element[m] + static_cast<Index>(k)});
+    structure->force_scale_ =
+        std::max(structure->force_scale_, std::abs(pressures[m].proportional) * member.axis->length());
   }
 
   std::vector<std::uint32_t>& loads = structure->loads_by_element_;

@@ -269,15 +269,17 @@ void add_point_load(const deck::Load& load, const deck::PointLoad& action, bool 
   }
 }
 
+Driven driven(const deck::Load& load, double value) {
+  return load.constant ? Driven{.constant = value} : Driven{.proportional = value};
+}
+
 // Hotter on the left the section bends to the right.
-void add_heat(const deck::Deck& deck, const deck::Heat& heat, bool constant, StructureOfDeck& out) {
+void add_heat(const deck::Deck& deck, const deck::Load& load, const deck::Heat& heat, StructureOfDeck& out) {
   const deck::Member& member = *deck::find(deck.members, heat.member);
   const double expansion = deck::find(deck.materials, member.material)->expansion.value();
-  const auto driven = [constant](double value) {
-    return constant ? Driven{.constant = value} : Driven{.proportional = value};
-  };
-  out.builder.add_thermal_strain(out.places.members.at(heat.member), {.strain = driven(expansion * heat.temperature),
-                                                                      .curvature = driven(-expansion * heat.gradient)});
+  out.builder.add_thermal_strain(
+      out.places.members.at(heat.member),
+      {.strain = driven(load, expansion * heat.temperature), .curvature = driven(load, -expansion * heat.gradient)});
 }
 
 void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, StructureOfDeck& out) {
@@ -285,12 +287,15 @@ void add_loads(const deck::Deck& deck, bool coarse, DeckProblems& problems, Stru
     if (const auto* at_point = std::get_if<deck::PointLoad>(&load.action)) {
       add_point_load(load, *at_point, coarse, problems, out);
     } else if (const auto* heat = std::get_if<deck::Heat>(&load.action)) {
-      if (!coarse && out.places.members.contains(heat->member)) add_heat(deck, *heat, load.constant, out);
+      if (!coarse && out.places.members.contains(heat->member)) add_heat(deck, load, *heat, out);
+    } else if (const auto* pressure = std::get_if<deck::Pressure>(&load.action)) {
+      if (!coarse && out.places.members.contains(pressure->member))
+        out.builder.add_pressure(out.places.members.at(pressure->member), driven(load, pressure->pressure));
     } else {
       const auto& on_member = std::get<deck::MemberLoad>(load.action);
       if (out.places.members.contains(on_member.member))
         out.builder.add_distributed_load(out.places.members.at(on_member.member), vec(on_member.distributed),
-                                         load.constant ? LoadKind::constant : LoadKind::proportional);
+                                         load.constant ? LoadKind::constant : LoadKind::proportional, on_member.frame);
     }
   }
 }
@@ -318,6 +323,29 @@ void move_supports(const deck::Deck& deck, const Joined& joined, DeckProblems& p
     }
   }
   for (const auto& [freedom, value] : moved) out.builder.fix(freedom, value);
+}
+
+// --- pressure -------------------------------------------------------------------------------------------------------
+
+void check_pressure(const deck::Deck& deck, DeckProblems& problems, const StructureOfDeck& of) {
+  const auto open = of.builder.open_pressed_joint();
+  if (!open) return;
+  std::string point;
+  for (const auto& [name, node] : of.places.joints)
+    if (node == *open) point = name;
+  for (const deck::Load& load : deck.loads) {
+    const auto* pressure = std::get_if<deck::Pressure>(&load.action);
+    const deck::Member* member = pressure == nullptr ? nullptr : deck::find(deck.members, pressure->member);
+    if (member == nullptr || (member->from != point && member->to != point)) continue;
+    return problems.add(
+        load.position, "load.pressure",
+        fmt::format("the pressure on {} ends at \"{}\", which is free in x and z: its work depends on "
+                    "the way that point goes, so that there is no energy and a motion that grows "
+                    "without a singular stiffness (flutter) would not be seen",
+                    member->name, point),
+        "hold the point in x or z, press the members that continue there alike, close the ring, or take "
+        "a dead load, distributed");
+  }
 }
 
 // --- springs --------------------------------------------------------------------------------------------------------
@@ -428,6 +456,7 @@ StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problem
       places_are_known = joined(action->at.name, action->at.position, "load.at") && places_are_known;
   if (places_are_known) add_loads(deck, coarse, problems, out);
   add_springs(deck, coarse, joined, problems, out);
+  if (!coarse) check_pressure(deck, problems, out);
   return out;
 }
 

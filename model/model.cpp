@@ -123,6 +123,10 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
   for (const deck::Load& load : deck.loads)
     if (std::holds_alternative<deck::Heat>(load.action))
       problems.add(load.position, "load", "method \"incremental\" knows no temperatures", "use method \"spherical\"");
+  for (const deck::Load& load : deck.loads)
+    if (std::holds_alternative<deck::Pressure>(load.action))
+      problems.add(load.position, "load", "method \"incremental\" knows no pressure that follows the axis",
+                   "use method \"spherical\"");
   for (const deck::Prescribed& moved : deck.prescribed)
     problems.add(moved.position, "prescribed", "method \"incremental\" moves no supports", "use method \"spherical\"");
   return possible;

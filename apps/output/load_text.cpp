@@ -31,6 +31,7 @@ LoadText load_words(const deck::PointLoad& load, const deck::Units& units) {
 LoadText load_words(const deck::MemberLoad& load, const deck::Units& units) {
   const std::string unit = unit_text(deck::unit::line_load, units);
   LoadText result{.text = "on " + load.member + " " + with_unit(pair_text(load.distributed), unit)};
+  if (load.frame == LoadFrame::member) result.text += " along and across its axis";
   if (!unit.empty()) result.size = with_unit(short_number(std::hypot(load.distributed.x, load.distributed.z)), unit);
   return result;
 }
@@ -67,6 +68,14 @@ LoadText load_words(const deck::Heat& heat, const deck::Units&) {
   if (heat.temperature != 0.0) result.text += " temperature " + short_number(heat.temperature);
   if (heat.gradient != 0.0) result.text += " gradient " + short_number(heat.gradient);
   if (heat.gradient == 0.0) result = {.text = result.text, .name = "temperature of " + heat.member, .size = ""};
+  return result;
+}
+
+LoadText load_words(const deck::Pressure& load, const deck::Units& units) {
+  const std::string unit = unit_text(deck::unit::line_load, units);
+  LoadText result{.text = "on " + load.member + " pressure " + with_unit(short_number(load.pressure), unit),
+                  .name = "pressure on " + load.member};
+  if (!unit.empty()) result.size = with_unit(short_number(std::abs(load.pressure)), unit);
   return result;
 }
 

@@ -308,16 +308,42 @@ std::optional<Vec2> position_of(const deck::Deck& deck, const Shape& shape, cons
   return std::nullopt;
 }
 
-// What is spread over a member stands at a few of its points.
-void add_load(const deck::Deck& deck, const deck::MemberLoad& load, double factor, Scene& to) {
+// What is spread over a member stands at a few of its points; `load_at(shape, fraction)`.
+template <class LoadAt>
+void add_spread_load(const deck::Deck& deck, const std::string& member, const LoadAt& load_at, Scene& to) {
   constexpr int arrows = 9;
   for (std::size_t m = 0; m < deck.members.size(); ++m) {
     const MemberShape& shape = to.shape.members[m];
-    if (deck.members[m].name != load.member || shape.points.empty()) continue;
-    for (int i = 0; i < arrows; ++i)
-      to.loads.push_back({.at = position_at(shape, (i + 0.5) / arrows),
-                          .force = factor * Vec2(load.distributed.x, load.distributed.z)});
+    if (deck.members[m].name != member || shape.points.empty()) continue;
+    for (int i = 0; i < arrows; ++i) {
+      const double fraction = (i + 0.5) / arrows;
+      to.loads.push_back({.at = position_at(shape, fraction), .force = load_at(shape, fraction)});
+    }
   }
+}
+
+// In axes of the member it is turned as these are at rest.
+void add_load(const Model& model, const deck::MemberLoad& load, double factor, Scene& to) {
+  const Vec2 given(factor * load.distributed.x, factor * load.distributed.z);
+  const auto everywhere = [&](const MemberShape& shape, double fraction) -> Vec2 {
+    if (load.frame == LoadFrame::global) return given;
+    const auto& members = model.structure().members();
+    const MemberMesh& mesh = members[static_cast<std::size_t>(&shape - to.shape.members.data())];
+    const double elements = double(mesh.nodes.size() - 1);
+    const double angle = mesh.shape[static_cast<std::size_t>(std::lround(fraction * elements))].angle;
+    const Vec2 t(std::cos(angle), std::sin(angle));
+    return given.x() * t + given.y() * perp(t);
+  };
+  add_spread_load(model.deck(), load.member, everywhere, to);
+}
+
+void add_load(const deck::Deck& deck, const deck::Pressure& load, double factor, Scene& to) {
+  constexpr double beside = 0.02;
+  const auto across = [&](const MemberShape& shape, double fraction) {
+    const Vec2 along = position_at(shape, fraction + beside) - position_at(shape, fraction - beside);
+    return Vec2(-factor * load.pressure * perp(along.normalized()));
+  };
+  add_spread_load(deck, load.member, across, to);
 }
 
 void add_spring(const deck::Deck& deck, const deck::Spring& spring, Scene& to) {
@@ -401,7 +427,8 @@ Scene scene_of(const Model& model, const State& state) {
   Scene scene{.shape = shape_of(model, state)};
   for (const deck::Load& load : deck.loads) {
     const double factor = load.constant ? 1.0 : state.lambda;
-    if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(deck, *spread, factor, scene);
+    if (const auto* spread = std::get_if<deck::MemberLoad>(&load.action)) add_load(model, *spread, factor, scene);
+    if (const auto* pressure = std::get_if<deck::Pressure>(&load.action)) add_load(deck, *pressure, factor, scene);
     const auto* single = std::get_if<deck::PointLoad>(&load.action);
     const auto at = single == nullptr ? std::nullopt : position_of(deck, scene.shape, single->at);
     if (at)

@@ -240,12 +240,41 @@ void add_springs(const Model& model, const State& state, std::vector<Potential>&
   }
 }
 
+// Where pressure ends, ½ p (−z δx + x δz) of the place (x, z) is left beside the areas: with z given, −½ p z x, and
+// with x given ½ p x z.
+void add_pressed_ends(const Model& model, const State& state, std::vector<Potential>& to) {
+  const SlidingStructure* body = model.sliding_structure();
+  for (const NodalTerms::PressedEnd& end : model.structure().nodal_terms().pressed_ends()) {
+    Potential potential{.at = Vector(2),
+                        .steps = Vector::Constant(2, relative_step * model.structure().length_scale())};
+    for (const Index freedom : {end.x, end.z}) {
+      const Index i = static_cast<Index>(potential.unknowns.size());
+      const auto unknown =
+          body != nullptr ? body->unknown(sliding_mesh(state), freedom) : model.structure().unknown(freedom);
+      potential.unknowns.push_back(unknown.value_or(-1));
+      potential.at[i] = body != nullptr ? body->value(sliding_mesh(state), mesh_state_of(state), freedom)
+                                        : model.structure().value(state, freedom);
+    }
+    const double by_x = potential.unknowns[0] >= 0 ? -1.0 : 0.0, by_z = potential.unknowns[1] >= 0 ? 1.0 : 0.0;
+    const double p = end.excess.at(state.lambda);
+    const Vec2 rest = end.rest;
+    potential.energy = [=](const Vector& u) {
+      return 0.5 * p * (by_x * (rest.y() + u[1]) * u[0] + by_z * (rest.x() + u[0]) * u[1]);
+    };
+    potential.gradient = [=](const Vector& u) {
+      return Vector(0.5 * p * Vec2(by_x * (rest.y() + u[1]), by_z * (rest.x() + u[0])));
+    };
+    to.push_back(std::move(potential));
+  }
+}
+
 }  // namespace
 
 std::vector<Potential> potentials(const Model& model, const State& state) {
   std::vector<Potential> all =
       model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model.structure(), state);
   add_springs(model, state, all);
+  add_pressed_ends(model, state, all);
   return all;
 }
 

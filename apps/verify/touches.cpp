@@ -352,7 +352,7 @@ double curvature_error(const ElementBeside& beside, int places) {
   const auto ends = at.mesh.end_forces(strand, position, at.now);
   const Vec2 first = beside.place(0.0).position, chord = beside.place(1.0).position - first;
   const MaterialPoint middle{.strand = strand, .s = 0.5 * (beside.coordinate(0) + beside.coordinate(1))};
-  const Vec2 load = length * at.body.load(middle, beside.place(0.5).position, at.now.lambda);
+  const Vec2 load = length * at.body.load(middle, beside.place(0.5), chord.norm() / length, at.now.lambda);
   const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
   double worst = 0.0;
   for (int i = 1; i < places; ++i) {

@@ -91,8 +91,9 @@ double straight_pressure(const SlidingSetting& setting, const HeldAxis& held) {
   const SlidingBody& body = setting.body;
   const Index strand = held.touch.strand;
   const MaterialPoint here{.strand = strand, .s = held.s};
-  const AxisPlace axis{.position = held.position, .angle = held.angle};
-  const Vec2 load = body.load(here, place_ahead(axis, held.stretch, held.ahead), held.lambda);
+  AxisPlace axis{.position = held.position, .angle = held.angle};
+  axis.position = place_ahead(axis, held.stretch, held.ahead);
+  const Vec2 load = body.load(here, axis, held.stretch, held.lambda);
   const double bending = body.bending_stiffness(strand) * body.natural_curvature_second(here) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
   return -side * travel(axis) * (bending + load.dot(normal(held.angle)));

@@ -217,8 +217,17 @@ struct PointLoad {
 struct MemberLoad {
   std::string member{};
   Vector distributed{};  ///< dead [force/length of the undeformed axis]
+  LoadFrame frame = LoadFrame::global;
 
   bool operator==(const MemberLoad&) const = default;
+};
+
+/// A pressure that follows the deformed axis of a member that is no truss.
+struct Pressure {
+  std::string member{};
+  double pressure = 0.0;  ///< to the right of the direction of travel [force/length of the deformed axis]
+
+  bool operator==(const Pressure&) const = default;
 };
 
 /// A change of temperature of a member that can expand.
@@ -232,7 +241,7 @@ struct Heat {
 
 struct Load {
   Position position{};
-  std::variant<PointLoad, MemberLoad, Heat> action{};
+  std::variant<PointLoad, MemberLoad, Heat, Pressure> action{};
   bool constant = false;  ///< not multiplied by λ
 
   bool operator==(const Load&) const = default;

@@ -40,8 +40,12 @@ void point_load_keys(Keys& keys, PointLoad& load) {
 }
 
 void member_load_keys(Keys& keys, MemberLoad& load) {
-  keys.name("on", load.member, Named::member, "instead of `at`: a member, with `distributed` or a temperature");
+  keys.name("on", load.member, Named::member,
+            "instead of `at`: a member, with `distributed`, `pressure` or a temperature");
   keys.vector("distributed", load.distributed, unit::line_load, "`[x, z]`, dead, by length of the undeformed axis");
+  keys.word(
+      optional("frame"), load.frame, frame_words,
+      "of `distributed`: `\"member\"` gives it along the stress-free axis at each place and across it, to the left");
   for (const char* key : {"force", "moment"})
     keys.applies(false, key, "belongs to a load at a point", "write `at` instead of `on`, or give distributed");
 }
@@ -73,19 +77,37 @@ void heat_keys(Keys& keys, Heat& heat, const Deck& deck) {
   if (keys.reads() && on) check_heat(keys, deck, heat);
 }
 
+void pressure_keys(Keys& keys, Pressure& load, const Deck& deck) {
+  const bool on = keys.lists() || keys.name("on", load.member, Named::member, "");
+  keys.number(
+      "pressure", load.pressure, unit::line_load, any_number,
+      "instead of `distributed`: by length of the deformed axis, across which it stays; acts to the right of the "
+      "direction of travel; not of trusses");
+  for (const char* key : {"distributed", "force", "moment"})
+    keys.applies(keys.lists(), key, "does not go together with a pressure", "write two loads");
+  const Member* member = keys.reads() && on ? find(deck.members, load.member) : nullptr;
+  if (member != nullptr && member->theory == Theory::truss)
+    keys.report("on", "member " + member->name + " is a truss, which cannot carry a pressure",
+                "use theory \"classic\" or \"elastica\", or forces at its ends");
+}
+
 void load_keys(Keys& keys, Load& load, const Deck& deck) {
   const bool at = keys.has("at"), on = keys.has("on");
+  const bool presses = keys.reads() ? on && keys.has("pressure") : std::holds_alternative<Pressure>(load.action);
   const bool heats = keys.reads() ? on && (keys.has("temperature") || keys.has("gradient"))
                                   : std::holds_alternative<Heat>(load.action);
+  const bool spreads = !heats && !presses;
   if (keys.reads() && at == on) {
     keys.report(at ? "on" : "at", at ? "the load has both `at` and `on`" : "the load has neither `at` nor `on`",
                 "give `at` for a point or `on` for a member");
     keys.give_up();
   } else {
     keys.alternative<PointLoad>("at", load.action, [&](PointLoad& action) { point_load_keys(keys, action); });
-    if (!heats || keys.lists())
+    if (spreads || keys.lists())
       keys.alternative<MemberLoad>("on", load.action, [&](MemberLoad& action) { member_load_keys(keys, action); });
-    if (heats || keys.lists())
+    if (presses || keys.lists())
+      keys.alternative<Pressure>("on", load.action, [&](Pressure& action) { pressure_keys(keys, action, deck); });
+    if ((heats && !presses) || keys.lists())
       keys.alternative<Heat>("on", load.action, [&](Heat& action) { heat_keys(keys, action, deck); });
   }
   keys.flag(optional("constant"), load.constant, "held while λ varies, instead of multiplied by λ");
@@ -93,6 +115,7 @@ void load_keys(Keys& keys, Load& load, const Deck& deck) {
 
 bool is_zero(const PointLoad& load) { return load.force == Vector{} && load.moment == 0.0; }
 bool is_zero(const MemberLoad& load) { return load.distributed == Vector{}; }
+bool is_zero(const Pressure& load) { return load.pressure == 0.0; }
 bool is_zero(const Heat& heat) { return heat.temperature == 0.0 && heat.gradient == 0.0; }
 
 bool follows_lambda(const Load& load) {

@@ -50,6 +50,7 @@ inline constexpr Words<Theory, 5> theory_words{{{"classic", Theory::classic},
                                                 {"exact", Theory::exact},
                                                 {"elastica", Theory::elastica},
                                                 {"truss", Theory::truss}}};
+inline constexpr Words<LoadFrame, 2> frame_words{{{"global", LoadFrame::global}, {"member", LoadFrame::member}}};
 inline constexpr Words<QuadraticTerm, 2> along_words{
     {{"fixed", QuadraticTerm::fixed}, {"director", QuadraticTerm::director}}};
 inline constexpr Words<TrussStrain, 3> strain_words{

@@ -42,8 +42,12 @@ void move(deck::Load& load, const Isometry& isometry) {
                           at.force = isometry.turned(at.force);
                           at.moment *= isometry.mirrored ? -1.0 : 1.0;
                         },
-                        [&](deck::MemberLoad& on) { on.distributed = isometry.turned(on.distributed); },
-                        [&](deck::Heat& heat) { heat.gradient *= isometry.mirrored ? -1.0 : 1.0; }},
+                        [&](deck::MemberLoad& on) {
+                          if (on.frame == LoadFrame::global) on.distributed = isometry.turned(on.distributed);
+                          if (on.frame == LoadFrame::member && isometry.mirrored) on.distributed.z = -on.distributed.z;
+                        },
+                        [&](deck::Heat& heat) { heat.gradient *= isometry.mirrored ? -1.0 : 1.0; },
+                        [&](deck::Pressure& on) { on.pressure *= isometry.mirrored ? -1.0 : 1.0; }},
              load.action);
 }
 
@@ -91,7 +95,8 @@ void scale(deck::Load& load, double force, double per_length, double moment) {
                         [&](deck::MemberLoad& on) {
                           on.distributed = {.x = per_length * on.distributed.x, .z = per_length * on.distributed.z};
                         },
-                        [&](deck::Heat& heat) { heat.gradient *= per_length / force; }},
+                        [&](deck::Heat& heat) { heat.gradient *= per_length / force; },
+                        [&](deck::Pressure& on) { on.pressure *= per_length; }},
              load.action);
 }
 

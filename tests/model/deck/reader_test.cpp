@@ -96,7 +96,7 @@ TEST(DeckReader, ReadsSupportsAndLoads) {
   const auto& moment = std::get<PointLoad>(deck.loads.at(1).action);
   EXPECT_EQ(moment.at, (Place{.name = "column", .fraction = 0.25}));
   EXPECT_TRUE(deck.loads.at(1).constant);
-  EXPECT_EQ(std::get<MemberLoad>(deck.loads.at(2).action), (MemberLoad{"arch", {0.0, -3.0}}));
+  EXPECT_EQ(std::get<MemberLoad>(deck.loads.at(2).action), (MemberLoad{"arch", {0.0, -3.0}, LoadFrame::member}));
 }
 
 TEST(DeckReader, ReadsWallsAndContact) {

@@ -143,6 +143,7 @@ constant = true
 [[load]]
 on = "arch"
 distributed = [0.0, -3.0]
+frame = "member"
 
 [[spring]]
 at = "column:0.5"
@@ -227,6 +228,11 @@ constant = true
 on = "column"
 temperature = 20.0
 gradient = 0.5
+
+[[load]]
+on = "column"
+pressure = -0.5
+constant = true
 
 [[monitor]]
 name = "push"

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/apps/loading/loading_decks.hpp"
+
+namespace arcwall::loading_test {
+
+// Values of the extensible elastica by shooting. The load limit, at P = 6.863177634771, is no event of this path: the
+// column stays stable through it and snaps at the greatest shortening.
+TEST(Prescribed, AColumnInAChannelSnapsAtItsGreatestShortening) {
+  const TracedDeck traced(shortened_channel(centimetres));
+  for (const Pushed& expected : {Pushed{EventKind::contact_closes, 0.032143539028, 0.430672151315, 0, 0},
+                                 Pushed{EventKind::contact_spreads, 0.05094848886, 1.713687836575, 0, 0},
+                                 Pushed{EventKind::limit_point, 0.140743077449, 6.863020510418, 0, 1},
+                                 Pushed{EventKind::limit_point, 0.13624180266, 6.211668066388, 1, 0},
+                                 Pushed{EventKind::contact_closes, 0.313633947801, 4.252069687267, 0, 0}}) {
+    const RecordEvent found = event_near(traced, expected.kind, expected.shortening);
+    EXPECT_NEAR(found.lambda, expected.shortening, 3e-6 * expected.shortening);
+    EXPECT_NEAR(-found.monitors[1], expected.P, 1e-4 * expected.P);
+    EXPECT_EQ(found.unstable_before, expected.before);
+    EXPECT_EQ(found.unstable_after, expected.after);
+  }
+  EXPECT_EQ(events_of(traced, EventKind::limit_point).size(), 2u);
+}
+
+TEST(Prescribed, GivesTheSameEventsInOtherUnits) {
+  expect_same_events(TracedDeck(shortened_channel(centimetres)), TracedDeck(shortened_channel(metres)), 1e-8);
+}
+
+TEST(Prescribed, IsConfirmedWhateverTheContact) {
+  expect_confirmed(TracedDeck(shortened_channel(centimetres)));
+  expect_confirmed(TracedDeck(shortened_channel(centimetres, "[contact]\npoints = \"nodes\"\n")));
+}
+
+// What is moved gets a column unless a monitor has it.
+TEST(Prescribed, HasItsReactionAsAColumn) {
+  const auto columns = [](const std::string& more) {
+    std::vector<std::string> names;
+    const TracedDeck traced(shortened_channel(centimetres, more), {"path.max_points=3"});
+    for (const MonitorColumn& column : traced.model().monitors())
+      names.push_back(column.name + " [" + column.unit + "]");
+    return names;
+  };
+  const std::string units = "[units]\nlength = \"cm\"\nforce = \"kN\"\n";
+  EXPECT_EQ(columns(units), (std::vector<std::string>{"mid [cm]", "reaction-x-B [kN]"}));
+  EXPECT_EQ(columns(units + "[[monitor]]\nname = \"P\"\nat = \"B\"\ncomponent = \"reaction-x\"\nsign = -1\n"),
+            (std::vector<std::string>{"mid [cm]", "P [kN]"}));
+}
+
+// Lee's frame (E = 720, A = 6, I = 2, sides 120, the load at 24) whose loaded point is pushed down: values by two
+// independent solvers, also those of the displacement limits under a dead load.
+TEST(Prescribed, LeesFrameSnapsWhereItsDeflectionTurns) {
+  const TracedDeck traced(R"(
+title = "Lee's frame, pushed"
+material.m.E = 720.0
+section.s = { shape = "general", A = 6.0, I = 2.0 }
+[point]
+foot = [0.0, 0.0]
+corner = [0.0, 120.0]
+loaded = [24.0, 120.0]
+end = [120.0, 120.0]
+[member]
+column = { from = "foot", to = "corner", theory = "elastica", elements = 20, material = "m", section = "s" }
+left = { from = "corner", to = "loaded", theory = "elastica", elements = 4, material = "m", section = "s" }
+right = { from = "loaded", to = "end", theory = "elastica", elements = 16, material = "m", section = "s" }
+[support]
+foot = ["x", "z"]
+end = ["x", "z"]
+[[prescribed]]
+at = "loaded"
+z = -1.0
+[path]
+step = 1.0
+stop = { lambda = [-1.0, 90.0] }
+)");
+  const RecordEvent down = event_near(traced, EventKind::limit_point, 61.002978851425);
+  EXPECT_NEAR(down.lambda, 61.002978851425, 3e-6 * down.lambda);
+  EXPECT_NEAR(-down.monitors[0], 1.19441041878, 1e-5);
+  EXPECT_EQ(down.unstable_before, 0);
+  EXPECT_EQ(down.unstable_after, 1);
+  const RecordEvent back = event_near(traced, EventKind::limit_point, 50.746251363189);
+  EXPECT_NEAR(back.lambda, 50.746251363189, 3e-6 * back.lambda);
+  EXPECT_NEAR(-back.monitors[0], -0.438048021661, 1e-4);
+  EXPECT_EQ(back.unstable_after, 0);
+  EXPECT_EQ(events_of(traced, EventKind::limit_point).size(), 2u);
+  expect_confirmed(traced);
+}
+
+// A steep truss (b = 1, h = 5, Green's strain) whose apex is pushed down: it sways between z² = h² − 2b² on both sides,
+// in closed form, and has no limit point at all. At rest it moves by symmetry alone, without any unknown.
+TEST(Prescribed, ASteepTrussSwaysAndHasNoLimitPoint) {
+  const TracedDeck traced(R"(
+title = "Steep truss, pushed"
+material.m.E = 1.0
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0] }
+[member]
+a = { from = "left", to = "top", theory = "truss", elements = 1, material = "m", section = "s" }
+b = { from = "top", to = "right", theory = "truss", elements = 1, material = "m", section = "s" }
+[support]
+left = ["x", "z"]
+right = ["x", "z"]
+[[prescribed]]
+at = "top"
+z = -1.0
+[path]
+step = 0.02
+branches = "primary"
+stop = { lambda = [-0.5, 10.5] }
+)");
+  const auto sways = events_of(traced, EventKind::branch_point);
+  ASSERT_EQ(sways.size(), 2u);
+  EXPECT_NEAR(sways[0].lambda, 5.0 - std::sqrt(23.0), 1e-9);
+  EXPECT_NEAR(-sways[0].monitors[0], 0.0723492263943, 1e-9);  // (h² − z²) z EA/L³ there
+  EXPECT_EQ(sways[0].unstable_after, 1);
+  EXPECT_NEAR(sways[1].lambda, 5.0 + std::sqrt(23.0), 1e-8);
+  EXPECT_EQ(sways[1].unstable_after, 0);
+  EXPECT_TRUE(events_of(traced, EventKind::limit_point).empty());
+  expect_confirmed(traced);
+}
+
+// Held while λ varies it is there from the start: as where λ has brought it.
+TEST(Prescribed, IsAppliedBeforeThePathWhereItIsConstant) {
+  const std::string path =
+      "[path]\nstep = 0.1\nland = { lambda = [0.2, 0.4, 0.6, 0.8] }\n[path.stop]\nlambda = [-0.1, 1.0]\n"
+      "[[monitor]]\nname = \"mid\"\nat = \"mid\"\ncomponent = \"z\"\n";
+  const std::string moved = "[[prescribed]]\nat = \"mid\"\nz = 0.1\nrotation = 0.2\n";
+  const std::string load = "[[load]]\nat = \"B\"\nforce = [0.01, 0.0]\n";
+  const TracedDeck by_lambda(column(centimetres, moved + path));
+  const TracedDeck before(column(centimetres, moved + "constant = true\n" + load + path));
+  const std::vector<double>& after = by_lambda.record().points.back().monitors;
+  const std::vector<double>& start = before.record().points.front().monitors;
+  ASSERT_EQ(start.size(), 3u);
+  EXPECT_NEAR(before.record().points.front().lambda, 0.0, 1e-20);
+  for (std::size_t i = 0; i < start.size(); ++i) EXPECT_NEAR(start[i], after[i], 1e-9 * (1.0 + std::abs(after[i])));
+  expect_confirmed(before);
+}
+
+}  // namespace arcwall::loading_test
