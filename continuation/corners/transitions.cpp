@@ -119,7 +119,7 @@ bool holds(const System& system, const Transition& transition, const State& stat
   if (!system.admissible(state, -penetration_tolerance)) return false;
   if (transition.change == Transition::Change::remeshed) return true;
   const Vector guards = system.guards(state);
-  if (begins_with_length(transition.change)) return !(guards.array() < -slack).any();
+  if (begins_with_length(transition)) return !(guards.array() < -slack).any();
   for (Index j = 0; j < guards.size(); ++j)
     if (guards[j] < -slack && !is_of_mesh(system, state, forward, j, slack)) return false;
   return true;
@@ -275,9 +275,8 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
     const auto next = only_remeshed ? shifted_bound(passed.at, tools.options.guard_tolerance)
                                     : mesh_bound_behind(tools.system, passed.at, tools.options.guard_tolerance);
     if (!next) {
-      for (Event& event : passed.events)
-        if (event.kind == EventKind::contact_gathers || event.kind == EventKind::contact_closes)
-          event.state = passed.at.state;
+      if (!only_remeshed)
+        for (Event& event : passed.events) event.state = passed.at.state;
       return passed;
     }
     if (++passed.without_progress > most_bounds_at_one_place) {
