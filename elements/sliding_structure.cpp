@@ -28,23 +28,32 @@ double SlidingStructure::natural_curvature(const MaterialPoint& point, double la
   return place.turning / place.speed + strand.thermal.curvature.at(lambda);
 }
 
-// By central differences of sixth order; κ and the speed v, by which the curve is longer than its axis, are functions
-// of the axis' arc length a: d²κ/dS² = (κ_aa − κ_a v_a/v)/v². Temperatures are the same all along a strand.
+// By central differences over nine points, from which it is extrapolated at the ends of the strand. κ and the speed v,
+// by which the curve is longer than its axis, are functions of the axis' arc length a: d²κ/dS² = (κ_aa − κ_a v_a/v)/v².
+// Temperatures are the same all along a strand.
 double SlidingStructure::natural_curvature_second(const MaterialPoint& point) const {
+  using Nine = Eigen::Matrix<double, 9, 1>;
+  static const Nine first = (Nine() << 3.0, -32.0, 168.0, -672.0, 0.0, 672.0, -168.0, 32.0, -3.0).finished() / 840.0;
+  static const Nine second =
+      (Nine() << -9.0, 128.0, -1008.0, 8064.0, -14350.0, 8064.0, -1008.0, 128.0, -9.0).finished() / 5040.0;
+  static const Nine third = (Nine() << -7.0, 72.0, -338.0, 488.0, 0.0, -488.0, 338.0, -72.0, 7.0).finished() / 240.0;
+  static const Nine fourth =
+      (Nine() << 7.0, -96.0, 676.0, -1952.0, 2730.0, -1952.0, 676.0, -96.0, 7.0).finished() / 240.0;
   const Run& strand = runs_[static_cast<std::size_t>(point.strand)];
-  const double h = 0.005 * strand.length;
-  const double centre = strand.offset + std::clamp(point.s, 3.0 * h, strand.length - 3.0 * h);
-  const Eigen::Matrix<double, 7, 1> first(-1.0 / 60.0, 3.0 / 20.0, -3.0 / 4.0, 0.0, 3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0);
-  const Eigen::Matrix<double, 7, 1> second(1.0 / 90.0, -3.0 / 20.0, 3.0 / 2.0, -49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0,
-                                           1.0 / 90.0);
-  Eigen::Matrix<double, 7, 1> curvature, speed;
-  for (Index i = 0; i < 7; ++i) {
-    const DeviatedPoint place = strand.shape->along(centre + double(i - 3) * h);
+  const double h = 0.015 * strand.length;
+  const double centre = std::clamp(point.s, 4.0 * h, strand.length - 4.0 * h), t = (point.s - centre) / h;
+  Nine curvature, speed;
+  for (Index i = 0; i < 9; ++i) {
+    const DeviatedPoint place = strand.shape->along(strand.offset + centre + double(i - 4) * h);
     curvature[i] = place.turning / place.speed;
     speed[i] = place.speed;
   }
-  const double v = speed[3], v_a = first.dot(speed) / h, bend = second.dot(curvature) / (h * h);
-  return (bend - first.dot(curvature) / h * v_a / v) / (v * v);
+  const double half = 0.5 * t * t;
+  const double v = speed[4] + (t * first + half * second).dot(speed);
+  const double v_a = (first + t * second + half * third).dot(speed) / h;
+  const double curvature_a = (first + t * second + half * third).dot(curvature) / h;
+  const double curvature_aa = (second + t * third + half * fourth).dot(curvature) / (h * h);
+  return (curvature_aa - curvature_a * v_a / v) / (v * v);
 }
 
 bool SlidingStructure::is_tip(Index strand, bool last) const {

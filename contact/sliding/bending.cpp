@@ -119,13 +119,15 @@ double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, s
 }
 
 Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
-  constexpr double step = 1e-4;
+  constexpr double step = 1e-3;
   const HeldAxis held = held_axis(setting, at, point, ahead);
   const auto by = [&](double scale, const auto& move) {
-    HeldAxis less = held, more = held;
-    move(less, -step * scale);
-    move(more, step * scale);
-    return (straight_pressure(setting, more) - straight_pressure(setting, less)) / (2.0 * step * scale);
+    const auto moved = [&](double steps) {
+      HeldAxis there = held;
+      move(there, steps * step * scale);
+      return straight_pressure(setting, there);
+    };
+    return (8.0 * (moved(1.0) - moved(-1.0)) - (moved(2.0) - moved(-2.0))) / (12.0 * step * scale);
   };
   const double length = setting.body.length(held.touch.strand);
   const double by_x = by(length, [](HeldAxis& there, double d) { there.position.x() += d; });

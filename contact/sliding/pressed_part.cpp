@@ -158,11 +158,12 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
 
 // The place is at a fraction of the part, whose ends move: it moves along the axis with them.
 Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
-  constexpr double step = 1e-4;  // of the strand
-  const double r = least_on_straight(setting, at, part).r, length = extent(setting, at, part).length;
-  const double ahead = step * setting.body.length(part.pressed.strand) / length;
-  const double slope =
-      (pressure_at(setting, at, part, r + ahead) - pressure_at(setting, at, part, r - ahead)) / (2.0 * ahead * length);
+  constexpr double step = 1e-3;  // of the strand
+  const double r = least_on_straight(setting, at, part).r, along = step * setting.body.length(part.pressed.strand);
+  const auto beside = [&](double steps) {
+    return pressure_at(setting, at, part, r + steps * along / extent(setting, at, part).length);
+  };
+  const double slope = (8.0 * (beside(1.0) - beside(-1.0)) - (beside(2.0) - beside(-2.0))) / (12.0 * along);
   const SlidingContactLayout::Segment& ends = part.segment;
   Row row = straight_pressure_gradient(setting, at, part.point(), ahead_of_point(setting, at, part, r));
   row.dx[at.index.coordinate(static_cast<Index>(part.point()))] -= slope;
