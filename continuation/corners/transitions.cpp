@@ -179,7 +179,7 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
   double part = 1.0, kept = 0.5;
   while (kept < most_kept && (part > counted || (part > least && value_is_nearer()))) {
     const double length = kept * part * transition.value;
-    if (length < transition.least) break;
+    if (length < transition.least && !value_is_nearer()) break;
     auto nearer = with_span(tools, transition, metric, begin, length);
     if (!nearer) {
       kept = 0.5 * (1.0 + kept);

@@ -51,7 +51,8 @@ std::optional<ValueBetween> first_value_between(const std::vector<TargetValue>& 
 std::optional<ArcEnd> land_beyond_bound(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
                                         const ValueBetween& value) {
   auto at = point_on_value(tools, origin.metric, tools.options.target_values[value.which], end.point);
-  if (!at) return std::nullopt;
+  constexpr double entered = 1e-6;  // of a wall between contacts: farther beyond the bound the piece is another
+  if (!at || !tools.system.admissible(at->state, -entered)) return std::nullopt;
   at->arc += value.distance;
   return ArcEnd{.point = std::move(*at),
                 .length = end.length + value.distance,

@@ -22,7 +22,7 @@ std::optional<ValueBetween> first_value_between(const std::vector<TargetValue>& 
 
 /// The arc's end on the value, on the piece that ends, a little beyond its bound, which is passed from there: the two
 /// pieces differ there by the third power of a stretch at most, less than the error of the elements. Empty where no
-/// such point is found.
+/// such point is found, or where it is inside a wall.
 std::optional<ArcEnd> land_beyond_bound(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
                                         const ValueBetween& value);
 

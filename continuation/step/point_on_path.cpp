@@ -33,9 +33,13 @@ CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const P
       tools.corrector.correct(std::move(guess), constraint, origin.metric, from.tangent, distance, wanted);
   CorrectedPoint corrected{.point = std::nullopt, .status = result.status};
   if (!result.converged()) return corrected;
-  // The place must lie inside the step, up to the curvature of the arc.
+  // The place must lie inside the step, up to the curvature of the arc: beside it another branch may have the value.
+  constexpr double inside = 1.2;
   const double along = origin.metric.inner(difference(result.state, from.state), segment.chord()) / segment.length();
-  if (along < -1e-6 * segment.length() || along > 1.2 * segment.length()) return corrected;
+  if (along < -1e-6 * segment.length() || along > inside * segment.length()) return corrected;
+  const auto distance_to = [&](const PathPoint& end) { return origin.metric.distance(result.state, end.state); };
+  if (distance_to(segment.from()) > inside * segment.length() || distance_to(segment.to()) > inside * segment.length())
+    return corrected;
   corrected.point = path_point(tools.system, origin.metric, std::move(result), from.tangent);
   return corrected;
 }
