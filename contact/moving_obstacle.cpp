@@ -5,9 +5,9 @@
 namespace arcwall {
 
 Vec2 RigidMotion::moved(const Vec2& at_rest, double lambda) const {
-  const double c = std::cos(lambda * turn), s = std::sin(lambda * turn);
+  const double far = progress(lambda), c = std::cos(far * turn), s = std::sin(far * turn);
   const Vec2 arm = at_rest - about;
-  return about + lambda * way + Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
+  return about + far * way + Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
 }
 
 bool MovingObstacle::faces(const Vec2& position, double lambda) const {
@@ -27,8 +27,8 @@ LinearField MovingObstacle::gap_slope(const Vec2& position, double lambda) const
 QuadraticField MovingObstacle::direction(const Vec2& position, double lambda) const {
   const Seen at = seen(position, lambda);
   QuadraticField angle = moved(at_rest_->direction(at.position, 0.0), at);
-  angle.value += lambda * motion_.turn;
-  angle.rate += motion_.turn;
+  angle.value += motion_.progress(lambda) * motion_.turn;
+  angle.rate += motion_.rate * motion_.turn;
   return angle;
 }
 
@@ -42,24 +42,25 @@ double MovingObstacle::along(const Vec2& position, double lambda) const {
 }
 
 double MovingObstacle::greatest_speed(double reach) const {
-  return motion_.way.norm() + std::abs(motion_.turn) * reach;
+  return std::abs(motion_.rate) * (motion_.way.norm() + std::abs(motion_.turn) * reach);
 }
 
 std::vector<Vec2> MovingObstacle::outline(double from, double to, double lambda) const {
-  const double way = motion_.turn == 0.0 ? lambda * motion_.way.x() : 0.0;
+  const double way = motion_.turn == 0.0 ? motion_.progress(lambda) * motion_.way.x() : 0.0;
   std::vector<Vec2> line = at_rest_->outline(from - way, to - way, 0.0);
   for (Vec2& point : line) point = motion_.moved(point, lambda);
   return line;
 }
 
 MovingObstacle::Seen MovingObstacle::seen(const Vec2& position, double lambda) const {
-  const double angle = -lambda * motion_.turn, c = std::cos(angle), s = std::sin(angle);
+  const double far = motion_.progress(lambda), turn_rate = motion_.rate * motion_.turn;
+  const double angle = -far * motion_.turn, c = std::cos(angle), s = std::sin(angle);
   const Eigen::Matrix2d turned{{c, -s}, {s, c}}, turned_by_angle{{-s, -c}, {c, -s}};
-  const Vec2 from_centre = position - motion_.about - lambda * motion_.way;
+  const Vec2 from_centre = position - motion_.about - far * motion_.way;
   return {.position = motion_.about + turned * from_centre,
           .by_position = turned,
-          .rate = -motion_.turn * turned_by_angle * from_centre - turned * motion_.way,
-          .by_position_rate = -motion_.turn * turned_by_angle};
+          .rate = -turn_rate * turned_by_angle * from_centre - motion_.rate * turned * motion_.way,
+          .by_position_rate = -turn_rate * turned_by_angle};
 }
 
 LinearField MovingObstacle::moved(const LinearField& field, const Seen& at) {

@@ -10,14 +10,16 @@ namespace arcwall {
 
 /// How λ moves an obstacle as a rigid body: by λ · way, and by the angle λ · turn about a point that goes with it.
 struct RigidMotion {
-  Vec2 way = Vec2::Zero();    ///< [length]
-  double turn = 0.0;          ///< [rad]
-  Vec2 about = Vec2::Zero();  ///< at λ = 0 [length]
+  Vec2 way = Vec2::Zero();        ///< [length]
+  double turn = 0.0;              ///< [rad]
+  Vec2 about = Vec2::Zero();      ///< at rest [length]
+  double gone = 0.0, rate = 1.0;  ///< it is where `gone + rate λ` in place of λ brings it
 
   bool is_none() const { return way.isZero(0.0) && turn == 0.0; }
+  double progress(double lambda) const { return gone + rate * lambda; }
 
   friend bool operator==(const RigidMotion& a, const RigidMotion& b) {
-    return a.way == b.way && a.turn == b.turn && a.about == b.about;
+    return a.way == b.way && a.turn == b.turn && a.about == b.about && a.gone == b.gone && a.rate == b.rate;
   }
 
   /// Where a point of the body has gone.

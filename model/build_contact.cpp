@@ -128,7 +128,11 @@ std::unique_ptr<Profile> profile_of(const deck::Wall& wall) {
 RigidMotion motion_of(const deck::Wall& wall) {
   if (!wall.motion) return {};
   const deck::WallMotion& motion = *wall.motion;
-  return {.way = {motion.x, motion.z}, .turn = motion.rotation, .about = {motion.about.x, motion.about.z}};
+  return {.way = {motion.x, motion.z},
+          .turn = motion.rotation,
+          .about = {motion.about.x, motion.about.z},
+          .gone = motion.progress.constant,
+          .rate = motion.progress.proportional};
 }
 
 std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall) {

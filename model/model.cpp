@@ -134,7 +134,27 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
 
 }  // namespace
 
-Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
+// The models of later stages are built once to see whether they can be.
+Model::Model(deck::Deck deck) : Model(deck, 0, things_to_drive(deck)) {
+  for (std::size_t stage = 1; stage < whole_deck_.stages.size(); ++stage)
+    Model(whole_deck_, static_cast<Index>(stage), progress_);
+}
+
+bool Model::begin_stage(double lambda) {
+  const std::size_t ended = ended_stages_.size();
+  if (ended + 1 >= whole_deck_.stages.size()) return false;
+  const Model& last = at_stage(static_cast<Index>(ended));
+  auto progress = progress_after(whole_deck_.stages[ended], lambda, last.progress_);
+  later_.push_back(std::unique_ptr<Model>(new Model(whole_deck_, static_cast<Index>(ended) + 1, std::move(progress))));
+  ended_stages_.push_back(lambda);
+  return true;
+}
+
+Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
+    : whole_deck_(std::move(whole)),
+      stage_(stage),
+      progress_(std::move(progress)),
+      deck_(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_)) {
   DeckProblems problems(deck_.source);
   StructureOfDeck described = describe_structure(deck_, problems);
   problems.raise();
@@ -150,7 +170,8 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
                  "load a free direction");
   if (takes_increments(deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
-  auto candidates = contact_candidates(deck_, *structure_, problems);
+  DeckProblems not_at_rest(deck_.source);  // where a stage begins the structure is no longer there
+  auto candidates = contact_candidates(deck_, *structure_, stage_ == 0 ? problems : not_at_rest);
   const bool sliding = slides(deck_, described.builder, candidates, problems);
   if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
@@ -181,8 +202,9 @@ Model::Model(deck::Deck deck) : deck_(std::move(deck)) {
 
 void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding) {
   const auto constant = [](const auto& driven) { return driven.constant; };
-  const bool ramp = std::any_of(deck_.loads.begin(), deck_.loads.end(), constant) ||
-                    std::any_of(deck_.prescribed.begin(), deck_.prescribed.end(), constant);
+  const bool ramp =
+      stage_ == 0 && (std::any_of(whole_deck_.loads.begin(), whole_deck_.loads.end(), constant) ||
+                      std::any_of(whole_deck_.prescribed.begin(), whole_deck_.prescribed.end(), constant));
   if (ramp) ramp_structure_ = builder.build(true);
   if (!deck_.walls.empty()) {
     const ContactScales scales = contact_scales(deck_, *structure_, deck_.path.step);

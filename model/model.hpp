@@ -12,6 +12,7 @@
 #include "elements/sliding_structure.hpp"
 #include "model/body.hpp"
 #include "model/deck/deck.hpp"
+#include "model/stages.hpp"
 
 namespace arcwall {
 
@@ -31,7 +32,27 @@ class Model {
   /// that is inside a wall, a load that moves nothing.
   explicit Model(deck::Deck deck);
 
+  /// What is traced: of a deck with stages that of this model's stage.
   const deck::Deck& deck() const { return deck_; }
+
+  /// What was given, with all stages.
+  const deck::Deck& whole_deck() const { return whole_deck_; }
+
+  /// Ends the stage that was begun last at λ and builds the model of the next one. False if there is none.
+  bool begin_stage(double lambda);
+
+  /// The λ at which stages have ended.
+  const std::vector<double>& ended_stages() const { return ended_stages_; }
+
+  /// The model in whose terms the states of a stage are; stages count from 0.
+  Model& at_stage(Index stage) { return stage == 0 ? *this : *later_[static_cast<std::size_t>(stage) - 1]; }
+  const Model& at_stage(Index stage) const { return const_cast<Model&>(*this).at_stage(stage); }
+
+  /// Which stage this model is of, and its name; empty without stages.
+  Index stage() const { return stage_; }
+  std::string stage_name() const {
+    return whole_deck_.stages.empty() ? "" : whole_deck_.stages[static_cast<std::size_t>(stage_)].name;
+  }
   const Structure& structure() const { return *structure_; }
 
   /// The nodes of the deck's mesh among the walls; null if the deck has no walls.
@@ -74,11 +95,17 @@ class Model {
   Index closed_contacts(const State& state) const;
 
  private:
+  Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress);
   std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
   // Also the structure under what is constant alone.
   void make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding);
   void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
 
+  deck::Deck whole_deck_;
+  Index stage_ = 0;
+  std::vector<DrivenThing> progress_;  // before this stage
+  std::vector<std::unique_ptr<Model>> later_;
+  std::vector<double> ended_stages_;
   deck::Deck deck_;
   std::unique_ptr<Structure> structure_, ramp_structure_;
   std::unique_ptr<IncrementalStructure> incremental_structure_;

@@ -72,6 +72,7 @@ struct RecordEvent {
 
 struct RecordBranch {
   Index id = 0;
+  Index stage = 0;                ///< counts from 0
   std::optional<Index> parent{};  ///< the branch it leaves
   std::optional<Index> origin{};  ///< the event at which it does
   bool mirrored = false;          ///< its mirror image leaves there too and is not traced
@@ -91,11 +92,19 @@ struct Record {
   std::string title{};
   std::string energy_unit{}, length_unit{}, force_unit{};
   bool has_walls = false;
+  std::vector<std::string> stages{};  ///< their names; empty if the deck has none
   std::vector<RecordColumn> columns{};
   std::vector<RecordBranch> branches{};
   std::vector<RecordPoint> points{};
   std::vector<RecordEvent> events{};
   std::vector<RecordBranchPoint> branch_points{};
+
+  /// The number of the stage that a branch is of.
+  Index stage_number(Index branch) const { return branches[static_cast<std::size_t>(branch)].stage; }
+  /// The name of the stage that a branch is of; empty without stages.
+  std::string stage_of(Index branch) const {
+    return stages.empty() ? "" : stages[static_cast<std::size_t>(branches[static_cast<std::size_t>(branch)].stage)];
+  }
   std::string steps{};  ///< lines of steps.jsonl; empty unless they are wanted
 };
 

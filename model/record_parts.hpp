@@ -42,7 +42,7 @@ void parts(Archive& archive, RecordBranchPoint& point) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordBranch& branch) {
-  archive(branch.id, branch.parent, branch.origin, branch.mirrored, branch.points, branch.least_lambda,
+  archive(branch.id, branch.stage, branch.parent, branch.origin, branch.mirrored, branch.points, branch.least_lambda,
           branch.greatest_lambda, branch.end);
 }
 

@@ -45,13 +45,14 @@ Record empty_record(const Model& model) {
                 .length_unit = deck.units.length,
                 .force_unit = deck.units.force,
                 .has_walls = !deck.walls.empty()};
+  for (const deck::Stage& stage : model.whole_deck().stages) record.stages.push_back(stage.name);
   for (const MonitorColumn& monitor : model.monitors()) record.columns.push_back({monitor.name, monitor.unit});
   return record;
 }
 
 Recorder::Recorder(const Model& model, Record& record, const BranchRecord& branch)
     : model_(model), record_(record), branch_(record.branches.size()) {
-  RecordBranch added{.id = static_cast<Index>(branch_), .mirrored = branch.mirrored};
+  RecordBranch added{.id = static_cast<Index>(branch_), .stage = model.stage(), .mirrored = branch.mirrored};
   if (branch.parent) added.parent = *branch.parent;
   const auto same = [&](const RecordBranchPoint& known) { return known.point == branch.origin; };
   const auto origin = std::find_if(record.branch_points.begin(), record.branch_points.end(), same);

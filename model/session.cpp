@@ -92,7 +92,8 @@ Json SessionContent::of(Session& session, const std::optional<BranchEnd>& stoppe
   ArchiveWriter archive(model_of(*session.model_));
   std::string program = program_version();
   std::optional<BranchEnd> ending = stopped;
-  archive(program, session.description_, ending, session.start_);
+  std::vector<double> ended_stages = session.model_->ended_stages();
+  archive(program, session.description_, ending, session.start_, ended_stages);
   keep_traced(archive, *session.record_);
   session.tracing_->serialize(archive);
   return archive.json();
@@ -112,7 +113,9 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     Session session(std::move(description));
 
     ArchiveReader archive(content, model_of(*session.model_));
-    archive(program, session.description_, stopped, session.start_);
+    std::vector<double> ended_stages;
+    archive(program, session.description_, stopped, session.start_, ended_stages);
+    for (const double lambda : ended_stages) archive.require(session.model_->begin_stage(lambda));
     archive.require(session.start_.x.size() > 0);
     session.tracing_ = make_tracing(*session.model_, *session.record_, session.start_, session.description_.ledger);
     keep_traced(archive, *session.record_);

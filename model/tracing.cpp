@@ -21,6 +21,7 @@ class PathTracing final : public Tracing {
   PathTracing(const Model& model, Record& record, const State& start, StepLedger ledger)
       : model_(model),
         record_(record),
+        first_(static_cast<int>(record.branches.size())),
         explorer_(model.system(), start, options(ledger), model.watched(), model.explore()) {}
 
   bool advance() override {
@@ -32,7 +33,9 @@ class PathTracing final : public Tracing {
     if (step->branch != branch_) {
       if (recorder_) end_branch();
       branch_ = step->branch;
-      recorder_.emplace(model_, record_, branch());
+      BranchRecord begun = branch();
+      if (begun.parent) *begun.parent += first_;
+      recorder_.emplace(model_, record_, begun);
     }
     recorder_->add(step->arc);
     return true;
@@ -45,29 +48,36 @@ class PathTracing final : public Tracing {
   void serialize(ArchiveWriter& archive) override { visit(archive); }
   void serialize(ArchiveReader& archive) override {
     visit(archive);
-    archive.require(branch_ < static_cast<int>(record_.branches.size()) &&
+    archive.require(first_ >= 0 && first_ + branch_ < static_cast<int>(record_.branches.size()) &&
                     branch_ < static_cast<int>(explorer_.branches().size()) &&
-                    (branch_ < 0 || record_.branches.back().id == branch_) && (branch_ >= 0 || record_.points.empty()));
+                    (branch_ < 0 || record_.branches.back().id == first_ + branch_) &&
+                    (branch_ >= 0 || first_ > 0 || record_.points.empty()));
     if (branch_ >= 0) recorder_.emplace(Recorder::last_branch(model_, record_));
   }
 
  private:
   template <typename Archive>
   void visit(Archive& archive) {
-    archive(branch_, finished_, explorer_);
+    archive(first_, branch_, finished_, explorer_);
   }
 
   TraceOptions options(StepLedger ledger) {
     TraceOptions options = model_.options();
     if (ledger == StepLedger::kept)
       options.ledger = [this](const StepAttempt& attempt) {
-        record_.steps += ledger_line(model_, static_cast<Index>(explorer_.branches().size()) - 1, attempt);
+        record_.steps += ledger_line(model_, first_ + static_cast<Index>(explorer_.branches().size()) - 1, attempt);
       };
     return options;
   }
 
   const BranchRecord& branch() const { return explorer_.branches()[static_cast<std::size_t>(branch_)]; }
-  void end_branch() { recorder_->end(branch().end.value()); }
+  void end_branch() {
+    BranchEnd end = branch().end.value();
+    if (end.partner) *end.partner += first_;
+    if (first_ > 0 && end.reason == EndReason::branched)
+      end.detail = "goes on as branch " + std::to_string(*end.partner);
+    recorder_->end(end);
+  }
 
   void finish() {
     if (std::exchange(finished_, true)) return;
@@ -80,10 +90,64 @@ class PathTracing final : public Tracing {
 
   const Model& model_;
   Record& record_;
+  int first_;  // of the branches that the explorer counts from 0
   Explorer explorer_;
   std::optional<Recorder> recorder_;
   int branch_ = -1;
   bool finished_ = false;
+};
+
+// The stages of a deck, each from where the one before has stopped.
+class StageTracing final : public Tracing {
+ public:
+  StageTracing(Model& model, Record& record, const State& start, StepLedger ledger)
+      : model_(model), record_(record), ledger_(ledger) {
+    begin(0, start);
+  }
+
+  bool advance() override {
+    if (tracing_->advance()) return true;
+    if (!goes_on()) return false;
+    State start = record_.points.back().state;
+    model_.begin_stage(start.lambda);
+    start.lambda = 0.0;
+    begin(stage_ + 1, start);
+    return tracing_->advance();
+  }
+
+  bool has_ended() const override { return tracing_->has_ended() && !goes_on(); }
+
+  void stop(const BranchEnd& end) override { tracing_->stop(end); }
+
+  void serialize(ArchiveWriter& archive) override { archive(stage_, *tracing_); }
+  void serialize(ArchiveReader& archive) override {
+    Index stage = 0;
+    archive(stage);
+    archive.require(stage == static_cast<Index>(model_.ended_stages().size()));
+    begin(stage, State{.x = Vector::Zero(model_.system().size(model_.system().open_piece())),
+                       .lambda = 0.0,
+                       .piece = model_.system().open_piece()});
+    archive(*tracing_);
+  }
+
+ private:
+  void begin(Index stage, const State& start) {
+    stage_ = stage;
+    tracing_ = std::make_unique<PathTracing>(model_.at_stage(stage), record_, start, ledger_);
+  }
+
+  // A bound or an event of `stop` ends a stage; what ends it otherwise ends the run.
+  bool goes_on() const {
+    const auto& end = record_.branches.back().end;
+    return stage_ + 1 < static_cast<Index>(record_.stages.size()) && end && end->reason == EndReason::stop &&
+           !record_.points.empty();
+  }
+
+  Model& model_;
+  Record& record_;
+  StepLedger ledger_;
+  Index stage_ = 0;
+  std::unique_ptr<PathTracing> tracing_;
 };
 
 // Whether the way between two states crosses a bound that stops.
@@ -192,6 +256,7 @@ class IncrementTracing final : public Tracing {
 
 std::unique_ptr<Tracing> make_tracing(Model& model, Record& record, const State& start, StepLedger ledger) {
   if (model.in_increments()) return std::make_unique<IncrementTracing>(model, record, start, ledger);
+  if (!record.stages.empty()) return std::make_unique<StageTracing>(model, record, start, ledger);
   return std::make_unique<PathTracing>(model, record, start, ledger);
 }
 

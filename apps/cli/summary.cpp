@@ -45,12 +45,12 @@ std::string first_gap(const Model& model, const deck::Wall& wall) {
   std::string text = fmt::format("{} candidates", count);
   if (nearest_one == nullptr) return text + ", none faces it";
   const ContactLabel& label = nearest_one->label();
-  return text + ", first gap " + with_unit(fmt::format("{:.6g}", least), model.deck().units.length) +
+  return text + ", first gap " + with_unit(fmt::format("{:.6g}", least), model.whole_deck().units.length) +
          fmt::format(" at {}:{:.4g}", label.member, label.fraction);
 }
 
 void add_model(const Model& model, Lines& lines) {
-  const deck::Deck& deck = model.deck();
+  const deck::Deck& deck = model.whole_deck();
   lines.add("title", deck.title);
   lines.add("nodes", std::to_string(model.structure().node_count()));
   lines.add("unknowns", std::to_string(model.structure().size({})));
@@ -100,6 +100,11 @@ void add_path(const deck::Deck& deck, Lines& lines) {
   for (const EventKind event : deck.path.stop.events)
     lines.add("stops", "at the first " + deck::text_of(deck::stop_event_words, event));
   if (deck.path.stop.contacts) lines.add("stops", fmt::format("at {} closed contacts", *deck.path.stop.contacts));
+  for (const deck::Stage& stage : deck.stages) {
+    std::string things;
+    for (const std::string& thing : stage.drives) things += (things.empty() ? "" : ", ") + thing;
+    lines.add("stage", stage.name + " drives " + things);
+  }
   for (const deck::Monitor& monitor : deck.monitors)
     lines.add("monitors",
               fmt::format("{}: {} of {}", monitor.name, deck::text_of(deck::component_words, monitor.component),
@@ -111,9 +116,9 @@ void add_path(const deck::Deck& deck, Lines& lines) {
 std::string summary(const Model& model) {
   Lines lines;
   add_model(model, lines);
-  add_contact(model.deck(), lines);
-  add_path(model.deck(), lines);
-  return lines.text(model.deck().source.file);
+  add_contact(model.whole_deck(), lines);
+  add_path(model.whole_deck(), lines);
+  return lines.text(model.whole_deck().source.file);
 }
 
 }  // namespace arcwall

@@ -29,9 +29,10 @@ OrderedJson contact(const RecordContact& contact) {
           {"x", number(contact.x)}};
 }
 
-OrderedJson branch(const RecordBranch& branch) {
+OrderedJson branch(const Record& record, const RecordBranch& branch) {
   OrderedJson json;
   json["id"] = branch.id;
+  if (!record.stages.empty()) json["stage"] = record.stage_of(branch.id);
   json["parent"] = count(branch.parent);
   json["origin"] = count(branch.origin);
   json["mirrored"] = branch.mirrored;
@@ -48,7 +49,7 @@ OrderedJson events_json(const Record& record) {
   json["deck"] = record.deck;
   json["version"] = program_version();
   json["branches"] = OrderedJson::array();
-  for (const RecordBranch& one : record.branches) json["branches"].push_back(branch(one));
+  for (const RecordBranch& one : record.branches) json["branches"].push_back(branch(record, one));
   json["events"] = OrderedJson::array();
   for (const RecordEvent& event : record.events) json["events"].push_back(event_json(record, event));
   return json;
@@ -59,6 +60,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
   json["id"] = event.id;
   json["kind"] = to_text(event.kind);
   json["branch"] = event.branch;
+  if (!record.stages.empty()) json["stage"] = record.stage_of(event.branch);
   json["step"] = event.step;
   json["arc"] = number(event.arc);
   json["lambda"] = number(event.lambda);
@@ -87,6 +89,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
 OrderedJson point_json(const Record& record, const RecordPoint& point) {
   OrderedJson json;
   json["branch"] = point.branch;
+  if (!record.stages.empty()) json["stage"] = record.stage_of(point.branch);
   json["step"] = point.step;
   json["arc"] = number(point.arc);
   json["lambda"] = number(point.lambda);

@@ -30,7 +30,9 @@ std::string contacts(const std::vector<RecordContact>& list) {
 std::string table(const Record& record) {
   using Side = TableColumn::Side;
   const bool one_branch = record.branches.size() <= 1;
+  const bool staged = !record.stages.empty();
   std::vector<TableColumn> columns{{"id", Side::right}};
+  if (staged) columns.push_back({"stage"});
   if (!one_branch) columns.push_back({"branch", Side::right});
   columns.insert(columns.end(), {{"step", Side::right}, {"λ", Side::right}, {"kind"}, {"what"}});
   for (const RecordColumn& column : record.columns)
@@ -41,6 +43,7 @@ std::string table(const Record& record) {
   for (const RecordEvent& event : record.events) {
     std::vector<std::string>& row = rows.emplace_back();
     row.push_back(std::to_string(event.id));
+    if (staged) row.push_back(record.stage_of(event.branch));
     if (!one_branch) row.push_back(std::to_string(event.branch));
     row.push_back(std::to_string(event.step));
     row.push_back(shown_lambda(event, 10));

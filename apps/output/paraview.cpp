@@ -278,7 +278,8 @@ void write_shapes(const OutputFolder& folder, const Model& model, const Record& 
   for (std::size_t i = 0; i < record.points.size(); ++i) {
     const RecordPoint& point = record.points[i];
     const Shape* known = drawn.shape_at(i);
-    write(name_of_point(i), shape_vtu(model, point, known != nullptr ? *known : shape_of(model, point.state)));
+    const Model& here = model.at_stage(record.stage_number(point.branch));
+    write(name_of_point(i), shape_vtu(here, point, known != nullptr ? *known : shape_of(here, point.state)));
   }
   folder.write_whole("shapes.pvd", collection(record.points.size(), record.has_walls));
   remove_others(shapes, written);

@@ -10,11 +10,12 @@ namespace {
 std::string header(const Record& record, UnitLabels labels) {
   std::string text = "branch,step,arc,lambda";
   for (const RecordColumn& column : record.columns) text += "," + csv_title(column.name, column.unit, labels);
-  text += ",unstable,stability,contacts," + csv_title("energy", record.energy_unit, labels) + ",iterations,event\n";
-  return text;
+  text += ",unstable,stability,contacts," + csv_title("energy", record.energy_unit, labels) + ",iterations,event";
+  if (!record.stages.empty()) text += ",stage";
+  return text + "\n";
 }
 
-std::string row(const RecordPoint& point) {
+std::string row(const Record& record, const RecordPoint& point) {
   std::string text = std::to_string(point.branch) + "," + std::to_string(point.step) + "," + round_trip(point.arc) +
                      "," + round_trip(point.lambda);
   for (const double value : point.monitors) text += "," + round_trip(value);
@@ -25,6 +26,7 @@ std::string row(const RecordPoint& point) {
   text += "," + std::to_string(point.contacts) + "," + round_trip(point.energy) + "," +
           std::to_string(point.iterations) + ",";
   if (point.event) text += to_text(*point.event);
+  if (!record.stages.empty()) text += "," + record.stage_of(point.branch);
   return text + "\n";
 }
 
@@ -32,7 +34,7 @@ std::string row(const RecordPoint& point) {
 
 std::string path_csv(const Record& record, UnitLabels labels) {
   std::string text = header(record, labels);
-  for (const RecordPoint& point : record.points) text += row(point);
+  for (const RecordPoint& point : record.points) text += row(record, point);
   return text;
 }
 

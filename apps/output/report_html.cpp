@@ -321,8 +321,8 @@ std::string facts(const ReportContent& content) {
 
 ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn) {
   ReportContent content{.description = model.deck().description,
-                        .loads = driven_by_lambda(model.deck()),
-                        .deck_text = deck::to_toml(model.deck()),
+                        .loads = driven_by_lambda(model.whole_deck()),
+                        .deck_text = deck::to_toml(model.whole_deck()),
                         .shapes = draw(drawn, setting_of(model))};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);

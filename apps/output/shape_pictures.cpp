@@ -456,12 +456,16 @@ const Shape* DrawnScenes::shape_at(std::size_t point) const {
 DrawnScenes scenes_to_draw(const Model& model, const Record& record) {
   constexpr std::size_t most_coordinates = 400'000;  // about 4 MB
   if (record.points.empty()) return {};
-  Scene first = scene_of(model, record.points.front().state);
+  const auto scene_at = [&](const RecordPoint& point) {
+    const Index stage = record.stage_number(point.branch);
+    return scene_of(model.at_stage(stage), point.state);
+  };
+  Scene first = scene_at(record.points.front());
   std::size_t per_shape = 1;
   for (const MemberShape& member : first.shape.members) per_shape += member.points.size();
   DrawnScenes drawn{.points = points_to_draw(record, std::max<std::size_t>(most_coordinates / per_shape, 2))};
   for (const std::size_t point : drawn.points)
-    drawn.scenes.push_back(point == 0 ? std::move(first) : scene_of(model, record.points[point].state));
+    drawn.scenes.push_back(point == 0 ? std::move(first) : scene_at(record.points[point]));
   return drawn;
 }
 

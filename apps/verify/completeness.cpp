@@ -228,10 +228,11 @@ void check_bounds(const Branch& branch, const Record& record, const Model& model
 void check_completeness(const std::vector<ListedEvent>& events, const Record& record, const Model& model,
                         Findings& findings) {
   for (const Branch& branch : branches_of(record, events)) {
+    const Model& here = model.at_stage(record.stage_number(branch.id));
     if (model.deck().path.events != EventSearch::none) check_counts(branch, findings);
     check_contact_changes(branch, model.sliding() != nullptr, findings);
-    check_turning_points(branch, record, model, findings);
-    check_bounds(branch, record, model, findings);
+    check_turning_points(branch, record, here, findings);
+    check_bounds(branch, record, here, findings);
   }
 }
 

@@ -44,7 +44,7 @@ PlainWall::PlainWall(const deck::Wall& wall) : wall_(wall) {
 Vec2 PlainWall::at_rest(const Vec2& point) const {
   if (!wall_.motion) return point;
   const deck::WallMotion& motion = *wall_.motion;
-  const Vec2 centre(motion.about.x, motion.about.z), way = lambda_ * Vec2(motion.x, motion.z);
+  const Vec2 centre(motion.about.x, motion.about.z), way = progress_ * Vec2(motion.x, motion.z);
   const double c = std::cos(turned()), s = std::sin(turned());
   const Vec2 arm = point - centre - way;
   return centre + Vec2(c * arm.x() + s * arm.y(), c * arm.y() - s * arm.x());

@@ -16,7 +16,7 @@ class PlainWall {
 
   PlainWall at(double lambda) const {
     PlainWall moved = *this;
-    moved.lambda_ = lambda;
+    if (wall_.motion) moved.progress_ = wall_.motion->progress.at(lambda);
     return moved;
   }
 
@@ -46,12 +46,15 @@ class PlainWall {
   };
   Surface surface(double x) const;        // of the wall at rest
   Vec2 at_rest(const Vec2& point) const;  // the point as the wall sees it, which moves and turns with λ
-  double turned() const { return wall_.motion ? lambda_ * wall_.motion->rotation : 0.0; }
+  double turned() const { return wall_.motion ? progress_ * wall_.motion->rotation : 0.0; }
 
   const deck::Wall& wall_;
-  double lambda_ = 0.0;
+  double progress_ = 0.0;         // of its motion
   std::vector<double> second_{};  // derivatives of a spline at its knots
 };
+
+/// The walls of each stage of a run; of a deck without stages there is one.
+using WallsOfStages = std::vector<std::vector<PlainWall>>;
 
 /// The walls where they are at a λ.
 std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lambda);

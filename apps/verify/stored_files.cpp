@@ -62,11 +62,11 @@ std::vector<Row> csv_rows(const std::string& text) {
   return rows;
 }
 
-// branch, step, arc, lambda, monitors …, unstable, stability, contacts, energy, iterations, event
+// branch, step, arc, lambda, monitors …, unstable, stability, contacts, energy, iterations, event, and perhaps stage
 void check_path_row(const Row& row, const RecordPoint& point, const PathExpectation& expected, Findings& findings) {
-  const std::size_t monitors = expected.monitors.size();
-  findings.require("path.csv has its columns", row.size() == monitors + 10, "number of cells");
-  if (row.size() != monitors + 10) return;
+  const std::size_t monitors = expected.monitors.size(), cells = monitors + (expected.stage ? 11 : 10);
+  findings.require("path.csv has its columns", row.size() == cells, "number of cells");
+  if (row.size() != cells) return;
   const auto same = [&](std::size_t cell, const std::string& what, const std::string& value) {
     expect_same("path.csv tells the states", row[cell], value, what, findings);
   };
@@ -95,6 +95,7 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     findings.compare("path.csv tells the states", std::abs(number(rest[3]) - expected.energy->value),
                      rounding(expected.energy->magnitude), "energy");
   expect_same("path.csv tells the states", rest[4], std::to_string(point.iterations), "iterations", findings);
+  if (expected.stage) expect_same("path.csv tells the states", rest[6], *expected.stage, "stage", findings);
   expect_same("path.csv tells the states", rest[5], point.event ? std::string(to_text(*point.event)) : "", "event",
               findings);
 }
@@ -209,7 +210,7 @@ ListedEvent listed_event(const Json& event) {
 }  // namespace
 
 std::vector<ListedEvent> check_events(const std::string& text, const Record& record, const Model& model,
-                                      const std::vector<PlainWall>& walls, Findings& findings) {
+                                      const WallsOfStages& walls, Findings& findings) {
   findings.at("events.json", 0, 0);
   const Json json = Json::parse(text, nullptr, false);
   const bool readable = json.is_object() && json.contains("branches") && json.contains("events");
@@ -231,8 +232,11 @@ std::vector<ListedEvent> check_events(const std::string& text, const Record& rec
     findings.compare(events_check, std::abs(number(event["lambda"]) - point.state.lambda), 0.0, "lambda");
     findings.compare(events_check, std::abs(number(event["arc"]) - point.arc), 0.0, "arc");
     check_monitors(event["monitors"], record, point, findings);
+    const Index stage = record.stage_number(point.branch);
+    const Model& here = model.at_stage(stage);
+    const auto& walls_here = walls[static_cast<std::size_t>(stage)];
     if (event.contains("contact"))
-      check_named_contacts(event["contact"], model, touches(model, walls_at(walls, point.state.lambda), point.state),
+      check_named_contacts(event["contact"], here, touches(here, walls_at(walls_here, point.state.lambda), point.state),
                            findings);
   }
   return listed;

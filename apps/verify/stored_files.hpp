@@ -20,6 +20,7 @@ struct PathExpectation {
   std::optional<Energy> energy{};        ///< empty: not checked
   std::optional<CountRange> unstable{};  ///< empty: not checked
   Index contacts = 0;
+  std::optional<std::string> stage{};  ///< of a deck with stages
 };
 
 /// A row of path.csv against its point.
@@ -32,6 +33,6 @@ void check_contact_rows(const std::vector<std::vector<std::string>>& rows, std::
 
 /// events.json against the points; gives the events that belong to one.
 std::vector<ListedEvent> check_events(const std::string& text, const Record& record, const Model& model,
-                                      const std::vector<PlainWall>& walls, Findings& findings);
+                                      const WallsOfStages& walls, Findings& findings);
 
 }  // namespace arcwall::verify

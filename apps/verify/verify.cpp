@@ -114,7 +114,10 @@ class Verifier {
         scales_(scales_of(model)),
         path_rows_(csv_rows(files.path_csv)),
         contact_rows_(csv_rows(files.contacts_csv)) {
-    for (const deck::Wall& wall : model.deck().walls) walls_.emplace_back(wall);
+    for (Index stage = 0; stage <= static_cast<Index>(model.ended_stages().size()); ++stage) {
+      auto& walls = walls_.emplace_back();
+      for (const deck::Wall& wall : model.at_stage(stage).deck().walls) walls.emplace_back(wall);
+    }
   }
 
   Verdict run(const StoredFiles& files) {
@@ -140,17 +143,20 @@ class Verifier {
     const RecordPoint& point = record_.points[number];
     Findings& findings = verdict_.findings;
     findings.at(states_file_, point.branch, point.step);
-    const bool well_formed = is_well_formed(model_, point.state);
+    const Index stage = record_.stage_number(point.branch);
+    const Model& model = model_.at_stage(stage);
+    const bool well_formed = is_well_formed(model, point.state);
     findings.require("states are finite and whole", well_formed, "its unknowns");
     if (!well_formed) return false;
-    const PointAtHand at = at_hand(model_, point, walls_, scales_);
+    const PointAtHand at = at_hand(model, point, walls_[static_cast<std::size_t>(stage)], scales_);
     PathExpectation expected{.contacts = listed_contacts(at.touches)};
-    add_monitors(model_, point.state, expected);
+    add_monitors(model, point.state, expected);
+    if (!record_.stages.empty()) expected.stage = record_.stage_of(point.branch);
     if (!model_.in_increments()) {
       check_contacts(at, findings);
       check_equilibrium(at, findings);
       expected.energy = energy(at);
-      if (count) expected.unstable = unstable_range(at, zero_eigenvalue(model_, record_, point));
+      if (count) expected.unstable = unstable_range(at, zero_eigenvalue(model, record_, point));
     }
     if (number < path_rows_.size()) {
       findings.at("path.csv", point.branch, point.step);
@@ -165,7 +171,7 @@ class Verifier {
   const Record& record_;
   std::string states_file_;
   Scales scales_;
-  std::vector<PlainWall> walls_;
+  WallsOfStages walls_;
   std::vector<std::vector<std::string>> path_rows_, contact_rows_;
   std::size_t next_contact_ = 0;
   Verdict verdict_;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t longest_name_compared = 100;  // the distance of two words costs the product of their lengths
 
 // Words of other programs and books for those of a deck.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 22> also_called{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 40> also_called{{
     {"euler", "classic"},
     {"bernoulli", "classic"},
     {"euler-bernoulli", "classic"},
@@ -39,6 +39,24 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 22> also_cal
     {"top", "above"},
     {"lower", "below"},
     {"bottom", "below"},
+    {"thermal", "temperature"},
+    {"heat", "temperature"},
+    {"dT", "temperature"},
+    {"delta_t", "temperature"},
+    {"alpha", "expansion"},
+    {"cte", "expansion"},
+    {"udl", "distributed"},
+    {"line_load", "distributed"},
+    {"winkler", "foundation"},
+    {"bedding", "foundation"},
+    {"k", "stiffness"},
+    {"velocity", "motion"},
+    {"displacement", "motion"},
+    {"ux", "x"},
+    {"uz", "z"},
+    {"dx", "x"},
+    {"dz", "z"},
+    {"local", "member"},
 }};
 
 // The candidate that a word means; empty if it is nobody's word for one of them.

@@ -71,8 +71,26 @@ std::optional<LineProfile> line_without_clearance(const Wall& a, const Wall& b) 
 }
 
 // Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
+std::vector<std::string> driven_things(const Deck& deck) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& kind, const auto& things) {
+    for (std::size_t i = 0; i < things.size(); ++i)
+      if (!things[i].constant) names.push_back(kind + "." + std::to_string(i));
+  };
+  add("load", deck.loads);
+  add("prescribed", deck.prescribed);
+  for (const Wall& wall : deck.walls)
+    if (wall.motion) names.push_back("wall." + wall.name);
+  return names;
+}
+
+bool drives(const Stage& stage, const std::string& thing) {
+  return std::find(stage.drives.begin(), stage.drives.end(), thing) != stage.drives.end();
+}
+
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
+  if (!deck.stages.empty()) return {.points = ContactPoints::nodes, .why = "a deck with stages has contact at nodes"};
   if (deck.contact.method != ContactLaw::Method::rigid)
     return {.points = ContactPoints::nodes,
             .why = "method " + text_of(contact_method_words, deck.contact.method) + " puts springs at nodes"};

@@ -329,9 +329,10 @@ struct SplineProfile {
 
 /// How λ moves a wall as a rigid body: by this times λ.
 struct WallMotion {
-  double x = 0.0, z = 0.0;  ///< [length]
-  double rotation = 0.0;    ///< [rad]
-  Vector about{};           ///< the point about which it turns, where that is at λ = 0
+  double x = 0.0, z = 0.0;               ///< [length]
+  double rotation = 0.0;                 ///< [rad]
+  Vector about{};                        ///< the point about which it turns, where that is at rest
+  Driven progress{.proportional = 1.0};  ///< takes the place of λ in a stage; no key of a deck
 
   bool operator==(const WallMotion&) const = default;
 };
@@ -452,6 +453,20 @@ struct Path {
   bool operator==(const Path&) const = default;
 };
 
+/// A part of the run in which λ drives some things, from where the stage before has left all. λ begins at 0 again.
+struct Stage {
+  std::string name{};
+  Position position{};
+  std::vector<std::string> drives{};  ///< of driven_things(), at least one
+  // In place of those of [path]:
+  std::optional<Stop> stop{};
+  std::vector<Landing> land{};
+  std::optional<double> step{}, max_step{};
+  std::optional<BranchPolicy> branches{};
+
+  bool operator==(const Stage&) const = default;
+};
+
 struct Deck {
   Source source{};
   std::string title{};
@@ -468,6 +483,7 @@ struct Deck {
   std::vector<Wall> walls{};
   Contact contact{};
   Path path{};
+  std::vector<Stage> stages{};  ///< empty: one that drives all that is not constant
   std::vector<Monitor> monitors{};
 
   bool operator==(const Deck&) const = default;
@@ -481,6 +497,11 @@ const Named* find(const std::vector<Named>& list, const std::string& name) {
   }
   return nullptr;
 }
+
+/// Names of all that λ may drive, by kind and number or name: `load.0`, `prescribed.1`, `wall.hill`.
+std::vector<std::string> driven_things(const Deck& deck);
+
+bool drives(const Stage& stage, const std::string& thing);
 
 /// Where contact is looked for, and in words why: the deck says so, or it is the default.
 struct PointsOfContact {

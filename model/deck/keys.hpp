@@ -140,6 +140,12 @@ class Keys {
     return right;
   }
 
+  /// Some of the texts that this deck allows, each once; others are reported as `unknown`.
+  bool choices(const Key& key, std::vector<std::string>& values, const std::vector<std::string>& known,
+               std::string_view unknown, std::string_view meaning) {
+    return declare(key, &values, {.meaning = meaning, .words = known, .unknown = unknown});
+  }
+
   // --- tables -------------------------------------------------------------------------------------------------------
 
   /// A table of its own.

@@ -100,6 +100,22 @@ void check_method(Keys& keys, const Path& path, bool lands_on_lambda) {
                 "add land = { lambda = [...] }");
 }
 
+// Whether it names lambda.
+bool land_key(Keys& keys, const Key& land_of, std::vector<Landing>& list, const char* meaning) {
+  bool lands_on_lambda = false;
+  keys.table(
+      land_of, Form::dotted,
+      [&](Keys& land) {
+        lands_on_lambda = land.has("lambda");
+        land.entries(list, &Landing::name, [&](const Key& key, Landing& landing) {
+          const bool known = land.refers(key, Named::column);
+          return land.numbers(key, landing.values, unit::none, "") && known;
+        });
+      },
+      meaning);
+  return lands_on_lambda;
+}
+
 void path_keys(Keys& keys, Path& path) {
   path.position = keys.position();
   keys.word(
@@ -108,17 +124,10 @@ void path_keys(Keys& keys, Path& path) {
       "`\"cylindrical\"`, `\"spherical\"` (both after Crisfield), `\"pseudo-arclength\"`. `\"incremental\"`: load "
       "increments without iteration through `land.lambda`, subdivided to at most `step`; results depend on them "
       "(theory.md, section 10)");
-  bool lands_on_lambda = false;
-  keys.table(
-      optional("land", "none"), Form::dotted,
-      [&](Keys& land) {
-        lands_on_lambda = land.has("lambda");
-        land.entries(path.land, &Landing::name, [&](const Key& key, Landing& landing) {
-          const bool known = land.refers(key, Named::column);
-          return land.numbers(key, landing.values, unit::none, "") && known;
-        });
-      },
-      "values to land on, each of which is a point of `path.csv`: `{ lambda = [0.4], mid = [-0.05] }`");
+  const bool lands_on_lambda =
+      land_key(keys, optional("land", "none"), path.land,
+               "values to land on, each of which is a point of `path.csv`: `{ lambda = [0.4], mid = "
+               "[-0.05] }`");
   keys.part("control", path.control, [&](Control& control) {
     keys.table(
         optional("control", "none"), Form::dotted, [&](Keys& of) { control_keys(of, control); },
@@ -138,6 +147,47 @@ void path_keys(Keys& keys, Path& path) {
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
   check_method(keys, path, lands_on_lambda);
   check_stop_events(keys, path);
+}
+
+// --- stages ---------------------------------------------------------------------------------------------------------
+
+void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
+  if (keys.text("name", stage.name, "letters, digits, _ and -") && !is_name(stage.name)) {
+    keys.report("name", in_quotes(stage.name, 60) + " is no name", "use letters, digits, _ and - only");
+  } else if (keys.reads() && find(deck.stages, stage.name) != nullptr) {
+    keys.report("name", in_quotes(stage.name) + " is the name of another stage", "give each stage its own");
+  }
+  keys.choices("drives", stage.drives, driven_things(deck), "is nothing that λ may drive",
+               "what λ multiplies: `load.0` and `prescribed.1`, counted from 0 in the deck's order, or `wall.NAME`");
+  keys.number(optional("step", "as in [path]"), stage.step, unit::none, not_zero, "as in [path]");
+  keys.number(optional("max_step", "as in [path]"), stage.max_step, unit::none, positive, "as in [path]");
+  keys.word(optional("branches", "as in [path]"), stage.branches, branches_words, "as in [path]");
+  land_key(keys, optional("land", "as in [path]"), stage.land, "as in [path]");
+  keys.part("stop", stage.stop, [&](Stop& stop) {
+    keys.table(
+        optional("stop", "as in [path]"), Form::dotted, [&](Keys& of) { stop_keys(of, stop); }, "as in [path]");
+  });
+}
+
+// Each thing has its turn, and the state in which a stage ends is one.
+void check_stages(Keys& root, const Deck& deck) {
+  if (!root.reads() || deck.stages.empty()) return;
+  for (const std::string& thing : driven_things(deck)) {
+    const auto driven = [&](const Stage& stage) { return drives(stage, thing); };
+    if (std::none_of(deck.stages.begin(), deck.stages.end(), driven))
+      root.report("stage", "no stage drives " + thing, "name it in drives of a stage, or make it constant");
+  }
+  for (std::size_t i = 0; i + 1 < deck.stages.size(); ++i)
+    if (deck.stages[i].branches.value_or(deck.path.branches) == BranchPolicy::all)
+      root.report("stage",
+                  "stage " + in_quotes(deck.stages[i].name) + " traces all branches, and the next one begins on one",
+                  "give it branches = \"follow\" or \"primary\"");
+  if (deck.path.method == PathMethod::incremental)
+    root.report("path", "method \"incremental\" has no stages", "use method \"spherical\"");
+  if (deck.contact.points == ContactPoints::sliding)
+    root.report("contact", "contact that slides has no stages", "use points = \"nodes\"");
+  if (find(deck.monitors, std::string("stage")) != nullptr)
+    root.report("monitor", "\"stage\" is the name of another column of path.csv", "choose another name");
 }
 
 // --- monitors -------------------------------------------------------------------------------------------------------
@@ -218,8 +268,11 @@ void monitor_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
 void declare_path(Keys& root, Deck& deck) {
   root.table(
       optional("path"), Form::header, [&](Keys& keys) { path_keys(keys, deck.path); }, "");
+  root.tables(
+      optional("stage"), deck.stages, [&](Keys& keys, Stage& stage) { stage_keys(keys, stage, deck); }, "");
   const auto keys_of_monitor = [&](Keys& keys, Monitor& monitor) { monitor_keys(keys, monitor, deck); };
   root.tables(optional("monitor"), deck.monitors, keys_of_monitor, "");
+  check_stages(root, deck);
 }
 
 void declare_keys(Keys& root, Deck& deck) {

@@ -38,7 +38,7 @@ std::string joined(const std::vector<std::string>& texts) {
 }
 
 // What other programs and books call parts of a deck, and how that is said here.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 19> said_otherwise{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> said_otherwise{{
     {"displacement", "a point is moved by [[prescribed]], with x, z or rotation"},
     {"displacements", "a point is moved by [[prescribed]], with x, z or rotation"},
     {"imposed", "a point is moved by [[prescribed]], with x, z or rotation"},
@@ -58,6 +58,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 19> said_oth
     {"obstacle", "an obstacle is a [[wall]]"},
     {"contact_surface", "an obstacle is a [[wall]]"},
     {"nodal_load", "loads are [[load]], with at and force or moment"},
+    {"thermal", "a member is heated by a [[load]] with on and temperature"},
+    {"temperature", "a member is heated by a [[load]] with on and temperature"},
+    {"heat", "a member is heated by a [[load]] with on and temperature"},
+    {"pressure", "a member is pressed by a [[load]] with on and pressure"},
+    {"step", "parts of a run are [[stage]], with name and drives"},
+    {"load_step", "parts of a run are [[stage]], with name and drives"},
+    {"phase", "parts of a run are [[stage]], with name and drives"},
 }};
 
 // A part under another name leaves others without what they refer to, so this is said first.

@@ -431,4 +431,32 @@ TEST(BadDecks, MessagesAreShortAndPrintable) {
   EXPECT_EQ(to_text(found[0]).find_first_of("\n\a"), std::string::npos);
 }
 
+// Movements, walls, heat, pressure and springs; words that other programs have for them.
+TEST(BadDecks, WhatLambdaMayDrive) {
+  expect_refused({
+      {"[[prescribed]]", "[[displacement]]", "displacement", "a point is moved by [[prescribed]]"},
+      {"[[prescribed]]", "[[imposed]]", "imposed", "a point is moved by [[prescribed]]"},
+      {"[[prescribed]]", "[[sp]]", "sp", "moved by [[prescribed]]"},
+      {"[support]", "[boundary]", "boundary", "held by [support]"},
+      {"[[load]]\nat", "[[thermal]]\nat", "thermal", "heated by a [[load]] with on and temperature"},
+      {"temperature = 20.0\ngradient", "thermal = 20.0\ngradient", ".thermal", "did you mean temperature?"},
+      {"temperature = 20.0\ngradient", "dT = 20.0\ngradient", ".dT", "did you mean temperature?"},
+      {"z = -0.5\nrotation", "uz = -0.5\nrotation", "prescribed.0.uz", "did you mean z?"},
+      {"z = -0.5\nrotation = 0.25", "", "prescribed.0.at", "nothing is prescribed", -1},
+      {"z = -0.5\nrotation", "z = nan\nrotation", "prescribed.0.z", "not a finite number"},
+      {"z = -0.5\nrotation", "z = \"down\"\nrotation", "prescribed.0.z", "wrong type"},
+      {"at = \"D\"\nz", "at = \"Q\"\nz", "prescribed.0.at", "\"Q\" is not a point of this deck"},
+      {"temperature = 20.0\n", "temperature = \"hot\"\n", ".temperature", "wrong type"},
+      {"temperature = 20.0\ngradient", "temperature = 20.0\nforce = [1.0, 0.0]\ngradient", ".force",
+       "does not go together with a temperature", 1},
+      {"pressure = -0.5", "pressure = [0.0, -0.5]", ".pressure", "wrong type"},
+      {"pressure = -0.5", "pressure = inf", ".pressure", "not a finite number"},
+      {"pressure = -0.5", "follower = -0.5", ".follower", "not a key of this table"},
+      {"[[prescribed]]", "[[step]]", "step", "are [[stage]]"},
+      {"pressure = -0.5", "pressure = -0.5\ntemperature = 3.0", ".temperature", "not a key of this table", 1},
+      {"frame = \"member\"", "frame = \"local\"", ".frame", "did you mean member?"},
+      {"frame = \"member\"", "frame = 1", ".frame", "wrong type"},
+  });
+}
+
 }  // namespace arcwall::deck::bad_decks_test

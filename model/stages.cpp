@@ -1,0 +1,91 @@
+#include "model/stages.hpp"
+
+#include <algorithm>
+
+namespace arcwall {
+
+namespace {
+
+deck::Vector times(double factor, const deck::Vector& v) { return {.x = factor * v.x, .z = factor * v.z}; }
+
+void scale(deck::PointLoad& load, double factor) {
+  load.force = times(factor, load.force);
+  load.moment *= factor;
+}
+void scale(deck::MemberLoad& load, double factor) { load.distributed = times(factor, load.distributed); }
+void scale(deck::Pressure& load, double factor) { load.pressure *= factor; }
+void scale(deck::Heat& heat, double factor) {
+  heat.temperature *= factor;
+  heat.gradient *= factor;
+}
+
+deck::Load held(deck::Load load, double gone) {
+  std::visit([gone](auto& action) { scale(action, gone); }, load.action);
+  load.constant = true;
+  return load;
+}
+
+deck::Prescribed held(deck::Prescribed moved, double gone) {
+  for (std::optional<double>* value : {&moved.x, &moved.z, &moved.rotation})
+    if (*value) **value *= gone;
+  moved.constant = true;
+  return moved;
+}
+
+const DrivenThing& progress_of(const std::vector<DrivenThing>& progress, const std::string& name) {
+  return *std::find_if(progress.begin(), progress.end(), [&](const DrivenThing& one) { return one.name == name; });
+}
+
+// What has gone so far is held, and what the stage drives goes on from there. Movements that are not driven stay in the
+// list, so that they hold their directions.
+template <class Thing>
+std::vector<Thing> in_stage(const std::vector<Thing>& things, const std::string& kind, const deck::Stage& stage,
+                            const std::vector<DrivenThing>& progress) {
+  std::vector<Thing> result;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (things[i].constant) {
+      result.push_back(things[i]);
+      continue;
+    }
+    const std::string name = kind + "." + std::to_string(i);
+    result.push_back(held(things[i], progress_of(progress, name).gone));
+    if (drives(stage, name)) result.push_back(things[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<DrivenThing> things_to_drive(const deck::Deck& deck) {
+  std::vector<DrivenThing> progress;
+  for (const std::string& name : deck::driven_things(deck)) progress.push_back({.name = name});
+  return progress;
+}
+
+deck::Deck deck_of_stage(const deck::Deck& deck, std::size_t stage, const std::vector<DrivenThing>& progress) {
+  if (deck.stages.empty()) return deck;
+  const deck::Stage& now = deck.stages[stage];
+  deck::Deck result = deck;
+  result.loads = in_stage(deck.loads, "load", now, progress);
+  result.prescribed = in_stage(deck.prescribed, "prescribed", now, progress);
+  for (deck::Wall& wall : result.walls)
+    if (wall.motion)
+      wall.motion->progress = {.constant = progress_of(progress, "wall." + wall.name).gone,
+                               .proportional = drives(now, "wall." + wall.name) ? 1.0 : 0.0};
+  if (now.stop) result.path.stop = *now.stop;
+  if (!now.land.empty()) result.path.land = now.land;
+  result.path.step = now.step.value_or(deck.path.step);
+  result.path.max_step = now.max_step.value_or(deck.path.max_step);
+  result.path.branches = now.branches.value_or(deck.path.branches);
+  result.contact.points = points_of_contact(deck).points;
+  result.stages.clear();
+  return result;
+}
+
+std::vector<DrivenThing> progress_after(const deck::Stage& stage, double lambda, std::vector<DrivenThing> progress) {
+  for (DrivenThing& one : progress)
+    if (drives(stage, one.name)) one.gone += lambda;
+  return progress;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/deck/deck.hpp"
+
+namespace arcwall {
+
+/// How far something that λ drives has gone: the sum of the λ at which the stages that drove it ended.
+struct DrivenThing {
+  std::string name{};  ///< as in `drives` of a stage: `load.0`, `prescribed.1`, `wall.hill`
+  double gone = 0.0;
+};
+
+/// All that λ may drive in a deck, before its first stage.
+std::vector<DrivenThing> things_to_drive(const deck::Deck& deck);
+
+/// The deck that a stage traces: λ multiplies what it drives, from where that has gone, and all else is constant there.
+/// A deck without stages is what it is.
+deck::Deck deck_of_stage(const deck::Deck& deck, std::size_t stage, const std::vector<DrivenThing>& progress);
+
+/// The progress when a stage has ended at λ.
+std::vector<DrivenThing> progress_after(const deck::Stage& stage, double lambda, std::vector<DrivenThing> progress);
+
+}  // namespace arcwall

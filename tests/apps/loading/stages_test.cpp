@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "model/deck/reader.hpp"
+#include "model/deck/writer.hpp"
+#include "tests/apps/loading/loading_decks.hpp"
+
+namespace arcwall::loading_test {
+
+namespace {
+
+// A column whose right end is pushed, and whose middle is; [cm, kN]. Its middle is pushed off by a little that stays.
+std::string pushed_column(const std::string& more) {
+  return column(centimetres, R"(
+[[load]]
+at = "mid"
+force = [0.0, 0.002]
+constant = true
+[[load]]
+at = "mid"
+force = [0.0, 0.02]
+[[prescribed]]
+at = "B"
+x = -1.0
+[path]
+step = 0.02
+[[monitor]]
+name = "mid"
+at = "mid"
+component = "z"
+[[monitor]]
+name = "push"
+at = "B"
+component = "reaction-x"
+)" + more);
+}
+
+const std::string three_stages = R"(
+[[stage]]
+name = "shorten"
+drives = ["prescribed.0"]
+stop = { lambda = [-0.1, 0.05] }
+step = 0.005
+[[stage]]
+name = "press"
+drives = ["load.1"]
+stop = { lambda = [-1.0, 0.5] }
+land = { lambda = [0.25] }
+[[stage]]
+name = "release"
+drives = ["prescribed.0"]
+stop = { lambda = [-0.05, 0.1] }
+step = -0.005
+)";
+
+// The last point of each stage.
+std::vector<RecordPoint> ends_of_stages(const Record& record) {
+  std::vector<RecordPoint> ends(record.stages.size());
+  for (const RecordPoint& point : record.points)
+    ends[static_cast<std::size_t>(record.stage_number(point.branch))] = point;
+  return ends;
+}
+
+std::string indented_in_and_out() {
+  return column(centimetres, R"(
+[[wall]]
+name = "indenter"
+side = "above"
+acts_on = "axis"
+profile = { type = "circle", centre = [1.0, 1.05], radius = 1.0 }
+motion = { z = -1.0, rotation = 0.3, about = [1.0, 1.05] }
+[[load]]
+at = "B"
+force = [0.05, 0.0]
+[path]
+step = 0.01
+[[monitor]]
+name = "mid"
+at = "mid"
+component = "z"
+[[monitor]]
+name = "push"
+wall = "indenter"
+component = "force-z"
+[[stage]]
+name = "in"
+drives = ["wall.indenter"]
+stop = { lambda = [-0.1, 0.15] }
+[[stage]]
+name = "pull"
+drives = ["load.0"]
+stop = { lambda = [-1.0, 1.0] }
+step = 0.1
+[[stage]]
+name = "out"
+drives = ["wall.indenter"]
+stop = { lambda = [-0.15, 0.1] }
+step = -0.01
+)");
+}
+
+std::string stage_problem(const std::string& from, const std::string& to) {
+  std::string deck = pushed_column(three_stages);
+  deck.replace(deck.find(from), from.size(), to);
+  try {
+    deck::read_deck_text(deck, "stages.toml");
+  } catch (const InputError& error) {
+    std::string all;
+    for (const Diagnostic& one : error.diagnostics()) all += one.message + "\n";
+    return all;
+  }
+  return "";
+}
+
+}  // namespace
+
+// Each stage begins where the last has ended, and holds what that has moved: as if it had been there from the start.
+TEST(Stages, FollowEachOther) {
+  const TracedDeck staged(pushed_column(three_stages));
+  const Record& record = staged.record();
+  ASSERT_EQ(record.stages, (std::vector<std::string>{"shorten", "press", "release"}));
+  const std::vector<RecordPoint> ends = ends_of_stages(record);
+  ASSERT_EQ(ends[2].lambda, -0.05);
+  for (std::size_t i = 1; i < record.points.size(); ++i) {
+    const RecordPoint &before = record.points[i - 1], &here = record.points[i];
+    if (record.stage_number(before.branch) == record.stage_number(here.branch)) continue;
+    EXPECT_EQ(here.lambda, 0.0);
+    for (std::size_t m = 0; m < here.monitors.size(); ++m) EXPECT_NEAR(here.monitors[m], before.monitors[m], 1e-10);
+  }
+  // Held by a constant movement, and by none.
+  std::string held = pushed_column("[path.stop]\nlambda = [-1.0, 0.5]\n"), without = held;
+  const std::string movement = "[[prescribed]]\nat = \"B\"\nx = -1.0\n";
+  held.replace(held.find(movement), movement.size(), "[[prescribed]]\nat = \"B\"\nx = -0.05\nconstant = true\n");
+  without.replace(without.find(movement), movement.size(), "[[prescribed]]\nat = \"B\"\nx = 0.0\nconstant = true\n");
+  const TracedDeck after_shortening(held), alone(without);
+  for (std::size_t m = 0; m < 2; ++m) {
+    EXPECT_NEAR(ends[1].monitors[m], after_shortening.record().points.back().monitors[m], 1e-9);
+    EXPECT_NEAR(ends[2].monitors[m], alone.record().points.back().monitors[m], 1e-9);
+  }
+  expect_confirmed(staged);
+}
+
+TEST(Stages, AreNamedInTheFiles) {
+  const TracedDeck staged(pushed_column(three_stages));
+  const std::string path = path_csv(staged.record(), UnitLabels::shown);
+  EXPECT_NE(path.find(",event,stage\n"), std::string::npos);
+  EXPECT_NE(path.find(",start,shorten\n"), std::string::npos);
+  const auto events = events_json(staged.record());
+  EXPECT_EQ(events["events"].front()["stage"], "shorten");
+  EXPECT_EQ(events["events"].back()["stage"], "release");
+  EXPECT_EQ(events["branches"].back()["stage"], "release");
+}
+
+// An indenter that has been driven in, pulled at and drawn out again: contact closes, stays closed and opens.
+TEST(Stages, MoveWallsInAndOut) {
+  const TracedDeck staged(indented_in_and_out());
+  const std::vector<RecordPoint> ends = ends_of_stages(staged.record());
+  EXPECT_LT(ends[0].monitors[1], -0.01);
+  EXPECT_LT(ends[0].monitors[0], -0.05);
+  EXPECT_GT(ends[1].contacts, 0);
+  EXPECT_EQ(ends[2].contacts, 0);
+  EXPECT_NEAR(ends[2].monitors[0], 0.0, 1e-10);
+  const auto opens = events_of(staged, EventKind::contact_opens);
+  ASSERT_FALSE(opens.empty());
+  EXPECT_EQ(staged.record().stage_of(opens.back().branch), "out");
+  expect_confirmed(staged);
+}
+
+// Stopped anywhere and taken up again, to the last bit.
+TEST(Stages, GoOnFromACheckpoint) {
+  for (const std::string& deck : {pushed_column(three_stages), indented_in_and_out()}) {
+    const TracedDeck whole(deck);
+    const std::size_t count = whole.record().points.size();
+    for (const std::size_t stop : {std::size_t{3}, count / 2, count - 2}) {
+      Session run({.deck = "deck.toml", .deck_text = deck});
+      for (std::size_t i = 0; i < stop; ++i) ASSERT_NE(run.next(), nullptr);
+      Session resumed = Session::from(run.checkpoint(), "checkpoint", Session::Resume::go_on);
+      while (resumed.next() != nullptr) {
+      }
+      EXPECT_EQ(path_csv(resumed.record(), UnitLabels::shown), path_csv(whole.record(), UnitLabels::shown)) << stop;
+      EXPECT_EQ(events_json(resumed.record()), events_json(whole.record())) << stop;
+    }
+  }
+}
+
+// A stage that ends early ends the run.
+TEST(Stages, EndWhereOneDoes) {
+  const TracedDeck cut(pushed_column(three_stages), {"path.max_points=3"});
+  EXPECT_EQ(cut.record().branches.size(), 1u);
+  EXPECT_EQ(cut.record().branches.back().end->reason, EndReason::max_points);
+}
+
+TEST(Stages, AreWrittenAsTheyAreRead) {
+  const deck::Deck deck = deck::read_deck_text(pushed_column(three_stages), "stages.toml");
+  EXPECT_EQ(deck::read_deck_text(deck::to_toml(deck), "written.toml"), deck);
+}
+
+TEST(Stages, SayWhatIsWrongWithThem) {
+  EXPECT_EQ(stage_problem("title", "title"), "");
+  EXPECT_NE(stage_problem("drives = [\"load.1\"]", "drives = [\"load.0\"]").find("is nothing that λ may drive"),
+            std::string::npos);
+  EXPECT_NE(stage_problem("drives = [\"load.1\"]", "drives = [\"prescribed.0\"]").find("no stage drives load.1"),
+            std::string::npos);
+  EXPECT_NE(stage_problem("drives = [\"load.1\"]", "drives = []").find("empty"), std::string::npos);
+  EXPECT_NE(stage_problem("name = \"press\"", "name = \"shorten\"").find("the name of another stage"),
+            std::string::npos);
+  EXPECT_NE(stage_problem("step = 0.005", "branches = \"all\"").find("traces all branches"), std::string::npos);
+  EXPECT_NE(stage_problem("[[stage]]", "[contact]\npoints = \"sliding\"\n[[stage]]").find("has no stages"),
+            std::string::npos);
+}
+
+}  // namespace arcwall::loading_test
