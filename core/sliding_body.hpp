@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/linearization.hpp"
@@ -179,6 +180,10 @@ class SlidingBody {
 
   /// Whether a support holds the end of a strand in z.
   virtual bool end_is_held(Index strand, bool last) const = 0;
+
+  /// The end of a strand before this one that is the same end: at a joint where both turn together, in line and as
+  /// thick. What touches there is one contact.
+  virtual std::optional<std::pair<Index, bool>> same_end_before(Index strand, bool last) const = 0;
 
   /// Whether an end of a strand is a tip: free to move in z and to turn, with no other strand at it.
   virtual bool is_tip(Index strand, bool last) const = 0;

@@ -56,6 +56,20 @@ double SlidingStructure::natural_curvature_second(const MaterialPoint& point) co
   return (curvature_aa - curvature_a * v_a / v) / (v * v);
 }
 
+std::optional<std::pair<Index, bool>> SlidingStructure::same_end_before(Index strand, bool last) const {
+  constexpr double in_line = 0.05;  // [rad]
+  const auto freedoms = [&](Index run, bool end) { return at(run).ends[end ? 1 : 0].freedom; };
+  const auto angle = [&](Index run, bool end) {
+    return undeformed({.strand = run, .s = end ? length(run) : 0.0}, true).angle;
+  };
+  for (Index other = 0; other < strand; ++other)
+    for (const bool end : {false, true})
+      if (freedoms(other, end) == freedoms(strand, last) && half_height(other) == half_height(strand) &&
+          std::abs(std::remainder(angle(other, end) - angle(strand, last), pi)) <= in_line)
+        return std::pair(other, end);
+  return std::nullopt;
+}
+
 bool SlidingStructure::is_tip(Index strand, bool last) const {
   const End& end = at(strand).ends[last ? 1 : 0];
   Index strands_there = 0;

@@ -43,6 +43,7 @@ class SlidingStructure final : public SlidingBody {
   bool end_is_held(Index strand, bool last) const override {
     return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
   }
+  std::optional<std::pair<Index, bool>> same_end_before(Index strand, bool last) const override;
   bool is_tip(Index strand, bool last) const override;
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
   std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;

@@ -240,11 +240,17 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
 std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& at,
                                                                 const std::vector<PlainWall>& walls) {
   std::vector<std::pair<SlidingNode, const PlainWall*>> ends;
+  const auto concerns = [&](const PlainWall& wall, Index strand) {
+    return wall.concerns(at.body.label({.strand = strand, .s = 0.0}).first);
+  };
   for (Index strand = 0; strand < at.body.strands(); ++strand)
     for (const PlainWall& wall : walls)
-      for (const bool last : {false, true})
-        if (wall.concerns(at.body.label({.strand = strand, .s = 0.0}).first) && !at.body.end_is_held(strand, last))
-          ends.push_back({{.strand = strand, .position = last ? at.mesh.nodes(strand) - 1 : 0}, &wall});
+      for (const bool last : {false, true}) {
+        if (!concerns(wall, strand) || at.body.end_is_held(strand, last)) continue;
+        const auto same = at.body.same_end_before(strand, last);
+        if (same && concerns(wall, same->first)) continue;
+        ends.push_back({{.strand = strand, .position = last ? at.mesh.nodes(strand) - 1 : 0}, &wall});
+      }
   return ends;
 }
 

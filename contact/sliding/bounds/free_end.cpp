@@ -27,8 +27,13 @@ std::optional<TouchingEnd> touching_end(const SlidingSetting& setting, const Sli
   const std::size_t points = at.layout.points().size();
   for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
     const FreeEnd& end = setting.free_ends[j];
-    if (end.strand == strand && end.last == last && at.is_closed(points + j))
-      return TouchingEnd{.end = end, .touch = touch_of_contact(setting, at.layout, points + j)};
+    if (!at.is_closed(points + j)) continue;
+    Touch touch = touch_of_contact(setting, at.layout, points + j);
+    if (end.strand == strand && end.last == last) return TouchingEnd{.end = end, .touch = touch};
+    if (setting.body.same_end_before(strand, last) != std::pair(end.strand, end.last)) continue;
+    touch.strand = strand;
+    touch.position = FreeEnd{.strand = strand, .last = last}.position(at.mesh);
+    return TouchingEnd{.end = end, .touch = touch};
   }
   return std::nullopt;
 }
@@ -66,13 +71,14 @@ std::vector<Transition> LiesDownBound::transitions(const SlidingSetting& setting
 double UprightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto touching = touching_end(setting, at, strand_, last_);
   if (!touching || touching->touch.offset == 0.0 || touching->end.travel == 0.0) return out_of_reach;
+  if (touching->end.strand != strand_) return out_of_reach;  // the bound of that strand says it
   return touching->end.travel * std::cos(touching->touch.axis(at).angle) - nearly_upright;
 }
 
 Row UprightBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = at.no_slope();
   const auto touching = touching_end(setting, at, strand_, last_);
-  if (!touching || touching->touch.offset == 0.0) return row;
+  if (!touching || touching->touch.offset == 0.0 || touching->end.strand != strand_) return row;
   const double turned = -touching->end.travel * std::sin(touching->touch.axis(at).angle);
   add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), {0.0, 0.0, turned}, row.dx);
   row.dlambda = turned * at.mesh.node_rate(touching->touch.strand, touching->touch.position)[2];

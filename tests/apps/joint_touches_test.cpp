@@ -1,0 +1,56 @@
+// The joint of two members in line touches a wall as one contact, whatever the mesh and the steps.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "apps/verify/verify.hpp"
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/stored_files_of.hpp"
+
+namespace arcwall::joint_touches_test {
+namespace {
+
+// Two arcs that meet at the crown of a leaf spring, which hangs 0.6 below its ends and is pressed on a floor.
+std::string leaf_spring(int elements, double step) {
+  return fmt::format(R"toml(
+title = "A leaf spring of two members, pressed on a floor at their joint"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 1.0, height = 0.3 }}
+point = {{ left = [0.0, 0.0], crown = [6.6, -0.6], right = [13.2, 0.0] }}
+support = {{ left = ["x", "z"], right = ["z"] }}
+load = [{{ at = "crown", force = [0.0, -0.4] }}]
+monitor = [{{ name = "down", at = "crown", component = "z", sign = -1 }}]
+path = {{ step = {}, stop = {{ lambda = [-1.0, 4.0] }} }}
+wall = [{{ name = "floor", side = "below", profile = {{ type = "flat", z = -1.1 }} }}]
+[member]
+west = {{ from = "left", to = "crown", via = [3.3, -0.45], theory = "classic", material = "steel", section = "s", elements = {} }}
+east = {{ from = "crown", to = "right", via = [9.9, -0.45], theory = "classic", material = "steel", section = "s", elements = {} }}
+)toml",
+                     step, elements, elements);
+}
+
+}  // namespace
+
+// By symmetry the joint stays level, and its face, half the height below the axis, has gone 1.1 − 0.6 − 0.15 when it
+// touches.
+TEST(JointTouches, AsOneContact) {
+  for (const int elements : {16, 20, 32, 40})
+    for (const double step : {0.1, 0.025}) {
+      SCOPED_TRACE(fmt::format("{} elements, step {}", elements, step));
+      const test::TracedDeck traced(leaf_spring(elements, step));
+      const Record& record = traced.record();
+      ASSERT_EQ(record.events.size(), 3U);
+      const RecordEvent& closes = record.events[1];
+      EXPECT_EQ(closes.kind, EventKind::contact_closes);
+      EXPECT_NEAR(closes.monitors.front(), 0.35, 1e-9);
+      ASSERT_EQ(closes.contacts.size(), 1U);
+      EXPECT_EQ(closes.contacts.front().label.member, "west");
+      EXPECT_EQ(record.events[2].kind, EventKind::end);
+      const verify::Verdict verdict =
+          verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
+      EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+    }
+}
+
+}  // namespace arcwall::joint_touches_test
