@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/linearization.hpp"
 #include "core/types.hpp"
 #include "elements/driven.hpp"
+#include "elements/spring_law.hpp"
 
 namespace arcwall {
 
@@ -36,6 +39,19 @@ class NodalTerms {
   void add_spring(Index first, Index second, double k) {
     springs_.push_back({.first = first, .second = second, .stiffness = k});
   }
+
+  /// A spring whose force is not proportional to its stretch, the displacement of `second` against `first`: to the
+  /// ground where there is no first. The pattern of the structure must have the entry of two.
+  struct LawSpring {
+    std::optional<Index> first;
+    Index second;
+    std::shared_ptr<const SpringLaw> law;
+
+    bool joins(Index freedom) const { return freedom == second || (first && freedom == *first); }
+    double sign(Index freedom) const { return freedom == second ? 1.0 : -1.0; }
+  };
+  void add_spring(const LawSpring& spring) { law_springs_.push_back(spring); }
+  const std::vector<LawSpring>& law_springs() const { return law_springs_; }
 
   /// A joint where the pressure on members ends, and which a support holds in x or z or both. Where the pressures on
   /// the members that end there less those on the members that begin there leave p, their potentials, areas about an
@@ -116,6 +132,12 @@ class NodalTerms {
       if (const Index i = unknown_of(spring.first); i >= 0) F[i] -= force;
       if (const Index i = unknown_of(spring.second); i >= 0) F[i] += force;
     }
+    for (const LawSpring& spring : law_springs_) {
+      const double force = spring.law->at(stretch_of(spring, displacement_of)).force;
+      if (const Index i = unknown_of(spring.second); i >= 0) F[i] += force;
+      if (spring.first)
+        if (const Index i = unknown_of(*spring.first); i >= 0) F[i] -= force;
+    }
     for (const PressedEnd& end : pressed_ends_)
       for (const Index freedom : {end.x, end.z})
         if (const Index i = unknown_of(freedom); i >= 0) F[i] += force_of(end, freedom, lambda, displacement_of);
@@ -136,6 +158,7 @@ class NodalTerms {
         out.ground.push_back({.row = i, .column = i, .stiffness = k});
       }
     for (const Spring& spring : springs_) linearize(spring, unknown_of, out);
+    for (const LawSpring& spring : law_springs_) linearize(spring, unknown_of, displacement_of, out);
     for (const PressedEnd& end : pressed_ends_)
       for (const Index freedom : {end.x, end.z})
         if (const Index i = unknown_of(freedom); i >= 0)
@@ -155,6 +178,7 @@ class NodalTerms {
       const double stretch = displacement_of(spring.second) - displacement_of(spring.first);
       energy += 0.5 * spring.stiffness * stretch * stretch;
     }
+    for (const LawSpring& spring : law_springs_) energy += spring.law->at(stretch_of(spring, displacement_of)).energy;
     for (const PressedEnd& end : pressed_ends_)
       for (const Index freedom : {end.x, end.z})
         if (!is_held(freedom)) energy += force_of(end, freedom, lambda, displacement_of) * displacement_of(freedom);
@@ -168,6 +192,9 @@ class NodalTerms {
     for (const Spring& spring : springs_)
       if (spring.joins(freedom))
         force += spring.stiffness * (displacement_of(freedom) - displacement_of(spring.other(freedom)));
+    for (const LawSpring& spring : law_springs_)
+      if (spring.joins(freedom))
+        force += spring.sign(freedom) * spring.law->at(stretch_of(spring, displacement_of)).force;
     for (const PressedEnd& end : pressed_ends_)
       if (end.joins(freedom)) force += force_of(end, freedom, lambda, displacement_of);
     return force;
@@ -184,6 +211,14 @@ class NodalTerms {
       const Index other = spring.other(freedom), i = unknown_of(other);
       by_lambda += spring.stiffness * (support(freedom).proportional - support(other).proportional);
       if (i >= 0) by_unknowns[i] -= spring.stiffness;
+    }
+    for (const LawSpring& spring : law_springs_) {
+      if (!spring.joins(freedom)) continue;
+      const double k = spring.sign(freedom) * spring.law->at(stretch_of(spring, displacement_of)).stiffness;
+      by_lambda += k * stretch_rate(spring);
+      if (const Index i = unknown_of(spring.second); i >= 0) by_unknowns[i] += k;
+      if (spring.first)
+        if (const Index i = unknown_of(*spring.first); i >= 0) by_unknowns[i] -= k;
     }
     for (const PressedEnd& end : pressed_ends_) {
       if (!end.joins(freedom)) continue;
@@ -219,6 +254,28 @@ class NodalTerms {
     return found == nullptr ? Value{} : *found;
   }
 
+  template <class DisplacementOf>
+  static double stretch_of(const LawSpring& spring, const DisplacementOf& displacement_of) {
+    return displacement_of(spring.second) - (spring.first ? displacement_of(*spring.first) : 0.0);
+  }
+  // At fixed unknowns, by λ.
+  double stretch_rate(const LawSpring& spring) const {
+    return support(spring.second).proportional - (spring.first ? support(*spring.first).proportional : 0.0);
+  }
+
+  template <class UnknownOf, class DisplacementOf>
+  void linearize(const LawSpring& spring, const UnknownOf& unknown_of, const DisplacementOf& displacement_of,
+                 Linearization& out) const {
+    const double k = spring.law->at(stretch_of(spring, displacement_of)).stiffness, rate = k * stretch_rate(spring);
+    const Index a = spring.first ? unknown_of(*spring.first) : -1, b = unknown_of(spring.second);
+    if (a >= 0) out.F_lambda[a] -= rate;
+    if (b >= 0) out.F_lambda[b] += rate;
+    for (const Index i : {a, b})
+      if (i >= 0) out.K.coeffRef(i, i) += k;
+    if (a >= 0 && b >= 0) out.K.coeffRef(std::max(a, b), std::min(a, b)) -= k;
+    if ((a >= 0) != (b >= 0)) out.ground.push_back({.row = std::max(a, b), .column = std::max(a, b), .stiffness = k});
+  }
+
   // The force of a pressed end on one of its freedoms, and its rate by λ at fixed unknowns.
   template <class DisplacementOf>
   static double force_of(const PressedEnd& end, Index freedom, double lambda, const DisplacementOf& displacement_of) {
@@ -252,6 +309,7 @@ class NodalTerms {
   List<Driven> loads_, supports_;
   List<double> ground_;
   std::vector<Spring> springs_;
+  std::vector<LawSpring> law_springs_;
   std::vector<PressedEnd> pressed_ends_;
 };
 

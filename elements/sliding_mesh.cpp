@@ -77,6 +77,8 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
     }
   for (const NodalTerms::Spring& spring : structure.nodal_.springs())
     blocks.push_back({unknown(spring.first), unknown(spring.second)});
+  for (const NodalTerms::LawSpring& spring : structure.nodal_.law_springs())
+    if (spring.first) blocks.push_back({unknown(*spring.first), unknown(spring.second)});
   assembly_ = BlockAssembly(unknowns, blocks);
   number_fours();
 

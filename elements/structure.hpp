@@ -269,6 +269,11 @@ class StructureBuilder {
   /// The same between two freedoms, of which one is held or both belong to members.
   void add_spring(Index first, Index second, double stiffness) { nodal_.add_spring(first, second, stiffness); }
 
+  /// A spring of another law, to the ground where there is no first freedom; find_mechanism() does not see it.
+  void add_spring(std::optional<Index> first, Index second, std::shared_ptr<const SpringLaw> law) {
+    nodal_.add_spring({.first = first, .second = second, .law = std::move(law)});
+  }
+
   void add_load(Index freedom, double value, LoadKind kind);
   void add_distributed_load(Index member, const Vec2& load, LoadKind kind, LoadFrame frame = LoadFrame::global);
 

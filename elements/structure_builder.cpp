@@ -440,6 +440,9 @@ std::vector<bool> StructureBuilder::nodes_with_terms() const {
   for (const NodalTerms::Spring& spring : nodal_.springs())
     for (const Index freedom : {spring.first, spring.second})
       found[static_cast<std::size_t>(freedoms_[static_cast<std::size_t>(freedom)].node)] = true;
+  for (const NodalTerms::LawSpring& spring : nodal_.law_springs())
+    for (const Index freedom : {spring.first.value_or(spring.second), spring.second})
+      found[static_cast<std::size_t>(freedoms_[static_cast<std::size_t>(freedom)].node)] = true;
   return found;
 }
 
@@ -449,6 +452,9 @@ bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
       return spring.first == freedom || spring.second == freedom;
     };
     const auto& springs = nodal_.springs();
+    const auto& others = nodal_.law_springs();
+    const auto has = [&](const NodalTerms::LawSpring& spring) { return spring.joins(freedom); };
+    if (std::any_of(others.begin(), others.end(), has)) return false;
     return !nodal_.is_held(freedom) && nodal_.ground_stiffness(freedom) == 0.0 &&
            std::none_of(springs.begin(), springs.end(), joins);
   };
@@ -483,6 +489,8 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) add_block(element_freedoms(mesh, k));
   for (const AddedElement& added : added_elements_) add_block(added.freedoms);
   for (const NodalTerms::Spring& spring : nodal_.springs()) add_block({spring.first, spring.second});
+  for (const NodalTerms::LawSpring& spring : nodal_.law_springs())
+    if (spring.first) add_block({*spring.first, spring.second});
 
   auto structure = std::unique_ptr<Structure>(new Structure(static_cast<Index>(freedom_of_unknown.size()), blocks));
   structure->positions_ = positions_;

@@ -355,10 +355,30 @@ void report_no_rotation(const deck::Spring& spring, const std::string& place, De
                "leave out rotation, or join a beam there without a hinge");
 }
 
-void add_spring(const deck::Spring& spring, const deck::GroundSpring& ground, DeckProblems& problems,
+std::optional<Index> freedom_in(const NodeFreedoms& freedoms, Freedom direction) {
+  if (direction == Freedom::rotation) return freedoms.rotation;
+  return direction == Freedom::x ? freedoms.x : freedoms.z;
+}
+
+// What moves without strain depends on how the spring begins alone.
+void add_law(const deck::TableLaw& table, std::optional<Index> first, Index second, bool coarse, StructureOfDeck& out) {
+  auto law = std::make_shared<const SpringLaw>(table.displacement, table.force);
+  if (!coarse) return out.builder.add_spring(first, second, std::move(law));
+  const double stiffness = law->at(0.0).stiffness;
+  if (stiffness <= 0.0) return;
+  if (first) return out.builder.add_spring(*first, second, stiffness);
+  out.builder.add_ground_stiffness(second, stiffness);
+}
+
+void add_spring(const deck::Spring& spring, const deck::GroundSpring& ground, bool coarse, DeckProblems& problems,
                 StructureOfDeck& out) {
   const auto freedoms = freedoms_at(out, ground.at);
   if (!freedoms) return;
+  if (ground.law) {
+    const auto freedom = freedom_in(*freedoms, ground.law->direction);
+    if (!freedom) return report_no_rotation(spring, to_text(ground.at), problems);
+    return add_law(*ground.law, std::nullopt, *freedom, coarse, out);
+  }
   const auto add = [&](Index freedom, double stiffness) {
     if (stiffness > 0.0) out.builder.add_ground_stiffness(freedom, stiffness);
   };
@@ -368,10 +388,15 @@ void add_spring(const deck::Spring& spring, const deck::GroundSpring& ground, De
   if (ground.stiffness.rotation > 0.0) report_no_rotation(spring, to_text(ground.at), problems);
 }
 
-void add_spring(const deck::Spring& spring, const deck::PointToPointSpring& between, DeckProblems& problems,
-                StructureOfDeck& out) {
+void add_spring(const deck::Spring& spring, const deck::PointToPointSpring& between, bool coarse,
+                DeckProblems& problems, StructureOfDeck& out) {
   const NodeFreedoms first = freedoms_of_joint(out, between.points[0]);
   const NodeFreedoms second = freedoms_of_joint(out, between.points[1]);
+  if (between.law) {
+    const auto a = freedom_in(first, between.law->direction), b = freedom_in(second, between.law->direction);
+    if (!a || !b) return report_no_rotation(spring, a ? between.points[1] : between.points[0], problems);
+    return add_law(*between.law, *a, *b, coarse, out);
+  }
   const auto add = [&](Index a, Index b, double stiffness) {
     if (stiffness > 0.0) out.builder.add_spring(a, b, stiffness);
   };
@@ -417,9 +442,9 @@ void add_springs(const deck::Deck& deck, bool coarse, const Joined& joined, Deck
     if (const auto* along = std::get_if<deck::Foundation>(&spring.kind)) {
       add_foundation(deck, spring, *along, coarse, problems, out);
     } else if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
-      add_spring(spring, *ground, problems, out);
+      add_spring(spring, *ground, coarse, problems, out);
     } else {
-      add_spring(spring, std::get<deck::PointToPointSpring>(spring.kind), problems, out);
+      add_spring(spring, std::get<deck::PointToPointSpring>(spring.kind), coarse, problems, out);
     }
   }
 }

@@ -183,6 +183,8 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
                           .contacts = contacts(),
                           .system = &system()};
   monitors_ = monitor_columns(deck_, read_off, problems);
+  structure_->nodal_terms().for_each_moved_support(
+      [&](Index freedom, double rate) { moved_.push_back({.rate = rate, .reaction = body_->reaction(freedom)}); });
   options_ = trace_options(deck_, read_off, monitors_, problems);
   problems.raise();
 
@@ -277,6 +279,23 @@ std::optional<State> Model::start(std::string& reason) const {
   }
   state.lambda = 0.0;
   return sliding_ ? sliding_->adopted(state) : state;
+}
+
+// With λ as one more unknown the second variation has the same unstable directions, and one more if the force that goes
+// with λ, Σ ū′ R, falls along the path: Haynsworth's inertia of K and of what eliminating the unknowns leaves.
+std::optional<Index> Model::unstable_under_dead_load(const PathPoint& point) const {
+  constexpr double vanishing = 1e-6;  // of the parts of a rate
+  if (moved_.empty() || !point.count.unstable) return std::nullopt;
+  double rate = 0.0, size = 0.0;
+  for (const MovedFreedom& moved : moved_) {
+    const Row row = moved.reaction->gradient(point.state);
+    const Vector parts = row.dx.cwiseProduct(point.tangent.dx);
+    rate += moved.rate * (parts.sum() + row.dlambda * point.tangent.dlambda);
+    size += std::abs(moved.rate) * (parts.cwiseAbs().sum() + std::abs(row.dlambda * point.tangent.dlambda));
+  }
+  const bool turns = std::abs(rate) <= vanishing * size || point.tangent.dlambda == 0.0;
+  if (turns) return std::nullopt;
+  return *point.count.unstable + (rate * point.tangent.dlambda < 0.0 ? 1 : 0);
 }
 
 const ContactQuery* Model::contacts() const {

@@ -8,6 +8,7 @@
 #include "contact/sliding_contact.hpp"
 #include "continuation/explorer.hpp"
 #include "continuation/load_increments.hpp"
+#include "continuation/path_point.hpp"
 #include "elements/incremental_structure.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/body.hpp"
@@ -80,6 +81,10 @@ class Model {
   const ContactQuery* contacts() const;
 
   const std::vector<MonitorColumn>& monitors() const { return monitors_; }
+
+  /// How many unstable directions a point has if all that λ moves were free to go along and driven by the force that it
+  /// has there, held: a dead load. Empty where no support is moved, or where that cannot be told.
+  std::optional<Index> unstable_under_dead_load(const PathPoint& point) const;
   const TraceOptions& options() const { return options_; }
   const std::vector<Watch>& watched() const { return watched_; }
   const ExploreOptions& explore() const { return explore_; }
@@ -114,6 +119,11 @@ class Model {
   std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;
   std::unique_ptr<Body> body_;
   std::vector<MonitorColumn> monitors_;
+  struct MovedFreedom {
+    double rate;                                 // by λ
+    std::shared_ptr<const Observable> reaction;  // of the support
+  };
+  std::vector<MovedFreedom> moved_;
   TraceOptions options_;
   std::vector<Watch> watched_;
   ExploreOptions explore_;

@@ -33,7 +33,8 @@ struct RecordPoint {
   double lambda = 0.0;
   std::vector<double> monitors{};  ///< one a column of the record
   StabilityCount count{};
-  Index contacts = 0;  ///< closed
+  std::optional<Index> unstable_dead{};  ///< see Model::unstable_under_dead_load()
+  Index contacts = 0;                    ///< closed
   double energy = 0.0;
   int iterations = 0;
   double residual = 0.0;             ///< relative
@@ -57,6 +58,7 @@ struct RecordEvent {
   double lambda = 0.0;
   std::vector<double> monitors{};
   std::optional<Index> unstable_before{}, unstable_after{};
+  std::optional<Index> unstable_dead{};     ///< of its point
   double residual = 0.0;                    ///< relative
   double localised = 0.0;                   ///< half-width in λ of what is left uncertain
   std::vector<RecordContact> contacts{};    ///< of a change of contact
@@ -92,6 +94,7 @@ struct Record {
   std::string title{};
   std::string energy_unit{}, length_unit{}, force_unit{};
   bool has_walls = false;
+  bool moves_supports = false;
   std::vector<std::string> stages{};  ///< their names; empty if the deck has none
   std::vector<RecordColumn> columns{};
   std::vector<RecordBranch> branches{};

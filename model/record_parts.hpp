@@ -18,8 +18,8 @@ void parts(Archive& archive, RecordForce& force) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordPoint& point) {
-  archive(point.branch, point.step, point.arc, point.lambda, point.monitors, point.count, point.contacts, point.energy,
-          point.iterations, point.residual, point.event, point.forces, point.state);
+  archive(point.branch, point.step, point.arc, point.lambda, point.monitors, point.count, point.unstable_dead,
+          point.contacts, point.energy, point.iterations, point.residual, point.event, point.forces, point.state);
 }
 
 template <typename Archive>
@@ -30,9 +30,9 @@ void parts(Archive& archive, RecordContact& contact) {
 template <typename Archive>
 void parts(Archive& archive, RecordEvent& event) {
   archive(event.id, event.kind, event.branch, event.step, event.arc, event.lambda, event.monitors,
-          event.unstable_before, event.unstable_after, event.residual, event.localised, event.contacts, event.monitor,
-          event.branch_end, event.branch_type, event.multiplicity, event.suspected, event.discretisation,
-          event.branches, event.mode);
+          event.unstable_before, event.unstable_after, event.unstable_dead, event.residual, event.localised,
+          event.contacts, event.monitor, event.branch_end, event.branch_type, event.multiplicity, event.suspected,
+          event.discretisation, event.branches, event.mode);
 }
 
 template <typename Archive>

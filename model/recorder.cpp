@@ -11,6 +11,11 @@ namespace arcwall {
 
 namespace {
 
+bool moves_supports(const deck::Deck& deck) {
+  return std::any_of(deck.prescribed.begin(), deck.prescribed.end(),
+                     [](const deck::Prescribed& moved) { return !moved.constant; });
+}
+
 std::vector<double> values(const std::vector<MonitorColumn>& monitors, const State& state) {
   std::vector<double> result;
   for (const MonitorColumn& monitor : monitors) result.push_back(monitor.quantity->value(state));
@@ -44,7 +49,8 @@ Record empty_record(const Model& model) {
                 .energy_unit = unit_text(deck::unit::energy, deck.units),
                 .length_unit = deck.units.length,
                 .force_unit = deck.units.force,
-                .has_walls = !deck.walls.empty()};
+                .has_walls = !deck.walls.empty(),
+                .moves_supports = moves_supports(model.whole_deck())};
   for (const deck::Stage& stage : model.whole_deck().stages) record.stages.push_back(stage.name);
   for (const MonitorColumn& monitor : model.monitors()) record.columns.push_back({monitor.name, monitor.unit});
   return record;
@@ -71,6 +77,7 @@ void Recorder::add(const Arc& arc) {
                             .lambda = to.state.lambda,
                             .monitors = values(model_.monitors(), to.state),
                             .count = to.count,
+                            .unstable_dead = model_.unstable_under_dead_load(to),
                             .contacts = model_.closed_contacts(to.state),
                             .energy = model_.system().energy(to.state),
                             .iterations = to.iterations,
@@ -140,6 +147,7 @@ void Recorder::add_event(RecordEvent event) {
   event.branch = branch().id;
   event.step = branch().points - 1;
   RecordPoint& point = record_.points.back();
+  event.unstable_dead = point.unstable_dead;
   if (!point.event || changes_contact(*point.event) || !changes_contact(event.kind)) point.event = event.kind;
   record_.events.push_back(std::move(event));
 }

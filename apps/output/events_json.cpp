@@ -67,6 +67,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
   json["monitors"] = monitors(record, event.monitors);
   json["unstable_before"] = count(event.unstable_before);
   json["unstable_after"] = count(event.unstable_after);
+  if (record.moves_supports) json["unstable_dead"] = count(event.unstable_dead);
   json["residual"] = number(event.residual);
   json["localised"] = number(event.localised);
   if (changes_contact(event.kind)) {
@@ -96,6 +97,7 @@ OrderedJson point_json(const Record& record, const RecordPoint& point) {
   json["monitors"] = monitors(record, point.monitors);
   json["unstable"] = count(point.count.unstable);
   json["stability"] = to_text(point.count.stability);
+  if (record.moves_supports) json["unstable_dead"] = count(point.unstable_dead);
   json["contacts"] = point.contacts;
   json["energy"] = number(point.energy);
   json["iterations"] = point.iterations;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "model/deck/key_list.hpp"
+#include "model/deck/words.hpp"
 
 namespace arcwall {
 
@@ -50,12 +51,19 @@ std::string stiffness_words(const deck::Stiffness& k, const deck::Units& units) 
   return text;
 }
 
+std::string law_words(const deck::TableLaw& law) {
+  return deck::text_of(deck::spring_direction_words, law.direction) + " by a law of " +
+         std::to_string(law.displacement.size()) + " points";
+}
+
 std::string spring_words(const deck::GroundSpring& spring, const deck::Units& units) {
-  return "at " + to_text(spring.at) + " " + stiffness_words(spring.stiffness, units);
+  return "at " + to_text(spring.at) + " " +
+         (spring.law ? law_words(*spring.law) : stiffness_words(spring.stiffness, units));
 }
 
 std::string spring_words(const deck::PointToPointSpring& spring, const deck::Units& units) {
-  return "between " + spring.points[0] + " and " + spring.points[1] + " " + stiffness_words(spring.stiffness, units);
+  return "between " + spring.points[0] + " and " + spring.points[1] + " " +
+         (spring.law ? law_words(*spring.law) : stiffness_words(spring.stiffness, units));
 }
 
 std::string spring_words(const deck::Foundation& foundation, const deck::Units& units) {

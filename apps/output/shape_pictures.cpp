@@ -354,18 +354,25 @@ void add_spring(const deck::Deck& deck, const deck::Spring& spring, Scene& to) {
         to.springs.push_back({.at = *at, .x = along->x > 0.0, .z = along->z > 0.0});
     return;
   }
-  const auto add = [&](const deck::Place& from, const deck::Place* other, const deck::Stiffness& k) {
+  const auto add = [&](const deck::Place& from, const deck::Place* other, const deck::Stiffness& k,
+                       const std::optional<deck::TableLaw>& law) {
     const auto at = position_of(deck, to.shape, from);
     if (!at) return;
-    to.springs.push_back({.at = *at, .x = k.x > 0.0, .z = k.z > 0.0, .rotation = k.rotation > 0.0});
+    const auto acts = [&](double stiffness, Freedom direction) {
+      return law ? law->direction == direction : stiffness > 0.0;
+    };
+    to.springs.push_back({.at = *at,
+                          .x = acts(k.x, Freedom::x),
+                          .z = acts(k.z, Freedom::z),
+                          .rotation = acts(k.rotation, Freedom::rotation)});
     if (other != nullptr) to.springs.back().to = position_of(deck, to.shape, *other);
   };
   if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
-    add(ground->at, nullptr, ground->stiffness);
+    add(ground->at, nullptr, ground->stiffness, ground->law);
   } else {
     const auto& between = std::get<deck::PointToPointSpring>(spring.kind);
     const deck::Place second{.name = between.points[1]};
-    add({.name = between.points[0]}, &second, between.stiffness);
+    add({.name = between.points[0]}, &second, between.stiffness, between.law);
   }
 }
 

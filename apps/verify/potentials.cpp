@@ -193,9 +193,45 @@ std::optional<Index> freedom_of(const Structure& structure, const deck::Deck& de
   return std::nullopt;
 }
 
-// ½ k (u_b − u_a)², or ½ k u_a² of one to the ground.
-Potential spring_potential(const Model& model, const State& state, double k, const std::vector<Index>& freedoms,
-                           Freedom which) {
+// The force of a law by a stretch: between two points of the table Hermite's cubic, with the slopes of Fritsch and
+// Butland, 0 at the ends.
+double table_force(const deck::TableLaw& law, double stretch) {
+  const auto& u = law.displacement;
+  const auto& force = law.force;
+  if (stretch <= u.front()) return force.front();
+  if (stretch >= u.back()) return force.back();
+  std::size_t i = 0;
+  while (u[i + 1] < stretch) ++i;
+  const auto slope = [&](std::size_t at) {
+    if (at == 0 || at + 1 == u.size()) return 0.0;
+    const double h0 = u[at] - u[at - 1], h1 = u[at + 1] - u[at];
+    const double s0 = (force[at] - force[at - 1]) / h0, s1 = (force[at + 1] - force[at]) / h1;
+    return s0 * s1 > 0.0 ? 1.0 / ((h0 + 2.0 * h1) / (3.0 * (h0 + h1) * s0) + (2.0 * h0 + h1) / (3.0 * (h0 + h1) * s1))
+                         : 0.0;
+  };
+  const double h = u[i + 1] - u[i], t = (stretch - u[i]) / h;
+  const double c = h * slope(i), d = force[i + 1] - force[i], e = h * slope(i + 1);
+  return force[i] + t * (c + t * (3.0 * d - 2.0 * c - e + t * (c + e - 2.0 * d)));
+}
+
+// Its integral from 0, by Simpson's rule between the points, which is exact for cubics.
+double table_energy(const deck::TableLaw& law, double stretch) {
+  const double least = std::min(0.0, stretch), greatest = std::max(0.0, stretch);
+  std::vector<double> places{least};
+  for (const double u : law.displacement)
+    if (u > least && u < greatest) places.push_back(u);
+  places.push_back(greatest);
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double a = places[i], b = places[i + 1];
+    sum += (b - a) / 6.0 * (table_force(law, a) + 4.0 * table_force(law, 0.5 * (a + b)) + table_force(law, b));
+  }
+  return stretch < 0.0 ? -sum : sum;
+}
+
+// The potential of a spring between two freedoms, or of one to the ground, by its stretch: ½ k s² or that of a law.
+Potential spring_potential(const Model& model, const State& state, double k, const deck::TableLaw* law,
+                           const std::vector<Index>& freedoms, Freedom which) {
   const auto n = static_cast<Index>(freedoms.size());
   Potential potential{.at = Vector(n), .steps = Vector::Constant(n, step_of(which, model.structure().length_scale()))};
   for (Index i = 0; i < n; ++i) {
@@ -208,9 +244,11 @@ Potential spring_potential(const Model& model, const State& state, double k, con
                                       : model.structure().value(state, freedom);
   }
   const auto stretch = [n](const Vector& u) { return n == 1 ? u[0] : u[1] - u[0]; };
-  potential.energy = [=](const Vector& u) { return 0.5 * k * stretch(u) * stretch(u); };
+  potential.energy = [=](const Vector& u) {
+    return law != nullptr ? table_energy(*law, stretch(u)) : 0.5 * k * stretch(u) * stretch(u);
+  };
   potential.gradient = [=](const Vector& u) {
-    Vector gradient = Vector::Constant(n, k * stretch(u));
+    Vector gradient = Vector::Constant(n, law != nullptr ? table_force(*law, stretch(u)) : k * stretch(u));
     if (n == 2) gradient[0] = -gradient[0];
     return gradient;
   };
@@ -222,12 +260,15 @@ void add_springs(const Model& model, const State& state, std::vector<Potential>&
   for (const deck::Spring& spring : model.deck().springs) {
     std::vector<deck::Place> places;
     deck::Stiffness stiffness;
+    const deck::TableLaw* law = nullptr;
     if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
       places = {ground->at};
       stiffness = ground->stiffness;
+      if (ground->law) law = &*ground->law;
     } else if (const auto* between = std::get_if<deck::PointToPointSpring>(&spring.kind)) {
       for (const std::string& point : between->points) places.push_back({.name = point});
       stiffness = between->stiffness;
+      if (between->law) law = &*between->law;
     }
     for (const auto& [which, k] : {std::pair(Freedom::x, stiffness.x), std::pair(Freedom::z, stiffness.z),
                                    std::pair(Freedom::rotation, stiffness.rotation)}) {
@@ -235,7 +276,9 @@ void add_springs(const Model& model, const State& state, std::vector<Potential>&
       for (const deck::Place& place : places)
         if (const auto freedom = freedom_of(model.structure(), model.deck(), place, which))
           freedoms.push_back(*freedom);
-      if (k > 0.0 && freedoms.size() == places.size()) to.push_back(spring_potential(model, state, k, freedoms, which));
+      const bool acts = law != nullptr ? law->direction == which : k > 0.0;
+      if (acts && !places.empty() && freedoms.size() == places.size())
+        to.push_back(spring_potential(model, state, k, law, freedoms, which));
     }
   }
 }

@@ -62,9 +62,11 @@ std::vector<Row> csv_rows(const std::string& text) {
   return rows;
 }
 
-// branch, step, arc, lambda, monitors …, unstable, stability, contacts, energy, iterations, event, and perhaps stage
+// branch, step, arc, lambda, monitors …, unstable, stability, contacts, energy, iterations, event, and perhaps
+// unstable_dead and stage
 void check_path_row(const Row& row, const RecordPoint& point, const PathExpectation& expected, Findings& findings) {
-  const std::size_t monitors = expected.monitors.size(), cells = monitors + (expected.stage ? 11 : 10);
+  const std::size_t monitors = expected.monitors.size();
+  const std::size_t cells = monitors + 10 + (expected.moves_supports ? 1 : 0) + (expected.stage ? 1 : 0);
   findings.require("path.csv has its columns", row.size() == cells, "number of cells");
   if (row.size() != cells) return;
   const auto same = [&](std::size_t cell, const std::string& what, const std::string& value) {
@@ -95,7 +97,10 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     findings.compare("path.csv tells the states", std::abs(number(rest[3]) - expected.energy->value),
                      rounding(expected.energy->magnitude), "energy");
   expect_same("path.csv tells the states", rest[4], std::to_string(point.iterations), "iterations", findings);
-  if (expected.stage) expect_same("path.csv tells the states", rest[6], *expected.stage, "stage", findings);
+  if (expected.moves_supports)
+    expect_same("path.csv tells the states", rest[6], point.unstable_dead ? std::to_string(*point.unstable_dead) : "",
+                "unstable_dead", findings);
+  if (expected.stage) expect_same("path.csv tells the states", rest.back(), *expected.stage, "stage", findings);
   expect_same("path.csv tells the states", rest[5], point.event ? std::string(to_text(*point.event)) : "", "event",
               findings);
 }

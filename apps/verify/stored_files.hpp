@@ -20,6 +20,7 @@ struct PathExpectation {
   std::optional<Energy> energy{};        ///< empty: not checked
   std::optional<CountRange> unstable{};  ///< empty: not checked
   Index contacts = 0;
+  bool moves_supports = false;         ///< so that it has a column unstable_dead
   std::optional<std::string> stage{};  ///< of a deck with stages
 };
 

@@ -84,7 +84,7 @@ Index listed_contacts(const Touches& touches) {
                        [](const Touch& touch) { return touch.closed && touch.listed; });
 }
 
-std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Index unknowns) {
+std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Index unknowns, bool moves_supports) {
   std::vector<std::string> sentences;
   if (model.in_increments())
     sentences.emplace_back(
@@ -100,6 +100,8 @@ std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Ind
   if (model.sliding() != nullptr) sentences.emplace_back("how a member bends at the ends of parts pressed on a wall");
   sentences.emplace_back(
       "arc lengths, iterations, residuals, modes and types of branch points: they are not told by single states");
+  if (moves_supports)
+    sentences.emplace_back("unstable_dead: it tells of the path beside a point, not of its state alone");
   if (!model.in_increments())
     sentences.emplace_back("what happens and is undone between two points of the path; --again traces it anew");
   return sentences;
@@ -134,7 +136,7 @@ class Verifier {
                      fmt::format("{} rows, {} closed contacts", contact_rows_.size(), next_contact_));
     const std::vector<ListedEvent> events = check_events(files.events_json, record_, model_, walls_, findings);
     if (!model_.in_increments()) check_completeness(events, record_, model_, findings);
-    verdict_.not_checked = left_out(model_, plan, unknowns);
+    verdict_.not_checked = left_out(model_, plan, unknowns, record_.moves_supports);
     return verdict_;
   }
 
@@ -149,7 +151,7 @@ class Verifier {
     findings.require("states are finite and whole", well_formed, "its unknowns");
     if (!well_formed) return false;
     const PointAtHand at = at_hand(model, point, walls_[static_cast<std::size_t>(stage)], scales_);
-    PathExpectation expected{.contacts = listed_contacts(at.touches)};
+    PathExpectation expected{.contacts = listed_contacts(at.touches), .moves_supports = record_.moves_supports};
     add_monitors(model, point.state, expected);
     if (!record_.stages.empty()) expected.stage = record_.stage_of(point.branch);
     if (!model_.in_increments()) {

@@ -255,10 +255,20 @@ struct Stiffness {
   bool operator==(const Stiffness&) const = default;
 };
 
+/// The force of a spring in one direction by its displacement: C¹ through these points, constant beyond them.
+struct TableLaw {
+  Freedom direction = Freedom::z;      ///< x, z or rotation
+  std::vector<double> displacement{};  ///< strictly increasing, at least 2, with 0
+  std::vector<double> force{};         ///< as many, 0 at 0
+
+  bool operator==(const TableLaw&) const = default;
+};
+
 /// A spring between a place and the ground.
 struct GroundSpring {
   Place at{};
   Stiffness stiffness{};
+  std::optional<TableLaw> law{};  ///< instead of a stiffness
 
   bool operator==(const GroundSpring&) const = default;
 };
@@ -267,6 +277,7 @@ struct GroundSpring {
 struct PointToPointSpring {
   std::vector<std::string> points{};  ///< two
   Stiffness stiffness{};
+  std::optional<TableLaw> law{};  ///< instead of a stiffness
 
   bool operator==(const PointToPointSpring&) const = default;
 };
@@ -279,7 +290,7 @@ struct Foundation {
   bool operator==(const Foundation&) const = default;
 };
 
-/// Linear and stress-free with the structure.
+/// Stress-free with the structure.
 struct Spring {
   Position position{};
   std::variant<GroundSpring, PointToPointSpring, Foundation> kind{};

@@ -1,4 +1,7 @@
 // Springs.
+#include <algorithm>
+#include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -7,6 +10,7 @@
 #include "model/deck/cursor.hpp"
 #include "model/deck/deck_keys.hpp"
 #include "model/deck/key_reader.hpp"
+#include "model/deck/words.hpp"
 
 namespace arcwall::deck {
 
@@ -17,6 +21,41 @@ Stiffness* stiffness_of(Spring& spring) {
   if (auto* ground = std::get_if<GroundSpring>(&spring.kind)) return &ground->stiffness;
   if (auto* between = std::get_if<PointToPointSpring>(&spring.kind)) return &between->stiffness;
   return nullptr;
+}
+
+std::optional<TableLaw>* law_of(Spring& spring) {
+  if (auto* ground = std::get_if<GroundSpring>(&spring.kind)) return &ground->law;
+  if (auto* between = std::get_if<PointToPointSpring>(&spring.kind)) return &between->law;
+  return nullptr;
+}
+
+void check_law(Keys& keys, const TableLaw& law) {
+  const auto& [direction, u, force] = law;
+  if (u.size() != force.size() || u.size() < 2)
+    return keys.report(
+        "force",
+        "the law has " + std::to_string(u.size()) + " displacements and " + std::to_string(force.size()) + " forces",
+        "give as many of both, at least 2");
+  if (std::adjacent_find(u.begin(), u.end(), std::greater_equal<>()) != u.end())
+    return keys.report("displacement", "the displacements do not increase", "order them, each once");
+  const auto rest = std::find(u.begin(), u.end(), 0.0);
+  if (rest == u.end() || force[static_cast<std::size_t>(rest - u.begin())] != 0.0)
+    keys.report("displacement", "the spring is not without force at displacement 0",
+                "let one of the displacements be 0, with force 0");
+}
+
+void law_keys(Keys& keys, TableLaw& law) {
+  keys.table(
+      optional("law", "none"), Form::in_line,
+      [&](Keys& of) {
+        of.word("direction", law.direction, spring_direction_words, "");
+        const bool u = of.numbers("displacement", law.displacement, unit::none, "");
+        const bool force = of.numbers("force", law.force, unit::none, "");
+        if (of.reads() && u && force) check_law(of, law);
+      },
+      "instead of `stiffness`, in one `direction` (`\"x\"`, `\"z\"`, `\"rotation\"`): `force` [force, force length] by "
+      "`displacement` [length, rad], "
+      "through these points with a continuous slope, constant beyond the first and the last");
 }
 
 void stiffness_key(Keys& keys, Stiffness& stiffness) {
@@ -80,8 +119,15 @@ void spring_keys(Keys& keys, Spring& spring, const Deck& deck) {
   keys.alternative<PointToPointSpring>("between", spring.kind,
                                        [&](PointToPointSpring& between) { between_keys(keys, deck, between); });
   const bool along = keys.reads() ? keys.has("on") : std::holds_alternative<Foundation>(spring.kind);
-  if (keys.applies(!along, "stiffness", "belongs to a spring at points", "give `foundation` instead"))
+  const bool has_law = keys.reads() ? keys.has("law") : !along && law_of(spring)->has_value();
+  if (has_law) keys.applies(keys.lists(), "stiffness", "does not go together with a law", "write two springs");
+  if (!has_law && keys.applies(!along, "stiffness", "belongs to a spring at points", "give `foundation` instead"))
     stiffness_key(keys, *stiffness_of(spring));
+  if (along) {
+    if (keys.reads()) keys.applies(false, "law", "belongs to a spring at points", "give `at` or `between`");
+  } else {
+    keys.part("law", *law_of(spring), [&](TableLaw& law) { law_keys(keys, law); });
+  }
   keys.alternative<Foundation>("on", spring.kind, [&](Foundation& foundation) { foundation_keys(keys, foundation); });
   if (keys.reads() && !along)
     keys.applies(false, "foundation", "belongs to a spring along a member", "write `on`, or give stiffness");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -87,6 +88,17 @@ stop = { lambda = [-1.0, 90.0] }
   EXPECT_NEAR(-back.monitors[0], -0.438048021661, 1e-4);
   EXPECT_EQ(back.unstable_after, 0);
   EXPECT_EQ(events_of(traced, EventKind::limit_point).size(), 2u);
+  // A dead load has its limit points at ways of 48.735137245104 and, where it is −0.941443155560, again.
+  const auto& points = traced.record().points;
+  const auto least = std::min_element(points.begin(), points.end(), [](const RecordPoint& a, const RecordPoint& b) {
+    return -a.monitors[0] < -b.monitors[0];
+  });
+  bool behind_first = false;
+  for (auto point = points.begin(); point != points.end(); ++point) {
+    behind_first = behind_first || point->lambda > 48.735137245104;
+    if (std::abs(point - least) <= 1 || !point->unstable_dead) continue;
+    EXPECT_EQ(*point->unstable_dead, behind_first && point < least ? 1 : 0) << point->lambda;
+  }
   expect_confirmed(traced);
 }
 
@@ -120,6 +132,14 @@ stop = { lambda = [-0.5, 10.5] }
   EXPECT_NEAR(sways[1].lambda, 5.0 + std::sqrt(23.0), 1e-8);
   EXPECT_EQ(sways[1].unstable_after, 0);
   EXPECT_TRUE(events_of(traced, EventKind::limit_point).empty());
+  // Under a dead load there are, by Green's closed forms, limit points at z = ± h/√3 as well.
+  const double sway = 5.0 - std::sqrt(23.0), limit = 5.0 - 5.0 / std::sqrt(3.0);
+  for (const RecordPoint& point : traced.record().points) {
+    const double way = std::min(point.lambda, 10.0 - point.lambda);  // of either side
+    if (std::abs(way - sway) < 1e-6 || std::abs(way - limit) < 1e-6) continue;
+    ASSERT_TRUE(point.unstable_dead.has_value()) << point.lambda;
+    EXPECT_EQ(*point.unstable_dead, way < sway ? 0 : way < limit ? 1 : 2) << point.lambda;
+  }
   expect_confirmed(traced);
 }
 

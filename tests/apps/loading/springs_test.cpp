@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -107,6 +108,61 @@ TEST(Springs, HoldAStructureByThemselves) {
   EXPECT_GT(TracedDeck(deck).record().points.size(), 5u);
   const std::size_t first = deck.find("[[spring]]"), behind = deck.find("[path]");
   EXPECT_THROW(TracedDeck(deck.substr(0, first) + deck.substr(behind)), InputError);
+}
+
+// A stiff lever with a load P in its middle rests on a spring at its end, which bears P/2 at any slope: the load is
+// twice the force of the law, which has its maximum 0.7 at 0.2, and 0.2 at 0.5.
+TEST(Springs, BearByALawWhatStaticsSay) {
+  const std::string text = R"(
+title = "Lever"
+material.m.E = 1e4
+section.s = { shape = "general", A = 100.0, I = 100.0 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+member.lever = { from = "A", to = "B", theory = "classic", elements = 2, material = "m", section = "s" }
+support = { A = ["x", "z"] }
+load = [{ at = "lever:0.5", force = [0.0, -1.0] }]
+path = { step = 0.05, land = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
+monitor = [{ name = "B", at = "B", component = "z" }]
+[[spring]]
+at = "B"
+law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0.2, -0.7, 0.0, 0.7, 0.2] }
+)";
+  const TracedDeck traced(text);
+  const auto limits = events_of(traced, EventKind::limit_point);
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_NEAR(limits[0].lambda, 1.4, 1e-6);
+  EXPECT_NEAR(limits[0].monitors[0], -0.2, 1e-4);
+  EXPECT_EQ(limits[0].unstable_after, 1);
+  const auto& points = traced.record().points;
+  const auto half = std::find_if(points.begin(), points.end(),
+                                 [](const RecordPoint& point) { return std::abs(point.monitors[0] + 0.1) < 1e-9; });
+  ASSERT_NE(half, points.end());
+  // Half way to 0.2: 0.7/2 + (0.2/8) 3.5 by the slope 3.5 at the origin, between equal secants, and 0 at the maximum.
+  EXPECT_NEAR(half->lambda, 2.0 * (0.35 + 0.025 * 3.5), 1e-6);
+  expect_confirmed(traced);
+}
+
+TEST(Springs, OfALawMustBeAtRestWithoutDisplacement) {
+  const auto problem = [](const std::string& law) -> std::string {
+    const std::string load = "\n[[load]]\nat = \"B\"\nforce = [-1.0, 0.0]\n";
+    try {
+      deck::read_deck_text(column(centimetres, "[[spring]]\nat = \"mid\"\n" + law + load), "law.toml");
+    } catch (const InputError& error) {
+      return error.diagnostics().front().message;
+    }
+    return "";
+  };
+  const auto law = [](const std::string& u, const std::string& force) {
+    return "law = { direction = \"z\", displacement = [" + u + "], force = [" + force + "] }";
+  };
+  EXPECT_EQ(problem(law("-1.0, 0.0, 2.0", "-1.0, 0.0, 5.0")), "");
+  EXPECT_NE(problem(law("-1.0, 0.5, 2.0", "-1.0, 0.0, 5.0")).find("without force at displacement 0"),
+            std::string::npos);
+  EXPECT_NE(problem(law("0.0, 1.0", "1.0, 2.0")).find("without force at displacement 0"), std::string::npos);
+  EXPECT_NE(problem(law("0.0, 1.0, 0.5", "0.0, 2.0, 3.0")).find("do not increase"), std::string::npos);
+  EXPECT_NE(problem(law("0.0, 1.0", "0.0")).find("2 displacements and 1 forces"), std::string::npos);
+  EXPECT_NE(problem(law("0.0, 1.0", "0.0, 1.0") + "\nstiffness = { z = 1.0 }").find("does not go together"),
+            std::string::npos);
 }
 
 TEST(Springs, AreNotForBars) {

@@ -148,8 +148,8 @@ TEST(Stages, FollowEachOther) {
 TEST(Stages, AreNamedInTheFiles) {
   const TracedDeck staged(pushed_column(three_stages));
   const std::string path = path_csv(staged.record(), UnitLabels::shown);
-  EXPECT_NE(path.find(",event,stage\n"), std::string::npos);
-  EXPECT_NE(path.find(",start,shorten\n"), std::string::npos);
+  EXPECT_NE(path.find(",event,unstable_dead,stage\n"), std::string::npos);
+  EXPECT_NE(path.find(",start,0,shorten\n"), std::string::npos);
   const auto events = events_json(staged.record());
   EXPECT_EQ(events["events"].front()["stage"], "shorten");
   EXPECT_EQ(events["events"].back()["stage"], "release");

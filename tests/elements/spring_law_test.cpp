@@ -1,0 +1,100 @@
+#include "elements/spring_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/derivative_check.hpp"
+#include "elements/structure.hpp"
+#include "tests/support/beam_theories.hpp"
+#include "tests/support/dense.hpp"
+
+namespace arcwall::spring_law_test {
+
+namespace {
+
+const SpringLaw odd({-0.1, 0.0, 0.1}, {-2.0, 0.0, 2.0});
+const SpringLaw uneven({-0.3, -0.1, 0.0, 0.2, 0.5, 0.6}, {-1.0, -0.9, 0.0, 0.7, 0.2, 0.2});
+
+}  // namespace
+
+TEST(SpringLaw, MeetsItsPointsAndIsConstantBeyond) {
+  EXPECT_DOUBLE_EQ(uneven.at(0.2).force, 0.7);
+  EXPECT_DOUBLE_EQ(uneven.at(-0.1).force, -0.9);
+  EXPECT_EQ(uneven.at(0.0).force, 0.0);
+  EXPECT_EQ(uneven.at(0.0).energy, 0.0);
+  EXPECT_EQ(uneven.at(9.0).force, 0.2);
+  EXPECT_EQ(uneven.at(-9.0).force, -1.0);
+  EXPECT_EQ(uneven.at(9.0).stiffness, 0.0);
+}
+
+// Through three points on a line the slope in the middle is the line's and those at the ends 0: F = 2 (s + s² − s³)
+// with s = u/0.1, by hand, and its integral.
+TEST(SpringLaw, IsHermitesCubic) {
+  for (const double u : {-0.09, -0.02, 0.03, 0.08}) {
+    const double s = std::abs(u) / 0.1, by_hand = std::copysign(2.0 * (s + s * s - s * s * s), u);
+    EXPECT_NEAR(odd.at(u).force, by_hand, 1e-14);
+    EXPECT_NEAR(odd.at(u).energy, 0.2 * (s * s / 2.0 + s * s * s / 3.0 - s * s * s * s / 4.0), 1e-15);
+  }
+}
+
+TEST(SpringLaw, DerivativesAreConsistentAndTheSlopeContinuous) {
+  constexpr double step = 1e-6;
+  for (const double u : {-0.5, -0.27, -0.1, -0.03, 0.0, 0.11, 0.2, 0.33, 0.5, 0.55, 0.7}) {
+    const auto above = uneven.at(u + step), below = uneven.at(u - step), here = uneven.at(u);
+    EXPECT_NEAR((above.energy - below.energy) / (2.0 * step), here.force, 1e-8) << u;
+    EXPECT_NEAR((above.force - below.force) / (2.0 * step), here.stiffness, 1e-4) << u;
+    EXPECT_NEAR(above.stiffness, below.stiffness, 1e-3) << u;
+  }
+}
+
+// Monotone where the points are, with their extremes.
+TEST(SpringLaw, DoesNotOvershoot) {
+  double last = uneven.at(-0.3).force;
+  for (double u = -0.3; u <= 0.2; u += 0.001) {
+    const double force = uneven.at(u).force;
+    EXPECT_GE(force, last - 1e-15);
+    EXPECT_LE(force, 0.7 + 1e-15);
+    last = force;
+  }
+}
+
+// Springs to the ground and between freedoms, one of which a support moves, are part of the structure's derivatives.
+TEST(SpringLaw, BelongsToAStructure) {
+  test::Numbers numbers(151);
+  StructureBuilder builder;
+  builder.add_joint({0.0, 0.0});
+  builder.add_joint({1.0, 0.0});
+  builder.add_joint({2.0, 0.3});
+  for (Index m = 0; m < 2; ++m)
+    builder.add_member(
+        {.name = m == 0 ? "a" : "b",
+         .from = m,
+         .to = m + 1,
+         .axis = straight_axis(m == 0 ? Vec2(0.0, 0.0) : Vec2(1.0, 0.0), m == 0 ? Vec2(1.0, 0.0) : Vec2(2.0, 0.3)),
+         .section = test::section_of(20.0, 1.0),
+         .elements = 2});
+  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
+  builder.fix(builder.freedom(2, Freedom::z), {.proportional = 0.3});
+  const auto law = std::make_shared<const SpringLaw>(uneven);
+  builder.add_spring(std::nullopt, builder.freedom(1, Freedom::z), law);
+  builder.add_spring(builder.freedom(0, Freedom::z), builder.freedom(2, Freedom::z), law);
+  builder.add_spring(builder.freedom(1, Freedom::x), builder.freedom(2, Freedom::x), law);
+  builder.add_spring(builder.freedom(1, Freedom::z), builder.freedom(2, Freedom::z), law);
+  const auto structure = builder.build();
+  const State state{.x = 0.05 * numbers.vector(structure->size({})), .lambda = 0.6};
+  EXPECT_LE(check_derivatives(*structure, state).worst(), 1e-6);
+  const Index held = structure->freedom(2, Freedom::z);
+  const Row row = structure->reaction_gradient(state, held);
+  constexpr double step = 1e-6;
+  for (Index i = 0; i <= state.x.size(); ++i) {
+    const auto at = [&](double by) {
+      State moved = state;
+      (i < state.x.size() ? moved.x[i] : moved.lambda) += by;
+      return structure->reaction(moved, held);
+    };
+    EXPECT_NEAR((at(step) - at(-step)) / (2.0 * step), i < state.x.size() ? row.dx[i] : row.dlambda, 1e-4);
+  }
+}
+
+}  // namespace arcwall::spring_law_test
