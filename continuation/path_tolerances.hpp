@@ -12,8 +12,8 @@ inline constexpr double penetration_tolerance = 1e-9;
 /// How exactly places on a path near which it is singular are known [path metric].
 inline constexpr double singular_point_accuracy = 1e-5;
 
-/// How far behind a branch point the unstable directions of a branch that leaves it are counted: of its first step. K is
-/// regular there again, and another singular point hardly lies between.
+/// How far behind a branch point the unstable directions of a branch that leaves it are counted: of its first step. K
+/// is regular there again, and another singular point hardly lies between.
 inline constexpr double just_behind = 0.05;
 
 }  // namespace arcwall
