@@ -103,10 +103,12 @@ struct Record {
   std::vector<RecordBranchPoint> branch_points{};
 
   /// The number of the stage that a branch is of.
-  Index stage_number(Index branch) const { return branches[static_cast<std::size_t>(branch)].stage; }
+  Index stage_number(Index branch) const {
+    return stages.empty() ? 0 : branches[static_cast<std::size_t>(branch)].stage;
+  }
   /// The name of the stage that a branch is of; empty without stages.
   std::string stage_of(Index branch) const {
-    return stages.empty() ? "" : stages[static_cast<std::size_t>(branches[static_cast<std::size_t>(branch)].stage)];
+    return stages.empty() ? "" : stages[static_cast<std::size_t>(stage_number(branch))];
   }
   std::string steps{};  ///< lines of steps.jsonl; empty unless they are wanted
 };

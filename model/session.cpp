@@ -1,5 +1,6 @@
 #include "model/session.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -26,13 +27,15 @@ void keep_traced(Archive& archive, Record& record) {
 }
 
 // Whether all that a record refers to is in it.
-bool is_whole(const Record& record) {
+bool is_whole(const Record& record, std::size_t ended_stages) {
   const auto has_branch = [&](Index branch) {
     return branch >= 0 && branch < static_cast<Index>(record.branches.size());
   };
   const auto has_event = [&](Index event) { return event >= 0 && event < static_cast<Index>(record.events.size()); };
   for (const RecordBranch& branch : record.branches)
-    if (branch.origin && !has_event(*branch.origin)) return false;
+    if ((branch.origin && !has_event(*branch.origin)) || branch.stage < 0 ||
+        branch.stage > static_cast<Index>(ended_stages))
+      return false;
   for (const RecordPoint& point : record.points)
     if (!has_branch(point.branch) || point.monitors.size() != record.columns.size()) return false;
   for (const RecordEvent& event : record.events)
@@ -115,11 +118,12 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     ArchiveReader archive(content, model_of(*session.model_));
     std::vector<double> ended_stages;
     archive(program, session.description_, stopped, session.start_, ended_stages);
-    for (const double lambda : ended_stages) archive.require(session.model_->begin_stage(lambda));
+    for (const double lambda : ended_stages)
+      archive.require(std::isfinite(lambda) && session.model_->begin_stage(lambda));
     archive.require(session.start_.x.size() > 0);
     session.tracing_ = make_tracing(*session.model_, *session.record_, session.start_, session.description_.ledger);
     keep_traced(archive, *session.record_);
-    archive.require(is_whole(*session.record_));
+    archive.require(is_whole(*session.record_, ended_stages.size()));
     session.tracing_->serialize(archive);
     archive.require(archive.at_end());
     if (stopped && how == Session::Resume::as_ended) {

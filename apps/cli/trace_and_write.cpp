@@ -10,6 +10,7 @@
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
+#include "apps/output/load_text.hpp"
 #include "apps/output/paraview.hpp"
 #include "apps/output/path_csv.hpp"
 #include "apps/output/report_html.hpp"
@@ -143,7 +144,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   files.write("path.csv", path_csv(record, description.units));
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
-  files.write("events.txt", events_text(record));
+  files.write("events.txt", events_text(record, name_of_lambda(run.model().whole_deck())));
   if (pictures) files.write("report.html", ReportPage(record, report_content(run.model(), record, drawn)).pieces());
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
   files.write("deck.toml", deck::to_toml(run.model().whole_deck()));
@@ -217,7 +218,7 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
   }
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
-  if (options.report == Report::table) std::cout << events_text(record);
+  if (options.report == Report::table) std::cout << events_text(record, name_of_lambda(run.model().whole_deck()));
   say_how_it_ended(stopped, run, folder.path().string());
   return status;
 }

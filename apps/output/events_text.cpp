@@ -114,9 +114,11 @@ std::string how_it_ended(const BranchEnd& end) {
   return fmt::format("{} ({})", end.detail.empty() ? explanation(end.reason) : end.detail, to_text(end.reason));
 }
 
-std::string events_text(const Record& record) {
+std::string events_text(const Record& record, const std::string& lambda_is) {
   std::string text = record.title.empty() ? "" : record.title + "\n";
-  text += fmt::format("{}, trace-path {}\n\n", record.deck, program_version());
+  text += fmt::format("{}, trace-path {}\n", record.deck, program_version());
+  if (!lambda_is.empty()) text += "λ: " + lambda_is + "\n";
+  text += "\n";
   text += table(record) + "\n";
   if (const std::string note = uncertainty_note(record); !note.empty()) text += note + "\n\n";
   text += tree(record, std::nullopt, 0);

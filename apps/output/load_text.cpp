@@ -144,4 +144,10 @@ std::vector<LoadText> driven_by_lambda(const deck::Deck& deck) {
   return driven;
 }
 
+std::string name_of_lambda(const deck::Deck& deck) {
+  const std::vector<LoadText> driven = driven_by_lambda(deck);
+  if (driven.size() != 1 || driven.front().name == LoadText{}.name) return "";
+  return driven.front().name + (driven.front().size.empty() ? "" : ", times " + driven.front().size);
+}
+
 }  // namespace arcwall

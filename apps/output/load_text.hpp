@@ -27,4 +27,7 @@ std::string spring_text(const deck::Spring& spring, const deck::Units& units);
 /// All that λ multiplies.
 std::vector<LoadText> driven_by_lambda(const deck::Deck& deck);
 
+/// What λ is where one thing alone varies that has a name: `displacement in x of B, times 2 cm`; else empty.
+std::string name_of_lambda(const deck::Deck& deck);
+
 }  // namespace arcwall

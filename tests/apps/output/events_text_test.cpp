@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/output/load_text.hpp"
 #include "apps/output/text_table.hpp"
 #include "model/version.hpp"
 #include "tests/apps/output/sample_record.hpp"
@@ -75,4 +76,22 @@ TEST(TextTable, CountsCharactersNotBytes) {
 }
 
 }  // namespace
+TEST(EventsText, SaysWhatLambdaIs) {
+  EXPECT_NE(events_text(sample_record(), "displacement in x of B, times 2 cm")
+                .find("\nλ: displacement in x of B, times 2 cm\n\n"),
+            std::string::npos);
+  const auto named = [](const std::string& driven) {
+    deck::Deck deck{.units = {.length = "cm", .force = "kN"}};
+    if (driven == "movement") deck.prescribed = {{.point = "B", .x = -2.0}};
+    if (driven == "force") deck.loads = {{.action = deck::PointLoad{.force = {.x = 1.0}}}};
+    if (driven == "both") deck.prescribed = {{.point = "B", .x = -2.0}, {.point = "C", .z = 1.0}};
+    if (driven == "pressure") deck.loads = {{.action = deck::Pressure{.member = "arch", .pressure = -3.0}}};
+    return name_of_lambda(deck);
+  };
+  EXPECT_EQ(named("movement"), "displacement in x of B, times 2 cm");
+  EXPECT_EQ(named("pressure"), "pressure on arch, times 3 kN/cm");
+  EXPECT_EQ(named("force"), "");
+  EXPECT_EQ(named("both"), "");
+}
+
 }  // namespace arcwall::events_text_test
