@@ -117,9 +117,7 @@ Vector bordered_allowance(const SlidingContact& system, const State& state, cons
   Vector allowed(n);
   allowed.head(core) = magnitude.selfadjointView<Eigen::Lower>() * off.head(core) + now.B.cwiseAbs() * off.tail(m) +
                        lambda_off * now.F_lambda.head(core).cwiseAbs();
-  // Of moments, which are no unknowns with an accuracy of their own, and of curvatures at the ends of pressed parts.
-  allowed.tail(m) = now.C.cwiseAbs() * off;
-  allowed.tail(m).array() += options.guard_tolerance * system.scales().force * L;
+  allowed.tail(m).setConstant(options.guard_tolerance * system.scales().force * L);
   return allowed;
 }
 
