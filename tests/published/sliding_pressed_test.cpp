@@ -23,33 +23,12 @@ using test::SlidingModel;
 constexpr auto opens = EventKind::contact_opens, closes = EventKind::contact_closes,
                spreads = EventKind::contact_spreads, gathers = EventKind::contact_gathers;
 
-struct Path {
-  SlidingModel model;
-  TraceOptions options;
-  std::vector<ExploredBranch> branches;
-
-  std::vector<Event> events() const { return test::events_of(branches); }
-  std::vector<EventKind> kinds() const {
-    std::vector<EventKind> found;
-    for (const Event& event : events()) found.push_back(event.kind);
-    return found;
-  }
-  const State& last() const { return branches.back().arcs.back().to.state; }
+struct Path : test::SlidingPath {
   Vector points() const { return last().x.tail(mesh_of(last()).breakpoints()); }
-  double force(Index point) const { return model.system().force(last(), point); }
-
-  void expect_invariants() const {
-    for (const ExploredBranch& branch : branches)
-      test::expect_sliding_invariants(model.system(), branch.arcs, options, branch.lambda_scale, {.recount_every = 3});
-  }
 };
 
 Path path_of(SlidingModel model, double to, double step = 0.05) {
-  TraceOptions options;
-  options.step.first = step;
-  options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(to)};
-  auto branches = test::follow(model.system(), model.system().rest(), options);
-  return {.model = std::move(model), .options = options, .branches = std::move(branches)};
+  return {test::sliding_path(std::move(model), to, step)};
 }
 
 // From the end of a path back.

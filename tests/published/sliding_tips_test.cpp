@@ -22,41 +22,18 @@ constexpr auto opens = EventKind::contact_opens, closes = EventKind::contact_clo
                spreads = EventKind::contact_spreads, gathers = EventKind::contact_gathers,
                passes = EventKind::contact_passes;
 
-struct Path {
-  SlidingModel model;
-  TraceOptions options;
-  std::vector<ExploredBranch> branches;
-
-  std::vector<Event> events() const { return test::events_of(branches); }
-  std::vector<EventKind> kinds() const {
-    std::vector<EventKind> found;
-    for (const Event& event : events()) found.push_back(event.kind);
-    return found;
-  }
+struct Path : test::SlidingPath {
   double load(std::size_t event) const { return events()[event].state.lambda; }
-  const State& last() const { return branches.back().arcs.back().to.state; }
   double point() const { return last().x[last().x.size() - 1]; }
-  double force(Index contact) const { return model.system().force(last(), contact); }
   double all_forces() const {
     double sum = 0.0;
     for (const ContactPoint& contact : model.system().closed_contacts(last())) sum += contact.force_vector.y();
     for (const ContactPoint& node : model.system().pressed_nodes(last())) sum += node.force_vector.y();
     return sum;
   }
-
-  void expect_invariants() const {
-    for (const ExploredBranch& branch : branches)
-      test::expect_sliding_invariants(model.system(), branch.arcs, options, branch.lambda_scale, {.recount_every = 3});
-  }
 };
 
-Path path_of(SlidingModel model, double to, double step) {
-  TraceOptions options;
-  options.step.first = step;
-  options.target_values = {test::stop_at_lambda(-1.0), test::stop_at_lambda(to)};
-  auto branches = test::follow(model.system(), model.system().rest(), options);
-  return {.model = std::move(model), .options = options, .branches = std::move(branches)};
-}
+Path path_of(SlidingModel model, double to, double step) { return {test::sliding_path(std::move(model), to, step)}; }
 
 // From the end of a path back to rest.
 std::vector<Event> unloaded(const Path& path) {

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "tests/support/branch.hpp"
+#include "tests/support/invariants.hpp"
 
 namespace arcwall::test {
 
@@ -139,6 +143,27 @@ std::vector<Event> events_of(const std::vector<ExploredBranch>& branches) {
       for (const Event& event : arc.events)
         if (event.kind != EventKind::start) found.push_back(event);
   return found;
+}
+
+std::vector<Event> SlidingPath::events() const { return events_of(branches); }
+
+std::vector<EventKind> SlidingPath::kinds() const {
+  std::vector<EventKind> found;
+  for (const Event& event : events()) found.push_back(event.kind);
+  return found;
+}
+
+void SlidingPath::expect_invariants() const {
+  for (const ExploredBranch& branch : branches)
+    expect_sliding_invariants(model.system(), branch.arcs, options, branch.lambda_scale, {.recount_every = 3});
+}
+
+SlidingPath sliding_path(SlidingModel model, double to, double step) {
+  TraceOptions options;
+  options.step.first = step;
+  options.target_values = {stop_at_lambda(-1.0), stop_at_lambda(to)};
+  auto branches = follow(model.system(), model.system().rest(), options);
+  return {.model = std::move(model), .options = options, .branches = std::move(branches)};
 }
 
 Event event_of(const std::vector<ExploredBranch>& branches, EventKind kind, std::size_t n) {

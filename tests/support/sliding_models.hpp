@@ -99,6 +99,23 @@ std::vector<ExploredBranch> follow(const System& system, const State& start, con
                                    std::vector<std::shared_ptr<const Observable>> preference = {},
                                    std::vector<Watch> watched = {});
 
+/// All that was found of a model up to a load.
+struct SlidingPath {
+  SlidingModel model;
+  TraceOptions options;
+  std::vector<ExploredBranch> branches;
+
+  std::vector<Event> events() const;
+  std::vector<EventKind> kinds() const;
+  const State& last() const { return branches.back().arcs.back().to.state; }
+  double force(Index contact) const { return model.system().force(last(), contact); }
+
+  void expect_invariants() const;
+};
+
+/// From rest, between λ = −1 and `to`.
+SlidingPath sliding_path(SlidingModel model, double to, double step);
+
 /// All events of all branches in order, without starts; branch points that are left count once.
 std::vector<Event> events_of(const std::vector<ExploredBranch>& branches);
 

@@ -31,10 +31,9 @@ struct UnitsOf {
 
 inline constexpr UnitsOf centimetres{}, metres{.cm = 0.01, .kN = 1000.0};
 
-// A column of length 2 and square section 0.1 in two members, pinned left and sliding right [cm, kN].
-inline std::string column(const UnitsOf& in, const std::string& more, const std::string& theory = "elastica") {
+// Steel, and a square section of height 0.1 [cm, kN].
+inline std::string square_bar(const UnitsOf& in) {
   return fmt::format(R"(
-title = "Column"
 [material.m]
 E = {:.17g}
 nu = 0.29
@@ -42,6 +41,15 @@ nu = 0.29
 shape = "rectangle"
 width = {height:.17g}
 height = {height:.17g}
+)",
+                     in.stress(21000.0), fmt::arg("height", 0.1 * in.cm));
+}
+
+// A column of length 2 and square section 0.1 in two members, pinned left and sliding right [cm, kN].
+inline std::string column(const UnitsOf& in, const std::string& more, const std::string& theory = "elastica") {
+  return fmt::format(R"(
+title = "Column"
+{}
 [point]
 A = [0.0, 0.0]
 mid = [{mid:.17g}, 0.0]
@@ -53,8 +61,7 @@ second = {{ from = "mid", to = "B", theory = "{theory}", elements = 10, material
 A = ["x", "z"]
 B = ["z"]
 )",
-                     in.stress(21000.0), fmt::arg("height", 0.1 * in.cm), fmt::arg("mid", in.cm),
-                     fmt::arg("end", 2.0 * in.cm), fmt::arg("theory", theory)) +
+                     square_bar(in), fmt::arg("mid", in.cm), fmt::arg("end", 2.0 * in.cm), fmt::arg("theory", theory)) +
          more;
 }
 
@@ -102,13 +109,7 @@ inline RecordEvent event_near(const TracedDeck& traced, EventKind kind, double l
 inline std::string shortened_channel(const UnitsOf& in, const std::string& more = "") {
   return fmt::format(R"(
 title = "Column in a channel, shortened"
-[material.m]
-E = {E:.17g}
-nu = 0.29
-[section.s]
-shape = "rectangle"
-width = {height:.17g}
-height = {height:.17g}
+{}
 [point]
 A = [0.0, 0.0]
 B = [{length:.17g}, 0.0]
@@ -143,8 +144,7 @@ name = "mid"
 at = "column:0.5"
 component = "z"
 )",
-                     fmt::arg("E", in.stress(21000.0)), fmt::arg("height", 0.1 * in.cm),
-                     fmt::arg("length", 2.0 * in.cm), fmt::arg("first", 0.00176 * in.cm),
+                     square_bar(in), fmt::arg("length", 2.0 * in.cm), fmt::arg("first", 0.00176 * in.cm),
                      fmt::arg("third", 0.0001 * in.cm), fmt::arg("way", -in.cm), fmt::arg("wall", 0.2 * in.cm)) +
          more;
 }

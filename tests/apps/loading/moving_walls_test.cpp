@@ -14,13 +14,7 @@ namespace {
 std::string indented_arch(const UnitsOf& in, double rise, double stop, const std::string& more = "") {
   return fmt::format(R"(
 title = "Sine arch under a round indenter"
-[material.m]
-E = {E:.17g}
-nu = 0.29
-[section.s]
-shape = "rectangle"
-width = {height:.17g}
-height = {height:.17g}
+{}
 [point]
 l = [0.0, 0.0]
 r = [{length:.17g}, 0.0]
@@ -57,9 +51,9 @@ wall = "indenter"
 component = "force-z"
 sign = -1
 )",
-                     fmt::arg("E", in.stress(21000.0)), fmt::arg("height", 0.1 * in.cm),
-                     fmt::arg("length", 2.0 * in.cm), fmt::arg("rise", rise * in.cm), fmt::arg("radius", in.cm),
-                     fmt::arg("centre", (1.0 + rise) * in.cm), fmt::arg("way", -in.cm), fmt::arg("stop", stop)) +
+                     square_bar(in), fmt::arg("length", 2.0 * in.cm), fmt::arg("rise", rise * in.cm),
+                     fmt::arg("radius", in.cm), fmt::arg("centre", (1.0 + rise) * in.cm), fmt::arg("way", -in.cm),
+                     fmt::arg("stop", stop)) +
          more;
 }
 

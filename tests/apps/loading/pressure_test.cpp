@@ -17,13 +17,7 @@ std::string pressed_arch(const UnitsOf& in, const std::string& more, const std::
                          const std::string& right = "\"x\", \"z\"") {
   return fmt::format(R"(
 title = "Arch under pressure"
-[material.m]
-E = {E:.17g}
-nu = 0.29
-[section.s]
-shape = "rectangle"
-width = {height:.17g}
-height = {height:.17g}
+{}
 [point]
 l = [0.0, 0.0]
 r = [{length:.17g}, 0.0]
@@ -61,10 +55,9 @@ name = "M"
 at = "arch:0.5"
 component = "moment"
 )",
-                     fmt::arg("E", in.stress(21000.0)), fmt::arg("height", 0.1 * in.cm),
-                     fmt::arg("length", 2.0 * in.cm), fmt::arg("rise", 0.2 * in.cm), fmt::arg("small", 0.005 * in.cm),
-                     fmt::arg("p", in.per_length(1.0)), fmt::arg("low", -0.45 * in.cm), fmt::arg("theory", theory),
-                     fmt::arg("right", right)) +
+                     square_bar(in), fmt::arg("length", 2.0 * in.cm), fmt::arg("rise", 0.2 * in.cm),
+                     fmt::arg("small", 0.005 * in.cm), fmt::arg("p", in.per_length(1.0)),
+                     fmt::arg("low", -0.45 * in.cm), fmt::arg("theory", theory), fmt::arg("right", right)) +
          more;
 }
 
