@@ -44,12 +44,4 @@ StretchLoad::Response StretchAxisLoad::respond(const Vec2& r1, double angle1, co
   return out;
 }
 
-double BeamAxisLoad::evaluate(const double* u, double* f, double* K) const {
-  const Vec2 second = chord_ + Vec2(u[3], u[4]);
-  const auto response = load_.respond({u[0], u[1]}, angles_[0] + u[2], second, angles_[1] + u[5]);
-  if (f != nullptr) std::copy_n(response.force.data(), response.force.size(), f);
-  if (K != nullptr) std::copy_n(response.stiffness.data(), response.stiffness.size(), K);
-  return response.energy;
-}
-
 }  // namespace arcwall

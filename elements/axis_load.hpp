@@ -1,7 +1,7 @@
 #pragma once
 
 #include "elements/distributed_load.hpp"
-#include "elements/element.hpp"
+#include "elements/on_slender_beam.hpp"
 #include "elements/reissner_beam.hpp"
 #include "elements/slender_beam.hpp"
 
@@ -26,19 +26,7 @@ class StretchAxisLoad {
   Vec2 load_;
 };
 
-/// The same on an element of a classic or elastica beam, whose unknowns it has.
-class BeamAxisLoad final : public Element {
- public:
-  BeamAxisLoad(const StretchReference& stretch, const Vec2& load)
-      : load_(stretch, load), chord_(stretch.chord), angles_{stretch.angles.front(), stretch.angles.back()} {}
-
-  int unknown_count() const override { return 6; }
-  double evaluate(const double* u, double* f, double* K) const override;
-
- private:
-  StretchAxisLoad load_;
-  Vec2 chord_;
-  std::array<double, 2> angles_;
-};
+/// The same on an element of a classic or elastica beam.
+using BeamAxisLoad = OnSlenderBeam<StretchAxisLoad>;
 
 }  // namespace arcwall

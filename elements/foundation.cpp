@@ -45,14 +45,6 @@ StretchLoad::Response StretchFoundation::respond(const Vec2& r1, double angle1, 
   return out;
 }
 
-double BeamFoundation::evaluate(const double* u, double* f, double* K) const {
-  const Vec2 second = chord_ + Vec2(u[3], u[4]);
-  const auto response = foundation_.respond({u[0], u[1]}, angles_[0] + u[2], second, angles_[1] + u[5]);
-  if (f != nullptr) std::copy_n(response.force.data(), response.force.size(), f);
-  if (K != nullptr) std::copy_n(response.stiffness.data(), response.stiffness.size(), K);
-  return response.energy;
-}
-
 ExactFoundation::ExactFoundation(const ExactBeamReference& reference, const Vec2& stiffness, int unknowns_a_node)
     : masses_(Matrix::Zero(reference.order() + 1, reference.order() + 1)),
       stiffness_(stiffness),

@@ -4,6 +4,7 @@
 
 #include "elements/distributed_load.hpp"
 #include "elements/element.hpp"
+#include "elements/on_slender_beam.hpp"
 #include "elements/reissner_beam.hpp"
 #include "elements/slender_beam.hpp"
 
@@ -29,22 +30,8 @@ class StretchFoundation {
   Vec2 stiffness_;
 };
 
-/// The same on an element of a classic or elastica beam, whose unknowns it has.
-class BeamFoundation final : public Element {
- public:
-  BeamFoundation(const StretchReference& stretch, const Vec2& stiffness)
-      : foundation_(stretch, stiffness),
-        chord_(stretch.chord),
-        angles_{stretch.angles.front(), stretch.angles.back()} {}
-
-  int unknown_count() const override { return 6; }
-  double evaluate(const double* u, double* f, double* K) const override;
-
- private:
-  StretchFoundation foundation_;
-  Vec2 chord_;
-  std::array<double, 2> angles_;
-};
+/// The same on an element of a classic or elastica beam.
+using BeamFoundation = OnSlenderBeam<StretchFoundation>;
 
 /// The same on a ReissnerBeam, or on another beam with displacements of the same shape functions.
 class ExactFoundation final : public Element {
