@@ -74,12 +74,11 @@ bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at,
   return is_straight(0.0) && (ahead == 0.0 || (is_straight(0.5) && is_straight(1.0)));
 }
 
-HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
+HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Touch touch = touch_of_contact(setting, at.layout, point);
   const AxisPlace axis = touch.axis(at);
   return {.touch = touch,
-          .ahead = ahead,
-          .s = at.s(static_cast<Index>(point)) + ahead,
+          .s = at.s(static_cast<Index>(point)),
           .position = axis.position,
           .angle = axis.angle,
           .stretch = strain_of_free_side(at, point).stretch,
@@ -87,14 +86,13 @@ HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::s
 }
 
 // ∓ (EI κ₀″/Λ + q·n), q the load along the body.
-double straight_pressure(const SlidingSetting& setting, const HeldAxis& held) {
+double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   const SlidingBody& body = setting.body;
-  const Index strand = held.touch.strand;
-  const MaterialPoint here{.strand = strand, .s = held.s};
+  const MaterialPoint here{.strand = held.touch.strand, .s = held.s + ahead};
   AxisPlace axis{.position = held.position, .angle = held.angle};
-  axis.position = place_ahead(axis, held.stretch, held.ahead);
+  axis.position = place_ahead(axis, held.stretch, ahead);
   const Vec2 load = body.load(here, axis, held.stretch, held.lambda);
-  const double bending = body.bending_stiffness(strand) * body.natural_curvature_second(here) / held.stretch;
+  const double bending = body.bending_stiffness(here.strand) * body.natural_curvature_second(here) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
   return -side * travel(axis) * (bending + load.dot(normal(held.angle)));
 }
@@ -103,7 +101,7 @@ double straight_pressure(const SlidingSetting& setting, const HeldAxis& held) {
 // so by itself.
 double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
   const SlidingBody& body = setting.body;
-  const HeldAxis held = held_axis(setting, at, point, ahead);
+  const HeldAxis held = held_axis(setting, at, point);
   const Index strand = held.touch.strand;
   const Obstacle& obstacle = *setting.obstacles[held.touch.obstacle].surface;
   const auto wall = [&](double farther) {
@@ -115,21 +113,38 @@ double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, s
   const double strain = held.stretch - 1.0 - body.free_strain(strand, held.lambda).value;
   const double by_wall =
       body.bending_stiffness(strand) * wall_second - body.axial_stiffness(strand) * strain * wall(0.0);
-  return straight_pressure(setting, held) + sign_of(obstacle.side()) * by_wall;
+  return straight_pressure(setting, held, ahead) + sign_of(obstacle.side()) * by_wall;
 }
 
+namespace {
+
+constexpr double difference_step = 1e-3;  // of what is varied, or of the length of the strand
+
+// By central differences of fourth order, f being a function of the change.
+template <class Function>
+double derivative(const Function& f, double step) {
+  return (8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step);
+}
+
+}  // namespace
+
+double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
+  return derivative([&](double d) { return straight_pressure(setting, held, ahead + d); },
+                    difference_step * setting.body.length(held.touch.strand));
+}
+
+// The place stays, so that the point comes nearer to it as it moves on.
 Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
-  constexpr double step = 1e-3;
-  const HeldAxis held = held_axis(setting, at, point, ahead);
-  const auto by = [&](double scale, const auto& move) {
-    const auto moved = [&](double steps) {
-      HeldAxis there = held;
-      move(there, steps * step * scale);
-      return straight_pressure(setting, there);
-    };
-    return (8.0 * (moved(1.0) - moved(-1.0)) - (moved(2.0) - moved(-2.0))) / (12.0 * step * scale);
-  };
+  const HeldAxis held = held_axis(setting, at, point);
   const double length = setting.body.length(held.touch.strand);
+  const auto by = [&](double scale, const auto& move) {
+    const auto moved = [&](double d) {
+      HeldAxis there = held;
+      move(there, d);
+      return straight_pressure(setting, there, ahead);
+    };
+    return derivative(moved, difference_step * scale);
+  };
   const double by_x = by(length, [](HeldAxis& there, double d) { there.position.x() += d; });
   const double by_z = by(length, [](HeldAxis& there, double d) { there.position.y() += d; });
   const double by_angle = by(1.0, [](HeldAxis& there, double d) { there.angle += d; });
@@ -143,7 +158,7 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
   row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds;
   add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), Eigen::Vector3d(by_x, by_z, by_angle), row.dx);
-  row.dx[at.index.coordinate(static_cast<Index>(point))] += by_s;
+  row.dx[at.index.coordinate(static_cast<Index>(point))] += by_s - straight_pressure_slope(setting, held, ahead);
   row.dlambda = by_lambda + by_stretch * strain.stretch_dlambda;
   return row;
 }

@@ -22,22 +22,25 @@ double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at,
 /// Whether the obstacle is straight beside a tracked point and up to `ahead` of it along the body.
 bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead = 0.0);
 
-/// The axis beside a tracked point, held straight on a straight obstacle, and a place on it.
+/// The axis at a tracked point, from where it is held straight along a straight obstacle.
 struct HeldAxis {
   Touch touch;
-  double ahead;    ///< of the point, where the place is [length]
-  double s;        ///< material coordinate of the place [length]
+  double s;        ///< material coordinate of the point [length]
   Vec2 position;   ///< of the point
   double angle;    ///< of the axis [rad]
   double stretch;  ///< of the axis
   double lambda;
 };
-HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
-/// Force per length with which a straight obstacle holds the axis straight at that place; > 0 where it presses (8.7).
-double straight_pressure(const SlidingSetting& setting, const HeldAxis& held);
+/// Force per length with which a straight obstacle holds the axis straight, `ahead` of the point along the body; > 0
+/// where it presses (8.7).
+double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
-/// Its derivatives by all unknowns and by λ, at a place that stays as far ahead of the point.
+/// Its derivative along the body, at a point that stays.
+double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& held, double ahead);
+
+/// Its derivatives by all unknowns and by λ, at a place that stays the same of the body.
 Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
 
 /// Force per length that would hold the body on the obstacle at a tracked point, or `ahead` of it along the body; > 0

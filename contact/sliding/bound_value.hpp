@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
+
 #include "contact/sliding/validity_bound.hpp"
 #include "core/observable.hpp"
 
@@ -22,5 +25,17 @@ class BoundValue final : public Observable {
   const SlidingSetting& setting_;
   std::size_t bound_;
 };
+
+/// The number of the bound of a kind of which `holds` is true; there is one.
+template <class Bound, class Holds>
+std::size_t bound_number(const SlidingContactLayout& on, const Holds& holds) {
+  const auto is_it = [&](const auto& bound) {
+    const auto* same = dynamic_cast<const Bound*>(bound.get());
+    return same != nullptr && holds(*same);
+  };
+  const auto found = std::find_if(on.bounds().begin(), on.bounds().end(), is_it);
+  assert(found != on.bounds().end());
+  return static_cast<std::size_t>(found - on.bounds().begin());
+}
 
 }  // namespace arcwall::sliding

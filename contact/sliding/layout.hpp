@@ -50,6 +50,9 @@ class SlidingContactLayout final : public SlidingLayout {
     int elements;
     Span span;
     std::size_t place;  ///< among the strand's segments
+
+    /// The tracked point at one of its ends, of which it has one: the first if both are.
+    std::size_t end_point() const { return static_cast<std::size_t>(first_point >= 0 ? first_point : last_point); }
   };
 
   /// `s`: the material coordinates of the points where the layout begins. A mesh that is too fine already there is not

@@ -41,15 +41,6 @@ const SlidingContactLayout::Segment& part_of(const SlidingState& at, std::size_t
   return at.layout.segments()[at.layout.pressed_nodes()[node].segment];
 }
 
-// The tracked point at one of a part's ends; the other may be a tip.
-std::size_t point_of(const SlidingContactLayout::Segment& part) {
-  return static_cast<std::size_t>(part.first_point >= 0 ? part.first_point : part.last_point);
-}
-
-bool is_on_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
-  return obstacle_is_straight(setting, at, point_of(part_of(at, node)));
-}
-
 enum class Where { first_end, inside, last_end };
 
 // Where a part lifts off. On a curved obstacle the pressure is known between nodes no better than by them.
@@ -57,7 +48,7 @@ Where lifts_off_at(const SlidingSetting& setting, const SlidingState& at, std::s
   const SlidingContactLayout::Segment& part = part_of(at, node);
   const double place = least_pressure(setting, at, node).s;
   const auto [begin, end] = at.layout.ends(setting.body, part, at.now.s);
-  const double near = 0.5 * (is_on_straight(setting, at, node) ? length : (end - begin) / part.elements);
+  const double near = 0.5 * (lies_on_straight(setting, at, node) ? length : (end - begin) / part.elements);
   return place - begin < near ? Where::first_end : end - place < near ? Where::last_end : Where::inside;
 }
 
@@ -80,7 +71,7 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
   const auto elements = [&](double from, double to, int fewest) {  // with room to grow before the part is meshed anew
     return std::max(fewest, static_cast<int>(std::ceil(setting.body.elements_between(pressed.strand, from, to))));
   };
-  const int fewest = fewest_pressed(is_on_straight(setting, at, node));
+  const int fewest = fewest_pressed(lies_on_straight(setting, at, node));
   const int across = elements(left, left + length, 2), behind = elements(left + length, next, fewest);
   LayoutEdit::Entry edge{.point = {.obstacle = pressed.obstacle}, .strand = pressed.strand, .s = left, .closed = true};
   const std::size_t first = at_first ? static_cast<std::size_t>(part.first_point)
@@ -120,7 +111,7 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
   const SlidingContactLayout::Segment& part = part_of(at, nodes.front());
   const double shortest = shortest_span_on_straight(setting.body, part.strand);
   const bool at_ends_on_straight = std::all_of(nodes.begin(), nodes.end(), [&](std::size_t node) {
-    return is_on_straight(setting, at, node) && lifts_off_at(setting, at, node, shortest) != Where::inside;
+    return lies_on_straight(setting, at, node) && lifts_off_at(setting, at, node, shortest) != Where::inside;
   });
   std::vector<Transition> transitions;
   const auto try_length = [&](double length, double least) {
@@ -130,7 +121,7 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
     transitions.push_back(std::move(*transition));
   };
   if (at_ends_on_straight) {
-    const std::size_t point = point_of(part);
+    const std::size_t point = part.end_point();
     const double ahead = least_pressure(setting, at, nodes.front()).s - at.s(static_cast<Index>(point));
     const double sure = shortest_sure_arch(setting, at, point, ahead);
     for (const double factor : {2.0, 4.0, 8.0, 16.0, 1.0, 0.5})

@@ -90,11 +90,6 @@ struct PartOfNode {
     node = pressed.position - begin - 1;
     nodes = segment.elements - 1;
   }
-
-  /// The tracked point at one of its ends; the other may be a tip.
-  std::size_t point() const {
-    return static_cast<std::size_t>(segment.first_point >= 0 ? segment.first_point : segment.last_point);
-  }
 };
 
 // Material coordinates of a part's ends.
@@ -131,14 +126,17 @@ struct AtFraction {
   double r, pressure;
 };
 
-double ahead_of_point(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part, double r) {
-  const auto [from, length] = extent(setting, at, part);
-  return from + r * length - at.s(static_cast<Index>(part.point()));
-}
+// How far a fraction of a part lies ahead of the tracked point at its end.
+struct AheadOfPoint {
+  double from, length;
 
-double pressure_at(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part, double r) {
-  return straight_pressure(setting, held_axis(setting, at, part.point(), ahead_of_point(setting, at, part, r)));
-}
+  AheadOfPoint(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+    const Extent whole = extent(setting, at, part);
+    from = whole.from - at.s(static_cast<Index>(part.segment.end_point()));
+    length = whole.length;
+  }
+  double operator()(double r) const { return from + r * length; }
+};
 
 // The least of what the node sees, at an end or between.
 AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
@@ -146,7 +144,9 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
   const double h = 1.0 / part.segment.elements;
   const double from = part.node == 0 ? 0.0 : (double(part.node) + 0.5) * h;
   const double to = part.node == part.nodes - 1 ? 1.0 : (double(part.node) + 1.5) * h;
-  const auto pressure = [&](double r) { return pressure_at(setting, at, part, r); };
+  const HeldAxis held = held_axis(setting, at, part.segment.end_point());
+  const AheadOfPoint ahead(setting, at, part);
+  const auto pressure = [&](double r) { return straight_pressure(setting, held, ahead(r)); };
   const auto at_fraction = [&](double r) { return AtFraction{.r = r, .pressure = pressure(r)}; };
   const AtFraction first = at_fraction(from), middle = at_fraction(0.5 * (from + to)), last = at_fraction(to);
   const AtFraction least = first.pressure <= last.pressure ? first : last;
@@ -156,33 +156,33 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
   return value < least.pressure ? AtFraction{.r = r, .pressure = value} : least;
 }
 
-// The place is at a fraction of the part, whose ends move: it moves along the axis with them.
+// The place is at a fraction of the part, and moves along the body with its ends.
 Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
-  constexpr double step = 1e-3;  // of the strand
-  const double r = least_on_straight(setting, at, part).r, along = step * setting.body.length(part.pressed.strand);
-  const auto beside = [&](double steps) {
-    return pressure_at(setting, at, part, r + steps * along / extent(setting, at, part).length);
-  };
-  const double slope = (8.0 * (beside(1.0) - beside(-1.0)) - (beside(2.0) - beside(-2.0))) / (12.0 * along);
   const SlidingContactLayout::Segment& ends = part.segment;
-  Row row = straight_pressure_gradient(setting, at, part.point(), ahead_of_point(setting, at, part, r));
-  row.dx[at.index.coordinate(static_cast<Index>(part.point()))] -= slope;
+  const double r = least_on_straight(setting, at, part).r, ahead = AheadOfPoint(setting, at, part)(r);
+  const double slope = straight_pressure_slope(setting, held_axis(setting, at, ends.end_point()), ahead);
+  Row row = straight_pressure_gradient(setting, at, ends.end_point(), ahead);
   if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] += (1.0 - r) * slope;
   if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] += r * slope;
   return row;
 }
 
-bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
-  return obstacle_is_straight(setting, at, part.point(), ahead_of_point(setting, at, part, 0.0)) &&
-         obstacle_is_straight(setting, at, part.point(), ahead_of_point(setting, at, part, 1.0));
+bool part_is_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  const AheadOfPoint ahead(setting, at, part);
+  const std::size_t point = part.segment.end_point();
+  return obstacle_is_straight(setting, at, point, ahead(0.0)) && obstacle_is_straight(setting, at, point, ahead(1.0));
 }
 
 }  // namespace
 
+bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
+  return part_is_on_straight(setting, at, PartOfNode(at.layout, node));
+}
+
 LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
   const auto [from, length] = extent(setting, at, part);
-  if (lies_on_straight(setting, at, part)) {
+  if (part_is_on_straight(setting, at, part)) {
     const AtFraction least = least_on_straight(setting, at, part);
     return {.value = least.pressure, .s = from + least.r * length};
   }
@@ -195,7 +195,7 @@ LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& 
 // The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this.
 Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
-  if (lies_on_straight(setting, at, part)) return gradient_on_straight(setting, at, part);
+  if (part_is_on_straight(setting, at, part)) return gradient_on_straight(setting, at, part);
   const ByForces least = least_by_forces(at, node, part);
   const double length = extent(setting, at, part).length, per_force = part.segment.elements / length;
   const double p = least.weights.dot(at.state.x.segment(least.first, part.nodes));

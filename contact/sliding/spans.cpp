@@ -18,13 +18,10 @@ double shortest_span_on_straight(const SlidingBody& body, Index strand) { return
 // The nodes of the arch's two elements are known to some ε L, their forces to EI/(d/2)³ times that; a tenth of p̄′
 // d²/20.
 double shortest_sure_arch(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
-  constexpr double roundoff = 1e-12, longest = 0.02, step = 1e-3;
+  constexpr double roundoff = 1e-12, longest = 0.02;
   const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
   const double L = setting.body.length(strand);
-  const auto pressure = [&](double there) {
-    return straight_pressure(setting, held_axis(setting, at, point, ahead + there));
-  };
-  const double slope = std::abs(pressure(step * L) - pressure(-step * L)) / (2.0 * step * L);
+  const double slope = std::abs(straight_pressure_slope(setting, held_axis(setting, at, point), ahead));
   const double lost = std::pow(roundoff * setting.body.bending_stiffness(strand) * L / slope, 0.2);
   return std::clamp(lost, shortest_span_on_straight(setting.body, strand), longest * L);
 }

@@ -107,6 +107,15 @@ std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& 
   return text;
 }
 
+// Behind each of the points there are spans now, of which the first one behind the first point begins with a length.
+Transition with_spans(const SlidingSetting& setting, const SlidingState& at, const Points& points,
+                      const LayoutEdit& edit, double length) {
+  Transition transition = up_to(length, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
+                                mapped_onto(setting, at, edit, layout_of(edit)));
+  for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
+  return transition;
+}
+
 // Each of the points, ascending, becomes two, a short way apart.
 Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, Span between,
                   double length) {
@@ -130,10 +139,7 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
                 between_them, behind);
     edit.points[*k].behind = span;
   }
-  Transition transition = up_to(length, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
-                                mapped_onto(setting, at, edit, layout_of(edit)));
-  for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
-  return transition;
+  return with_spans(setting, at, points, edit, length);
 }
 
 // A stretch about a point, on a straight wall, in which the pressure that would hold the body there changes its sign:
@@ -193,10 +199,8 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
     edit.insert(end, second, behind);
     first_span = stretch->lift_off - stretch->from;
   }
-  Transition transition = up_to(first_span, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
-                                mapped_onto(setting, at, edit, layout_of(edit)));
+  Transition transition = with_spans(setting, at, points, edit, first_span);
   transition.least = 0.5 * first_span;  // its arch is at least twice the shortest there is
-  for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
   return transition;
 }
 

@@ -156,12 +156,9 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
   }
   const auto on = layout_of(edit);
   State guess = mapped_onto(setting, at, edit, on);
-  std::size_t lies_down = 0;
-  const auto is_its_own = [&](const auto& bound) {
-    const auto* same = dynamic_cast<const LiesDownBound*>(bound.get());
-    return same != nullptr && same->strand() == tails.back()->strand() && same->last() == tails.back()->last();
-  };
-  while (!is_its_own(on->bounds()[lies_down])) ++lies_down;
+  const std::size_t lies_down = bound_number<LiesDownBound>(*on, [&](const LiesDownBound& bound) {
+    return bound.strand() == tails.back()->strand() && bound.last() == tails.back()->last();
+  });
   Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, lies_down),
                                 lay ? Change::gathers : Change::passes, std::move(guess));
   for (const std::size_t end : ends) transition.contacts.push_back(static_cast<Index>(on->points().size() + end));
@@ -181,12 +178,8 @@ std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const 
     LayoutEdit edit = edit_of(setting.body, at);
     edit.ends_closed[end] = 1;
     const auto on = layout_of(edit);
-    std::size_t loses_curvature = 0;
-    const auto is_of_point = [&](const auto& bound) {
-      const auto* same = dynamic_cast<const CurvatureBound*>(bound.get());
-      return same != nullptr && same->point() == point;
-    };
-    while (!is_of_point(on->bounds()[loses_curvature])) ++loses_curvature;
+    const std::size_t loses_curvature =
+        bound_number<CurvatureBound>(*on, [&](const CurvatureBound& bound) { return bound.point() == point; });
     Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, loses_curvature), Change::joins,
                                   mapped_onto(setting, at, edit, on));
     transition.contacts = {static_cast<Index>(points + end)};

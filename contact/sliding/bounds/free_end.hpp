@@ -4,8 +4,8 @@
 
 namespace arcwall::sliding {
 
-/// How fast the gap grows from a free end on that touches: behind the bound the end lies down on the wall, which is not
-/// modelled. Positive where the end does not touch.
+/// How fast the gap grows from a free end on that touches: behind the bound a tip lies down on the wall, or contact
+/// moves inside. Positive where the end does not touch.
 class LiesDownBound final : public ValidityBound {
  public:
   LiesDownBound(Index strand, bool last) : strand_(strand), last_(last) {}
