@@ -139,6 +139,35 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
   }
 }
 
+// A wall that the beam leaves its clamp along bounds the curvature there.
+TEST(SlidingContact, DerivativesAreConsistentAtAClampOnAWall) {
+  Numbers numbers(71);
+  for (const bool reversed : {false, true}) {
+    StructureBuilder builder;
+    const Vec2 clamp(0.0, 0.0), tip(2.0, 0.0);
+    const Index clamped = reversed ? 1 : 0, free = 1 - clamped;
+    builder.add_joint(reversed ? tip : clamp);
+    builder.add_joint(reversed ? clamp : tip);
+    builder.add_member({.name = "beam",
+                        .from = 0,
+                        .to = 1,
+                        .axis = reversed ? straight_axis(tip, clamp) : straight_axis(clamp, tip),
+                        .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
+                        .elements = 7});
+    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(clamped, which));
+    builder.fix(builder.shared_rotation(clamped).value());
+    builder.add_load(builder.freedom(free, Freedom::z), -1.0, LoadKind::proportional);
+    builder.add_distributed_load(0, {0.1, -0.3}, LoadKind::proportional);
+    const SlidingModel model(
+        builder, {{.name = "wall", .side = Side::below, .profile = circle_profile({0.0, -1.1}, 1.0, Side::below)}},
+        0.1);
+    const State state = random_state(model, model.system().open_piece(), numbers);
+    const Vector bounds = model.system().guards(state).tail(3);
+    EXPECT_TRUE((bounds.array() != 1.0).any());  // as they are where nothing touches
+    EXPECT_LE(check_derivatives(model.system(), state, 1e-6).guard_gradient, 1e-6);
+  }
+}
+
 namespace {
 
 // The same beam with forces at 3/7 of its length, 0.87, and at 5/7 of it, 1.45.
