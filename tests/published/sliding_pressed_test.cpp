@@ -230,7 +230,7 @@ TEST_P(SlidingPressedPart, GrowsFromAClamp) {
       EXPECT_EQ(path.model.system().contact(event.state, event.guards[0]).label.fraction, 0.0);
       begins.push_back(event.state.lambda / 1.0672281846885918 - 1.0);
       edges.push_back(path.points()[0] / edge - 1.0);
-      if (elements == 40) path.expect_invariants();
+      if (elements == 80) path.expect_invariants();
       if (elements > 20) continue;
       const Path mirrored = path_of(leaf_on_cylinder(elements, GetParam(), true), load);
       ASSERT_EQ(mirrored.kinds(), std::vector{spreads});
