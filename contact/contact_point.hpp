@@ -35,7 +35,7 @@ class ContactQuery {
   virtual ~ContactQuery() = default;
 
   /// Contact j of the state's piece, open or closed. The number of a validity bound that an event names stands for the
-  /// place that it watches: where the pressure of a part on an obstacle is least.
+  /// place that it watches: where the pressure of a part on an obstacle is least, or a clamp.
   virtual ContactPoint contact(const State& state, Index j) const = 0;
 
   /// The force of contact j alone, 0 where it is open [force].

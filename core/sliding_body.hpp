@@ -100,6 +100,9 @@ class SlidingMesh {
   /// Just before or behind breakpoint k.
   virtual AxisStrain strain(Index k, At side, const MeshState& now) const = 0;
 
+  /// At an end of a strand.
+  virtual AxisStrain end_strain(Index strand, bool last, const MeshState& now) const = 0;
+
   /// Energy of the element behind a node, the potential of the load along it included.
   virtual double element_energy(Index strand, Index position, const MeshState& now) const = 0;
 
@@ -187,6 +190,9 @@ class SlidingBody {
 
   /// Whether an end of a strand is a tip: free to move in z and to turn, with no other strand at it.
   virtual bool is_tip(Index strand, bool last) const = 0;
+
+  /// Whether supports hold an end of a strand in z and its rotation.
+  virtual bool is_clamped(Index strand, bool last) const = 0;
 
   /// Words for messages: member and fraction of its length.
   virtual std::pair<std::string, double> label(const MaterialPoint& point) const = 0;

@@ -454,8 +454,8 @@ double SlidingStructureMesh::energy(const MeshState& now) const {
 //   curvature = κ₀ ± M/EI,   stretch = 1 + e ± N/EA,   N = f·t
 //
 // κ₀ and e with what temperatures make.
-AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) const {
-  const auto [strand, position] = breakpoint(k);
+// At a node whose material coordinate is fixed.
+AxisStrain SlidingStructureMesh::strain_at_node(Index strand, Index position, At side, const MeshState& now) const {
   const bool before = side == At::before;
   const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();
   const Index place = before ? 3 : 0, turn = place + 2;  // of the node among the element's freedoms
@@ -464,12 +464,9 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
   const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
   const Response response = with_end_forces(respond(strand, e, now, true), strand, e, now);
   const Vec2 t = unit_tangent(node(strand, position, now).angle);
-  const double S = coordinate(strand, position, now.s), step = 1e-5 * described.length;
-  const auto natural = [&, strand = strand](double at) {
-    return structure_.natural_curvature({.strand = strand, .s = at}, now.lambda);
-  };
+  const MaterialPoint here{.strand = strand, .s = coordinate(strand, position, now.s)};
   const auto force = response.force.segment<2>(place);
-  AxisStrain strain{.curvature = natural(S) + response.force[turn] / EI,
+  AxisStrain strain{.curvature = structure_.natural_curvature(here, now.lambda) + response.force[turn] / EI,
                     .stretch = 1.0 + described.thermal.strain.at(now.lambda) + force.dot(t) / EA};
 
   const Six curvature_dx = response.stiffness.row(turn).transpose() / EI;
@@ -487,10 +484,24 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
     strain.curvature_ds[j] += rate[turn] / EI;
     strain.stretch_ds[j] += rate.segment<2>(place).dot(t) / EA;
   });
-  strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
   strain.curvature_dlambda = described.thermal.curvature.proportional + response.force_lambda[turn] / EI;
   strain.stretch_dlambda = described.thermal.strain.proportional + response.force_lambda.segment<2>(place).dot(t) / EA;
   return strain;
+}
+
+AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) const {
+  const auto [strand, position] = breakpoint(k);
+  const double S = coordinate(strand, position, now.s), step = 1e-5 * structure_.at(strand).length;
+  const auto natural = [&, strand = strand](double at) {
+    return structure_.natural_curvature({.strand = strand, .s = at}, now.lambda);
+  };
+  AxisStrain strain = strain_at_node(strand, position, side, now);
+  strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
+  return strain;
+}
+
+AxisStrain SlidingStructureMesh::end_strain(Index strand, bool last, const MeshState& now) const {
+  return strain_at_node(strand, last ? nodes(strand) - 1 : 0, last ? At::before : At::behind, now);
 }
 
 SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index position, const MeshState& now) const {

@@ -45,6 +45,10 @@ class SlidingStructure final : public SlidingBody {
   }
   std::optional<std::pair<Index, bool>> same_end_before(Index strand, bool last) const override;
   bool is_tip(Index strand, bool last) const override;
+  bool is_clamped(Index strand, bool last) const override {
+    const End& end = at(strand).ends[last ? 1 : 0];
+    return nodal_.is_held(end.freedom[1]) && nodal_.is_held(end.freedom[2]);
+  }
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
   std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;
   Vector rest(const SlidingMesh& mesh, const Vector& s) const override;

@@ -27,13 +27,14 @@ void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index)
 
 // ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve at the
 // face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
-CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Touch touch = touch_of_contact(setting, at.layout, point);
+namespace {
+
+CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                               const AxisStrain& strain) {
   const AxisPlace axis = touch.axis(at);
   const double along = travel(axis), offset = along * touch.offset;
   const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
   const double side = sign_of(obstacle.side());
-  const AxisStrain strain = strain_of_free_side(at, point);
   const LinearField wall = obstacle.curvature(face(touch.offset, axis), at.now.lambda);
   const double shrink = 1.0 / (1.0 + touch.offset * wall.value);
   const double parallel = wall.value * shrink;
@@ -48,6 +49,17 @@ CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at
               out.dx);
   out.dlambda += by_wall * wall.rate;
   return out;
+}
+
+}  // namespace
+
+CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  return gap_of_curvatures(setting, at, touch_of_contact(setting, at.layout, point), strain_of_free_side(at, point));
+}
+
+CurvatureGap end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  return gap_of_curvatures(setting, at, touch_of_end(setting, at.layout, end),
+                           at.mesh.end_strain(end.strand, end.last, at.now));
 }
 
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {

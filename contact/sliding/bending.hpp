@@ -16,6 +16,9 @@ struct CurvatureGap {
 };
 CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
+/// The same at an end of a strand that touches the obstacle tangentially.
+CurvatureGap end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
 /// Curvature of the obstacle at a tracked point [1/length].
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 

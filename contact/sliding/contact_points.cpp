@@ -1,6 +1,8 @@
 #include "contact/sliding/contact_points.hpp"
 
+#include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
+#include "contact/sliding/clamps.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/touch.hpp"
 
@@ -36,6 +38,10 @@ ContactPoint at_least_pressure(const SlidingSetting& setting, const SlidingState
 ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
   if (j < at.contacts()) return at_node(setting, at, touch_of_contact(setting, at.layout, j), at.force(j));
   const ValidityBound& bound = *at.layout.bounds()[j - at.contacts()];
+  if (const auto* clamp = dynamic_cast<const ClampBound*>(&bound))
+    return at_node(setting, at,
+                   touch_of_end(setting, at.layout, touched_clamp(setting, at, clamp->strand(), clamp->last()).value()),
+                   0.0);
   return at_least_pressure(setting, at, dynamic_cast<const PressureBound&>(bound));
 }
 

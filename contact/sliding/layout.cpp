@@ -10,14 +10,14 @@ SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_
                                            std::vector<Point> points, const Vector& s)
     : mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
   Index first_point = 0;
-  for (Index strand = 0; strand < body.strands(); ++strand) first_point = add_segments(strand, first_point);
+  for (Index strand = 0; strand < body.strands(); ++strand) first_point = add_segments(body, strand, first_point);
   bounds_ = sliding::validity_bounds(body, *this);
 }
 
 SlidingContactLayout::~SlidingContactLayout() = default;
 
 // Tells the first point of the next strand.
-Index SlidingContactLayout::add_segments(Index strand, Index next_point) {
+Index SlidingContactLayout::add_segments(const SlidingBody& body, Index strand, Index next_point) {
   Index position = 0, before = -1, load_before = -1;  // the point or load where the segment begins
   const std::vector<MeshSegment>& segments = mesh_->elements_per_segment()[static_cast<std::size_t>(strand)];
   Point touching;  // the last point before the segment, or what lies before the first one
@@ -41,10 +41,10 @@ Index SlidingContactLayout::add_segments(Index strand, Index next_point) {
       for (Index node = position + 1; node < position + elements; ++node)
         pressed_nodes_.push_back(
             {.strand = strand, .position = node, .obstacle = touching.obstacle, .segment = segments_.size() - 1});
-    if (touching.behind == Span::pressed && i == 0)
+    if (touching.behind == Span::pressed && i == 0 && body.is_tip(strand, false))
       pressed_tips_.push_back({.strand = strand, .position = 0, .obstacle = touching.obstacle});
     position += elements;
-    if (touching.behind == Span::pressed && !to_point && i + 1 == segments.size())
+    if (touching.behind == Span::pressed && !to_point && i + 1 == segments.size() && body.is_tip(strand, true))
       pressed_tips_.push_back({.strand = strand, .position = position, .obstacle = touching.obstacle});
     if (to_point) touching = points_[static_cast<std::size_t>(point)];
     before = point;

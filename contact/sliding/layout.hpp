@@ -107,7 +107,7 @@ class SlidingContactLayout final : public SlidingLayout {
                                  const Eigen::Ref<const Vector>& s) const;
 
  private:
-  Index add_segments(Index strand, Index next_point);
+  Index add_segments(const SlidingBody& body, Index strand, Index next_point);
   const Segment& segment_at_end(Index strand, bool last) const;
 
   std::shared_ptr<const SlidingMesh> mesh_;

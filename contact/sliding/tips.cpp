@@ -36,21 +36,15 @@ struct ClosedTip {
 ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std::size_t end) {
   constexpr double round_off = 1e-6;  // of curvatures, times the length scale
   const std::size_t contact = at.layout.points().size() + end;
-  const auto [strand, last, obstacle, along_rest] = setting.free_ends[end];
+  const FreeEnd& there = setting.free_ends[end];
+  const auto [strand, last, obstacle, along_rest] = there;
   const Touch touch = touch_of_contact(setting, at.layout, contact);
   const AxisPlace axis = touch.axis(at);
   const Obstacle& surface = *setting.obstacles[obstacle].surface;
-  const Vec2 place = face(touch.offset, axis), t(std::cos(axis.angle), std::sin(axis.angle));
   const Eigen::Vector3d carried = at.mesh.end_forces(strand, last ? touch.position - 1 : 0, at.now)[last ? 1 : 0];
-  const double sign = last ? 1.0 : -1.0, lambda = at.now.lambda, s = last ? setting.body.length(strand) : 0.0;
-  const double curvature = setting.body.natural_curvature({.strand = strand, .s = s}, lambda) +
-                           sign * carried[2] / setting.body.bending_stiffness(strand);
-  const double stretch = 1.0 + setting.body.free_strain(strand, lambda).value +
-                         sign * carried.head<2>().dot(t) / setting.body.axial_stiffness(strand);
-  const double wall = surface.curvature(place, lambda).value;
   ClosedTip tip{.end = end, .strand = strand, .last = last, .obstacle = obstacle, .force = at.force(contact)};
-  tip.load = tip.force - carried.head<2>().dot(surface.normal(place, lambda));
-  tip.bend = sign_of(surface.side()) * (travel(axis) * curvature - stretch * wall / (1.0 + touch.offset * wall));
+  tip.load = tip.force - carried.head<2>().dot(surface.normal(face(touch.offset, axis), at.now.lambda));
+  tip.bend = end_curvature_gap(setting, at, there).value;
   tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= round_off;
   return tip;
 }
@@ -135,7 +129,7 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
 std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
   std::vector<const TailBound*> tails;
   for (const TailBound* bound : reached<TailBound>(setting, at, tolerance))
-    if (at.is_closed(bound->point())) tails.push_back(bound);
+    if (at.is_closed(bound->point()) && setting.body.is_tip(bound->strand(), bound->last())) tails.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
   std::vector<std::size_t> ends;
   bool lay = false;

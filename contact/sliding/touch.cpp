@@ -46,7 +46,10 @@ Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout
     return {
         .strand = strand, .position = position, .obstacle = obstacle, .offset = setting.face_offset(obstacle, strand)};
   }
-  const FreeEnd& end = setting.free_ends[contact - layout.points().size()];
+  return touch_of_end(setting, layout, setting.free_ends[contact - layout.points().size()]);
+}
+
+Touch touch_of_end(const SlidingSetting& setting, const SlidingContactLayout& layout, const FreeEnd& end) {
   return {.strand = end.strand,
           .position = end.position(layout.mesh()),
           .obstacle = end.obstacle,

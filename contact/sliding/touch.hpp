@@ -16,6 +16,8 @@ struct Touch {
 
 /// The node of contact j of a piece: a tracked point's or a free end's.
 Touch touch_of_contact(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
+Touch touch_of_end(const SlidingSetting& setting, const SlidingContactLayout& layout, const FreeEnd& end);
+
 /// Whether a contact is that of a free end up to which the body lies on the same obstacle without pressure.
 bool lies_flat(const SlidingSetting& setting, const SlidingContactLayout& layout, std::size_t contact);
 

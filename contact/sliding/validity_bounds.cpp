@@ -1,3 +1,4 @@
+#include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/element_size.hpp"
 #include "contact/sliding/bounds/flat_part.hpp"
@@ -20,6 +21,11 @@ void add_if(bool there_is_one, Bounds& to, Place... place) {
   if (there_is_one) to.push_back(std::make_unique<Bound>(place...));
 }
 
+// Whether the part between an end of a strand and the point nearest to it may become as short as a tail.
+bool has_tail(const SlidingBody& body, const SlidingContactLayout& on, Index strand, bool last) {
+  return on.point_at_end(strand, last) && (body.is_tip(strand, last) || on.span_at_end(strand, last) != Span::free);
+}
+
 void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std::size_t i, Bounds& to) {
   const SlidingContactLayout::Segment& segment = on.segments()[i];
   const bool touched = segment.first_point >= 0 || segment.last_point >= 0;
@@ -27,9 +33,9 @@ void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std
   const bool to_load = touched && (segment.first_load >= 0 || segment.last_load >= 0);
   add_if<LengthBound>(on.joins_one_obstacle(segment), to, static_cast<std::size_t>(segment.first_point));
   add_if<LoadAheadBound>(to_load, to, i);
-  const bool to_tip = (segment.first_point < 0 && body.is_tip(segment.strand, false)) ||
-                      (segment.last_point < 0 && body.is_tip(segment.strand, true));
-  add_if<RoomBound>(touched && !to_load && !to_tip && !on.joins_one_obstacle(segment), to, i);
+  const bool is_tail = (segment.first_point < 0 && has_tail(body, on, segment.strand, false)) ||
+                       (segment.last_point < 0 && has_tail(body, on, segment.strand, true));
+  add_if<RoomBound>(touched && !to_load && !is_tail && !on.joins_one_obstacle(segment), to, i);
   add_if<HalfWaveBound>(flat && segment.elements == 1, to, i);
   add_if<StraightBound>(flat && segment.elements > 1, to, i);
   if (flat || on.points().empty()) return;
@@ -63,8 +69,9 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
       const bool free = !body.end_is_held(strand, last);
       add_if<LiesDownBound>(free, bounds, strand, last);
       add_if<UprightBound>(free, bounds, strand, last);
-      const auto point = on.point_at_end(strand, last);
-      add_if<TailBound>(point && body.is_tip(strand, last), bounds, strand, last, point.value_or(0));
+      add_if<ClampBound>(body.is_clamped(strand, last), bounds, strand, last);
+      add_if<TailBound>(has_tail(body, on, strand, last), bounds, strand, last,
+                        on.point_at_end(strand, last).value_or(0));
     }
   return bounds;
 }

@@ -163,4 +163,62 @@ TEST(SlidingFlatPart, GathersWhereItSpread) {
   EXPECT_NEAR(unloading[1].state.lambda, loading[0].state.lambda, 1e-9 * loading[0].state.lambda);
 }
 
+namespace {
+
+// A leaf of length 1 (EI = 1, EA = 1e5), clamped on a cylinder of radius 1 and tangentially to it, with the load λ on
+// its tip. It runs from the clamp, or towards it.
+SlidingModel leaf_on_cylinder(int elements, Theory theory, bool reversed) {
+  StructureBuilder builder;
+  const Vec2 clamp(0.0, 0.0), tip(1.0, 0.0);
+  const Index clamped = reversed ? 1 : 0, free = reversed ? 0 : 1;
+  builder.add_joint(reversed ? tip : clamp);
+  builder.add_joint(reversed ? clamp : tip);
+  builder.add_member({.name = "leaf",
+                      .from = 0,
+                      .to = 1,
+                      .axis = reversed ? straight_axis(tip, clamp) : straight_axis(clamp, tip),
+                      .theory = theory,
+                      .order = theory == Theory::elastica ? 6 : 2,
+                      .section = {.E = 1.0, .A = 1e5, .I = 1.0, .height = 0.01},
+                      .elements = elements});
+  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(clamped, which));
+  builder.fix(builder.shared_rotation(clamped).value());
+  builder.add_load(builder.freedom(free, Freedom::z), -1.0, LoadKind::proportional);
+  return {builder,
+          {{.name = "cylinder",
+            .side = Side::below,
+            .profile = circle_profile({0.0, -1.0}, 1.0, Side::below),
+            .on_axis = true}},
+          0.05};
+}
+
+}  // namespace
+
+// The leaf touches the cylinder at its clamp alone until the moment there is EI/R, at a load of 1.0672281847. It then
+// lies on it from the clamp on, at loads of 2 and 4 up to 0.3952437117 and 0.6526673821.
+TEST_P(SlidingPressedPart, GrowsFromAClamp) {
+  for (const auto& [load, edge] : {std::pair(2.0, 0.3952437117), std::pair(4.0, 0.6526673821)}) {
+    std::vector<double> begins, edges;
+    for (const int elements : {20, 40, 80}) {
+      const Path path = path_of(leaf_on_cylinder(elements, GetParam(), false), load);
+      ASSERT_EQ(path.kinds(), std::vector{spreads});
+      const Event event = path.events()[0];
+      EXPECT_EQ(path.model.system().contact(event.state, event.guards[0]).label.fraction, 0.0);
+      begins.push_back(event.state.lambda / 1.0672281846885918 - 1.0);
+      edges.push_back(path.points()[0] / edge - 1.0);
+      if (elements == 80) path.expect_invariants();
+      if (elements > 20) continue;
+      const Path mirrored = path_of(leaf_on_cylinder(elements, GetParam(), true), load);
+      ASSERT_EQ(mirrored.kinds(), std::vector{spreads});
+      EXPECT_NEAR(1.0 - mirrored.points()[0], path.points()[0], 1e-8);
+      const std::vector<Event> back = test::events_of(unloaded(path, 0.5));
+      ASSERT_EQ(back.size(), 1U);
+      EXPECT_EQ(back[0].kind, gathers);
+      EXPECT_NEAR(back[0].state.lambda, event.state.lambda, 1e-6);
+    }
+    EXPECT_LE(std::abs(begins.back()), 1e-9);
+    for (const double error : edges) EXPECT_LE(std::abs(error), 1e-8);
+  }
+}
+
 }  // namespace arcwall::sliding_pressed_test

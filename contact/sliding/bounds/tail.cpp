@@ -1,5 +1,6 @@
 #include "contact/sliding/bounds/tail.hpp"
 
+#include "contact/sliding/clamps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/tips.hpp"
@@ -9,7 +10,9 @@ namespace arcwall::sliding {
 double TailBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const double s = at.s(static_cast<Index>(point_));
   const double length = last_ ? setting.body.length(strand_) - s : s;
-  return (length - shortest_tail(setting.body, strand_)) / setting.scales.length;
+  const bool tip = setting.body.is_tip(strand_, last_);
+  const double shortest = tip ? shortest_tail(setting.body, strand_) : shortest_span(setting.body, strand_);
+  return (length - shortest) / setting.scales.length;
 }
 
 Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
@@ -20,6 +23,7 @@ Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
 
 std::vector<Transition> TailBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {
+  if (!setting.body.is_tip(strand_, last_)) return parts_gather_at_clamps(setting, at, arrival.tolerance);
   if (!at.is_closed(point_)) return {without_point(setting, at, arrival.forward, point_)};
   return contacts_come_to_tips(setting, at, arrival.tolerance);
 }

@@ -4,8 +4,9 @@
 
 namespace arcwall::sliding {
 
-/// The length of a strand between a tracked point and a tip. Behind the bound the contact has passed to the tip, or the
-/// stretch on a wall that reached the tip has gathered there; an open point is given up, as the tip watches on.
+/// The length of a strand between a tracked point and a tip, or a clamp up to which the body lies on the wall. Behind
+/// the bound the contact has passed to the tip, or the stretch on the wall has gathered at the end; an open point
+/// beside a tip is given up, as the tip watches on.
 class TailBound final : public ValidityBound {
  public:
   TailBound(Index strand, bool last, std::size_t point) : strand_(strand), last_(last), point_(point) {}

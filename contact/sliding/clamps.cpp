@@ -1,0 +1,111 @@
+#include "contact/sliding/clamps.hpp"
+
+#include <cmath>
+
+#include "contact/sliding/bending.hpp"
+#include "contact/sliding/bound_value.hpp"
+#include "contact/sliding/bounds/clamp.hpp"
+#include "contact/sliding/bounds/tail.hpp"
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/span_length.hpp"
+#include "contact/sliding/spans.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+using Span = SlidingContactLayout::Span;
+using Change = Transition::Change;
+
+// The bounds of clamps that are reached together.
+using Clamps = std::vector<const ClampBound*>;
+
+// Whether an end of a strand is on an obstacle, and parallel to it.
+bool touches_tangentially(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  constexpr double touching = 1e-9;  // gap, scaled, and angle
+  const Touch touch = touch_of_end(setting, at.layout, end);
+  if (!(std::abs(face_gap(setting, touch, at)) <= touching * setting.scales.length)) return false;
+  return std::abs(touch_gap(setting, touch, at).tilt.value) <= touching;
+}
+
+// Pressed parts of one length from the clamps on.
+Transition with_parts(const SlidingSetting& setting, const SlidingState& at, const Clamps& clamps, double length) {
+  LayoutEdit edit = edit_of(setting.body, at);
+  for (const ClampBound* clamp : clamps) {
+    const auto [strand, last] = std::pair(clamp->strand(), clamp->last());
+    const std::size_t obstacle = touched_clamp(setting, at, strand, last).value().obstacle;
+    const double s = last ? setting.body.length(strand) - length : length;
+    const int rest = edit.elements[static_cast<std::size_t>(strand)][edit.part_at(strand, s).place].elements;
+    const int part = elements_asked(setting.body, strand, std::min(s, s + length), std::max(s, s + length), 2);
+    edit.insert({.point = {.obstacle = obstacle,
+                           .behind = last ? Span::pressed : Span::free,
+                           .before = last ? Span::free : Span::pressed},
+                 .strand = strand,
+                 .s = s,
+                 .closed = true},
+                last ? rest : part, last ? part : rest);
+  }
+  const auto on = layout_of(edit);
+  const ClampBound& first = *clamps.front();
+  const double coordinate = first.last() ? setting.body.length(first.strand()) : 0.0;
+  const std::size_t point = on->point_at_end(first.strand(), first.last()).value();
+  Transition transition = up_to(length, std::make_shared<TailLength>(point, coordinate), Change::spreads,
+                                mapped_onto(setting, at, edit, on));
+  for (std::size_t i = 0; i < at.layout.bounds().size(); ++i)
+    for (const ClampBound* clamp : clamps)
+      if (at.layout.bounds()[i].get() == clamp) transition.contacts.push_back(static_cast<Index>(at.contacts() + i));
+  return transition;
+}
+
+}  // namespace
+
+std::optional<FreeEnd> touched_clamp(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last) {
+  if (at.layout.span_at_end(strand, last) != Span::free) return std::nullopt;
+  std::optional<FreeEnd> found;
+  double least = infinity;
+  for (std::size_t w = 0; w < setting.obstacles.size(); ++w) {
+    const FreeEnd end{.strand = strand, .last = last, .obstacle = w};
+    if (!setting.obstacles[w].concerns(strand) || !touches_tangentially(setting, at, end)) continue;
+    const double gap = end_curvature_gap(setting, at, end).value;
+    if (gap >= least) continue;
+    least = gap;
+    found = end;
+  }
+  return found;
+}
+
+std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+  const Clamps clamps = reached<ClampBound>(setting, at, tolerance);
+  const double length = 2.0 * shortest_span(setting.body, clamps.front()->strand());
+  std::vector<Transition> transitions;
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
+    transitions.push_back(with_parts(setting, at, clamps, factor * length));
+  transitions.push_back(unsupported(
+      "a member bends as a wall does where it leaves its clamp on it, and no equilibrium was found that lies there"));
+  return transitions;
+}
+
+std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, const SlidingState& at,
+                                               double tolerance) {
+  std::vector<const TailBound*> parts;
+  for (const TailBound* bound : reached<TailBound>(setting, at, tolerance))
+    if (!setting.body.is_tip(bound->strand(), bound->last())) parts.push_back(bound);
+  LayoutEdit edit = edit_of(setting.body, at);
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    const std::size_t point = (*part)->point();
+    edit.erase(point, (*part)->last() ? edit.elements_before(point) : edit.elements_behind(point));
+  }
+  const auto on = layout_of(edit);
+  Transition transition = up_to(0.0, nullptr, Change::gathers, mapped_onto(setting, at, edit, on));
+  for (std::size_t i = 0; i < on->bounds().size(); ++i) {
+    const auto* clamp = dynamic_cast<const ClampBound*>(on->bounds()[i].get());
+    for (const TailBound* part : parts) {
+      if (clamp == nullptr || clamp->strand() != part->strand() || clamp->last() != part->last()) continue;
+      if (!transition.quantity) transition.quantity = std::make_shared<BoundValue>(setting, i);
+      transition.contacts.push_back(static_cast<Index>(transition.guess.piece.size() + i));
+    }
+  }
+  return {transition, unsupported("a part on a wall gathers at a clamp, and no equilibrium was found without it")};
+}
+
+}  // namespace arcwall::sliding
