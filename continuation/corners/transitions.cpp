@@ -83,9 +83,16 @@ const TargetValue* value_moved_over(const std::vector<TargetValue>& targets, con
   return found == targets.end() ? nullptr : &*found;
 }
 
+// Whether λ tells places of a path apart that runs in a direction.
+bool runs_in_lambda(const Metric& metric, const Direction& along) {
+  constexpr double least = 1e-3;  // of the direction's length
+  return std::abs(along.dlambda) >= least * metric.lambda_scale() * metric.norm(along);
+}
+
 // From a transition's guess to an equilibrium of the piece ahead. A new mesh moves the path by the error of its
-// elements: where that would move it over a target value, or off one, the point is the one at which that quantity has
-// the value of before. So what lay ahead still does, and what was met is met no more.
+// elements. Where λ runs along the path its value is kept, so that λ turns nowhere but at events; where the path would
+// be moved over a target value, or off one, the point is the one at which that quantity has the value of before. So
+// what lay ahead still does, and what was met is met no more.
 CorrectorResult arrive(TraceTools& tools, const Transition& transition, const PathPoint& from, const Ahead& ahead,
                        Effort effort) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
@@ -95,10 +102,24 @@ CorrectorResult arrive(TraceTools& tools, const Transition& transition, const Pa
                : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
   };
   const State& guess = transition.guess;
-  CorrectorResult result = transition.quantity
-                               ? corrected(guess, ValueConstraint(*transition.quantity, transition.value))
-                               : corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0));
-  if (!result.converged() || transition.change != Transition::Change::remeshed) return result;
+  const bool remeshed = transition.change == Transition::Change::remeshed;
+  const auto across = [&](const Direction& normal) {
+    return corrected(guess, PlaneConstraint(ahead.metric, guess, normal, 0.0));
+  };
+  const auto is_near = [&](const State& state) {
+    constexpr double near = 0.01;  // [path metric]
+    return ahead.metric.distance(state, guess) <= near;
+  };
+  CorrectorResult result{};
+  if (transition.quantity) {
+    result = corrected(guess, ValueConstraint(*transition.quantity, transition.value));
+  } else if (remeshed && runs_in_lambda(ahead.metric, ahead.along)) {
+    result = across({.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0});
+    if (!result.converged() || !is_near(result.state)) result = across(ahead.along);
+  } else {
+    result = across(ahead.along);
+  }
+  if (!result.converged() || !remeshed) return result;
   const TargetValue* const kept = value_moved_over(tools.options.target_values, from.state, result.state);
   if (!kept) return result;
   CorrectorResult moved_back =
@@ -144,6 +165,13 @@ struct Entered {
   PathPoint at;
 };
 
+// Whether a point behind a part's lifting off lies before that in λ. The free span of length d, at first without one,
+// leaves the path's direction as it is, so it lies before by an error of the mesh alone.
+bool lies_back(const Transition& transition, const PathPoint& from, const PathPoint& at) {
+  return transition.change == Transition::Change::splits &&
+         (at.state.lambda - from.state.lambda) * from.tangent.dlambda < 0.0;
+}
+
 // A point of the piece ahead at which its new span has another length, reached from a point of that piece. Empty where
 // it is farther off the tangent than may be trusted: there it may lie on another branch.
 std::optional<PathPoint> with_span(TraceTools& tools, const Transition& transition, const Metric& metric,
@@ -181,6 +209,7 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
     const double length = kept * part * transition.value;
     if (length < transition.least && !value_is_nearer()) break;
     auto nearer = with_span(tools, transition, metric, begin, length);
+    if (nearer && lies_back(transition, from, *nearer)) break;
     if (!nearer) {
       kept = 0.5 * (1.0 + kept);
       continue;
@@ -198,15 +227,22 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
   return begin;
 }
 
-// The first of the transitions behind which a point is found; all are tried again with patience where none is.
+// The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
+// again with patience where none is.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  double lambda_scale) {
-  for (const Effort effort : {Effort::usual, Effort::patient})
+  for (const Effort effort : {Effort::usual, Effort::patient}) {
+    std::optional<Entered> back;
     for (const Transition& transition : transitions) {
       if (!leads_on(transition.change)) break;
-      if (auto at = enter(tools, transition, from, lambda_scale, effort))
-        return Entered{.transition = &transition, .at = std::move(*at)};
+      auto at = enter(tools, transition, from, lambda_scale, effort);
+      if (!at) continue;
+      Entered entered{.transition = &transition, .at = std::move(*at)};
+      if (!lies_back(transition, from, entered.at)) return entered;
+      if (!back) back = std::move(entered);
     }
+    if (back) return back;
+  }
   return std::nullopt;
 }
 
