@@ -50,7 +50,8 @@ ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std:
   const double wall = surface.curvature(place, lambda).value;
   ClosedTip tip{.end = end, .strand = strand, .last = last, .obstacle = obstacle, .force = at.force(contact)};
   tip.load = tip.force - carried.head<2>().dot(surface.normal(place, lambda));
-  tip.bend = sign_of(surface.side()) * (travel(axis) * curvature - stretch * wall / (1.0 + touch.offset * wall));
+  tip.bend = sign_of(surface.side()) *
+             (travel(surface, place, axis.angle, lambda) * curvature - stretch * wall / (1.0 + touch.offset * wall));
   tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= round_off;
   return tip;
 }
