@@ -42,6 +42,11 @@ class MovingObstacle final : public Obstacle {
   LinearField curvature(const Vec2& position, double lambda) const override;
   double along(const Vec2& position, double lambda) const override;
   const std::vector<double>& knots() const override { return at_rest_->knots(); }
+  double period() const override { return at_rest_->period(); }
+  bool has_other_sides() const override { return at_rest_->has_other_sides(); }
+  Vec2 seen_at_rest(const Vec2& position, double lambda) const override { return seen(position, lambda).position; }
+  std::optional<Vec2> core() const override { return at_rest_->core(); }
+  double half_height() const override { return at_rest_->half_height(); }
   double greatest_speed(double reach) const override;
 
   /// Of a turned obstacle what lies between these values of x at rest, moved along.

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "contact/passing.hpp"
 #include "core/algebra/assembly.hpp"
 
 namespace arcwall {
@@ -237,6 +238,18 @@ std::optional<std::string> MultiplierContact::invalid_reason(const State& state)
   return std::nullopt;
 }
 
+bool MultiplierContact::passes_through(const State& from, const State& to) const {
+  const double touching = 1e-6 * scales_.length;
+  for (std::size_t j = 0; j < candidates_.size(); ++j) {
+    const Obstacle& obstacle = candidates_[j].obstacle();
+    if (!obstacle.has_other_sides() || from.piece[j]) continue;
+    const TrackedPoint& point = candidates_[j].point();
+    const PlaceInStep step{.from = point.position(from), .to = point.position(to)};
+    if (point_passes_through(obstacle, step, from.lambda, to.lambda, touching)) return true;
+  }
+  return false;
+}
+
 double MultiplierContact::force(const State& state, Index j) const {
   if (const auto k = multiplier_index(state.piece, j))
     return is_two_sided(j) ? std::max(state.x[*k], 0.0) : state.x[*k];
@@ -247,7 +260,10 @@ double MultiplierContact::force(const State& state, Index j) const {
 ContactPoint MultiplierContact::told(const State& state, std::size_t j, double force) const {
   const Candidate& candidate = candidates_[j];
   ContactPoint contact{.label = candidate.label(), .place = candidate.point().position(state), .force = force};
-  if (force != 0.0 && candidate.faces_wall(state)) contact.force_vector = force * candidate.normal(state);
+  if (!candidate.faces_wall(state)) return contact;
+  const Vec2 normal = candidate.normal(state);
+  contact.place -= candidate.obstacle().half_height() * normal;
+  contact.force_vector = force * normal;
   return contact;
 }
 

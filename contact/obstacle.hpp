@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -65,11 +66,30 @@ class Obstacle {
   /// Empty: it is straight and goes on.
   virtual const std::vector<double>& knots() const = 0;
 
+  /// After how much of along() a closed surface begins again; 0 of one that has ends or goes on. Then knots() are those
+  /// of one round, and along() jumps somewhere.
+  virtual double period() const { return 0.0; }
+
+  /// Whether a body that moves far at once may be outside of it on one side before and on another behind: a profile has
+  /// one side only.
+  virtual bool has_other_sides() const { return false; }
+
+  /// A position as the obstacle at rest sees it.
+  virtual Vec2 seen_at_rest(const Vec2& position, double /*lambda*/) const { return position; }
+
+  /// A place far inside a closed obstacle that a body is outside of, as it is at rest.
+  virtual std::optional<Vec2> core() const { return std::nullopt; }
+
+  /// How far the body's outside is from a position that touches: half the height of a body whose axis is looked at for
+  /// its faces [length].
+  virtual double half_height() const { return 0.0; }
+
   /// By how much λ moves the obstacle per unit, at most, as far as it is within a reach of the point about which it
   /// turns [length]; 0 of one that stands still.
   virtual double greatest_speed(double /*reach*/) const { return 0.0; }
 
-  /// Points along the surface between two values of x, for pictures; along all of it if it has no part between them.
+  /// Points along the surface between two values of x, for pictures; along all of it if it has no part between them, or
+  /// if it is no function of x.
   virtual std::vector<Vec2> outline(double from, double to, double lambda) const = 0;
 
   /// The unit vector along which the obstacle presses on a point that it faces.

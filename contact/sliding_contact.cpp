@@ -174,6 +174,10 @@ std::optional<Transition> SlidingContact::with_inserted_contact(const State& fro
   return sliding::with_inserted_contact(*setting_, SlidingState(from), forward, SlidingState(to), margin);
 }
 
+bool SlidingContact::passes_through(const State& from, const State& to) const {
+  return sliding::passes_through(*setting_, SlidingState(from), SlidingState(to));
+}
+
 Piece SlidingContact::canonical_piece(const State& state) const {
   return sliding::canonical_piece(*setting_, SlidingState(state));
 }
@@ -211,6 +215,14 @@ std::vector<ContactPoint> SlidingContact::closed_contacts(const State& state) co
 
 std::vector<ContactPoint> SlidingContact::pressed_nodes(const State& state) const {
   return sliding::pressed_nodes(*setting_, SlidingState(state));
+}
+
+std::optional<SlidingContact::Entered> SlidingContact::entered(const State& state, double depth) const {
+  const auto deepest = sliding::deepest_unwatched(*setting_, SlidingState(state), -depth / scales().length);
+  if (!deepest) return std::nullopt;
+  const auto [member, fraction] = body().label(deepest->at);
+  return Entered{.label = {.wall = obstacles()[deepest->obstacle].name, .member = member, .fraction = fraction},
+                 .depth = -deepest->gap};
 }
 
 double SlidingContact::least_gap(const State& state, int places) const {

@@ -56,6 +56,7 @@ class SlidingContact final : public System, public ContactQuery {
   bool admissible(const State& state, double margin) const override;
   std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
                                                   double margin) const override;
+  bool passes_through(const State& from, const State& to) const override;
   Piece canonical_piece(const State& state) const override;
 
   ContactPoint contact(const State& state, Index j) const override;
@@ -73,6 +74,13 @@ class SlidingContact final : public System, public ContactQuery {
   std::shared_ptr<const SlidingContactLayout> layout_of(const ElementsPerSegment& elements,
                                                         std::vector<SlidingContactLayout::Point> points,
                                                         const Vector& origin) const;
+
+  /// Where the body is deeper than this inside an obstacle between its contacts, deepest [length].
+  struct Entered {
+    ContactLabel label{};
+    double depth = 0.0;
+  };
+  std::optional<Entered> entered(const State& state, double depth) const;
 
   /// The least gap at `places` points of each element against every obstacle, flat parts included [length].
   double least_gap(const State& state, int places) const;

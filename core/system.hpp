@@ -12,7 +12,7 @@ namespace arcwall {
 ///
 ///     Equations            F(x, λ) = 0, smooth on a piece              four functions must be overridden
 ///     ← UnilateralSystem   gaps and contact forces, g ≥ 0 and p ≥ 0    six more, by a system with contacts
-///     ← System             other unknowns behind validity bounds       four more, by a system that remeshes
+///     ← System             other unknowns behind validity bounds       five more, by a system that remeshes
 ///
 /// Contacts do not change what the unknowns mean; a *layout* (Piece::layout()) does: a mesh whose nodes follow contact
 /// points, say. A layout serves up to its *validity bounds*, guards behind those of the contacts: they are positive on
@@ -20,8 +20,9 @@ namespace arcwall {
 ///
 /// Nothing must be overridden by a system whose unknowns always mean the same. One whose do: transitions and, of the
 /// second level, guard_count; admissible together with with_inserted_contact where contacts come into being between
-/// those that a piece has; canonical_piece where two layouts share equilibria. Must hold: the first point of a piece
-/// ahead is an equilibrium on which all guards there hold, and the same point as the one behind but for discretisation.
+/// those that a piece has; passes_through where obstacles have more sides than one; canonical_piece where two layouts
+/// share equilibria. Must hold: the first point of a piece ahead is an equilibrium on which all guards there hold, and
+/// the same point as the one behind but for discretisation.
 class System : public UnilateralSystem {
  public:
   /// What may lie behind a validity bound that was reached going `forward`, the likeliest first: the first that leads
@@ -42,6 +43,10 @@ class System : public UnilateralSystem {
                                                           const State& /*to*/, double /*margin*/) const {
     return std::nullopt;
   }
+
+  /// Whether the body would have to go through an obstacle on its way from one state to the other, a landed end of a
+  /// step: it is inside there, or on another side.
+  virtual bool passes_through(const State& /*from*/, const State& /*to*/) const { return false; }
 
   /// The piece whose guards suit a state that was reached along another branch: a flat part that has buckled, say.
   virtual Piece canonical_piece(const State& state) const { return state.piece; }

@@ -175,6 +175,27 @@ def tips(theory: str) -> list:
     ]
 
 
+def outlines(theory: str) -> list:
+    """A strip on a round peg, and a hook over a ramp with rounded corners."""
+    peg = "extensible elastica shot from the clamp to the peg and on to the end"
+    hook = "extensible elastica of arm and hook, shot from the clamp to the ramp"
+    return [
+        Case(f"Strip on a peg, theory {theory}", "docs/validation/peg.toml", meshes({"strip": 1}, [10, 20, 40, 80]), [
+            Quantity("load of the touch", load("contact-closes"), 0.2081006194318634, peg),
+            Quantity("z of the tip, at twice that", landed("z", 0.4162012388637268), -0.07814581171568506, peg),
+        ], always=(f"member.strip.theory='{theory}'",)),
+        Case(f"Hook that snaps over a ramp, theory {theory}", "docs/validation/snap_in.toml",
+             meshes({"arm": 1, "hook": 0.2}, [10, 20, 40, 80]), [
+            Quantity("way at which it meets the ramp", load("contact-closes"), 0.2, "the ramp's slope"),
+            Quantity("push on the slope, at a way of 0.3", landed("pull", 0.3), -0.09347242107181895, hook),
+            Quantity("greatest push, where the rounding begins", landed("pull", 0.3738367530457536), -0.1530718437958801, hook),
+            Quantity("lift on the top", landed("lift", 0.5), 0.2834606857296881, hook),
+            Quantity("pull on the way down, at a way of 0.75", landed("pull", 0.75), 0.09370791120256898, hook),
+            Quantity("way at which it lets go", load("contact-opens"), 0.85, "the ramp's slope"),
+        ], always=(f"member.arm.theory='{theory}'", f"member.hook.theory='{theory}'")),
+    ]
+
+
 def root(f: Callable[[float], float], low: float, high: float) -> float:
     """A zero of f by bisection."""
     rises = f(high) > 0.0
@@ -426,6 +447,7 @@ def cases() -> list:
         essenburg_channel(),
         *(force_passed(theory) for theory in ("classic", "elastica")),
         *(case for theory in ("classic", "elastica") for case in tips(theory)),
+        *(case for theory in ("classic", "elastica") for case in outlines(theory)),
         *driven_otherwise(),
     ]
 

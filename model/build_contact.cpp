@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "contact/profile.hpp"
 #include "core/text.hpp"
@@ -15,7 +16,7 @@ namespace {
 // Offsets from the axis of the points that may touch: 0, or the face whose normal looks at the wall; both of a section
 // that stands across it.
 std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
-  if (wall.acts_on == deck::ActsOn::axis) return {0.0};
+  if (wall.acts_on == deck::ActsOn::axis || wall.outline) return {0.0};
   const double up = std::cos(section.shape.angle) * (wall.side == Side::above ? 1.0 : -1.0);
   const double half = 0.5 * mesh.height.value();
   constexpr double level = 1e-9;
@@ -33,6 +34,10 @@ struct Penetration {
 std::string how_to_part(const deck::Wall& wall, const Penetration& found) {
   const std::string apart = "move the wall or the member apart";
   if (!found.everywhere) return apart;
+  if (wall.outline)
+    return "the body is to the left of an outline's direction, or where `normal` or `keep` says: is the other side "
+           "meant? Else " +
+           apart;
   const bool above = wall.side == Side::above;
   return fmt::format("side = \"{}\" means that the structure stays {} the wall: is \"{}\" meant? Else {}",
                      above ? "above" : "below", above ? "below" : "above", above ? "below" : "above", apart);
@@ -135,8 +140,32 @@ RigidMotion motion_of(const deck::Wall& wall) {
           .rate = motion.progress.proportional};
 }
 
-std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall) {
-  std::shared_ptr<const Obstacle> at_rest = obstacle(profile_of(wall), wall.side);
+std::unique_ptr<Outline> outline_of(const deck::Wall& wall) {
+  struct Maker {
+    double corner_radius;
+    std::unique_ptr<Outline> operator()(const deck::HalfPlaneOutline& o) const {
+      return half_plane_outline({o.point.x, o.point.z}, {o.normal.x, o.normal.z});
+    }
+    std::unique_ptr<Outline> operator()(const deck::CircleOutline& o) const {
+      return circle_outline({o.centre.x, o.centre.z}, o.radius, o.keep);
+    }
+    std::unique_ptr<Outline> operator()(const deck::PolylineOutline& o) const {
+      return o.closed ? closed_polyline_outline(o.points(), corner_radius, o.keep)
+                      : polyline_outline(o.points(), corner_radius);
+    }
+    std::unique_ptr<Outline> operator()(const deck::EllipseOutline& o) const {
+      return ellipse_outline({o.centre.x, o.centre.z}, {o.axes.x, o.axes.z}, o.angle, o.keep);
+    }
+    std::unique_ptr<Outline> operator()(const deck::CurveOutline& o) const {
+      return o.closed ? closed_curve_outline(o.points(), o.keep) : curve_outline(o.points());
+    }
+  };
+  return std::visit(Maker{wall.corner_radius}, *wall.outline);
+}
+
+std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall, double half_height) {
+  std::shared_ptr<const Obstacle> at_rest =
+      wall.outline ? obstacle(std::shared_ptr(outline_of(wall)), half_height) : obstacle(profile_of(wall), wall.side);
   const RigidMotion motion = motion_of(wall);
   if (motion.is_none()) return at_rest;
   return std::make_shared<MovingObstacle>(std::move(at_rest), motion);
@@ -196,18 +225,60 @@ void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder) {
     }
 }
 
+namespace {
+
+// How far the axis of a body stays off an outline; profiles are touched by the faces themselves.
+double kept_off(const deck::Wall& wall, double height) {
+  return wall.outline && wall.acts_on == deck::ActsOn::face ? 0.5 * height : 0.0;
+}
+
+bool has_sharp_corners(const deck::Wall& wall) {
+  return wall.outline && std::holds_alternative<deck::PolylineOutline>(*wall.outline) && wall.corner_radius == 0.0 &&
+         std::get<deck::PolylineOutline>(*wall.outline).x.size() > 2;
+}
+
+// Whether an outline can be touched by a member of some height at all; adds a problem if not.
+bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, DeckProblems& problems) {
+  if (!wall.outline) return true;
+  if (wall.acts_on == deck::ActsOn::face && !mesh.thickness.empty()) {
+    problems.add(wall.position, "wall.acts_on",
+                 "member \"" + mesh.name + "\" changes its thickness, which the distance from an outline does not know",
+                 "use acts_on = \"axis\", or a profile");
+    return false;
+  }
+  const double off = kept_off(wall, mesh.height.value_or(0.0));
+  if (has_sharp_corners(wall) && off == 0.0) {
+    problems.add(wall.position, "wall.corner_radius",
+                 "the corners of the outline are sharp, and members touch it with their axes: that is not modelled",
+                 "give a corner_radius, or let faces touch, with acts_on = \"face\"");
+    return false;
+  }
+  if (const double hollow = outline_of(wall)->sharpest_hollow(); off * hollow >= 1.0) {
+    problems.add(wall.position, "wall.outline",
+                 fmt::format("the outline is hollow with a radius of {:.4g} somewhere, and member \"{}\" with half its "
+                             "height, {:.4g}, does not fit into it",
+                             1.0 / hollow, mesh.name, off),
+                 "make the outline's bends wider, or use acts_on = \"axis\"");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
   std::vector<Candidate> candidates;
   std::vector<TouchAtRest> touches;
   const double round_off = 1e-12 * structure.length_scale();
   const State rest{.x = Vector::Zero(structure.size({}))};
   for (const deck::Wall& wall : deck.walls) {
-    const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall);
-    std::vector<std::pair<Index, Vec2>> taken;  // node and place: members that meet share a point
+    std::vector<std::tuple<Index, Vec2, double>> taken;  // node, place and distance: members that meet share a point
     Penetration deepest;
     for (const MemberMesh& mesh : structure.members()) {
-      if (!concerns(wall, mesh.name)) continue;
-      if (wall.acts_on == deck::ActsOn::face && !mesh.rotations.front()) {
+      if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, problems)) continue;
+      const double off = kept_off(wall, mesh.height.value_or(0.0));
+      const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall, off);
+      if (wall.acts_on == deck::ActsOn::face && !wall.outline && !mesh.rotations.front()) {
         problems.add(wall.position, "wall.acts_on",
                      "member \"" + mesh.name + "\" is a truss and has no faces that turn", "use acts_on = \"axis\"");
         continue;
@@ -217,10 +288,12 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           auto point = std::make_unique<MemberPoint>(structure, section, offset);
           const Vec2 place = point->position(rest);
           const auto same = [&](const auto& other) {
-            return other.first == section.node && (other.second - place).norm() <= 1e-12 * structure.length_scale();
+            const auto& [node, there, distance] = other;
+            return node == section.node && distance == off &&
+                   (there - place).norm() <= 1e-12 * structure.length_scale();
           };
           if (std::any_of(taken.begin(), taken.end(), same)) continue;
-          taken.emplace_back(section.node, place);
+          taken.emplace_back(section.node, place, off);
           const bool movable = !point->unknowns().empty();
           Candidate candidate(
               std::move(point), obstacle,
@@ -259,11 +332,26 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
 std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
   std::vector<SlidingObstacle> obstacles;
   for (const deck::Wall& wall : deck.walls) {
-    SlidingObstacle obstacle{
-        .name = wall.name, .surface = obstacle_of(wall), .on_face = wall.acts_on == deck::ActsOn::face};
-    for (Index strand = 0; strand < structure.strands(); ++strand)
-      obstacle.strands.push_back(concerns(wall, structure.label({.strand = strand, .s = 0.0}).first) ? 1 : 0);
-    obstacles.push_back(std::move(obstacle));
+    // To an outline those strands that keep their axes at one distance from it.
+    const auto concerned = [&](Index strand) {
+      return concerns(wall, structure.label({.strand = strand, .s = 0.0}).first);
+    };
+    std::vector<double> distances;
+    for (Index strand = 0; strand < structure.strands(); ++strand) {
+      const double off = kept_off(wall, 2.0 * structure.half_height(strand));
+      if (concerned(strand) && std::find(distances.begin(), distances.end(), off) == distances.end())
+        distances.push_back(off);
+    }
+    for (const double off : distances) {
+      SlidingObstacle obstacle{.name = wall.name,
+                               .surface = obstacle_of(wall, off),
+                               .on_face = wall.acts_on == deck::ActsOn::face && !wall.outline};
+      for (Index strand = 0; strand < structure.strands(); ++strand) {
+        const bool keeps = kept_off(wall, 2.0 * structure.half_height(strand)) == off;
+        obstacle.strands.push_back(concerned(strand) && keeps ? 1 : 0);
+      }
+      obstacles.push_back(std::move(obstacle));
+    }
   }
   return obstacles;
 }

@@ -6,6 +6,7 @@
 
 #include "contact/moving_obstacle.hpp"
 #include "contact/multiplier_contact.hpp"
+#include "contact/outline.hpp"
 #include "contact/sliding_contact.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/build_structure.hpp"
@@ -15,8 +16,12 @@ namespace arcwall {
 /// How λ moves a wall.
 RigidMotion motion_of(const deck::Wall& wall);
 
-/// What stands in the way where the deck has a wall.
-std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall);
+/// What stands in the way where the deck has a wall: to a profile that of the body's faces, to an outline that of an
+/// axis from which the body's outside is this far.
+std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall, double half_height = 0.0);
+
+/// The outline of a wall that has one.
+std::unique_ptr<Outline> outline_of(const deck::Wall& wall);
 
 /// Whether a wall stands in the way of a member.
 bool concerns(const deck::Wall& wall, const std::string& member);

@@ -1,5 +1,6 @@
 #include "model/model.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -108,6 +109,18 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
   return false;
 }
 
+// What is inside a wall at the start though none of its nodes is: a wall may be narrower than an element.
+void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, DeckProblems& problems) {
+  const double round_off = 1e-9 * contact.scales().length;
+  const auto entered = contact.entered(contact.rest(), round_off);
+  if (!entered) return;
+  const deck::Wall& wall = *deck::find(deck.walls, entered->label.wall);
+  problems.add(wall.position, "wall." + wall.name,
+               fmt::format("member \"{}\" is inside the wall at the start: at {}:{:.4g}, between nodes, by {:.4g}",
+                           entered->label.member, entered->label.member, entered->label.fraction, entered->depth),
+               "move the wall or the member apart");
+}
+
 // Whether increments can be taken where the deck wants them.
 bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
   if (!increments_of(deck)) return false;
@@ -175,6 +188,7 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   const bool sliding = slides(deck_, described.builder, candidates, problems);
   if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
+  if (sliding_ && problems.empty()) check_between_nodes(deck_, *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
                   : body_of(*structure_, theories_of(deck_), incremental_structure_.get());
   const Measured read_off{.structure = *structure_,

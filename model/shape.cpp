@@ -62,6 +62,7 @@ std::vector<WallShape> wall_shapes(const Model& model, double lambda) {
     const auto last = std::find_if(line.rbegin(), line.rend(), inside).base();
     walls.push_back({.name = wall.name,
                      .side = wall.side,
+                     .is_outline = wall.outline.has_value(),
                      .line = first == line.end() || last - first < 2 ? line : std::vector<Vec2>(first, last),
                      .moves = !motion_of(wall).is_none()});
   }

@@ -36,7 +36,8 @@ Shape shape_of(const Model& model, const State& state);
 struct WallShape {
   std::string name{};
   Side side = Side::above;
-  std::vector<Vec2> line{};  ///< x ascends, unless λ has turned the wall upright
+  bool is_outline = false;   ///< the body is to the left of its line, whatever its side
+  std::vector<Vec2> line{};  ///< x of a profile ascends, unless λ has turned the wall upright
   bool moves = false;        ///< λ moves it
 };
 

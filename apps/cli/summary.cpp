@@ -49,6 +49,26 @@ std::string first_gap(const Model& model, const deck::Wall& wall) {
          fmt::format(" at {}:{:.4g}", label.member, label.fraction);
 }
 
+std::string where_it_is(const deck::Wall& wall) {
+  struct Words {
+    double corner_radius;
+    std::string operator()(const deck::HalfPlaneOutline&) const { return "half-plane"; }
+    std::string operator()(const deck::CircleOutline& o) const { return text("circle", true, o.keep); }
+    std::string operator()(const deck::EllipseOutline& o) const { return text("ellipse", true, o.keep); }
+    std::string operator()(const deck::CurveOutline& o) const { return text("curve", o.closed, o.keep); }
+    std::string operator()(const deck::PolylineOutline& o) const {
+      const std::string corners = corner_radius > 0.0 ? fmt::format(" rounded with {:.6g}", corner_radius) : "";
+      return text("polyline" + corners, o.closed, o.keep);
+    }
+    static std::string text(const std::string& what, bool is_closed, Keep keep) {
+      if (!is_closed) return what + ", the structure to its left";
+      return what + ", the structure " + deck::text_of(deck::keep_words, keep);
+    }
+  };
+  if (wall.outline) return std::visit(Words{wall.corner_radius}, *wall.outline);
+  return deck::text_of(deck::side_words, wall.side) + " the structure";
+}
+
 void add_model(const Model& model, Lines& lines) {
   const deck::Deck& deck = model.whole_deck();
   lines.add("title", deck.title);
@@ -72,8 +92,7 @@ void add_model(const Model& model, Lines& lines) {
   }
   for (const deck::Spring& spring : deck.springs) lines.add("springs", spring_text(spring, deck.units));
   for (const deck::Wall& wall : deck.walls)
-    lines.add("walls", fmt::format("{}: {} the structure, {}", wall.name, deck::text_of(deck::side_words, wall.side),
-                                   first_gap(model, wall)));
+    lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall), first_gap(model, wall)));
 }
 
 // Where contact is looked for, and what that means for the loads.

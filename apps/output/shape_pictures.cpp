@@ -49,6 +49,14 @@ std::vector<Vec2> between(const std::vector<Vec2>& line, double low, double high
   return part;
 }
 
+// The points of a line, in whatever direction it runs.
+std::vector<Vec2> beside(const std::vector<Vec2>& line, double low, double high) {
+  std::vector<Vec2> part;
+  for (const Vec2& point : line)
+    if (point.x() >= low && point.x() <= high) part.push_back(point);
+  return part;
+}
+
 // What the structure sweeps over, and the walls that are near.
 Box box_of(const std::vector<Scene>& scenes, const Setting& setting) {
   Box swept;
@@ -66,7 +74,8 @@ Box box_of(const std::vector<Scene>& scenes, const Setting& setting) {
   Box box = swept;
   const auto include = [&](const std::vector<WallShape>& walls) {
     for (const WallShape& wall : walls)
-      for (const Vec2& point : between(wall.line, swept.low.x(), swept.high.x()))
+      for (const Vec2& point : wall.is_outline ? beside(wall.line, swept.low.x() - reach, swept.high.x() + reach)
+                                               : between(wall.line, swept.low.x(), swept.high.x()))
         if (point.y() > swept.low.y() - reach && point.y() < swept.high.y() + reach) box.include(point);
   };
   include(setting.walls);
@@ -248,12 +257,21 @@ std::vector<std::string> classes_of(const Scene& scene) {
   return classes;
 }
 
+// From one of the first places of an outline into what is to the right of it; z points down in pictures.
+Vec2 behind_outline(const std::vector<Vec2>& places, std::size_t i, std::size_t count) {
+  const Vec2 along = places[std::min(i + 1, count - 1)] - places[i > 0 ? i - 1 : 0];
+  const double length = along.norm();
+  return length > 0.0 ? Vec2(wall_band * longer_side / length * perp(along)) : Vec2(Vec2::Zero());
+}
+
 // A wall's surface, and back behind it.
 std::vector<Vec2> wall_band_of(const Frame& frame, const WallShape& wall) {
   std::vector<Vec2> places;
   for (const Vec2& point : wall.line) places.push_back(frame.place(point));
   const Vec2 behind{0.0, (wall.side == Side::above ? -1.0 : 1.0) * wall_band * longer_side};
-  for (std::size_t i = places.size(); i-- > 0;) places.emplace_back(places[i] + behind);
+  const std::size_t count = places.size();
+  for (std::size_t i = count; i-- > 0;)
+    places.emplace_back(places[i] + (wall.is_outline ? behind_outline(places, i, count) : behind));
   return places;
 }
 

@@ -38,6 +38,7 @@ std::vector<double> spline_second_derivatives(const std::vector<double>& x, cons
 PlainWall::PlainWall(const deck::Wall& wall) : wall_(wall) {
   if (const auto* spline = std::get_if<deck::SplineProfile>(&wall.profile))
     second_ = spline_second_derivatives(spline->x, spline->z);
+  if (wall.outline) outline_ = std::make_shared<PlainOutline>(wall);
 }
 
 // Rigid bodies turn about a point that has gone its way: r = c + λ w + R(λ α) (q − c).
@@ -51,6 +52,7 @@ Vec2 PlainWall::at_rest(const Vec2& point) const {
 }
 
 bool PlainWall::faces(const Vec2& point) const {
+  if (outline_) return !outline_->nearest(at_rest(point)).beyond;
   const double x = at_rest(point).x();
   if (const auto* circle = std::get_if<deck::CircleProfile>(&wall_.profile))
     return std::abs(x - circle->centre.x) < circle->radius * (1.0 - 1e-6);
@@ -84,21 +86,25 @@ PlainWall::Surface PlainWall::surface(double x) const {
 }
 
 double PlainWall::slope_angle(const Vec2& point) const {
+  if (outline_) return outline_->nearest(at_rest(point)).angle + turned();
   return std::atan(surface(at_rest(point).x()).slope) + turned();
 }
 
 double PlainWall::curvature(const Vec2& point) const {
+  if (outline_) return outline_->nearest(at_rest(point)).curvature;
   const Surface here = surface(at_rest(point).x());
   return here.second / std::pow(1.0 + here.slope * here.slope, 1.5);
 }
 
 double PlainWall::gap(const Vec2& point) const {
+  if (outline_) return outline_->nearest(at_rest(point)).distance;
   const Vec2 seen = at_rest(point);
   const Surface here = surface(seen.x());
   return side() * (seen.y() - here.height) * std::cos(std::atan(here.slope));
 }
 
 double PlainWall::width() const {
+  if (outline_) return outline_->width();
   if (const auto* circle = std::get_if<deck::CircleProfile>(&wall_.profile)) return 2.0 * circle->radius;
   if (const auto* parabola = std::get_if<deck::ParabolaProfile>(&wall_.profile))
     return parabola->curvature != 0.0 ? 2.0 / std::abs(parabola->curvature) : infinity;

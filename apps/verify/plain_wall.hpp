@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "apps/verify/plain_outline.hpp"
 #include "core/types.hpp"
 #include "model/deck/deck.hpp"
 
@@ -22,8 +24,15 @@ class PlainWall {
 
   const deck::Wall& deck() const { return wall_; }
 
-  /// +1 below the structure, −1 above it.
-  double side() const { return wall_.side == Side::below ? 1.0 : -1.0; }
+  bool has_outline() const { return outline_ != nullptr; }
+
+  /// +1 below the structure, −1 above it; +1 of an outline, which runs with the structure to its left.
+  double side() const { return wall_.outline || wall_.side == Side::below ? 1.0 : -1.0; }
+
+  /// How far the axis of a member that touches an outline is from it; 0 of a profile, which its faces touch.
+  double kept_off(double half_height) const {
+    return wall_.outline && wall_.acts_on == deck::ActsOn::face ? half_height : 0.0;
+  }
 
   /// Whether there is a surface where a point is.
   bool faces(const Vec2& point) const;
@@ -32,7 +41,8 @@ class PlainWall {
   double slope_angle(const Vec2& point) const;
   double curvature(const Vec2& point) const;
 
-  /// Distance from the surface across the wall's own x-axis, times the cosine of its slope, positive outside.
+  /// Distance from the surface, positive outside: of a profile that across the wall's own x-axis, times the cosine of
+  /// its slope.
   double gap(const Vec2& point) const;
 
   /// Of what stands out of the wall, as far as its outline tells: diameters; ∞ of straight ones [length].
@@ -51,6 +61,7 @@ class PlainWall {
   const deck::Wall& wall_;
   double progress_ = 0.0;         // of its motion
   std::vector<double> second_{};  // derivatives of a spline at its knots
+  std::shared_ptr<const PlainOutline> outline_{};
 };
 
 /// The walls of each stage of a run; of a deck without stages there is one.

@@ -21,7 +21,21 @@ const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string&
   return *std::find_if(walls.begin(), walls.end(), [&](const PlainWall& wall) { return wall.deck().name == name; });
 }
 
-double gap_of(const PlainWall& wall, const Vec2& place) { return wall.faces(place) ? wall.gap(place) : infinity; }
+// Of a face, or of an axis that is so far from the outside of its member.
+double gap_of(const PlainWall& wall, const Vec2& place, double half_height) {
+  return wall.faces(place) ? wall.gap(place) - wall.kept_off(half_height) : infinity;
+}
+
+// The slope of that by the place, of an outline.
+Vec2 normal_of(const PlainWall& wall, const Vec2& place) {
+  return wall.faces(place) ? Vec2(perp(direction(wall.slope_angle(place)))) : Vec2(Vec2::Zero());
+}
+
+// Where a member touches that has its face or its axis at a place.
+Vec2 touching_place(const PlainWall& wall, const Vec2& place, double half_height) {
+  const double off = wall.kept_off(half_height);
+  return off > 0.0 && wall.faces(place) ? Vec2(place - off * perp(direction(wall.slope_angle(place)))) : place;
+}
 
 // --- contact at nodes -----------------------------------------------------------------------------------------------
 
@@ -50,6 +64,12 @@ MemberSection section_of(const Structure& structure, const ContactLabel& label) 
   });
 }
 
+double half_height_of(const Structure& structure, const std::string& member) {
+  const auto& members = structure.members();
+  const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == member; });
+  return 0.5 * mesh->height.value_or(0.0);
+}
+
 NodeFunction node_unknowns(const Structure& structure, const MemberSection& section, const State& state) {
   std::vector<Index> freedoms{structure.freedom(section.node, Freedom::x), structure.freedom(section.node, Freedom::z)};
   if (section.rotation) freedoms.push_back(*section.rotation);
@@ -67,13 +87,10 @@ NodeFunction node_unknowns(const Structure& structure, const MemberSection& sect
 
 // Which face touches is a choice of the model's: where both could, the one that its candidate has.
 double offset_of(const Model& model, const PlainWall& wall, Index j, SectionPoint point) {
-  if (wall.deck().acts_on == deck::ActsOn::axis) return 0.0;
+  if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return 0.0;
   const Candidate& candidate = model.contact()->candidate(j);
-  const std::string& name = candidate.label().member;
-  const auto& members = model.structure().members();
-  const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == name; });
   const Vec2 meant = candidate.point().position({.x = Vector::Zero(model.structure().size({}))});
-  const double half = 0.5 * mesh->height.value();
+  const double half = half_height_of(model.structure(), candidate.label().member);
   const auto distance = [&](double offset) {
     point.offset = offset;
     return (point.at(Vector::Zero(2)) - meant).norm();
@@ -92,8 +109,10 @@ Touch node_touch(const Model& model, const std::vector<PlainWall>& walls, const 
                      .along_director = section.quadratic == QuadraticTerm::director};
   point.offset = offset_of(model, wall, j, point);
   Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
-  touch.gap.of = [point, &wall](const Vector& u) { return gap_of(wall, point.at(u)); };
-  touch.place = point.at(touch.gap.at);
+  const double half = half_height_of(structure, label.member);
+  touch.gap.of = [point, half, &wall](const Vector& u) { return gap_of(wall, point.at(u), half); };
+  if (wall.has_outline()) touch.gap.by_place = [point, &wall](const Vector& u) { return normal_of(wall, point.at(u)); };
+  touch.place = touching_place(wall, point.at(touch.gap.at), half);
   const deck::Contact& contact = model.deck().contact;
   const double spring = contact.penalty.value_or(0.0) * label.tributary;
   if (contact.method == ContactLaw::Method::penalty) touch.compliance = 1.0 / spring;
@@ -177,10 +196,14 @@ struct Sliding {
   }
 };
 
+const PlainWall& wall_of_obstacle(const Sliding& at, const std::vector<PlainWall>& walls, std::size_t obstacle) {
+  return wall_of(walls, at.model.sliding()->obstacles()[obstacle].name);
+}
+
 // Of the axis or the face that looks at the wall: its normal along the wall's or against it, with the direction of
 // travel.
 Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& place) {
-  if (wall.deck().acts_on == deck::ActsOn::axis) return place.position;
+  if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return place.position;
   const Vec2 normal = perp(direction(place.angle));
   return place.position - (normal.y() >= 0.0 ? 1.0 : -1.0) * wall.side() * half_height * normal;
 }
@@ -193,8 +216,9 @@ Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& w
   const auto face = [=, &wall, function = touch.gap](const Vector& u) {
     return face_towards(wall, half, at->place(node, function, u));
   };
-  touch.place = face(touch.gap.at);
-  touch.gap.of = [face, &wall](const Vector& u) { return gap_of(wall, face(u)); };
+  touch.place = touching_place(wall, face(touch.gap.at), half);
+  touch.gap.of = [face, half, &wall](const Vector& u) { return gap_of(wall, face(u), half); };
+  if (wall.has_outline()) touch.gap.by_place = [face, &wall](const Vector& u) { return normal_of(wall, face(u)); };
   return touch;
 }
 
@@ -212,10 +236,13 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
                            sign * end[2] / at.body.bending_stiffness(node.strand);
   const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
                          sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
-  const double travel = std::cos(place.angle) >= 0.0 ? 1.0 : -1.0;
+  const Vec2 face = face_towards(wall, half, place);
+  const double against = wall.has_outline() ? wall.slope_angle(face) : 0.0;
+  const double travel = std::cos(place.angle - against) >= 0.0 ? 1.0 : -1.0;
   const double offset = wall.deck().acts_on == deck::ActsOn::face ? -wall.side() * half : 0.0;
-  const double surface = wall.curvature(face_towards(wall, half, place));
-  const double opening = wall.side() * (travel * curvature - stretch * surface / (1.0 + offset * surface));
+  const double surface = wall.curvature(face);  // infinite at a sharp corner
+  const double parallel = std::isfinite(surface) ? surface / (1.0 + offset * surface) : 1.0 / offset;
+  const double opening = wall.side() * (travel * curvature - stretch * parallel);
   constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
   if (opening * at.body.length_scale() <= touching) return std::nullopt;
   return force * stretch / opening;
@@ -270,14 +297,14 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [strand, position] = at->mesh.breakpoint(static_cast<Index>(k));
     const SlidingNode node{.strand = strand, .position = position};
-    const PlainWall& wall = walls[points[k].obstacle];
+    const PlainWall& wall = wall_of_obstacle(*at, walls, points[k].obstacle);
     const Touch& touch = add(wall, node, state.piece[k] != 0);
     touches.tangencies.push_back(tangency(at, wall, touch, node, k));
     touches.tangencies.back().moment = state.x[moments + static_cast<Index>(k)];
   }
   for (std::size_t i = 0; i < tips.size(); ++i) {
     const SlidingNode node{.strand = tips[i].strand, .position = tips[i].position};
-    const PlainWall& wall = walls[tips[i].obstacle];
+    const PlainWall& wall = wall_of_obstacle(*at, walls, tips[i].obstacle);
     touches.tangencies.push_back(tangency(at, wall, sliding_touch(at, wall, node), node, std::nullopt));
     touches.tangencies.back().moment = state.x[moments - static_cast<Index>(tips.size() - i)];
   }
@@ -285,7 +312,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
   for (std::size_t i = 0; i < ends.size(); ++i)
     add(*ends[i].second, ends[i].first, state.piece[points.size() + i] != 0);
   for (const SlidingContactLayout::PressedNode& node : at->on.pressed_nodes()) {
-    add(walls[node.obstacle], {.strand = node.strand, .position = node.position}, true);
+    add(wall_of_obstacle(*at, walls, node.obstacle), {.strand = node.strand, .position = node.position}, true);
     touches.all.back().listed = false;
   }
   return touches;
@@ -295,6 +322,12 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
 
 Vector NodeFunction::gradient() const {
   Vector gradient = Vector::Zero(at.size());
+  if (by_place) {
+    const Vec2 slope = by_place(at);
+    for (Index i = 0; i < 2; ++i)
+      if (unknowns[static_cast<std::size_t>(i)] >= 0) gradient[i] = slope[i];
+    return gradient;
+  }
   for (Index i = 0; i < at.size(); ++i)
     if (unknowns[static_cast<std::size_t>(i)] >= 0)
       gradient[i] = derivative([&](double step) { return of(at + step * Vector::Unit(at.size(), i)); }, steps[i]);
@@ -331,7 +364,10 @@ struct ElementBeside {
   double coordinate(Index behind) const { return at.mesh.coordinate(strand, position + behind, at.now.s); }
   double length() const { return coordinate(1) - coordinate(0); }
   AxisPlace place(double t) const { return at.mesh.inside(strand, position, t, at.now); }
-  double gap(double t) const { return gap_of(wall, face_towards(wall, at.body.half_height(strand), place(t))); }
+  double gap(double t) const {
+    const double half = at.body.half_height(strand);
+    return gap_of(wall, face_towards(wall, half, place(t)), half);
+  }
 
   std::string name(double t) const {
     const auto [member, fraction] = at.body.label({.strand = strand, .s = coordinate(0) + t * length()});

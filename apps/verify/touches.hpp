@@ -17,8 +17,12 @@ struct NodeFunction {
   Vector steps{};                 ///< with which differences are taken
   std::function<double(const Vector&)> of{};
 
+  /// Its slope by x and z where it depends on nothing else; empty: that is found by differences, which are not right
+  /// where a slope has a kink.
+  std::function<Vec2(const Vector&)> by_place{};
+
   double value() const { return of(at); }
-  Vector gradient() const;  ///< by differences, 0 for what is held
+  Vector gradient() const;  ///< 0 for what is held
   Matrix hessian() const;
 };
 

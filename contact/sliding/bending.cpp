@@ -32,9 +32,9 @@ namespace {
 CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
                                const AxisStrain& strain) {
   const AxisPlace axis = touch.axis(at);
-  const double along = travel(axis), offset = along * touch.offset;
   const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
-  const double side = sign_of(obstacle.side());
+  const double along = travel(obstacle, face(touch.offset, axis), axis.angle, at.now.lambda);
+  const double offset = along * touch.offset, side = sign_of(obstacle.side());
   const LinearField wall = obstacle.curvature(face(touch.offset, axis), at.now.lambda);
   const double shrink = 1.0 / (1.0 + touch.offset * wall.value);
   const double parallel = wall.value * shrink;
@@ -89,12 +89,14 @@ bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at,
 HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Touch touch = touch_of_contact(setting, at.layout, point);
   const AxisPlace axis = touch.axis(at);
-  return {.touch = touch,
-          .s = at.s(static_cast<Index>(point)),
-          .position = axis.position,
-          .angle = axis.angle,
-          .stretch = strain_of_free_side(at, point).stretch,
-          .lambda = at.now.lambda};
+  return {
+      .touch = touch,
+      .s = at.s(static_cast<Index>(point)),
+      .position = axis.position,
+      .angle = axis.angle,
+      .travel = travel(*setting.obstacles[touch.obstacle].surface, face(touch.offset, axis), axis.angle, at.now.lambda),
+      .stretch = strain_of_free_side(at, point).stretch,
+      .lambda = at.now.lambda};
 }
 
 // ∓ (EI κ₀″/Λ + q·n), q the load along the body.
@@ -106,7 +108,7 @@ double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, do
   const Vec2 load = body.load(here, axis, held.stretch, held.lambda);
   const double bending = body.bending_stiffness(here.strand) * body.natural_curvature_second(here) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
-  return -side * travel(axis) * (bending + load.dot(normal(held.angle)));
+  return -side * held.travel * (bending + load.dot(normal(held.angle)));
 }
 
 // ± [EI (κ̂″ − κ₀″/Λ) + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it does
@@ -198,7 +200,9 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
     const Vec2 along = strain.stretch * Vec2(std::cos(axis.angle), std::sin(axis.angle));
     const double rate =
         touch_gap(setting, touch, at).tilt.gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
-    const double opening = sign_of(setting.obstacles[touch.obstacle].surface->side()) * travel(axis) * rate;
+    const Obstacle& surface = *setting.obstacles[touch.obstacle].surface;
+    const double opening =
+        sign_of(surface.side()) * travel(surface, face(touch.offset, axis), axis.angle, at.now.lambda) * rate;
     if (opening * setting.scales.length > touching) rates[k] = -rate;
   }
   return rates;

@@ -31,6 +31,7 @@ struct HeldAxis {
   double s;        ///< material coordinate of the point [length]
   Vec2 position;   ///< of the point
   double angle;    ///< of the axis [rad]
+  double travel;   ///< 1 where the axis runs with the obstacle's surface, −1 where it runs against it
   double stretch;  ///< of the axis
   double lambda;
 };

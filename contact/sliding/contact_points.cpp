@@ -21,7 +21,10 @@ ContactPoint at_node(const SlidingSetting& setting, const SlidingState& at, cons
   ContactPoint contact{.label = label_of(setting, touch.obstacle, {.strand = touch.strand, .s = s}),
                        .place = face(touch.offset, touch.axis(at)),
                        .force = force};
-  if (force != 0.0) contact.force_vector = force * obstacle.normal(contact.place, at.now.lambda);
+  if (!obstacle.faces(contact.place, at.now.lambda)) return contact;
+  const Vec2 normal = obstacle.normal(contact.place, at.now.lambda);
+  contact.force_vector = force * normal;
+  contact.place -= obstacle.half_height() * normal;
   return contact;
 }
 

@@ -10,11 +10,16 @@ namespace arcwall::sliding {
 
 namespace {
 
-// The face at a place inside an element: what it faces, the gap, and how the gap would change along the element if the
+// The coordinate along a surface that is nearest to another of all that are the same place.
+double nearest_round(const Obstacle& surface, double along, double to) {
+  const double period = surface.period();
+  return period > 0.0 ? to + std::remainder(along - to, period) : along;
+}
+
+// The face at a place inside an element: the gap, and how the gap would change along the element if the
 // face were on the surface. That rate, the sine of the angle between them, vanishes where they are parallel.
 struct FacePlace {
   double fraction = 0.0;
-  double along = 0.0;
   double gap = infinity;  // where it faces nothing
   double rate = 0.0;
 };
@@ -28,12 +33,15 @@ class Face {
 
   const Obstacle& surface() const { return surface_; }
 
-  double along(double fraction) const { return surface_.along(face(offset_, axis(fraction)), lambda()); }
+  // Of a closed surface it follows what the element faces at its first node.
+  double along(double fraction) const {
+    return nearest_round(surface_, surface_.along(face(offset_, axis(fraction)), lambda()), middle());
+  }
 
   FacePlace place(double fraction) const {
     const AxisPlace on = axis(fraction);
     const Vec2 at = face(offset_, on);
-    FacePlace out{.fraction = fraction, .along = surface_.along(at, lambda())};
+    FacePlace out{.fraction = fraction};
     if (!surface_.faces(at, lambda())) return out;
     out.gap = surface_.gap_slope(at, lambda()).value;
     out.rate = sign_of(surface_.side()) * std::sin(on.angle - surface_.direction(at, lambda()).value);
@@ -60,18 +68,36 @@ class Face {
     return element_.at.mesh.inside(element_.strand, element_.node, fraction, element_.at.now);
   }
   double lambda() const { return element_.at.now.lambda; }
+  double middle() const { return 0.5 * (element_.from + element_.to); }
 
   const ElementBesideSurface& element_;
   const Obstacle& surface_;
   double offset_;
 };
 
+// Calls visit(first, last, shift) for the knots between the ends of an element, less a shift: of a closed surface once
+// for each round of which it sees part.
+template <typename Visit>
+void for_each_round(const ElementBesideSurface& element, const Visit& visit) {
+  const Obstacle& surface = *element.setting.obstacles[element.obstacle].surface;
+  const std::vector<double>& all = surface.knots();
+  if (all.empty()) return;
+  const auto [low, high] = std::minmax(element.from, element.to);
+  const double period = surface.period();
+  const auto round_of = [&](double along) { return period > 0.0 ? std::floor((along - all.front()) / period) : 0.0; };
+  for (double round = round_of(low); round <= round_of(high); ++round) {
+    const double shift = round * period;
+    visit(std::upper_bound(all.begin(), all.end(), low - shift), std::lower_bound(all.begin(), all.end(), high - shift),
+          shift);
+  }
+}
+
 // The knots that an element faces, in its own order.
 std::vector<double> faced_knots(const ElementBesideSurface& element) {
-  const std::vector<double>& all = element.setting.obstacles[element.obstacle].surface->knots();
-  const auto [low, high] = std::minmax(element.from, element.to);
-  std::vector<double> knots(std::upper_bound(all.begin(), all.end(), low),
-                            std::lower_bound(all.begin(), all.end(), high));
+  std::vector<double> knots;
+  for_each_round(element, [&](auto first, auto last, double shift) {
+    for (; first < last; ++first) knots.push_back(*first + shift);
+  });
   if (element.from > element.to) std::reverse(knots.begin(), knots.end());
   return knots;
 }
@@ -100,11 +126,23 @@ FacePlace parallel_between(const Face& face, FacePlace a, FacePlace b) {
 
 }  // namespace
 
+ElementBesideSurface beside_surface(const SlidingSetting& setting, const SlidingState& at, Index strand, Index node,
+                                    std::size_t obstacle, const Vec2& first_face, const Vec2& last_face) {
+  const Obstacle& surface = *setting.obstacles[obstacle].surface;
+  const double from = surface.along(first_face, at.now.lambda), to = surface.along(last_face, at.now.lambda);
+  return {.setting = setting,
+          .at = at,
+          .strand = strand,
+          .node = node,
+          .obstacle = obstacle,
+          .from = from,
+          .to = nearest_round(surface, to, from)};
+}
+
 bool faces_knot(const ElementBesideSurface& element) {
-  const std::vector<double>& all = element.setting.obstacles[element.obstacle].surface->knots();
-  const auto [low, high] = std::minmax(element.from, element.to);
-  const auto next = std::upper_bound(all.begin(), all.end(), low);
-  return next != all.end() && *next < high;
+  bool any = false;
+  for_each_round(element, [&any](auto first, auto last, double) { any = any || first < last; });
+  return any;
 }
 
 std::vector<PlaceInElement> parallel_places(const ElementBesideSurface& element, TouchingEnds leave_out) {
@@ -131,6 +169,7 @@ std::vector<PlaceInElement> places_entered_at_ends(const ElementBesideSurface& e
   const Face face(element);
   const std::vector<double>& all = face.surface().knots();
   std::vector<PlaceInElement> found;
+  if (face.surface().period() > 0.0) return found;
   for (const double knot : faced_knots(element)) {
     if (knot != all.front() && knot != all.back()) continue;
     const FacePlace end = face.place(face.facing(knot));

@@ -13,8 +13,12 @@ struct ElementBesideSurface {
   const SlidingState& at;
   Index strand, node;
   std::size_t obstacle;
-  double from, to;  ///< Obstacle::along() at its ends
+  double from, to;  ///< Obstacle::along() at its ends, the second of a closed surface where it follows the first
 };
+
+/// Such an element between the places of its face.
+ElementBesideSurface beside_surface(const SlidingSetting& setting, const SlidingState& at, Index strand, Index node,
+                                    std::size_t obstacle, const Vec2& first_face, const Vec2& last_face);
 
 /// A place inside an element, and the gap there.
 struct PlaceInElement {

@@ -57,15 +57,18 @@ Elements elements_beside(const LayoutEdit& edit, const LeastGap& start, const Le
 }
 
 // Whether an inserted point would be given up at once: its least gap is shallow, or it is cramped beside the end of the
-// member, a load or a contact with another wall.
+// member, a load or a contact with another wall. What has been given up near a tip must not be inserted there again,
+// where another mesh has it a little farther away.
 bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t point) {
+  constexpr double between_meshes = 1e-5;  // of the length scale
   const SlidingState at(state);
   return std::any_of(at.layout.bounds().begin(), at.layout.bounds().end(), [&](const auto& bound) {
     const auto* curvature = dynamic_cast<const CurvatureBound*>(bound.get());
     const bool is_its_own = curvature != nullptr && curvature->point() == point;
-    const bool is_room = dynamic_cast<const RoomBound*>(bound.get()) != nullptr ||
-                         dynamic_cast<const TailBound*>(bound.get()) != nullptr;
-    return (is_its_own || is_room) && bound->value(setting, at) <= 0.0;
+    const bool is_room = dynamic_cast<const RoomBound*>(bound.get()) != nullptr;
+    const bool is_tail = dynamic_cast<const TailBound*>(bound.get()) != nullptr;
+    if (!is_its_own && !is_room && !is_tail) return false;
+    return bound->value(setting, at) <= (is_tail ? between_meshes : 0.0);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "contact/passing.hpp"
 #include "contact/sliding/curved_surface.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/lanes.hpp"
@@ -171,14 +172,8 @@ void for_each_on_strand(const SlidingSetting& setting, const SlidingState& at, I
       visit(LeastGap{.obstacle = obstacle, .at = {.strand = strand, .s = S1 + fraction * (S2 - S1)}, .gap = gap});
     };
     if (curved) {
-      const ElementBesideSurface beside{.setting = setting,
-                                        .at = at,
-                                        .strand = strand,
-                                        .node = element.node,
-                                        .obstacle = obstacle,
-                                        .from = surface.along(before.face, lambda),
-                                        .to = surface.along(after.face, lambda)};
-      visit_by_surface(beside, element, which, visit_inside);
+      visit_by_surface(beside_surface(setting, at, strand, element.node, obstacle, before.face, after.face), element,
+                       which, visit_inside);
     } else {
       visit_by_nodes(element, which, visit_inside);
     }
@@ -218,25 +213,53 @@ std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const S
   return nearest;
 }
 
+namespace {
+
+// Of both states the same number of places: as many on each as the one has that is meshed more finely.
+std::vector<PlaceInStep> places_in_step(const SlidingState& from, const SlidingState& to, Index strand) {
+  constexpr int looks = 4;  // in an element
+  const Index count = looks * (std::max(from.mesh.nodes(strand), to.mesh.nodes(strand)) - 1);
+  const auto place = [&](const SlidingState& at, Index i) {
+    const Index elements = at.mesh.nodes(strand) - 1;
+    const double along = double(i) / double(count) * double(elements);
+    const Index element = std::min(static_cast<Index>(along), elements - 1);
+    return at.mesh.inside(strand, element, along - double(element), at.now).position;
+  };
+  std::vector<PlaceInStep> places;
+  for (Index i = 0; i <= count; ++i) places.push_back({.from = place(from, i), .to = place(to, i)});
+  return places;
+}
+
+}  // namespace
+
+bool passes_through(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to) {
+  const double touching = 1e-6 * setting.scales.length;
+  for (Index strand = 0; strand < setting.body.strands(); ++strand) {
+    std::vector<PlaceInStep> places;
+    for (const SlidingObstacle& obstacle : setting.obstacles) {
+      if (!obstacle.surface->has_other_sides() || !obstacle.concerns(strand)) continue;
+      if (places.empty()) places = places_in_step(from, to, strand);
+      const double before = from.now.lambda, behind = to.now.lambda;
+      if (line_passes_through(*obstacle.surface, places, before, behind)) return true;
+      for (const PlaceInStep& end : {places.front(), places.back()})
+        if (point_passes_through(*obstacle.surface, end, before, behind, touching)) return true;
+    }
+  }
+  return false;
+}
+
 double sampled_least_gap(const SlidingSetting& setting, const SlidingState& at, int places) {
   double least = infinity;
   for (std::size_t w = 0; w < setting.obstacles.size(); ++w)
     for (Index strand = 0; strand < setting.body.strands(); ++strand) {
       if (!setting.obstacles[w].concerns(strand)) continue;
       const double offset = setting.face_offset(w, strand);
-      const Obstacle& surface = *setting.obstacles[w].surface;
       for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e) {
         const auto inside = [&](double t) { return at.mesh.inside(strand, e, t, at.now); };
         for (int i = 0; i <= places; ++i)
           least = std::min(least, face_gap(setting.obstacles[w], offset, inside(double(i) / places), at.now.lambda));
-        const auto along = [&](double t) { return surface.along(face(offset, inside(t)), at.now.lambda); };
-        least = std::min(least, least_gap_at_knots({.setting = setting,
-                                                    .at = at,
-                                                    .strand = strand,
-                                                    .node = e,
-                                                    .obstacle = w,
-                                                    .from = along(0.0),
-                                                    .to = along(1.0)}));
+        const Vec2 first = face(offset, inside(0.0)), last = face(offset, inside(1.0));
+        least = std::min(least, least_gap_at_knots(beside_surface(setting, at, strand, e, w, first, last)));
       }
     }
   return least;

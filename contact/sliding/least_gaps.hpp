@@ -21,6 +21,10 @@ std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const S
 /// Of all least gaps on the same strand and obstacle the one nearest another.
 std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const SlidingState& at, const LeastGap& other);
 
+/// Whether a strand would have to go through an obstacle from one state to the other: it sweeps over the core of a
+/// closed one, or one of its ends passes through.
+bool passes_through(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to);
+
 /// The least gap at `places` points of each element and where it faces the knots of a surface, against every obstacle
 /// [length].
 double sampled_least_gap(const SlidingSetting& setting, const SlidingState& at, int places);

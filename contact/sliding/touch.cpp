@@ -78,7 +78,9 @@ Touch touch_of_tip(const SlidingSetting& setting, const SlidingContactLayout::Pr
           .offset = setting.face_offset(tip.obstacle, tip.strand)};
 }
 
-double travel(const AxisPlace& axis) { return std::cos(axis.angle) >= 0.0 ? 1.0 : -1.0; }
+double travel(const Obstacle& surface, const Vec2& place, double angle, double lambda) {
+  return std::cos(angle - surface.direction(place, lambda).value) >= 0.0 ? 1.0 : -1.0;
+}
 
 Vec2 face(double offset, const AxisPlace& axis) {
   const Vec2 normal(-std::sin(axis.angle), std::cos(axis.angle));

@@ -24,8 +24,8 @@ bool lies_flat(const SlidingSetting& setting, const SlidingContactLayout& layout
 Touch touch_of_node(const SlidingSetting& setting, const SlidingContactLayout::PressedNode& node);
 Touch touch_of_tip(const SlidingSetting& setting, const SlidingContactLayout::PressedTip& tip);
 
-/// 1 where the axis runs with x, −1 where it runs against it.
-double travel(const AxisPlace& axis);
+/// 1 where an axis of this angle runs with the surface that a place faces, −1 where it runs against it.
+double travel(const Obstacle& surface, const Vec2& place, double angle, double lambda);
 
 /// The place of the face at an offset: the section's normal looks along the obstacle's, or against it where the body
 /// travels against x.

@@ -94,6 +94,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
   if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure);
   end = std::move(*landed.end);
+  if (tools.system.passes_through(from.state, end.point.state)) return rejected(StepOutcome::penetrates);
 
   // What vanishes with the guard that was landed on belongs to the change.
   const double margin = end.landing ? near_change : -penetration_tolerance;

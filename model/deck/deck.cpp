@@ -42,6 +42,12 @@ SectionProperties properties(const Section& section) {
   return std::visit([](const auto& shape) { return properties_of(shape); }, section.shape);
 }
 
+std::vector<Vec2> OutlinePoints::points() const {
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < x.size(); ++i) points.emplace_back(x[i], z[i]);
+  return points;
+}
+
 std::string to_text(const Place& place) {
   return place.fraction ? place.name + ":" + round_trip(*place.fraction) : place.name;
 }
@@ -50,6 +56,7 @@ namespace {
 
 // z and slope of a wall that is straight.
 std::optional<LineProfile> line_of(const Wall& wall) {
+  if (wall.outline) return std::nullopt;
   if (const auto* const flat = std::get_if<FlatProfile>(&wall.profile)) return LineProfile{.z = flat->z};
   if (const auto* const line = std::get_if<LineProfile>(&wall.profile)) return *line;
   return std::nullopt;

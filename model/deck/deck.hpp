@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/multiplier_contact.hpp"
-#include "contact/obstacle.hpp"
+#include "contact/outline.hpp"
 #include "continuation/explorer.hpp"
 #include "continuation/trace_options.hpp"
 #include "core/error.hpp"
@@ -338,6 +338,51 @@ struct SplineProfile {
   bool operator==(const SplineProfile&) const = default;
 };
 
+/// All on one side of a straight line.
+struct HalfPlaneOutline {
+  Vector point{};
+  Vector normal{};  ///< to the body
+
+  bool operator==(const HalfPlaneOutline&) const = default;
+};
+
+struct CircleOutline {
+  Vector centre{};
+  double radius = 0.0;
+  Keep keep = Keep::outside;
+
+  bool operator==(const CircleOutline&) const = default;
+};
+
+struct EllipseOutline {
+  Vector centre{};
+  Vector axes{};       ///< half of the first and of the second
+  double angle = 0.0;  ///< of the first from the x-axis [rad]
+  Keep keep = Keep::outside;
+
+  bool operator==(const EllipseOutline&) const = default;
+};
+
+/// Points in the order in which an outline runs.
+struct OutlinePoints {
+  std::vector<double> x{};  ///< at least 2; of a closed one 3, the first of which is not repeated
+  std::vector<double> z{};  ///< as many
+  bool closed = false;
+  Keep keep = Keep::outside;  ///< of a closed one; of an open one the body is to the left
+
+  std::vector<Vec2> points() const;
+
+  bool operator==(const OutlinePoints&) const = default;
+};
+
+/// Straight between the points; Wall::corner_radius rounds the corners.
+struct PolylineOutline : OutlinePoints {};
+
+/// C² interpolating cubic by chord length.
+struct CurveOutline : OutlinePoints {};
+
+using Outline = std::variant<HalfPlaneOutline, CircleOutline, PolylineOutline, EllipseOutline, CurveOutline>;
+
 /// How λ moves a wall as a rigid body: by this times λ.
 struct WallMotion {
   double x = 0.0, z = 0.0;               ///< [length]
@@ -355,6 +400,8 @@ struct Wall {
   ActsOn acts_on = ActsOn::face;
   std::vector<std::string> members{};  ///< empty: every member
   std::variant<FlatProfile, LineProfile, CircleProfile, ParabolaProfile, SplineProfile> profile{};
+  std::optional<Outline> outline{};  ///< instead of side and profile
+  double corner_radius = 0.0;        ///< of a polyline [length]
   std::optional<WallMotion> motion{};
 
   bool operator==(const Wall&) const = default;

@@ -23,6 +23,9 @@ void declare_path(Keys& root, Deck& deck);   ///< and the monitors
 /// right.
 void check_driven(Keys& root, const Deck& deck);
 
+/// The outline of a wall, if it has one, and what rounds its corners.
+void outline_keys(Keys& keys, Wall& wall);
+
 /// An array x of the keys x and z: two lists of the same length, at least 2.
 bool curve_keys(Keys& keys, std::vector<double>& x, std::vector<double>& z);
 

@@ -90,14 +90,21 @@ void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
 
 void wall_keys(Keys& keys, Wall& wall, const Deck& deck) {
   name_key(keys, deck, wall);
-  keys.word("side", wall.side, side_words,
-            "`\"above\"`: the structure stays below it; `\"below\"`: the structure stays above it");
+  const bool has_outline = keys.reads() ? keys.has("outline") : wall.outline.has_value();
+  if (keys.applies(!has_outline, "side", "belongs to a profile: an outline itself says on which side the body is",
+                   "remove it"))
+    keys.word("side", wall.side, side_words,
+              "of a profile. `\"above\"`: the structure stays below it; `\"below\"`: the structure stays above it");
   keys.word(optional("acts_on"), wall.acts_on, acts_on_words,
-            "`\"face\"`: of the two faces of the section that which, stress-free, looks at the wall (both where the "
-            "section stands upright); `\"axis\"`: the centreline. Trusses have no faces that turn");
+            "`\"face\"`: of the two faces of the section that which, stress-free, looks at the profile (both where the "
+            "section stands upright); of an outline what is half the section's height off the axis towards it; "
+            "`\"axis\"`: the centreline. Trusses have no faces that turn");
   keys.names(optional("members", "all"), wall.members, Named::member, EmptyList::refused, "names");
-  keys.table(
-      "profile", Form::dotted, [&](Keys& of) { profile_keys(of, wall); }, "one of the following");
+  if (keys.applies(!has_outline, "profile", "does not go with an outline", "keep one of them"))
+    keys.table(
+        "profile", Form::dotted, [&](Keys& of) { profile_keys(of, wall); },
+        "z = ψ(x), one of the following; or an `outline`");
+  outline_keys(keys, wall);
   keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });
   check_faces(keys, deck, wall);
 }

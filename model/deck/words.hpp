@@ -63,6 +63,7 @@ inline constexpr Words<Freedom, 5> direction_words{{{"x", Freedom::x},
                                                     {"thickness", Freedom::thickness},
                                                     {"thickness2", Freedom::thickness2}}};
 inline constexpr Words<Side, 2> side_words{{{"above", Side::above}, {"below", Side::below}}};
+inline constexpr Words<Keep, 2> keep_words{{{"outside", Keep::outside}, {"inside", Keep::inside}}};
 inline constexpr Words<ActsOn, 2> acts_on_words{{{"face", ActsOn::face}, {"axis", ActsOn::axis}}};
 inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier", ContactLaw::Method::rigid},
                                                                     {"penalty", ContactLaw::Method::penalty},

@@ -10,6 +10,7 @@
 
 #include "apps/output/exit_status.hpp"
 #include "apps/verify/verify.hpp"
+#include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/stored_files_of.hpp"
 

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "contact/moving_obstacle.hpp"
+#include "contact/outline.hpp"
 #include "tests/contact/contact_models.hpp"
 
 namespace arcwall::obstacle_test {
@@ -25,6 +28,43 @@ std::vector<Named> all_obstacles() {
       if (moves) wall.motion = {.way = {0.3, -0.4}, .turn = 0.2, .about = {0.5, -0.1}};
       all.push_back({"wall " + std::to_string(kind++) + (moves ? " that moves" : " at rest"), wall.obstacle()});
     }
+  return all;
+}
+
+// Outlines of all types beside the same places, for an axis or for a body of half the height 0.3.
+std::vector<Named> all_outlines() {
+  std::vector<std::pair<std::string, std::shared_ptr<const Outline>>> outlines;
+  const auto add = [&](std::string name, std::unique_ptr<Outline> outline) {
+    outlines.emplace_back(std::move(name), std::move(outline));
+  };
+  add("half-plane", half_plane_outline({0.3, -0.8}, {-0.4, 2.0}));
+  add("circle", circle_outline({1.5, -6.0}, 5.0, Keep::outside));
+  add("bore", circle_outline({0.6, 0.3}, 4.0, Keep::inside));
+  add("ellipse", ellipse_outline({0.8, -4.1}, {3.0, 2.0}, 0.4, Keep::outside));
+  add("oval bore", ellipse_outline({0.8, 0.3}, {7.0, 5.0}, -0.3, Keep::inside));
+  add("curve", curve_outline({{-3.0, -1.6}, {-0.5, -1.2}, {1.5, -0.9}, {3.5, -1.1}, {6.0, -1.7}}));
+  add("closed curve",
+      closed_curve_outline({{-2.0, -1.0}, {1.0, -1.3}, {4.0, -1.1}, {5.0, -6.0}, {-4.0, -5.0}}, Keep::outside));
+  add("lumen", closed_curve_outline({{-5.0, 0.0}, {-1.0, 5.0}, {4.0, 5.5}, {6.0, -0.3}, {1.0, -6.0}}, Keep::inside));
+  add("polyline", polyline_outline({{-4.0, -3.0}, {1.0, -0.6}, {7.0, -3.4}}, 0.5));
+  add("corner", polyline_outline({{-1.0, -9.0}, {1.0, -2.0}, {2.4, -9.0}}, 0.0));
+  add("hollow", polyline_outline({{-6.0, 4.0}, {1.2, -4.0}, {9.0, 5.5}}, 7.0));
+  add("box", closed_polyline_outline({{-6.0, -5.0}, {-6.0, 6.0}, {8.0, 6.0}, {8.0, -5.0}}, 1.0, Keep::inside));
+  std::vector<Named> all;
+  for (const auto& [name, outline] : outlines)
+    for (const double half_height : {0.0, 0.3}) {
+      if (name == "corner" && half_height == 0.0) continue;  // on which no axis may lie
+      const std::string kind = name + (half_height > 0.0 ? " off its face" : "");
+      all.push_back({kind, obstacle(outline, half_height)});
+      const RigidMotion motion{.way = {0.03, -0.04}, .turn = 0.02, .about = {0.5, -0.1}};
+      all.push_back({kind + " that moves", std::make_shared<MovingObstacle>(obstacle(outline, half_height), motion)});
+    }
+  return all;
+}
+
+std::vector<Named> walls_and_outlines() {
+  std::vector<Named> all = all_obstacles();
+  for (Named& named : all_outlines()) all.push_back(std::move(named));
   return all;
 }
 
@@ -75,7 +115,7 @@ void expect_derivatives(const Ask& ask, const Vec2& at, double lambda) {
 }  // namespace
 
 TEST(Obstacle, DerivativesAreThoseOfTheValues) {
-  for (const auto& [name, obstacle] : all_obstacles())
+  for (const auto& [name, obstacle] : walls_and_outlines())
     for (const Vec2& at : places()) {
       SCOPED_TRACE(name);
       const double lambda = 0.7;
@@ -92,7 +132,7 @@ TEST(Obstacle, DerivativesAreThoseOfTheValues) {
 }
 
 TEST(Obstacle, TheSlopeOfTheGapIsThatOfTheGap) {
-  for (const auto& [name, obstacle] : all_obstacles())
+  for (const auto& [name, obstacle] : walls_and_outlines())
     for (const Vec2& at : places()) {
       SCOPED_TRACE(name);
       const QuadraticField gap = obstacle->gap(at, 0.7);
@@ -107,7 +147,7 @@ TEST(Obstacle, TheSlopeOfTheGapIsThatOfTheGap) {
 // On the surface the gradient is the unit normal to the surface's direction on the free side, and the direction turns
 // by the curvature with the length of the surface.
 TEST(Obstacle, GradientDirectionAndCurvatureBelongTogetherOnTheSurface) {
-  for (const auto& [name, obstacle] : all_obstacles())
+  for (const auto& [name, obstacle] : walls_and_outlines())
     for (Vec2 at : places()) {
       SCOPED_TRACE(name);
       const double lambda = 0.7;

@@ -239,6 +239,44 @@ TEST(BadDecks, Springs) {
   });
 }
 
+TEST(BadDecks, Outlines) {
+  const char* const ramp = "x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0]";
+  const char* const open_ramp = "z = [-30.0, -20.0, -31.0], closed = true, keep = \"outside\" }\ncorner_radius = 0.125";
+  expect_refused({
+      {"name = \"stop\"", "name = \"stop\"\nside = \"above\"", "wall.5.side", "belongs to a profile", 1},
+      {"name = \"stop\"", "name = \"stop\"\nprofile = { type = \"flat\", z = 9.0 }", "wall.5.profile",
+       "does not go with an outline; keep one of them", 1},
+      {"normal = [-1.0, 0.75]", "normal = [0.0, 0.0]", "wall.5.outline.normal", "has no direction"},
+      {"point = [20.0, 0.0], normal", "normal", "wall.5.outline.point", "is missing"},
+      {"type = \"half-plane\"", "type = \"halfplane\"", "wall.5.outline.type", "did you mean half-plane?"},
+      {"outline = { type = \"half-plane\", point = [20.0, 0.0], normal = [-1.0, 0.75] }", "outline = 5.0",
+       "wall.5.outline", "wrong type"},
+      {"radius = 30.0", "radius = 0.0", "wall.6.outline.radius", "greater than 0"},
+      {"radius = 30.0", "radius = -1.0", "wall.6.outline.radius", "greater than 0"},
+      {"keep = \"inside\"", "keep = \"in\"", "wall.6.outline.keep", "known are outside, inside"},
+      {"keep = \"inside\" }", "keep = \"inside\" }\ncorner_radius = 0.1", "wall.6.corner_radius",
+       "belongs to an outline of type polyline", 1},
+      {"axes = [2.5, 1.25]", "axes = [2.5, 0.0]", "wall.8.outline.axes", "greater than 0; give both"},
+      {"axes = [2.5, 1.25]", "axes = 2.5", "wall.8.outline.axes", "wrong type"},
+      {"z = [-40.0, -38.5, -41.0]", "z = [-40.0, -38.5]", "wall.9.outline.z", "3 x and 2 z"},
+      {"x = [-40.5, 0.5, 40.0], z = [-40.0, -38.5, -41.0]", "x = [1.0], z = [2.0]", "wall.9.outline.x", "at least 2"},
+      {"z = [-40.0, -38.5, -41.0]", "z = [-40.0, -38.5, -41.0], keep = \"inside\"", "wall.9.outline.keep",
+       "belongs to a closed outline"},
+      {"x = [-40.5, 0.5, 40.0], z = [-40.0, -38.5, -41.0]", "x = [1.0, 2.0], z = [2.0, 2.0], closed = true",
+       "wall.9.outline.x", "2 points close nothing"},
+      {ramp, "x = [10.5, 10.5, 30.0], z = [-30.0, -30.0, -31.0]", "wall.7.outline.x", "they are the same"},
+      {ramp, "x = [10.5, 20.0, 30.0, 10.5], z = [-30.0, -20.0, -31.0, -30.0]", "wall.7.outline.x",
+       "where the outline closes; leave the last point out"},
+      {ramp, "x = [0.0, 1.0, 1.0, 0.0], z = [-30.0, -29.0, -30.0, -29.0]", "wall.7.outline.x", "crosses itself"},
+      {open_ramp, "z = [-30.0, -40.0, -31.0] }\ncorner_radius = 0.0", "wall.7.outline",
+       "hollow and sharp: what touches in it"},
+      {"x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, keep = \"outside\" }",
+       "x = [10.5, 20.0, 11.0], z = [-30.0, -30.0, -30.0] }", "wall.7.outline", "turns back on itself"},
+      {"corner_radius = 0.125", "corner_radius = 9.0", "wall.7.corner_radius", "too short; give a smaller"},
+      {"corner_radius = 0.125", "corner_radius = -1.0", "wall.7.corner_radius", "at least 0"},
+  });
+}
+
 TEST(BadDecks, WallsAndContact) {
   expect_refused({
       {"name = \"upper\"", "", "wall.0.name", "is missing", -1},

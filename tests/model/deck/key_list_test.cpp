@@ -79,9 +79,9 @@ TEST(KeyList, IsWhatThePageOnDecksShows) {
   for (const DeclaredKey& key : declared_keys()) {
     const bool in_braces = key.table.ends_with(".sine") || key.table.ends_with(".curve") ||
                            key.table.ends_with(".control") || key.table.ends_with(".imperfection.#") ||
-                           key.table.ends_with(".profile") || key.table.ends_with(".stiffness") ||
-                           key.table.ends_with(".motion") || key.table.ends_with(".foundation") ||
-                           key.table.ends_with(".law");
+                           key.table.ends_with(".profile") || key.table.ends_with(".outline") ||
+                           key.table.ends_with(".stiffness") || key.table.ends_with(".motion") ||
+                           key.table.ends_with(".foundation") || key.table.ends_with(".law");
     if (key.name == "*" || in_braces) continue;
     EXPECT_NE(page.find("<!-- keys of " + (key.table.empty() ? "deck" : key.table) + " -->"), std::string::npos)
         << "docs/deck.md has no table of the keys of " << key.table;
@@ -104,6 +104,10 @@ TEST(UnitOfKey, IsThatOfWhatTheKeyHolds) {
                                                           {"member.column.imperfection.amplitude", "cm"},
                                                           {"member.1.curve.x.3", "cm"},
                                                           {"wall.0.profile.x", "cm"},
+                                                          {"wall.0.outline.axes", "cm"},
+                                                          {"wall.0.outline.z", "cm"},
+                                                          {"wall.0.outline.normal", ""},
+                                                          {"wall.0.corner_radius", "cm"},
                                                           {"prescribed.0.x", "cm"},
                                                           {"prescribed.0.rotation", ""},
                                                           {"spring.0.stiffness.z", "kN/cm"},

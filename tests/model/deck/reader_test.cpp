@@ -102,7 +102,7 @@ TEST(DeckReader, ReadsSupportsAndLoads) {
 TEST(DeckReader, ReadsWallsAndContact) {
   const Deck deck = full();
 
-  ASSERT_EQ(deck.walls.size(), 5u);
+  ASSERT_EQ(deck.walls.size(), 10u);
   EXPECT_EQ(deck.walls[0].side, Side::above);
   EXPECT_EQ(deck.walls[0].acts_on, ActsOn::axis);
   EXPECT_TRUE(deck.walls[0].members.empty());
@@ -112,6 +112,14 @@ TEST(DeckReader, ReadsWallsAndContact) {
   EXPECT_EQ(std::get<CircleProfile>(deck.walls[2].profile), (CircleProfile{{1.0, -9.0}, 4.9}));
   EXPECT_EQ(std::get<ParabolaProfile>(deck.walls[3].profile), (ParabolaProfile{{1.0, -4.0}, 0.1}));
   EXPECT_EQ(std::get<SplineProfile>(deck.walls[4].profile).x.size(), 10u);
+  EXPECT_FALSE(deck.walls[4].outline);
+  EXPECT_EQ(deck.walls[5].outline, Outline(HalfPlaneOutline{{20.0, 0.0}, {-1.0, 0.75}}));
+  EXPECT_EQ(deck.walls[6].outline, Outline(CircleOutline{{1.0, 0.75}, 30.0, Keep::inside}));
+  EXPECT_TRUE(std::get<PolylineOutline>(*deck.walls[7].outline).closed);
+  EXPECT_EQ(std::get<PolylineOutline>(*deck.walls[7].outline).points().at(1), Vec2(20.0, -20.0));
+  EXPECT_EQ(deck.walls[7].corner_radius, 0.125);
+  EXPECT_EQ(deck.walls[8].outline, Outline(EllipseOutline{{1.0, -20.0}, {2.5, 1.25}, 0.75}));
+  EXPECT_EQ(std::get<CurveOutline>(*deck.walls[9].outline).z.at(1), -38.5);
   EXPECT_EQ(deck.contact, (Contact{ContactLaw::Method::augmented, ContactPoints::nodes, 1e5, 1e-9}));
 }
 

@@ -181,6 +181,27 @@ name = "ground"
 side = "below"
 members = ["column"]
 profile = { type = "spline", x = [-1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], z = [-3, -3, -3, -3, -4, -3, -3, -3, -3, -3] }
+[[wall]]
+name = "stop"
+members = ["column"]
+outline = { type = "half-plane", point = [20.0, 0.0], normal = [-1.0, 0.75] }
+[[wall]]
+name = "bore"
+members = ["column"]
+outline = { type = "circle", centre = [1.0, 0.75], radius = 30.0, keep = "inside" }
+[[wall]]
+name = "ramp"
+members = ["column"]
+outline = { type = "polyline", x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, keep = "outside" }
+corner_radius = 0.125
+[[wall]]
+name = "cam"
+members = ["column"]
+outline = { type = "ellipse", centre = [1.0, -20.0], axes = [2.5, 1.25], angle = 0.75 }
+[[wall]]
+name = "lumen"
+members = ["column"]
+outline = { type = "curve", x = [-40.5, 0.5, 40.0], z = [-40.0, -38.5, -41.0] }
 
 [contact]
 method = "augmented"

@@ -1,0 +1,184 @@
+#include "contact/outline.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace arcwall {
+
+namespace {
+
+constexpr double knot_turn = pi / 18.0;  // of a circle between two of its knots [rad]
+constexpr double least_radius = 1e-300;  // where the distance from a centre says nothing about the direction
+
+class HalfPlaneOutline final : public Outline {
+ public:
+  HalfPlaneOutline(const Vec2& point, const Vec2& normal) : point_(point), tangent_(-perp(normal.normalized())) {}
+
+  OutlineFoot foot(const Vec2& position) const override {
+    const Vec2 arm = position - point_;
+    return {.distance = perp(tangent_).dot(arm), .tangent = tangent_, .along = tangent_.dot(arm)};
+  }
+  double sharpest_hollow() const override { return 0.0; }
+
+  std::vector<Vec2> points(double reach) const override {
+    constexpr int parts = 400;
+    std::vector<Vec2> line;
+    for (int i = 0; i <= parts; ++i) line.push_back(point_ + reach * (2.0 * i / parts - 1.0) * tangent_);
+    return line;
+  }
+
+ private:
+  Vec2 point_, tangent_;
+};
+
+// Outside a circle the outline runs clockwise, inside anticlockwise: the body is to the left.
+class CircleOutline final : public Outline {
+ public:
+  CircleOutline(const Vec2& centre, double radius, Keep keep)
+      : centre_(centre), radius_(radius), sign_(keep == Keep::outside ? 1.0 : -1.0) {}
+
+  OutlineFoot foot(const Vec2& position) const override {
+    const Vec2 arm = position - centre_;
+    const double far = std::max(arm.norm(), least_radius);
+    const Vec2 normal = arm.isZero(0.0) ? Vec2(sign_, 0.0) : Vec2(sign_ * arm / far);
+    return {.distance = sign_ * (far - radius_),
+            .tangent = -perp(normal),
+            .curvature = -sign_ / far,
+            .along = -sign_ * std::atan2(arm.y(), arm.x())};
+  }
+
+  std::vector<double> knots() const override {
+    std::vector<double> angles;
+    for (double angle = -pi; angle < pi - 0.5 * knot_turn; angle += knot_turn) angles.push_back(angle);
+    return angles;
+  }
+  double period() const override { return 2.0 * pi; }
+  double sharpest_hollow() const override { return sign_ < 0.0 ? 1.0 / radius_ : 0.0; }
+  std::optional<Vec2> core() const override { return sign_ > 0.0 ? std::optional(centre_) : std::nullopt; }
+
+  std::vector<Vec2> points(double) const override {
+    constexpr int parts = 360;
+    std::vector<Vec2> line;
+    for (int i = 0; i <= parts; ++i) {
+      const double angle = -sign_ * 2.0 * pi * i / parts;
+      line.push_back(centre_ + radius_ * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    return line;
+  }
+
+ private:
+  Vec2 centre_;
+  double radius_, sign_;
+};
+
+// With n the normal to the left, t the tangent, κ the curvature of the parallel curve at the distance d and κ′ its
+// slope: ∇d = n, ∇φ = κ t, ∇κ = κ′ t + κ² n, and ∂t/∂r = κ n tᵀ.
+class OutlineObstacle final : public Obstacle {
+ public:
+  OutlineObstacle(std::shared_ptr<const Outline> outline, double half_height)
+      : outline_(std::move(outline)), half_height_(half_height), knots_(outline_->knots()) {}
+
+  Side side() const override { return Side::below; }
+  bool faces(const Vec2& position, double) const override { return !outline_->foot(position).beyond; }
+
+  // ∇∇d = −κ t tᵀ
+  QuadraticField gap(const Vec2& position, double) const override {
+    const OutlineFoot at = outline_->foot(position);
+    const Vec2 n = perp(at.tangent), t = at.tangent;
+    return {.value = at.distance - half_height_,
+            .x = n.x(),
+            .z = n.y(),
+            .xx = -at.curvature * t.x() * t.x(),
+            .xz = -at.curvature * t.x() * t.y(),
+            .zz = -at.curvature * t.y() * t.y()};
+  }
+
+  LinearField gap_slope(const Vec2& position, double) const override {
+    const OutlineFoot at = outline_->foot(position);
+    if (at.beyond) return {.value = infinity};
+    const Vec2 n = perp(at.tangent);
+    return {.value = at.distance - half_height_, .x = n.x(), .z = n.y()};
+  }
+
+  // ∇∇φ = κ′ t tᵀ + κ² (t nᵀ + n tᵀ)
+  QuadraticField direction(const Vec2& position, double) const override {
+    const OutlineFoot at = outline_->foot(position);
+    const Vec2 n = perp(at.tangent), t = at.tangent;
+    const double k = at.curvature, slope = at.curvature_slope;
+    return {.value = std::atan2(t.y(), t.x()),
+            .x = k * t.x(),
+            .z = k * t.y(),
+            .xx = slope * t.x() * t.x() + 2.0 * k * k * t.x() * n.x(),
+            .xz = slope * t.x() * t.y() + k * k * (t.x() * n.y() + n.x() * t.y()),
+            .zz = slope * t.y() * t.y() + 2.0 * k * k * t.y() * n.y()};
+  }
+
+  // Of the curve at the distance of half the height, from that of the one through the position: κ/(1 + κ g), which does
+  // not change across the curves.
+  LinearField curvature(const Vec2& position, double) const override {
+    const OutlineFoot at = outline_->foot(position);
+    const double shrink = 1.0 / (1.0 + at.curvature * (at.distance - half_height_));
+    const Vec2 slope = at.curvature_slope * shrink * shrink * at.tangent;
+    return {.value = at.curvature * shrink, .x = slope.x(), .z = slope.y()};
+  }
+
+  double along(const Vec2& position, double) const override { return outline_->foot(position).along; }
+  const std::vector<double>& knots() const override { return knots_; }
+  double period() const override { return outline_->period(); }
+  bool has_other_sides() const override { return !knots_.empty(); }
+  std::optional<Vec2> core() const override { return outline_->core(); }
+  double half_height() const override { return half_height_; }
+  std::vector<Vec2> outline(double from, double to, double) const override {
+    const Vec2 middle(0.5 * (from + to), 0.0);
+    return outline_->points(2.0 * (to - from) + std::abs(outline_->foot(middle).along));
+  }
+
+ private:
+  std::shared_ptr<const Outline> outline_;
+  double half_height_;
+  std::vector<double> knots_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Obstacle> obstacle(std::shared_ptr<const Outline> outline, double half_height) {
+  return std::make_shared<OutlineObstacle>(std::move(outline), half_height);
+}
+
+std::unique_ptr<Outline> half_plane_outline(const Vec2& point, const Vec2& normal) {
+  return std::make_unique<HalfPlaneOutline>(point, normal);
+}
+std::unique_ptr<Outline> circle_outline(const Vec2& centre, double radius, Keep keep) {
+  return std::make_unique<CircleOutline>(centre, radius, keep);
+}
+
+// From each line along the normal into the obstacle, by steps that double while the line is still the nearest.
+std::optional<Vec2> deepest_place(const Outline& outline, const std::vector<Vec2>& line) {
+  std::optional<Vec2> deepest;
+  double depth = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 side = line[i + 1] - line[i];
+    if (side.isZero(0.0)) continue;
+    const Vec2 from = 0.5 * (line[i] + line[i + 1]), inward = -perp(side.normalized());
+    for (double step = 0.5 * side.norm();; step *= 2.0) {
+      const Vec2 place = from + step * inward;
+      const double here = -outline.foot(place).distance;
+      if (here < 0.5 * step) break;
+      if (here <= depth) continue;
+      depth = here;
+      deepest = place;
+    }
+  }
+  return deepest;
+}
+
+double doubled_area(const std::vector<Vec2>& polygon) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+    area += a.x() * b.y() - a.y() * b.x();
+  }
+  return area;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/obstacle.hpp"
+
+namespace arcwall {
+
+/// A place of the body before and behind a step.
+struct PlaceInStep {
+  Vec2 from, to;
+};
+
+/// Whether a point of the body that goes straight, as the obstacle sees it, enters the obstacle between two values of
+/// λ: it leaves it again, or is deeper inside in the end than what touches may be [length].
+bool point_passes_through(const Obstacle& obstacle, const PlaceInStep& point, double from_lambda, double to_lambda,
+                          double touching);
+
+/// Whether the line through such places has swept over the core of a closed obstacle.
+bool line_passes_through(const Obstacle& obstacle, const std::vector<PlaceInStep>& line, double from_lambda,
+                         double to_lambda);
+
+}  // namespace arcwall

@@ -1,0 +1,232 @@
+// Runs of decks whose walls are outlines in the plane. What is expected comes from closed forms, from boundary value
+// problems solved by shooting (see deck_answers_test.cpp), or from the same structure turned in the plane, whose
+// answers must be the same.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "apps/output/exit_status.hpp"
+#include "apps/verify/verify.hpp"
+#include "core/error.hpp"
+#include "model/event_names.hpp"
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/stored_files_of.hpp"
+
+namespace arcwall::outlines_test {
+
+namespace {
+
+void expect_verified(const test::TracedDeck& traced) {
+  const Record& record = traced.record();
+  EXPECT_EQ(exit_status(record.branches.back().end.value().reason), ExitStatus::success);
+  const verify::Verdict verdict = verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
+  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+}
+
+std::vector<double> lambdas_of(const test::TracedDeck& traced, EventKind kind) {
+  std::vector<double> found;
+  for (const RecordEvent& event : traced.record().events)
+    if (event.kind == kind) found.push_back(event.lambda);
+  return found;
+}
+
+// A clamped strip (EI = L = 1, EA = 1e5) under a dead load across at its end, in a plane turned by an angle.
+struct Strip {
+  double angle = 0.0;
+  bool reversed = false;  // it runs from the free end to the clamp
+  std::string theory = "elastica";
+  double to = 0.5;  // the greatest λ
+
+  std::string point(double x, double z) const {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return fmt::format("[{:.17g}, {:.17g}]", c * x - s * z, s * x + c * z);
+  }
+  std::string deck(const std::string& outline, const std::string& more = "") const {
+    return fmt::format(R"toml(
+title = "A strip"
+material.m = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 1e5, I = 1.0, height = 0.04 }}
+point = {{ A = [0.0, 0.0], B = {} }}
+member.strip = {{ from = "{}", to = "{}", theory = "{}", material = "m", section = "s", elements = 40 }}
+support = {{ A = ["x", "z", "rotation"] }}
+load = [{{ at = "B", force = {} }}]
+wall = [{{ name = "wall", outline = {{ {} }}, {} }}]
+monitor = [{{ name = "x", at = "B", component = "x" }}, {{ name = "z", at = "B", component = "z" }}]
+path = {{ step = 0.02, land = {{ lambda = [0.4162012388637268] }}, stop = {{ lambda = [-0.1, {}] }} }}
+)toml",
+                       point(1.0, 0.0), reversed ? "B" : "A", reversed ? "A" : "B", theory, point(0.0, -1.0), outline,
+                       more.empty() ? "acts_on = \"axis\"" : more, to);
+  }
+
+  // By how far the end has moved across, at the value that is landed on.
+  double sag(const test::TracedDeck& traced) const {
+    for (const RecordPoint& at : traced.record().points)
+      if (std::abs(at.state.lambda - 0.4162012388637268) < 1e-12)
+        return std::cos(angle) * at.monitors[1] - std::sin(angle) * at.monitors[0];
+    ADD_FAILURE() << "not landed";
+    return 0.0;
+  }
+};
+
+std::vector<Strip> turned_strips() {
+  std::vector<Strip> all;
+  for (const double angle : {0.0, 0.6, 0.5 * pi, 2.2, pi, -1.9})
+    for (const bool reversed : {false, true}) all.push_back({.angle = angle, .reversed = reversed});
+  return all;
+}
+
+}  // namespace
+
+// Shooting: touch at 0.2081006194318634; at twice that the end is at -0.07814581171568506.
+TEST(Outlines, APegIsTouchedFromAnySide) {
+  for (const Strip& strip : turned_strips()) {
+    SCOPED_TRACE(fmt::format("turned by {}{}", strip.angle, strip.reversed ? ", reversed" : ""));
+    const test::TracedDeck traced(strip.deck("type = \"circle\", radius = 0.02, centre = " + strip.point(0.6, -0.05)));
+    const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
+    ASSERT_EQ(touches.size(), 1u);
+    EXPECT_NEAR(touches[0], 0.2081006194318634, 1e-8);
+    EXPECT_NEAR(strip.sag(traced), -0.07814581171568506, 1e-8);
+    expect_verified(traced);
+  }
+}
+
+// A peg of radius 0.02 about the same centre, touched by the axis, is one of radius 0.005 touched by faces 0.015 off
+// it, or an ellipse or a curve of the same shape; and the sharp corner of a wedge touched by faces 0.02 off the axis.
+TEST(Outlines, TheSamePegIsOneOfManyShapes) {
+  const Strip strip{};
+  const auto touch_and_sag = [&](const std::string& outline, const std::string& more) {
+    const test::TracedDeck traced(strip.deck(outline, more));
+    expect_verified(traced);
+    const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
+    EXPECT_EQ(touches.size(), 1u);
+    EXPECT_NEAR(touches.at(0), 0.2081006194318634, 1e-8) << outline;
+    EXPECT_NEAR(strip.sag(traced), -0.07814581171568506, 1e-8) << outline;
+  };
+  const std::string axis = "acts_on = \"axis\"", face = "acts_on = \"face\"";
+  touch_and_sag("type = \"ellipse\", centre = [0.6, -0.05], axes = [0.02, 0.02], angle = 0.3", axis);
+  touch_and_sag("type = \"polyline\", x = [0.5, 0.6, 0.7], z = [-1.05, -0.05, -1.05]", face);
+  touch_and_sag(
+      "type = \"polyline\", x = [0.5, 0.6, 0.7], z = [-0.1217157287525381, -0.0217157287525381, -0.1217157287525381]",
+      axis + ", corner_radius = 0.02");
+}
+
+// A step that would end on the other side of the peg is cut back, and so is one in which the end of the strip would
+// jump over a narrow ramp that comes along: it is met where it is as high as the end, at a way of 0.3.
+TEST(Outlines, NothingIsJumpedOver) {
+  const Strip strip{};
+  const auto with_long_steps = [](std::string deck) {
+    deck.replace(deck.find("step = 0.02"), 11, "step = 2.0, max_step = 3.0");
+    return deck;
+  };
+  const test::TracedDeck peg(with_long_steps(strip.deck("type = \"circle\", radius = 0.02, centre = [0.6, -0.05]")));
+  ASSERT_EQ(lambdas_of(peg, EventKind::contact_closes).size(), 1u);
+  EXPECT_NEAR(lambdas_of(peg, EventKind::contact_closes)[0], 0.2081006194318634, 1e-8);
+  const test::TracedDeck ramp(R"toml(
+title = "A ramp that runs under the end of a strip"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e5, I = 1.0 }
+point = { A = [0.0, 0.0], B = [1.0, 0.0], T = [1.0, -0.2] }
+member.arm = { from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 10 }
+member.hook = { from = "B", to = "T", theory = "elastica", material = "m", section = "s", elements = 2 }
+support = { A = ["x", "z", "rotation"] }
+wall = [{ name = "ramp", acts_on = "axis", corner_radius = 0.01, motion = { x = -1.0 }, outline = { type = "polyline", x = [1.2, 1.4, 1.6], z = [-0.3, -0.1, -0.3] } }]
+monitor = [{ name = "push", wall = "ramp", component = "force-x" }]
+path = { step = 1.0, max_step = 3.0, stop = { lambda = [-0.1, 0.45] } }
+)toml");
+  ASSERT_GE(lambdas_of(ramp, EventKind::contact_closes).size(), 1u);
+  EXPECT_NEAR(lambdas_of(ramp, EventKind::contact_closes)[0], 0.3, 1e-8);
+}
+
+// The end comes down on a floor 0.1 below it; every other way round it does so at the same loads, and lies down
+// likewise.
+TEST(Outlines, AFloorMayStandUpright) {
+  std::vector<std::vector<double>> found;
+  for (Strip strip : turned_strips()) {
+    SCOPED_TRACE(fmt::format("turned by {}", strip.angle));
+    strip.to = 4.0;
+    const test::TracedDeck traced(
+        strip.deck("type = \"half-plane\", point = " + strip.point(0.3, -0.1) + ", normal = " + strip.point(0.0, 2.0)));
+    expect_verified(traced);
+    std::vector<double> lambdas;
+    for (const RecordEvent& event : traced.record().events) lambdas.push_back(event.lambda);
+    found.push_back(lambdas);
+    ASSERT_EQ(lambdas.size(), found.front().size());
+    for (std::size_t i = 0; i < lambdas.size(); ++i) EXPECT_NEAR(lambdas[i], found.front()[i], 1e-8);
+  }
+}
+
+// A bar of length 2 and stiffness EA = 10 is pushed by λ against an upright stop 0.1 beyond its end, or 0.1 beyond what
+// is half its height off it: the stop is met at λ = EA 0.1/2, and bears all that is more.
+TEST(Outlines, AnUprightStopTakesTheRest) {
+  for (const bool on_face : {false, true})
+    for (const std::string theory : {"classic", "truss"}) {
+      if (on_face && theory == "truss") continue;
+      const test::TracedDeck traced(fmt::format(R"toml(
+title = "A bar against a stop"
+material.m = {{ E = 10.0 }}
+section.s = {{ shape = "general", A = 1.0, I = 100.0, height = 0.2 }}
+point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
+member.bar = {{ from = "A", to = "B", theory = "{}", material = "m", section = "s", elements = 1 }}
+support = {{ A = ["x", "z"{}], B = ["z"] }}
+load = [{{ at = "B", force = [1.0, 0.0] }}]
+wall = [{{ name = "stop", acts_on = "{}", outline = {{ type = "half-plane", point = [{}, 7.0], normal = [-1.0, 0.0] }} }}]
+monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
+contact = {{ points = "nodes" }}
+path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
+)toml",
+                                                theory, theory == "truss" ? "" : ", \"rotation\"",
+                                                on_face ? "face" : "axis", on_face ? 2.2 : 2.1));
+      const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
+      ASSERT_EQ(touches.size(), 1u);
+      const double expected = theory == "truss" ? 10.0 * 1.05 * 0.5 * (1.05 * 1.05 - 1.0) : 0.5;  // Green's strain
+      EXPECT_NEAR(touches[0], expected, 1e-10);
+      EXPECT_NEAR(traced.record().points.back().monitors[0], expected - 2.0, 1e-10);
+      expect_verified(traced);
+    }
+}
+
+// The least gap of this curve runs to the end of the strip: a point that follows it is given up L/1000 from there, and
+// is not inserted and given up at the same place again and again.
+TEST(Outlines, APointThatIsGivenUpAtATipIsNotInsertedAgain) {
+  const Strip strip{.to = 3.0};
+  const test::TracedDeck traced(
+      strip.deck("type = \"curve\", x = [-0.5, 0.0, 0.45, 0.95, 1.5], z = [-0.3, -0.2, -0.1, -0.15, -0.3]"));
+  EXPECT_LT(traced.record().points.size(), 100u);
+}
+
+namespace {
+
+std::string problem_of(const std::string& deck) {
+  try {
+    test::TracedDeck traced(deck);
+  } catch (const InputError& error) {
+    std::string all;
+    for (const Diagnostic& diagnostic : error.diagnostics()) all += to_text(diagnostic) + "\n";
+    return all;
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST(Outlines, WhatTheyCannotDoIsSaid) {
+  const Strip strip{};
+  const std::string faces = "acts_on = \"face\"";
+  EXPECT_NE(problem_of(strip.deck("type = \"circle\", centre = [0.5, 0.0], radius = 0.02, keep = \"inside\"", faces))
+                .find("does not fit into it"),
+            std::string::npos);
+  EXPECT_NE(problem_of(strip.deck("type = \"polyline\", x = [0.5, 0.6, 0.7], z = [-1.0, -0.2, -1.0]"))
+                .find("the corners of the outline are sharp"),
+            std::string::npos);
+  EXPECT_NE(problem_of(strip.deck("type = \"circle\", centre = [0.6125, 0.001], radius = 0.005"))
+                .find("is inside the wall at the start: at strip:0.6125, between nodes, by 0.004"),
+            std::string::npos);
+  EXPECT_NE(problem_of(strip.deck("type = \"circle\", centre = [0.6, -0.05], radius = 0.2"))
+                .find("member \"strip\" is inside the wall at the start: node strip:0.6 by 0.15; move the wall"),
+            std::string::npos);
+}
+
+}  // namespace arcwall::outlines_test
