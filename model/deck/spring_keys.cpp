@@ -38,6 +38,16 @@ void check_law(Keys& keys, const TableLaw& law) {
         "give as many of both, at least 2");
   if (std::adjacent_find(u.begin(), u.end(), std::greater_equal<>()) != u.end())
     return keys.report("displacement", "the displacements do not increase", "order them, each once");
+  // Between such points the stiffness is a quotient of what is lost in the digits of the whole.
+  constexpr double least_step = 1e-9;
+  for (std::size_t i = 1; i < u.size(); ++i)
+    if (u[i] - u[i - 1] <= least_step * (u.back() - u.front()))
+      return keys.report(
+          "displacement",
+          round_trip(u[i - 1]) + " and " + round_trip(u[i]) + " are the same to 9 digits of the law's displacements",
+          "remove one of them");
+  if (std::all_of(force.begin(), force.end(), [](double f) { return f == 0.0; }))
+    return keys.report("force", "the spring has no force", "give forces other than 0");
   const auto rest = std::find(u.begin(), u.end(), 0.0);
   if (rest == u.end() || force[static_cast<std::size_t>(rest - u.begin())] != 0.0)
     keys.report("displacement", "the spring is not without force at displacement 0",
