@@ -418,10 +418,16 @@ void add_foundation(const deck::Deck& deck, const deck::Spring& spring, const de
         spring.position, "spring.on",
         "member \"" + foundation.member + "\" is a truss, which cannot carry the forces of a foundation",
         "use theory \"classic\" or \"elastica\", or springs at its ends");
-  if (!coarse) return out.builder.add_foundation(member->second, {foundation.x, foundation.z});
+  Vec2 stiffness(foundation.x, foundation.z);
+  if (foundation.law) {
+    auto law = std::make_shared<const SpringLaw>(foundation.law->displacement, foundation.law->force);
+    if (!coarse) return out.builder.add_foundation(member->second, foundation.law->direction, std::move(law));
+    stiffness[foundation.law->direction == Freedom::x ? 0 : 1] = law->at(0.0).stiffness;
+  }
+  if (!coarse) return out.builder.add_foundation(member->second, stiffness);
   for (const Index node : out.builder.mesh(member->second).nodes) {
-    if (foundation.x > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::x), foundation.x);
-    if (foundation.z > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::z), foundation.z);
+    if (stiffness.x() > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::x), stiffness.x());
+    if (stiffness.y() > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::z), stiffness.y());
   }
 }
 

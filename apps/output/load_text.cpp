@@ -67,6 +67,7 @@ std::string spring_words(const deck::PointToPointSpring& spring, const deck::Uni
 }
 
 std::string spring_words(const deck::Foundation& foundation, const deck::Units& units) {
+  if (foundation.law) return "foundation of " + foundation.member + " " + law_words(*foundation.law);
   return "foundation of " + foundation.member + " " +
          with_unit(pair_text({.x = foundation.x, .z = foundation.z}), unit_text(deck::unit::stress, units));
 }

@@ -522,6 +522,21 @@ TEST(BadDecks, LawsOfSprings) {
   EXPECT_NE(said("[0.0, \"1\"]", "[0.0, 1.0]").find("wrong type"), std::string::npos);
 }
 
+TEST(BadDecks, LawsOfFoundations) {
+  const auto said = [](const std::string& keys) {
+    return all_of(diagnostics_of(replaced(full_deck, "foundation = { z = 3.0 }", keys)));
+  };
+  const std::string law = "law = { direction = \"z\", displacement = [0.0, 1.0], force = [0.0, 1.0] }";
+  EXPECT_EQ(said(law), "");
+  EXPECT_NE(said(law + "\nfoundation = { z = 3.0 }").find("spring.2.foundation: does not go together with a law"),
+            std::string::npos);
+  EXPECT_NE(said(replaced(law, "\"z\"", "\"rotation\"")).find("spring.2.law: a foundation resists no rotation"),
+            std::string::npos);
+  EXPECT_NE(said(replaced(law, "[0.0, 1.0] }", "[0.0, 0.0] }")).find("spring.2.law.force: the spring has no force"),
+            std::string::npos);
+  EXPECT_NE(said(law + "\nstiffness = { z = 3.0 }").find("spring.2.stiffness"), std::string::npos);
+}
+
 TEST(BadDecks, StagesThatDoNothing) {
   const std::string moved = "[[prescribed]]\nat = \"B\"\nrotation = 1.0\n";
   const std::string first =
