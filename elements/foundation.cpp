@@ -31,48 +31,49 @@ StretchLoad::Response StretchFoundation::respond(const Vec2& r1, double angle1, 
   for (std::size_t g = 0; g < gauss_points; ++g) {
     const double xi = 0.5 * (1.0 + rule.xi[g]), ds = 0.5 * rule.weight[g] * stretch_.length;
     const CubicPlace at = cubic_place(now, xi), at_rest = cubic_place(rest, xi);
-    const Vec2 u = at.position - at_rest.position, force = stiffness_.cwiseProduct(u);
-    const StretchLoad::Vector6 gradient = at.gradient.transpose() * force;
-    out.energy += 0.5 * ds * force.dot(u);
+    const FoundationLaw::Response here = law_.at(at.position - at_rest.position);
+    const StretchLoad::Vector6 gradient = at.gradient.transpose() * here.force;
+    out.energy += ds * here.energy;
     out.force += ds * gradient;
-    out.stiffness += ds * (at.gradient.transpose() * stiffness_.asDiagonal() * at.gradient + force[0] * at.second[0] +
-                           force[1] * at.second[1]);
+    out.stiffness += ds * (at.gradient.transpose() * here.stiffness.asDiagonal() * at.gradient +
+                           here.force[0] * at.second[0] + here.force[1] * at.second[1]);
     for (std::size_t end = 0; end < 2; ++end)
       out.force_rate[end] +=
           ds * (stretch_.length_rate[end] / stretch_.length * gradient -
-                at.gradient.transpose() * stiffness_.cwiseProduct(at_rest.gradient * rest_rate[end]));
+                at.gradient.transpose() * here.stiffness.cwiseProduct(at_rest.gradient * rest_rate[end]));
   }
   return out;
 }
 
-ExactFoundation::ExactFoundation(const ExactBeamReference& reference, const Vec2& stiffness, int unknowns_a_node)
-    : masses_(Matrix::Zero(reference.order() + 1, reference.order() + 1)),
-      stiffness_(stiffness),
-      stride_(unknowns_a_node) {
+ExactFoundation::ExactFoundation(const ExactBeamReference& reference, FoundationLaw law, int unknowns_a_node)
+    : law_(std::move(law)), nodes_(reference.order() + 1), stride_(unknowns_a_node) {
   const GaussRule rule = gauss_rule(gauss_points);
   for (std::size_t g = 0; g < gauss_points; ++g) {
     const ShapeFunctions shape = shape_functions(reference.order(), rule.xi[g]);
-    const double ds = rule.weight[g] * arc_speed(reference, shape);
-    const Eigen::Map<const Vector> N(shape.N.data(), masses_.rows());
-    masses_ += ds * N * N.transpose();
+    std::copy_n(shape.N.begin(), nodes_, places_[g].shape.begin());
+    places_[g].length = rule.weight[g] * arc_speed(reference, shape);
   }
 }
 
 double ExactFoundation::evaluate(const double* u, double* f, double* K) const {
-  const Index n = unknown_count(), nodes = masses_.rows();
+  const Index n = unknown_count();
   if (f != nullptr) std::fill(f, f + n, 0.0);
   if (K != nullptr) std::fill(K, K + n * n, 0.0);
   double V = 0.0;
-  for (Index direction = 0; direction < 2; ++direction) {
-    const Eigen::Map<const Vector, 0, Eigen::InnerStride<>> along(u + direction, nodes, Eigen::InnerStride<>(stride_));
-    const Vector force = stiffness_[direction] * masses_ * along;
-    V += 0.5 * force.dot(along);
-    for (Index a = 0; a < nodes; ++a) {
-      const Index row = stride_ * a + direction;
-      if (f != nullptr) f[row] = force[a];
-      for (Index b = 0; b < nodes && K != nullptr; ++b)
-        K[row + n * (stride_ * b + direction)] = stiffness_[direction] * masses_(a, b);
-    }
+  for (const auto& [shape, length] : places_) {
+    Vec2 here = Vec2::Zero();
+    for (std::size_t a = 0; a < static_cast<std::size_t>(nodes_); ++a)
+      here += shape[a] * Eigen::Map<const Vec2>(u + static_cast<std::size_t>(stride_) * a);
+    const FoundationLaw::Response at = law_.at(here);
+    V += length * at.energy;
+    for (Index a = 0; a < nodes_; ++a)
+      for (Index direction = 0; direction < 2; ++direction) {
+        const Index row = stride_ * a + direction;
+        const double part = length * shape[static_cast<std::size_t>(a)];
+        if (f != nullptr) f[row] += part * at.force[direction];
+        for (Index b = 0; b < nodes_ && K != nullptr; ++b)
+          K[row + n * (stride_ * b + direction)] += part * shape[static_cast<std::size_t>(b)] * at.stiffness[direction];
+      }
   }
   return V;
 }

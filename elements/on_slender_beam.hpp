@@ -14,8 +14,9 @@ namespace arcwall {
 template <class Acting>
 class OnSlenderBeam final : public Element {
  public:
-  /// `given`: along the axis or across it, whichever `Acting` is made with.
-  OnSlenderBeam(const StretchReference& stretch, const Vec2& given)
+  /// `given`: what `Acting` is made with.
+  template <class Given>
+  OnSlenderBeam(const StretchReference& stretch, const Given& given)
       : acting_(stretch, given), chord_(stretch.chord), angles_{stretch.angles.front(), stretch.angles.back()} {}
 
   int unknown_count() const override { return 6; }

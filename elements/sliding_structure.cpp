@@ -88,7 +88,7 @@ Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, 
   }
   if (!strand.pressure.is_zero()) load -= strand.pressure.at(lambda) * stretch * perp(unit_tangent(place.angle));
   if (!strand.has_foundation()) return load;
-  return load - strand.foundation.cwiseProduct(place.position - undeformed(point, true).position);
+  return load - strand.foundation.at(place.position - undeformed(point, true).position).force;
 }
 
 std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& point) const {

@@ -132,7 +132,7 @@ class SlidingStructure final : public SlidingBody {
     std::array<End, 2> ends{};
     Vec2 load = Vec2::Zero(), constant_load = Vec2::Zero();            // along the strand [force/length]
     Vec2 axis_load = Vec2::Zero(), constant_axis_load = Vec2::Zero();  // the same, along its axis and across it
-    Vec2 foundation = Vec2::Zero();                                    // in x and z [force/length²]
+    FoundationLaw foundation{};                                        // to the ground
     Driven pressure{};                                                 // on its right [force/length]
     std::vector<PointLoad> point_loads{};                              // inside the strand
     std::vector<double> load_places{};                                 // of these
@@ -144,7 +144,7 @@ class SlidingStructure final : public SlidingBody {
     ThermalStrain thermal{};
 
     SlenderSection slender() const;
-    bool has_foundation() const { return !foundation.isZero(0.0); }
+    bool has_foundation() const { return !foundation.is_zero(); }
   };
 
   SlidingStructure() = default;

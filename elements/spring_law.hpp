@@ -18,6 +18,8 @@ class SpringLaw {
   };
   Response at(double stretch) const;
 
+  bool operator==(const SpringLaw&) const = default;
+
  private:
   double energy_within(std::size_t interval, double part) const;  // of an interval, up to a part of its width
 

@@ -16,6 +16,7 @@
 #include "elements/element.hpp"
 #include "elements/element_order.hpp"
 #include "elements/essenburg_beam.hpp"
+#include "elements/foundation_law.hpp"
 #include "elements/nodal_terms.hpp"
 #include "elements/section.hpp"
 #include "elements/thermal_strain.hpp"
@@ -293,6 +294,9 @@ class StructureBuilder {
   /// displacement, in x and in z [force/length²]. find_mechanism() does not see them.
   void add_foundation(Index member, const Vec2& stiffness);
 
+  /// The same in x or in z by a law, whose forces are by length [force/length].
+  void add_foundation(Index member, Freedom direction, std::shared_ptr<const SpringLaw> law);
+
   /// An element of any kind between freedoms that members have, at most Element::max_unknowns, in the order of its
   /// unknowns. Only for meshes whose nodes are fixed; find_mechanism() does not see it.
   void add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms);
@@ -352,8 +356,8 @@ class StructureBuilder {
   std::vector<MemberMesh> meshes_;
   NodalTerms nodal_;
   std::vector<DistributedLoad> distributed_loads_;
-  std::vector<Vec2> foundations_;       // of each member
-  std::vector<ThermalStrain> thermal_;  // likewise
+  std::vector<FoundationLaw> foundations_;  // of each member
+  std::vector<ThermalStrain> thermal_;      // likewise
   std::vector<ThermalStrain> thermal_of(bool ramp) const;
   std::vector<Driven> pressures_;  // likewise
   std::vector<Driven> pressures_of(bool ramp) const;

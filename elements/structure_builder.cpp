@@ -196,15 +196,15 @@ std::unique_ptr<Element> make_axis_load(const Stretch& stretch, const Vec2& load
   return nullptr;
 }
 
-std::unique_ptr<Element> make_foundation(const Stretch& stretch, const Vec2& stiffness) {
+std::unique_ptr<Element> make_foundation(const Stretch& stretch, const FoundationLaw& law) {
   switch (stretch.member.theory) {
     case Theory::classic:
     case Theory::elastica:
-      return std::make_unique<BeamFoundation>(slender_reference(stretch), stiffness);
+      return std::make_unique<BeamFoundation>(slender_reference(stretch), law);
     case Theory::exact:
-      return std::make_unique<ExactFoundation>(exact_reference(stretch), stiffness);
+      return std::make_unique<ExactFoundation>(exact_reference(stretch), law);
     case Theory::essenburg:
-      return std::make_unique<ExactFoundation>(exact_reference(stretch), stiffness, EssenburgBeam::unknowns_a_node);
+      return std::make_unique<ExactFoundation>(exact_reference(stretch), law, EssenburgBeam::unknowns_a_node);
     case Theory::truss:
       break;
   }
@@ -317,7 +317,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
   }
   meshes_.push_back(std::move(mesh));
   descriptions_.push_back(std::move(member));
-  foundations_.emplace_back(0.0, 0.0);
+  foundations_.emplace_back();
   thermal_.emplace_back();
   pressures_.emplace_back();
   return static_cast<Index>(meshes_.size()) - 1;
@@ -402,7 +402,13 @@ NodalTerms StructureBuilder::nodal_terms(bool ramp) const {
 
 void StructureBuilder::add_foundation(Index member, const Vec2& stiffness) {
   assert(descriptions_[static_cast<std::size_t>(member)].theory != Theory::truss);
-  foundations_[static_cast<std::size_t>(member)] += stiffness;
+  foundations_[static_cast<std::size_t>(member)].add(stiffness);
+}
+
+void StructureBuilder::add_foundation(Index member, Freedom direction, std::shared_ptr<const SpringLaw> law) {
+  assert(descriptions_[static_cast<std::size_t>(member)].theory != Theory::truss);
+  assert(direction == Freedom::x || direction == Freedom::z);
+  foundations_[static_cast<std::size_t>(member)].add(direction == Freedom::x ? 0 : 1, std::move(law));
 }
 
 void StructureBuilder::add_element(std::shared_ptr<const Element> element, std::vector<Index> freedoms) {
@@ -542,7 +548,7 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
     structure->force_scale_ = std::max({structure->force_scale_, section.EA() * strain, section.EI() * bend / L});
   }
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
-    if (foundations_[m].isZero(0.0)) continue;
+    if (foundations_[m].is_zero()) continue;
     const MemberDescription& member = descriptions_[m];
     const ImperfectAxis shape(*member.axis, member.imperfection);
     for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)

@@ -195,6 +195,21 @@ std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measu
   return std::make_shared<WallForce>(*from.contacts, *from.system, wall.name, what, motion_of(wall).about);
 }
 
+// Whether the direction is held and nothing moves it with λ.
+bool is_at_rest(const Measured& from, const deck::Control& control) {
+  const Structure& structure = from.structure;
+  const Places::Node place = from.places.find(control.at, structure.members());
+  std::optional<Index> freedom;
+  if (control.component == deck::Component::x) freedom = structure.freedom(place.node, Freedom::x);
+  if (control.component == deck::Component::z) freedom = structure.freedom(place.node, Freedom::z);
+  if (!freedom || structure.unknown(*freedom)) return false;
+  bool moved = false;
+  structure.nodal_terms().for_each_moved_support([&](Index one, double rate) {
+    if (one == *freedom && rate != 0.0) moved = true;
+  });
+  return !moved;
+}
+
 // A column for each direction that is moved and has no monitor of its reaction: `reaction-x-B`.
 void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, std::vector<MonitorColumn>& columns) {
   const auto add = [&](const std::string& point, bool moved, deck::Component component) {
@@ -283,6 +298,10 @@ TraceOptions trace_options(const deck::Deck& deck, const Measured& from, const s
       problems.add(path.control->at.position, "path.control",
                    "\"" + to_text(path.control->at) + "\" cannot be controlled so",
                    "name a component that the place has");
+    if (options.control && is_at_rest(from, *path.control))
+      problems.add(path.control->at.position, "path.control",
+                   "\"" + to_text(path.control->at) + "\" is held in that direction, so that it cannot be controlled",
+                   "name a direction that is free, or that λ moves");
   }
   const auto quantity = [&](const std::string& name) -> std::shared_ptr<const Observable> {
     if (name == "lambda") return std::make_shared<ParameterValue>();

@@ -350,8 +350,9 @@ void check_pressure(const deck::Deck& deck, DeckProblems& problems, const Struct
 
 // --- springs --------------------------------------------------------------------------------------------------------
 
-void report_no_rotation(const deck::Spring& spring, const std::string& place, DeckProblems& problems) {
-  problems.add(spring.position, "spring.stiffness.rotation", "no member end at \"" + place + "\" has a rotation",
+void report_no_rotation(const deck::Spring& spring, const std::string& place, bool by_law, DeckProblems& problems) {
+  problems.add(spring.position, by_law ? "spring.law.direction" : "spring.stiffness.rotation",
+               "no member end at \"" + place + "\" has a rotation",
                "leave out rotation, or join a beam there without a hinge");
 }
 
@@ -376,7 +377,7 @@ void add_spring(const deck::Spring& spring, const deck::GroundSpring& ground, bo
   if (!freedoms) return;
   if (ground.law) {
     const auto freedom = freedom_in(*freedoms, ground.law->direction);
-    if (!freedom) return report_no_rotation(spring, to_text(ground.at), problems);
+    if (!freedom) return report_no_rotation(spring, to_text(ground.at), true, problems);
     return add_law(*ground.law, std::nullopt, *freedom, coarse, out);
   }
   const auto add = [&](Index freedom, double stiffness) {
@@ -385,7 +386,7 @@ void add_spring(const deck::Spring& spring, const deck::GroundSpring& ground, bo
   add(freedoms->x, ground.stiffness.x);
   add(freedoms->z, ground.stiffness.z);
   if (freedoms->rotation) return add(*freedoms->rotation, ground.stiffness.rotation);
-  if (ground.stiffness.rotation > 0.0) report_no_rotation(spring, to_text(ground.at), problems);
+  if (ground.stiffness.rotation > 0.0) report_no_rotation(spring, to_text(ground.at), false, problems);
 }
 
 void add_spring(const deck::Spring& spring, const deck::PointToPointSpring& between, bool coarse,
@@ -394,7 +395,7 @@ void add_spring(const deck::Spring& spring, const deck::PointToPointSpring& betw
   const NodeFreedoms second = freedoms_of_joint(out, between.points[1]);
   if (between.law) {
     const auto a = freedom_in(first, between.law->direction), b = freedom_in(second, between.law->direction);
-    if (!a || !b) return report_no_rotation(spring, a ? between.points[1] : between.points[0], problems);
+    if (!a || !b) return report_no_rotation(spring, a ? between.points[1] : between.points[0], true, problems);
     return add_law(*between.law, *a, *b, coarse, out);
   }
   const auto add = [&](Index a, Index b, double stiffness) {
@@ -404,7 +405,7 @@ void add_spring(const deck::Spring& spring, const deck::PointToPointSpring& betw
   add(first.z, second.z, between.stiffness.z);
   if (first.rotation && second.rotation) return add(*first.rotation, *second.rotation, between.stiffness.rotation);
   if (between.stiffness.rotation > 0.0)
-    report_no_rotation(spring, first.rotation ? between.points[1] : between.points[0], problems);
+    report_no_rotation(spring, first.rotation ? between.points[1] : between.points[0], false, problems);
 }
 
 // What moves without strain does not depend on how the springs are spread between the nodes.
@@ -417,10 +418,16 @@ void add_foundation(const deck::Deck& deck, const deck::Spring& spring, const de
         spring.position, "spring.on",
         "member \"" + foundation.member + "\" is a truss, which cannot carry the forces of a foundation",
         "use theory \"classic\" or \"elastica\", or springs at its ends");
-  if (!coarse) return out.builder.add_foundation(member->second, {foundation.x, foundation.z});
+  Vec2 stiffness(foundation.x, foundation.z);
+  if (foundation.law) {
+    auto law = std::make_shared<const SpringLaw>(foundation.law->displacement, foundation.law->force);
+    if (!coarse) return out.builder.add_foundation(member->second, foundation.law->direction, std::move(law));
+    stiffness[foundation.law->direction == Freedom::x ? 0 : 1] = law->at(0.0).stiffness;
+  }
+  if (!coarse) return out.builder.add_foundation(member->second, stiffness);
   for (const Index node : out.builder.mesh(member->second).nodes) {
-    if (foundation.x > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::x), foundation.x);
-    if (foundation.z > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::z), foundation.z);
+    if (stiffness.x() > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::x), stiffness.x());
+    if (stiffness.y() > 0.0) out.builder.add_ground_stiffness(out.builder.freedom(node, Freedom::z), stiffness.y());
   }
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "core/text.hpp"
 #include "model/build_contact.hpp"
 #include "model/build_path.hpp"
 #include "model/build_structure.hpp"
@@ -66,6 +68,38 @@ bool moves_something(const Structure& structure) {
   Linearization now;
   structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
   return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
+}
+
+void report_nothing_moves(const deck::Deck& deck, std::size_t stage, bool all_is_held, DeckProblems& problems) {
+  std::string key = deck.loads.empty() ? "prescribed" : "load";
+  deck::Position position;
+  if (!deck.stages.empty()) {
+    key = "stage.drives";
+    position = deck.stages[stage].position;
+  } else if (!deck.loads.empty()) {
+    position = deck.loads.front().position;
+  } else if (!deck.prescribed.empty()) {
+    position = deck.prescribed.front().position;
+  }
+  if (all_is_held)
+    return problems.add(position, key, "every direction is held: nothing is left to move",
+                        "leave a direction free, or divide the members more finely");
+  problems.add(position, key, "what λ multiplies acts on directions that are held: nothing moves",
+               "load a free direction");
+}
+
+// How the path begins to leave the bounds of λ where it starts; empty if it does not.
+std::string start_outside_bounds(const deck::Path& path) {
+  const auto bounds = std::find_if(path.stop.bounds.begin(), path.stop.bounds.end(),
+                                   [](const deck::StopBounds& one) { return one.name == "lambda"; });
+  if (bounds == path.stop.bounds.end()) return {};
+  const std::string between = "stop.lambda = [" + round_trip(bounds->low) + ", " + round_trip(bounds->high) + "]";
+  if (bounds->low > 0.0 || bounds->high < 0.0)
+    return "λ begins at 0, outside of " + between + ": the path ends where it comes to either bound";
+  const bool leaves = (bounds->low == 0.0 && path.step < 0.0) || (bounds->high == 0.0 && path.step > 0.0);
+  if (!leaves) return {};
+  return "λ begins at 0 and leaves " + between + " at once, since step = " + round_trip(path.step) +
+         ": the path ends where it comes back";
 }
 
 // While what is constant is applied, walls do not move.
@@ -150,7 +184,8 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
 // The models of later stages are built once to see whether they can be.
 Model::Model(deck::Deck deck) : Model(deck, 0, things_to_drive(deck)) {
   for (std::size_t stage = 1; stage < whole_deck_.stages.size(); ++stage)
-    Model(whole_deck_, static_cast<Index>(stage), progress_);
+    for (const std::string& warning : Model(whole_deck_, static_cast<Index>(stage), progress_).warnings_)
+      if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
 bool Model::begin_stage(double lambda) {
@@ -177,10 +212,7 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
 
   structure_ = described.builder.build();
   if (!moves_something(*structure_) && (structure_->size({}) == 0 || !moves_walls(deck_)))
-    problems.add(deck_.loads.empty() ? deck::Position{} : deck_.loads.front().position, "load",
-                 structure_->size({}) == 0 ? "every direction is held: nothing is left to move"
-                                           : "the loads that λ multiplies act on supports only: nothing moves",
-                 "load a free direction");
+    report_nothing_moves(whole_deck_, static_cast<std::size_t>(stage_), structure_->size({}) == 0, problems);
   if (takes_increments(deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
   DeckProblems not_at_rest(deck_.source);  // where a stage begins the structure is no longer there
@@ -212,6 +244,8 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
     warnings_.push_back("nothing in [path.stop] ends the path: it goes on to path.max_points = " +
                         std::to_string(deck_.path.max_points) +
                         ", the default, whatever λ is then; give bounds, as stop = { lambda = [-1.0, 10.0] }");
+  if (const std::string warning = start_outside_bounds(deck_.path); !warning.empty() && !increments_of(deck_))
+    warnings_.push_back(warning);
   options_.node_contacts =
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }

@@ -42,8 +42,8 @@ bool ProgressLine::is_due() const {
   return progress_ == Progress::shown && !(visible_ && Clock::now() - last_ < pause);
 }
 
-void ProgressLine::show(const Record& record) {
-  if (is_due() && !record.points.empty()) show(progress_text(record, record.points.back()));
+void ProgressLine::show(const Record& record, const std::vector<std::string>& lambda_is) {
+  if (is_due() && !record.points.empty()) show(progress_text(record, record.points.back(), lambda_is));
 }
 
 void ProgressLine::show(const std::string& text) {
@@ -53,8 +53,10 @@ void ProgressLine::show(const std::string& text) {
   visible_ = true;
 }
 
-std::string progress_text(const Record& record, const RecordPoint& point) {
+std::string progress_text(const Record& record, const RecordPoint& point, const std::vector<std::string>& lambda_is) {
+  const auto stage = static_cast<std::size_t>(record.branches[static_cast<std::size_t>(point.branch)].stage);
   std::string text = fmt::format("branch {}  {} points  λ={:.6g}", point.branch, point.step + 1, point.lambda);
+  if (stage < lambda_is.size() && !lambda_is[stage].empty()) text += " (" + lambda_is[stage] + ")";
   for (std::size_t i = 0; i < point.monitors.size(); ++i)  // −0 + 0 is 0
     text += fmt::format("  {}={:.5g}", record.columns[i].name, point.monitors[i] + 0.0);
   text += "  unstable " + (point.count.unstable ? std::to_string(*point.count.unstable) : "?");

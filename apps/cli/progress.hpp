@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "model/record.hpp"
 
@@ -20,8 +21,8 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine();
 
-  /// Shows the last point of the record.
-  void show(const Record& record);
+  /// Shows the last point of the record, and what λ is there (see names_of_lambda()).
+  void show(const Record& record, const std::vector<std::string>& lambda_is);
 
   void show(const std::string& text);
 
@@ -35,7 +36,8 @@ class ProgressLine {
   bool visible_ = false;
 };
 
-/// `branch 0  123 points  λ=1.25  mid=0.1  unstable 0  contacts 3`, of the record up to one of its points.
-std::string progress_text(const Record& record, const RecordPoint& point);
+/// `branch 0  123 points  λ=1.25 (way of hill)  mid=0.1  unstable 0  contacts 3`, of the record up to one of its
+/// points, with what λ is in each stage where that is known.
+std::string progress_text(const Record& record, const RecordPoint& point, const std::vector<std::string>& lambda_is);
 
 }  // namespace arcwall

@@ -81,10 +81,11 @@ std::optional<BranchEnd> trace(Session& run, CheckpointKeeper& checkpoints, cons
                                const InterruptGuard& interrupts) {
   const Stopwatch watch;
   ProgressLine progress(options.progress);
+  const std::vector<std::string> lambda_is = names_of_lambda(run.model().whole_deck());
   JsonLines lines(run.record());
   std::optional<BranchEnd> stopped;
   for (int points = 1; run.next() != nullptr; ++points) {
-    progress.show(run.record());
+    progress.show(run.record(), lambda_is);
     if (options.report == Report::json_lines) lines.print_new(run.record());
     stopped = limit_met(options, points, watch, interrupts);
     if (stopped) break;
@@ -144,7 +145,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   files.write("path.csv", path_csv(record, description.units));
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
-  files.write("events.txt", events_text(record, name_of_lambda(run.model().whole_deck())));
+  files.write("events.txt", events_text(record, names_of_lambda(run.model().whole_deck())));
   if (pictures) files.write("report.html", ReportPage(record, report_content(run.model(), record, drawn)).pieces());
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
   files.write("deck.toml", deck::to_toml(run.model().whole_deck()));
@@ -155,12 +156,14 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
 }
 
 // An early end in full: the reason, the last good point, and what to try.
-void say_that_it_ended_early(const RecordBranch& branch, const Record& record, const std::string& where) {
+void say_that_it_ended_early(const RecordBranch& branch, const Session& run, const std::string& where) {
+  const Record& record = run.record();
   std::cerr << fmt::format("error: branch {} ended early: {}; what was traced is in {}\n", branch.id,
                            how_it_ended(*branch.end), where);
   const auto is_its = [&](const RecordPoint& point) { return point.branch == branch.id; };
   const auto last = std::find_if(record.points.rbegin(), record.points.rend(), is_its);
-  if (last != record.points.rend()) std::cerr << "  last point: " << progress_text(record, *last) << "\n";
+  if (last != record.points.rend())
+    std::cerr << "  last point: " << progress_text(record, *last, names_of_lambda(run.model().whole_deck())) << "\n";
   std::cerr << "  try: " << what_to_try(branch.end->reason) << "\n";
 }
 
@@ -179,7 +182,7 @@ void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Session& ru
                              run.model().deck().path.max_points_given.in_deck ? "the deck says" : "is the default",
                              where);
   else if (status != ExitStatus::success)
-    say_that_it_ended_early(branch, record, where);
+    say_that_it_ended_early(branch, run, where);
 }
 
 }  // namespace
@@ -218,7 +221,7 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
   }
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
-  if (options.report == Report::table) std::cout << events_text(record, name_of_lambda(run.model().whole_deck()));
+  if (options.report == Report::table) std::cout << events_text(record, names_of_lambda(run.model().whole_deck()));
   say_how_it_ended(stopped, run, folder.path().string());
   return status;
 }

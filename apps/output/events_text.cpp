@@ -114,10 +114,13 @@ std::string how_it_ended(const BranchEnd& end) {
   return fmt::format("{} ({})", end.detail.empty() ? explanation(end.reason) : end.detail, to_text(end.reason));
 }
 
-std::string events_text(const Record& record, const std::string& lambda_is) {
+std::string events_text(const Record& record, const std::vector<std::string>& lambda_is) {
   std::string text = record.title.empty() ? "" : record.title + "\n";
   text += fmt::format("{}, trace-path {}\n", record.deck, program_version());
-  if (!lambda_is.empty()) text += "λ: " + lambda_is + "\n";
+  for (std::size_t i = 0; i < lambda_is.size(); ++i) {
+    if (lambda_is[i].empty()) continue;
+    text += "λ" + (i < record.stages.size() ? " of " + record.stages[i] : "") + ": " + lambda_is[i] + "\n";
+  }
   text += "\n";
   text += table(record) + "\n";
   if (const std::string note = uncertainty_note(record); !note.empty()) text += note + "\n\n";

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/record.hpp"
 
 namespace arcwall {
 
-/// events.txt: the title, what λ is where that is known (see name_of_lambda()), the events as a table for people, and
+/// events.txt: the title, what λ is where that is known (see names_of_lambda()), the events as a table for people, and
 /// how each branch ended.
-std::string events_text(const Record& record, const std::string& lambda_is = "");
+std::string events_text(const Record& record, const std::vector<std::string>& lambda_is = {});
 
 /// What there is to say of an event beside its kind: which contacts change, the type of a branch point, why a branch
 /// ends.

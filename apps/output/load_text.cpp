@@ -67,6 +67,7 @@ std::string spring_words(const deck::PointToPointSpring& spring, const deck::Uni
 }
 
 std::string spring_words(const deck::Foundation& foundation, const deck::Units& units) {
+  if (foundation.law) return "foundation of " + foundation.member + " " + law_words(*foundation.law);
   return "foundation of " + foundation.member + " " +
          with_unit(pair_text({.x = foundation.x, .z = foundation.z}), unit_text(deck::unit::stress, units));
 }
@@ -130,24 +131,33 @@ LoadText movement_text(const deck::Wall& wall, const deck::Units& units) {
   return result;
 }
 
-std::vector<LoadText> driven_by_lambda(const deck::Deck& deck) {
+std::vector<LoadText> driven_by_lambda(const deck::Deck& deck, const deck::Stage* stage) {
   std::vector<LoadText> driven;
-  for (const deck::Load& load : deck.loads) {
-    if (load.constant) continue;
-    driven.push_back(load_text(load, deck.units));
+  const auto is_driven = [&](const std::string& thing) { return stage == nullptr || drives(*stage, thing); };
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    if (deck.loads[i].constant || !is_driven("load." + std::to_string(i))) continue;
+    driven.push_back(load_text(deck.loads[i], deck.units));
     driven.back().text = "load " + driven.back().text;
   }
-  for (const deck::Prescribed& moved : deck.prescribed)
-    if (!moved.constant) driven.push_back(movement_text(moved, deck.units));
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
+    if (!deck.prescribed[i].constant && is_driven("prescribed." + std::to_string(i)))
+      driven.push_back(movement_text(deck.prescribed[i], deck.units));
   for (const deck::Wall& wall : deck.walls)
-    if (wall.motion) driven.push_back(movement_text(wall, deck.units));
+    if (wall.motion && is_driven("wall." + wall.name)) driven.push_back(movement_text(wall, deck.units));
   return driven;
 }
 
-std::string name_of_lambda(const deck::Deck& deck) {
-  const std::vector<LoadText> driven = driven_by_lambda(deck);
+std::string name_of_lambda(const deck::Deck& deck, const deck::Stage* stage) {
+  const std::vector<LoadText> driven = driven_by_lambda(deck, stage);
   if (driven.size() != 1 || driven.front().name == LoadText{}.name) return "";
   return driven.front().name + (driven.front().size.empty() ? "" : ", times " + driven.front().size);
+}
+
+std::vector<std::string> names_of_lambda(const deck::Deck& deck) {
+  if (deck.stages.empty()) return {name_of_lambda(deck)};
+  std::vector<std::string> names;
+  for (const deck::Stage& stage : deck.stages) names.push_back(name_of_lambda(deck, &stage));
+  return names;
 }
 
 }  // namespace arcwall

@@ -24,10 +24,13 @@ LoadText movement_text(const deck::Wall& wall, const deck::Units& units);  ///< 
 /// A spring in words: `at mid: z 2.5 kN/cm`.
 std::string spring_text(const deck::Spring& spring, const deck::Units& units);
 
-/// All that λ multiplies.
-std::vector<LoadText> driven_by_lambda(const deck::Deck& deck);
+/// All that λ multiplies, in one of the deck's stages or in any.
+std::vector<LoadText> driven_by_lambda(const deck::Deck& deck, const deck::Stage* stage = nullptr);
 
 /// What λ is where one thing alone varies that has a name: `displacement in x of B, times 2 cm`; else empty.
-std::string name_of_lambda(const deck::Deck& deck);
+std::string name_of_lambda(const deck::Deck& deck, const deck::Stage* stage = nullptr);
+
+/// That of each stage, or of a deck without any.
+std::vector<std::string> names_of_lambda(const deck::Deck& deck);
 
 }  // namespace arcwall

@@ -367,9 +367,12 @@ void add_load(const deck::Deck& deck, const deck::Pressure& load, double factor,
 void add_spring(const deck::Deck& deck, const deck::Spring& spring, Scene& to) {
   if (const auto* along = std::get_if<deck::Foundation>(&spring.kind)) {
     constexpr int drawn = 9;
+    const auto acts = [&](double stiffness, Freedom direction) {
+      return along->law ? along->law->direction == direction : stiffness > 0.0;
+    };
     for (int i = 0; i < drawn; ++i)
       if (const auto at = position_of(deck, to.shape, {.name = along->member, .fraction = (i + 0.5) / drawn}))
-        to.springs.push_back({.at = *at, .x = along->x > 0.0, .z = along->z > 0.0});
+        to.springs.push_back({.at = *at, .x = acts(along->x, Freedom::x), .z = acts(along->z, Freedom::z)});
     return;
   }
   const auto add = [&](const deck::Place& from, const deck::Place* other, const deck::Stiffness& k,

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t longest_name_compared = 100;  // the distance of two words costs the product of their lengths
 
 // Words of other programs and books for those of a deck.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 40> also_called{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 61> also_called{{
     {"euler", "classic"},
     {"bernoulli", "classic"},
     {"euler-bernoulli", "classic"},
@@ -57,6 +57,27 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 40> also_cal
     {"dx", "x"},
     {"dz", "z"},
     {"local", "member"},
+    {"thermal_expansion", "expansion"},
+    {"young", "E"},
+    {"youngs_modulus", "E"},
+    {"poisson", "nu"},
+    {"angle", "rotation"},
+    {"move", "motion"},
+    {"center", "about"},
+    {"centre", "about"},
+    {"pivot", "about"},
+    {"drive", "drives"},
+    {"active", "drives"},
+    {"until", "stop"},
+    {"p", "pressure"},
+    {"follower", "pressure"},
+    {"q", "distributed"},
+    {"T", "temperature"},
+    {"temp", "temperature"},
+    {"delta_T", "temperature"},
+    {"kx", "stiffness"},
+    {"kz", "stiffness"},
+    {"spring_constant", "stiffness"},
 }};
 
 // The candidate that a word means; empty if it is nobody's word for one of them.

@@ -285,7 +285,8 @@ struct PointToPointSpring {
 /// Springs to the ground all along a member.
 struct Foundation {
   std::string member{};
-  double x = 0.0, z = 0.0;  ///< ≥ 0, at least one is not 0 [force/length²]
+  double x = 0.0, z = 0.0;        ///< ≥ 0, at least one is not 0 [force/length²]
+  std::optional<TableLaw> law{};  ///< instead of these, in x or in z; forces by length
 
   bool operator==(const Foundation&) const = default;
 };

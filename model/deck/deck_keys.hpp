@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/deck/deck.hpp"
@@ -22,6 +23,12 @@ void declare_path(Keys& root, Deck& deck);   ///< and the monitors
 /// Reports a deck in which λ drives nothing. What a wrong load would have been cannot be told: only where all are
 /// right.
 void check_driven(Keys& root, const Deck& deck);
+
+/// Reports movements of one direction of which one would do.
+void check_movements(Keys& root, const Deck& deck);
+
+/// Whether one of driven_things() is other than zero.
+bool varies(const Deck& deck, const std::string& thing);
 
 /// The outline of a wall, if it has one, and what rounds its corners.
 void outline_keys(Keys& keys, Wall& wall);

@@ -141,7 +141,13 @@ bool KeyReader::list(const Key& key, const Declared& declared, std::vector<std::
 bool KeyReader::is_one_of(const Reference& found, const std::string& path, Named of) {
   const auto [names, otherwise] = candidates(names_, of);
   const bool known = contains(names, found.text);
-  if (!known) table_.report_unknown(found, path, otherwise, names);
+  const std::string member = found.text.substr(0, found.text.find(':'));
+  if (!known && of == Named::point && member.size() < found.text.size() && contains(names_.members, member)) {
+    table_.findings().add(found.position, path, in_quotes(found.text, 60) + " " + otherwise + ", but inside a member",
+                          "divide member " + member + " there: add a point, at which one member ends and one begins");
+  } else if (!known) {
+    table_.report_unknown(found, path, otherwise, names);
+  }
   return known;
 }
 

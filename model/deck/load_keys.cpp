@@ -29,20 +29,38 @@ void prescribed_keys(Keys& keys, Prescribed& moved, const Deck& deck) {
     keys.report("at", "nothing is prescribed", "give at least one of x, z and rotation");
 }
 
+void frame_belongs_to_distributed(Keys& keys) {
+  if (keys.reads() && !keys.has("distributed"))
+    keys.applies(false, "frame", "belongs to a load that is distributed", "leave it out");
+}
+
 void point_load_keys(Keys& keys, PointLoad& load) {
   keys.place("at", load.at, "a place: load at a node, with at least one of `force` and `moment`");
   keys.vector(optional("force"), load.force, unit::force, "`[x, z]`");
   keys.number(optional("moment"), load.moment, unit::moment, any_number,
               "does work on the rotation of the section, at any size");
   keys.applies(false, "distributed", "belongs to a load on a member", "write `on` instead of `at`");
-  if (!keys.has("force") && !keys.has("moment"))
+  bool along = keys.has("distributed");
+  for (const char* key : {"pressure", "temperature", "gradient"}) {
+    along = along || keys.has(key);
+    if (keys.reads()) keys.applies(false, key, "belongs to a load on a member", "write `on` instead of `at`");
+  }
+  frame_belongs_to_distributed(keys);
+  if (!along && !keys.has("force") && !keys.has("moment"))
     keys.report("force", "the load has neither force nor moment", "give at least one of them");
 }
 
 void member_load_keys(Keys& keys, MemberLoad& load) {
   keys.name("on", load.member, Named::member,
             "instead of `at`: a member, with `distributed`, `pressure` or a temperature");
-  keys.vector("distributed", load.distributed, unit::line_load, "`[x, z]`, dead, by length of the undeformed axis");
+  Key distributed("distributed");
+  if (keys.reads() && !keys.has(distributed.name)) {
+    keys.report("distributed", "is missing: the load on a member has no distributed, pressure, temperature or gradient",
+                "give one of them");
+    keys.ignore({"pressure", "temperature", "gradient"});  // known where it is asked which keys there are
+    distributed.presence = Presence::optional;
+  }
+  keys.vector(distributed, load.distributed, unit::line_load, "`[x, z]`, dead, by length of the undeformed axis");
   keys.word(
       optional("frame"), load.frame, frame_words,
       "of `distributed`: `\"member\"` gives it along the stress-free axis at each place and across it, to the left");
@@ -54,9 +72,11 @@ void check_heat(Keys& keys, const Deck& deck, const Heat& heat) {
   const Member* member = find(deck.members, heat.member);
   if (member == nullptr) return;
   const Material* material = find(deck.materials, member->material);
-  if (material != nullptr && !material->expansion)
-    keys.report("on", "material " + material->name + " of member " + member->name + " has no expansion",
-                "add expansion to material." + material->name);
+  if (material != nullptr && material->expansion.value_or(0.0) == 0.0)
+    keys.report("on",
+                "material " + material->name + " of member " + member->name +
+                    (material->expansion ? " has expansion = 0: temperatures do nothing" : " has no expansion"),
+                (material->expansion ? "give expansion of material." : "add expansion to material.") + material->name);
   if (member->theory == Theory::essenburg)
     keys.report("on", "member " + member->name + " is of theory essenburg, which knows no temperatures",
                 "take theory \"exact\"");
@@ -74,6 +94,7 @@ void heat_keys(Keys& keys, Heat& heat, const Deck& deck) {
       "not of trusses");
   for (const char* key : {"distributed", "force", "moment"})
     keys.applies(keys.lists(), key, "does not go together with a temperature", "write two loads");
+  frame_belongs_to_distributed(keys);
   if (keys.reads() && on) check_heat(keys, deck, heat);
 }
 
@@ -83,8 +104,9 @@ void pressure_keys(Keys& keys, Pressure& load, const Deck& deck) {
       "pressure", load.pressure, unit::line_load, any_number,
       "instead of `distributed`: by length of the deformed axis, across which it stays; acts to the right of the "
       "direction of travel; not of trusses");
-  for (const char* key : {"distributed", "force", "moment"})
+  for (const char* key : {"distributed", "temperature", "gradient", "force", "moment"})
     keys.applies(keys.lists(), key, "does not go together with a pressure", "write two loads");
+  frame_belongs_to_distributed(keys);
   const Member* member = keys.reads() && on ? find(deck.members, load.member) : nullptr;
   if (member != nullptr && member->theory == Theory::truss)
     keys.report("on", "member " + member->name + " is a truss, which cannot carry a pressure",
@@ -127,6 +149,22 @@ bool moves_with_lambda(const Prescribed& moved) {
          (moved.x.value_or(0.0) != 0.0 || moved.z.value_or(0.0) != 0.0 || moved.rotation.value_or(0.0) != 0.0);
 }
 
+bool moves_with_lambda(const Wall& wall) {
+  return wall.motion && (wall.motion->x != 0.0 || wall.motion->z != 0.0 || wall.motion->rotation != 0.0);
+}
+
+// The directions in which both move a point.
+std::string moved_by_both(const Prescribed& a, const Prescribed& b) {
+  std::string directions;
+  const auto add = [&](const char* direction, bool both) {
+    if (both) directions += (directions.empty() ? "" : ", ") + std::string(direction);
+  };
+  add("x", a.x && b.x);
+  add("z", a.z && b.z);
+  add("rotation", a.rotation && b.rotation);
+  return directions;
+}
+
 }  // namespace
 
 bool declare_loads(Keys& root, Deck& deck) {
@@ -145,8 +183,36 @@ bool declare_loads(Keys& root, Deck& deck) {
          moves;
 }
 
-bool moves_with_lambda(const Wall& wall) {
-  return wall.motion && (wall.motion->x != 0.0 || wall.motion->z != 0.0 || wall.motion->rotation != 0.0);
+bool varies(const Deck& deck, const std::string& thing) {
+  bool found = false;
+  const auto look = [&](const std::string& kind, const auto& things, const auto& moves) {
+    for (std::size_t i = 0; i < things.size(); ++i)
+      found = found || (thing == kind + "." + std::to_string(i) && moves(things[i]));
+  };
+  look("load", deck.loads, follows_lambda);
+  look("prescribed", deck.prescribed, [](const Prescribed& moved) { return moves_with_lambda(moved); });
+  for (const Wall& wall : deck.walls) found = found || (thing == "wall." + wall.name && moves_with_lambda(wall));
+  return found;
+}
+
+// A constant movement and one that λ multiplies add, and so do those that stages drive apart.
+void check_movements(Keys& root, const Deck& deck) {
+  const auto name = [](std::size_t i) { return "prescribed." + std::to_string(i); };
+  const auto driven_apart = [&](std::size_t a, std::size_t b) {
+    return std::any_of(deck.stages.begin(), deck.stages.end(),
+                       [&](const Stage& stage) { return drives(stage, name(a)) != drives(stage, name(b)); });
+  };
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Prescribed &second = deck.prescribed[i], &first = deck.prescribed[j];
+      const std::string directions = moved_by_both(first, second);
+      if (first.point != second.point || directions.empty() || first.constant != second.constant) continue;
+      if (!first.constant && driven_apart(i, j)) continue;
+      Key key("prescribed");
+      key.position = second.position;
+      root.report_key(key, name(j) + " and " + name(i) + " both move " + first.point + " in " + directions,
+                      "write one, or make one of them constant");
+    }
 }
 
 void check_driven(Keys& root, const Deck& deck) {

@@ -157,8 +157,13 @@ void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
   } else if (keys.reads() && find(deck.stages, stage.name) != nullptr) {
     keys.report("name", in_quotes(stage.name) + " is the name of another stage", "give each stage its own");
   }
-  keys.choices("drives", stage.drives, driven_things(deck), "is nothing that λ may drive",
-               "what λ multiplies: `load.0` and `prescribed.1`, counted from 0 in the deck's order, or `wall.NAME`");
+  const bool known = keys.choices(
+      "drives", stage.drives, driven_things(deck), "is nothing that λ may drive",
+      "what λ multiplies: `load.0` and `prescribed.1`, counted from 0 in the deck's order, or `wall.NAME`");
+  const auto changes = [&](const std::string& thing) { return varies(deck, thing); };
+  if (known && std::none_of(stage.drives.begin(), stage.drives.end(), changes))
+    keys.report("drives", "nothing varies with λ in this stage: what it drives is zero",
+                "name a load or a movement that is not zero");
   keys.number(optional("step", "as in [path]"), stage.step, unit::none, not_zero, "as in [path]");
   keys.number(optional("max_step", "as in [path]"), stage.max_step, unit::none, positive, "as in [path]");
   keys.word(optional("branches", "as in [path]"), stage.branches, branches_words, "as in [path]");
@@ -172,16 +177,25 @@ void stage_keys(Keys& keys, Stage& stage, const Deck& deck) {
 // Each thing has its turn, and the state in which a stage ends is one.
 void check_stages(Keys& root, const Deck& deck) {
   if (!root.reads() || deck.stages.empty()) return;
-  for (const std::string& thing : driven_things(deck)) {
+  // What a wrong name would have been cannot be told.
+  const auto drives_something = [](const Stage& stage) { return !stage.drives.empty(); };
+  const bool all_known = std::all_of(deck.stages.begin(), deck.stages.end(), drives_something);
+  for (const std::string& thing : all_known ? driven_things(deck) : std::vector<std::string>()) {
     const auto driven = [&](const Stage& stage) { return drives(stage, thing); };
     if (std::none_of(deck.stages.begin(), deck.stages.end(), driven))
       root.report("stage", "no stage drives " + thing, "name it in drives of a stage, or make it constant");
   }
-  for (std::size_t i = 0; i + 1 < deck.stages.size(); ++i)
+  for (std::size_t i = 0; i + 1 < deck.stages.size(); ++i) {
+    const Stop& stop = deck.stages[i].stop ? *deck.stages[i].stop : deck.path.stop;
+    if (stop.bounds.empty() && !stop.contacts && stop.events.empty())
+      root.report("stage",
+                  "nothing stops stage " + in_quotes(deck.stages[i].name) + ", so that the next one never begins",
+                  "give it a stop, as in stop = { lambda = [-1.0, 1.0] }");
     if (deck.stages[i].branches.value_or(deck.path.branches) == BranchPolicy::all)
       root.report("stage",
                   "stage " + in_quotes(deck.stages[i].name) + " traces all branches, and the next one begins on one",
                   "give it branches = \"follow\" or \"primary\"");
+  }
   if (deck.path.method == PathMethod::incremental)
     root.report("path", "method \"incremental\" has no stages", "use method \"spherical\"");
   if (deck.contact.points == ContactPoints::sliding)
@@ -283,6 +297,7 @@ void declare_keys(Keys& root, Deck& deck) {
   const bool walls_are_right = declare_walls(root, deck);
   declare_path(root, deck);
   if (loads_are_right && walls_are_right) check_driven(root, deck);
+  if (loads_are_right) check_movements(root, deck);
 }
 
 }  // namespace arcwall::deck

@@ -38,7 +38,7 @@ std::string joined(const std::vector<std::string>& texts) {
 }
 
 // What other programs and books call parts of a deck, and how that is said here.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> said_otherwise{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 42> said_otherwise{{
     {"displacement", "a point is moved by [[prescribed]], with x, z or rotation"},
     {"displacements", "a point is moved by [[prescribed]], with x, z or rotation"},
     {"imposed", "a point is moved by [[prescribed]], with x, z or rotation"},
@@ -64,6 +64,22 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> said_oth
     {"pressure", "a member is pressed by a [[load]] with on and pressure"},
     {"step", "parts of a run are [[stage]], with name and drives"},
     {"load_step", "parts of a run are [[stage]], with name and drives"},
+    {"imposed_displacements", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"prescribed_displacements", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"support_motion", "a point is moved by [[prescribed]], with x, z or rotation"},
+    {"motion", "a wall is moved by its motion, a point by [[prescribed]]"},
+    {"moving_wall", "an obstacle is a [[wall]], which moves by its motion"},
+    {"bc", "directions are held by [support] and moved by [[prescribed]]"},
+    {"bcs", "directions are held by [support] and moved by [[prescribed]]"},
+    {"dirichlet", "directions are held by [support] and moved by [[prescribed]]"},
+    {"neumann", "loads are [[load]], with at and force or moment"},
+    {"elastic_foundation", "a foundation is a [[spring]] with on and foundation"},
+    {"link", "two points are joined by a [[spring]] with between"},
+    {"links", "two points are joined by a [[spring]] with between"},
+    {"expansion", "expansion is a key of [material.NAME]"},
+    {"thermal_expansion", "expansion is a key of [material.NAME]"},
+    {"steps", "parts of a run are [[stage]], with name and drives"},
+    {"stop", "what ends the path is [path.stop]"},
     {"phase", "parts of a run are [[stage]], with name and drives"},
 }};
 

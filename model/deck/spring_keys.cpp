@@ -38,6 +38,16 @@ void check_law(Keys& keys, const TableLaw& law) {
         "give as many of both, at least 2");
   if (std::adjacent_find(u.begin(), u.end(), std::greater_equal<>()) != u.end())
     return keys.report("displacement", "the displacements do not increase", "order them, each once");
+  // Between such points the stiffness is a quotient of what is lost in the digits of the whole.
+  constexpr double least_step = 1e-9;
+  for (std::size_t i = 1; i < u.size(); ++i)
+    if (u[i] - u[i - 1] <= least_step * (u.back() - u.front()))
+      return keys.report(
+          "displacement",
+          round_trip(u[i - 1]) + " and " + round_trip(u[i]) + " are the same to 9 digits of the law's displacements",
+          "remove one of them");
+  if (std::all_of(force.begin(), force.end(), [](double f) { return f == 0.0; }))
+    return keys.report("force", "the spring has no force", "give forces other than 0");
   const auto rest = std::find(u.begin(), u.end(), 0.0);
   if (rest == u.end() || force[static_cast<std::size_t>(rest - u.begin())] != 0.0)
     keys.report("displacement", "the spring is not without force at displacement 0",
@@ -53,8 +63,8 @@ void law_keys(Keys& keys, TableLaw& law) {
         const bool force = of.numbers("force", law.force, unit::none, "");
         if (of.reads() && u && force) check_law(of, law);
       },
-      "instead of `stiffness`, in one `direction` (`\"x\"`, `\"z\"`, `\"rotation\"`): `force` [force, force length] by "
-      "`displacement` [length, rad], "
+      "instead of `stiffness` or `foundation`, in one `direction` (`\"x\"`, `\"z\"`, `\"rotation\"`; a foundation in x "
+      "or z): `force` [force, force length; of a foundation force/length] by `displacement` [length, rad], "
       "through these points with a continuous slope, constant beyond the first and the last");
 }
 
@@ -88,8 +98,22 @@ void between_keys(Keys& keys, const Deck& deck, PointToPointSpring& spring) {
       keys.report("between", "no member ends at point " + point, "name points at the ends of members");
 }
 
+// The key `law` is listed with springs at points.
+void foundation_law_key(Keys& keys, Foundation& foundation) {
+  keys.part("law", foundation.law, [&](TableLaw& law) {
+    law_keys(keys, law);
+    if (keys.reads() && law.direction == Freedom::rotation)
+      keys.report("law", "a foundation resists no rotation", "give direction = \"x\" or \"z\"");
+  });
+}
+
 void foundation_keys(Keys& keys, Foundation& foundation) {
-  keys.name("on", foundation.member, Named::member, "instead of `at`: a member, with `foundation`");
+  keys.name("on", foundation.member, Named::member, "instead of `at`: a member, with `foundation` or a law");
+  if (!keys.lists()) foundation_law_key(keys, foundation);
+  if (foundation.law || (keys.reads() && keys.has("law"))) {
+    keys.applies(false, "foundation", "does not go together with a law", "write two springs");
+    return;
+  }
   keys.table(
       "foundation", Form::in_line,
       [&](Keys& of) {
@@ -119,15 +143,11 @@ void spring_keys(Keys& keys, Spring& spring, const Deck& deck) {
   keys.alternative<PointToPointSpring>("between", spring.kind,
                                        [&](PointToPointSpring& between) { between_keys(keys, deck, between); });
   const bool along = keys.reads() ? keys.has("on") : std::holds_alternative<Foundation>(spring.kind);
-  const bool has_law = keys.reads() ? keys.has("law") : !along && law_of(spring)->has_value();
+  const bool has_law = !along && (keys.reads() ? keys.has("law") : law_of(spring)->has_value());
   if (has_law) keys.applies(keys.lists(), "stiffness", "does not go together with a law", "write two springs");
   if (!has_law && keys.applies(!along, "stiffness", "belongs to a spring at points", "give `foundation` instead"))
     stiffness_key(keys, *stiffness_of(spring));
-  if (along) {
-    if (keys.reads()) keys.applies(false, "law", "belongs to a spring at points", "give `at` or `between`");
-  } else {
-    keys.part("law", *law_of(spring), [&](TableLaw& law) { law_keys(keys, law); });
-  }
+  if (!along) keys.part("law", *law_of(spring), [&](TableLaw& law) { law_keys(keys, law); });
   keys.alternative<Foundation>("on", spring.kind, [&](Foundation& foundation) { foundation_keys(keys, foundation); });
   if (keys.reads() && !along)
     keys.applies(false, "foundation", "belongs to a spring along a member", "write `on`, or give stiffness");

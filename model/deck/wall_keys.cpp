@@ -69,6 +69,8 @@ void motion_keys(Keys& keys, WallMotion& motion) {
         of.number(optional("z"), motion.z, unit::length, any_number, "");
         of.number(optional("rotation"), motion.rotation, unit::none, any_number, "");
         of.vector(optional("about"), motion.about, unit::length, "");
+        if (of.reads() && !of.has("x") && !of.has("z") && !of.has("rotation"))
+          keys.report("motion", "the wall does not move", "give at least one of x, z and rotation");
       },
       "the wall moves as a rigid body: by x and z [length] and by the rotation [rad] about a point that goes with it, "
       "all times λ");

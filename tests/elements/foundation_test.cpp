@@ -15,6 +15,14 @@ namespace {
 
 const Vec2 stiffness(0.7, 1.9);
 
+// Linear in x, and in z a law with a maximum besides.
+FoundationLaw bent_law() {
+  FoundationLaw law(stiffness);
+  law.add(1, std::make_shared<const SpringLaw>(std::vector{-2.0, -0.5, 0.0, 0.3, 2.0},
+                                               std::vector{-0.2, -0.7, 0.0, 0.4, 0.9}));
+  return law;
+}
+
 // An arc with a wave.
 struct BentShape {
   std::unique_ptr<Axis> arc = arc_axis({0.0, 0.0}, {1.0, 0.3}, {2.0, 0.0});
@@ -68,6 +76,26 @@ TEST(Foundation, DerivativesAreConsistent) {
                                numbers.vector(unknowns * (order + 1)));
 }
 
+TEST(Foundation, DerivativesOfALawAreConsistent) {
+  test::Numbers numbers(93);
+  const BentShape bent;
+  const BeamFoundation beam(stretch_reference(bent.shape, 0.4, 0.9), bent_law());
+  for (int i = 0; i < 5; ++i) test::expect_derivatives(beam, 0.5 * numbers.vector(6));
+  for (const int order : {1, 2})
+    for (const int unknowns : {3, 5})
+      test::expect_derivatives(ExactFoundation(bent_reference(order), bent_law(), unknowns),
+                               0.5 * numbers.vector(unknowns * (order + 1)));
+}
+
+TEST(Foundation, OfEqualLawsIsEqual) {
+  EXPECT_EQ(bent_law(), bent_law());
+  EXPECT_NE(bent_law(), FoundationLaw(stiffness));
+  FoundationLaw other(stiffness);
+  other.add(0, std::make_shared<const SpringLaw>(std::vector{-2.0, -0.5, 0.0, 0.3, 2.0},
+                                                 std::vector{-0.2, -0.7, 0.0, 0.4, 0.9}));
+  EXPECT_NE(bent_law(), other);
+}
+
 TEST(Foundation, IsStressFreeAtRest) {
   const BentShape bent;
   const auto at_rest =
@@ -94,8 +122,22 @@ TEST(Foundation, OfAMovedBodyHasTheEnergyOfItsLength) {
   }
 }
 
+// With the law from 0 to its point (−0.5, −0.7), moved there: the force is 0.7 − (−0.5) 1.9 by length, and the law's
+// energy by Hermite's cubic ∫ F du = ½ 0.5 0.7 + 0.5² m/12, m the weighted harmonic mean of the secants 1.4 and 4/3.
+TEST(Foundation, OfABodyMovedAlongALawHasTheEnergyOfThat) {
+  const BentShape bent;
+  const StretchReference stretch = stretch_reference(bent.shape, 0.4, 0.9);
+  Vector u = Vector::Zero(6);
+  u[1] = u[4] = -0.5;
+  const double m = 3.0 * 0.8 / ((2.0 * 0.3 + 0.5) / 1.4 + (0.3 + 2.0 * 0.5) / (4.0 / 3.0));
+  const double per_length = 0.5 * 1.9 * 0.25 + 0.5 * 0.5 * 0.7 + 0.25 / 12.0 * m;
+  const auto found = test::evaluated(BeamFoundation(stretch, bent_law()), u);
+  EXPECT_NEAR(found.energy, per_length * stretch.length, 1e-14);
+  EXPECT_NEAR(found.f[1] + found.f[4], -(0.5 * 1.9 + 0.7) * stretch.length, 1e-14);
+}
+
 // The ends of the stretch slide along the member while the beam stays where it is.
-TEST(StretchFoundation, RatesAreConsistent) {
+void expect_consistent_rates(const FoundationLaw& stiffness) {
   constexpr double step = 1e-6;
   test::Numbers numbers(92);
   const BentShape bent;
@@ -113,6 +155,9 @@ TEST(StretchFoundation, RatesAreConsistent) {
   EXPECT_LE(((force(0.5 + step, 0.9) - force(0.5 - step, 0.9)) / (2.0 * step) - here.force_rate[0]).norm(), 1e-8);
   EXPECT_LE(((force(0.5, 0.9 + step) - force(0.5, 0.9 - step)) / (2.0 * step) - here.force_rate[1]).norm(), 1e-8);
 }
+
+TEST(StretchFoundation, RatesAreConsistent) { expect_consistent_rates(stiffness); }
+TEST(StretchFoundation, RatesOfALawAreConsistent) { expect_consistent_rates(bent_law()); }
 
 // Hetényi (1946): a beam with free ends under P in its middle goes down there by
 //

@@ -188,6 +188,45 @@ TEST(Model, AWallThatIsEnteredInPartIsOnTheRightSide) {
 }
 
 }  // namespace
+std::string said_of(const std::string& deck) {
+  std::string text;
+  for (const Diagnostic& problem : problems_of(deck)) text += to_text(problem) + "\n";
+  return text;
+}
+
+// What the structure decides: a hinge, a support, elements.
+TEST(Model, RefusesMovementsAndSpringsOfWhatIsNotThere) {
+  const std::string column(deck::column_deck);
+  const std::string hinged = deck::replaced(column, "elements = 80", "elements = 80\nhinge = [\"to\"]");
+  EXPECT_NE(said_of(hinged + "[[prescribed]]\nat = \"B\"\nrotation = 0.1\n")
+                .find("odd.toml:31:1: prescribed.rotation: no member end at \"B\" has a rotation"),
+            std::string::npos);
+  EXPECT_NE(said_of(hinged + "[[spring]]\nat = \"B\"\nlaw = { direction = \"rotation\", displacement = [0.0, 1.0], "
+                             "force = [0.0, 1.0] }\n")
+                .find("odd.toml:31:1: spring.law.direction: no member end at \"B\" has a rotation"),
+            std::string::npos);
+  EXPECT_NE(said_of(deck::replaced(column, "force = [-1.0, 0.0]", "force = [0.0, 1.0]"))
+                .find("odd.toml:27:1: load: what λ multiplies acts on directions that are held"),
+            std::string::npos);
+  EXPECT_NE(said_of(column + "[path]\nmethod = \"displacement\"\ncontrol = { at = \"B\", component = \"z\" }\n")
+                .find("\"B\" is held in that direction, so that it cannot be controlled"),
+            std::string::npos);
+  EXPECT_EQ(said_of(column + "[path]\nmethod = \"displacement\"\ncontrol = { at = \"B\", component = \"x\" }\n"), "");
+}
+
+TEST(Model, WarnsOfAStartOutsideTheBoundsOfLambda) {
+  const auto warned = [](const std::string& path) {
+    const auto warnings = Model(deck::read_deck_text(std::string(deck::column_deck) + path, "odd.toml", {})).warnings();
+    return warnings.empty() ? "" : warnings.front();
+  };
+  EXPECT_EQ(warned("[path]\nstop = { lambda = [0.0, 1.0] }\n"), "");
+  EXPECT_EQ(warned("[path]\nstep = -0.1\nstop = { lambda = [-1.0, 0.0] }\n"), "");
+  EXPECT_NE(warned("[path]\nstep = -0.1\nstop = { lambda = [0.0, 1.0] }\n").find("at once, since step = -0.1"),
+            std::string::npos);
+  EXPECT_NE(warned("[path]\nstop = { lambda = [0.5, 1.0] }\n").find("outside of stop.lambda = [0.5, 1]"),
+            std::string::npos);
+}
+
 // A deck whose author forgot its bounds, and decks with one bound each.
 TEST(Model, WarnsOfAPathThatNothingEnds) {
   const auto warnings = [](const std::string& path) {

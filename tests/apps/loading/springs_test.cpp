@@ -142,6 +142,135 @@ law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0
   expect_confirmed(traced);
 }
 
+// A stiff beam that cannot turn goes down as one under a load along it, which is the law's force: it has its maximum
+// at 0.2, and half way there 0.4375 as above.
+TEST(Springs, OfAFoundationBearByALawAsOneDoes) {
+  for (const std::string theory : {"classic", "elastica", "exact"}) {
+    SCOPED_TRACE(theory);
+    const std::string text = R"(
+title = "Beam on soil"
+material.m = { E = 1e4, nu = 0.3 }
+section.s = { shape = "general", A = 100.0, I = 100.0 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+member.beam = { from = "A", to = "B", theory = ")" +
+                             theory +
+                             R"(", elements = 4, material = "m", section = "s" }
+support = { A = ["x", "rotation"] }
+load = [{ on = "beam", distributed = [0.0, -1.0] }]
+path = { step = 0.05, land = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
+monitor = [{ name = "B", at = "B", component = "z" }]
+[[spring]]
+on = "beam"
+law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0.2, -0.7, 0.0, 0.7, 0.2] }
+)";
+    const TracedDeck traced(text);
+    const auto limits = events_of(traced, EventKind::limit_point);
+    ASSERT_EQ(limits.size(), 1u);
+    EXPECT_NEAR(limits[0].lambda, 0.7, 1e-9);
+    EXPECT_NEAR(limits[0].monitors[0], -0.2, 1e-4);
+    EXPECT_EQ(limits[0].unstable_after, 1);
+    const auto& points = traced.record().points;
+    const auto half = std::find_if(points.begin(), points.end(),
+                                   [](const RecordPoint& point) { return std::abs(point.monitors[0] + 0.1) < 1e-9; });
+    ASSERT_NE(half, points.end());
+    EXPECT_NEAR(half->lambda, 0.35 + 0.025 * 3.5, 1e-9);
+    expect_confirmed(traced);
+  }
+}
+
+// A stiff lever in soil that gives way at the force f by length from the displacement d on. Where its end has moved by
+// w the soil's moment is f L² (½ − 7/60 (d/w)²): below d the force is f (t + t² − t³), t = u/d, by Hermite's cubic
+// with the slope f/d of the secants at 0 and 0 at d. Both that and the load at the end have arms with the same cosine.
+TEST(Springs, OfAFoundationThatGivesWayHoldALeverAsStaticsSay) {
+  const std::string text = R"(
+title = "Lever in soil"
+material.m.E = 1e6
+section.s = { shape = "general", A = 100.0, I = 100.0 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+member.lever = { from = "A", to = "B", theory = "elastica", elements = 40, material = "m", section = "s" }
+support = { A = ["x", "z"] }
+load = [{ at = "B", force = [0.0, -1.0] }]
+path = { step = 0.05, land = { B = [-0.2, -0.4] }, stop = { B = [-0.4, 1.0] } }
+monitor = [{ name = "B", at = "B", component = "z" }]
+[[spring]]
+on = "lever"
+law = { direction = "z", displacement = [-1.0, -0.1, 0.0, 0.1, 1.0], force = [-0.3, -0.3, 0.0, 0.3, 0.3] }
+)";
+  const TracedDeck traced(text);
+  int found = 0;
+  for (const RecordPoint& point : traced.record().points)
+    for (const double w : {0.2, 0.4})
+      if (std::abs(point.monitors[0] + w) < 1e-9) {
+        ++found;
+        EXPECT_NEAR(point.lambda, 0.3 * 2.0 * (0.5 - 7.0 / 60.0 * 0.01 / (w * w)), 1e-6) << w;
+      }
+  EXPECT_EQ(found, 2);
+  expect_confirmed(traced);
+}
+
+// A straight column buckles by the slope k of the law at rest: EI q² − λ̂ P + λ̂² k/q² = 0, q = π/L, λ̂ = 1 − P/EA.
+TEST(Springs, OfAFoundationWithALawHoldAColumnByTheirStiffnessAtRest) {
+  constexpr double EI = 0.175, EA = 210.0, k = 3.0, q = 3.14159265358979323846 / 2.0;
+  double P = 1.0;
+  for (int i = 0; i < 50; ++i) {
+    const double shrunk = 1.0 - P / EA;
+    P = (EI * q * q + shrunk * shrunk * k / (q * q)) / shrunk;
+  }
+  std::string more =
+      "[[load]]\nat = \"B\"\nforce = [-1.0, 0.0]\n[path]\nbranches = \"primary\"\n"
+      "stop = { event = \"branch-point\" }\n";
+  for (const char* member : {"first", "second"})
+    more += std::string("[[spring]]\non = \"") + member +
+            "\"\nlaw = { direction = \"z\", displacement = [-0.2, -0.1, 0.0, 0.1, 0.2], force = [-0.4, -0.3, 0.0, "
+            "0.3, 0.4] }\n";
+  const TracedDeck traced(column(centimetres, more));
+  const auto found = events_of(traced, EventKind::branch_point);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].lambda, P, 1e-5 * P);  // 20 elements; measured: 3e-6
+}
+
+// On meshes that slide the path is the one on the deck's, whatever the law.
+TEST(Springs, OfAFoundationWithALawActWhateverTheMesh) {
+  const std::string loaded = R"(
+[[load]]
+at = "B"
+force = [-0.5, 0.0]
+[[load]]
+on = "first"
+distributed = [0.0, 0.4]
+[[spring]]
+on = "first"
+law = { direction = "z", displacement = [-0.5, 0.0, 0.02, 0.05, 0.5], force = [-3.0, 0.0, 0.06, 0.04, 0.3] }
+[[spring]]
+on = "second"
+law = { direction = "x", displacement = [-0.5, 0.0, 0.5], force = [-0.3, 0.0, 0.3] }
+[path]
+step = 0.05
+[path.stop]
+lambda = [-1.0, 1.0]
+[[monitor]]
+name = "turn"
+at = "first:0.5"
+component = "rotation"
+)";
+  const std::string wall = R"(
+[[wall]]
+name = "far"
+side = "below"
+profile = { type = "flat", z = -50.0 }
+)";
+  const TracedDeck fixed(column(centimetres, loaded)), sliding(column(centimetres, loaded + wall));
+  ASSERT_NE(sliding.model().sliding(), nullptr);
+  const RecordPoint &a = fixed.record().points.back(), &b = sliding.record().points.back();
+  EXPECT_EQ(a.lambda, 1.0);
+  EXPECT_EQ(b.lambda, 1.0);
+  EXPECT_GT(std::abs(a.monitors.at(0)), 1e-2);
+  EXPECT_NEAR(b.monitors.at(0), a.monitors.at(0), 1e-9);
+  EXPECT_NEAR(b.energy, a.energy, 1e-9);
+  expect_confirmed(fixed);
+  expect_confirmed(sliding);
+}
+
 TEST(Springs, OfALawMustBeAtRestWithoutDisplacement) {
   const auto problem = [](const std::string& law) -> std::string {
     const std::string load = "\n[[load]]\nat = \"B\"\nforce = [-1.0, 0.0]\n";

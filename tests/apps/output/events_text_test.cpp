@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/cli/progress.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/text_table.hpp"
 #include "model/version.hpp"
@@ -77,7 +78,7 @@ TEST(TextTable, CountsCharactersNotBytes) {
 
 }  // namespace
 TEST(EventsText, SaysWhatLambdaIs) {
-  EXPECT_NE(events_text(sample_record(), "displacement in x of B, times 2 cm")
+  EXPECT_NE(events_text(sample_record(), {"displacement in x of B, times 2 cm"})
                 .find("\nλ: displacement in x of B, times 2 cm\n\n"),
             std::string::npos);
   const auto named = [](const std::string& driven) {
@@ -92,6 +93,31 @@ TEST(EventsText, SaysWhatLambdaIs) {
   EXPECT_EQ(named("pressure"), "pressure on arch, times 3 kN/cm");
   EXPECT_EQ(named("force"), "");
   EXPECT_EQ(named("both"), "");
+}
+
+// The same words in the progress line; of stages each has its own.
+TEST(EventsText, SaysWhatLambdaIsInEachStage) {
+  deck::Deck deck{.units = {.length = "cm", .force = "kN"}};
+  deck.prescribed = {{.point = "B", .x = -2.0}};
+  deck.walls = {{.name = "hill", .motion = deck::WallMotion{.z = -3.0}}, {.name = "floor"}};
+  deck.stages = {{.name = "shorten", .drives = {"prescribed.0"}},
+                 {.name = "push", .drives = {"wall.hill"}},
+                 {.name = "both", .drives = {"prescribed.0", "wall.hill"}}};
+  const auto names = names_of_lambda(deck);
+  EXPECT_EQ(names, (std::vector<std::string>{"displacement in x of B, times 2 cm", "way of hill, times 3 cm", ""}));
+
+  Record record = sample_record();
+  record.stages = {"shorten", "push", "both"};
+  record.branches.front().stage = 1;
+  EXPECT_NE(events_text(record, names)
+                .find("\nλ of shorten: displacement in x of B, times 2 cm\nλ of push: way of hill, times 3 cm\n\n"),
+            std::string::npos);
+  RecordPoint point = record.points.front();
+  point.lambda = 0.25;
+  EXPECT_NE(progress_text(record, point, names).find("λ=0.25 (way of hill, times 3 cm)  "), std::string::npos)
+      << progress_text(record, point, names);
+  record.branches.front().stage = 2;
+  EXPECT_NE(progress_text(record, point, names).find("λ=0.25  "), std::string::npos);
 }
 
 }  // namespace arcwall::events_text_test

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/types.hpp"
+#include "elements/spring_law.hpp"
+
+namespace arcwall {
+
+/// What resists the displacements of a member's places, by length of its stress-free axis: linear springs in x and in
+/// z, springs with laws, and sums of these.
+class FoundationLaw {
+ public:
+  FoundationLaw() = default;
+  FoundationLaw(const Vec2& stiffness) : stiffness_(stiffness) {}  ///< ≥ 0 [force/length²]
+
+  void add(const Vec2& stiffness) { stiffness_ += stiffness; }
+
+  /// In x (0) or in z (1); forces of the law are by length [force/length].
+  void add(Index direction, std::shared_ptr<const SpringLaw> law) { laws_.push_back({direction, std::move(law)}); }
+
+  bool is_zero() const { return stiffness_.isZero(0.0) && laws_.empty(); }
+
+  struct Response {
+    double energy = 0.0;
+    Vec2 force = Vec2::Zero(), stiffness = Vec2::Zero();  ///< in x and in z, which know nothing of each other
+  };
+  Response at(const Vec2& displacement) const;
+
+  friend bool operator==(const FoundationLaw& a, const FoundationLaw& b);
+
+ private:
+  struct Part {
+    Index direction;
+    std::shared_ptr<const SpringLaw> law;
+  };
+
+  Vec2 stiffness_ = Vec2::Zero();
+  std::vector<Part> laws_;
+};
+
+}  // namespace arcwall
