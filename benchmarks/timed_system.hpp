@@ -90,6 +90,7 @@ class TimedSystem final : public System {
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override {
     return inner_.multiplier_index(piece, j);
   }
+  bool leaves_stability_open(const Piece& piece) const override { return inner_.leaves_stability_open(piece); }
   double multiplier_scale() const override { return inner_.multiplier_scale(); }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override {
     return inner_.transfer(x, from, to);

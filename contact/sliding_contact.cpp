@@ -148,6 +148,10 @@ Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece&
   return moved;
 }
 
+bool SlidingContact::leaves_stability_open(const Piece& piece) const {
+  return !sliding_layout(piece).neutral_spans().empty();
+}
+
 std::optional<std::string> SlidingContact::invalid_reason(const State& state) const {
   const SlidingState at(state);
   for (std::size_t j = 0; j < at.contacts(); ++j) {

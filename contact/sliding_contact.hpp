@@ -49,6 +49,7 @@ class SlidingContact final : public System, public ContactQuery {
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales().force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
+  bool leaves_stability_open(const Piece& piece) const override;
   std::optional<std::string> invalid_reason(const State& state) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,

@@ -43,7 +43,7 @@ bool strays_from_piece(const ArcEnd& end) {
 // The count at an arc's end.
 StabilityCount count_at(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end) {
   if (!end.singular.empty()) return {};  // an eigenvalue is zero there
-  if (end.at_continuum()) return {.unstable = origin.from.count_after.unstable};
+  if (end.at_singular_change()) return {.unstable = origin.from.count_after.unstable};
   return tools.counter.count(end.point.state, end.point.negative_eigenvalues);
 }
 
@@ -83,7 +83,7 @@ Departure leave_smoothly(const TraceTools& tools, const StepOrigin& origin, cons
     leave.zero_eigenvalues = first.branching ? first.branching->multiplicity : 1;
   } else {
     const bool has_count = end.point.negative_eigenvalues.has_value();
-    if (has_count || end.at_continuum()) leave.negative_eigenvalues = end.point.negative_eigenvalues;
+    if (has_count || end.at_singular_change()) leave.negative_eigenvalues = end.point.negative_eigenvalues;
     leave.zero_eigenvalues = has_count ? 0 : 1;
   }
   leave.signs = signs_behind(tools, origin, end);

@@ -48,7 +48,8 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
   StabilityCount count{.unstable = unstable};
   if (unstable && *unstable == 0) count.stability = Stability::stable;
   if (negative_held && *negative_held > 0) count.stability = Stability::unstable;
-  return count;
+  if (!system_.leaves_stability_open(state.piece)) return count;
+  return {.stability = count.stability == Stability::unstable ? Stability::unstable : Stability::undecided};
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {

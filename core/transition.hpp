@@ -39,6 +39,9 @@ struct Transition {
   std::shared_ptr<const Observable> quantity{};
   double value = 0.0;
   double least = 0.0;  ///< of the quantity, below which round-off hides what it does
+  /// The equations of the piece behind are singular at the change: guards that should vanish together miss each other
+  /// by more than elsewhere, and neither signs of eigenvalues nor the tangent are sure there.
+  bool from_singular = false;
 };
 
 }  // namespace arcwall

@@ -69,6 +69,10 @@ class UnilateralSystem : public Equations {
   /// new are zero. Directions are transferred likewise.
   virtual Vector transfer(const Vector& x, const Piece& /*from*/, const Piece& /*to*/) const { return x; }
 
+  /// Whether a piece holds motions that nothing resists to the second order, so that the second variation does not say
+  /// how many directions are unstable. What eigenvalues count there are the others.
+  virtual bool leaves_stability_open(const Piece&) const { return false; }
+
   /// Why the equations do not hold at this state although it may solve them (a wall that ends); empty if they do.
   virtual std::optional<std::string> invalid_reason(const State&) const { return std::nullopt; }
 

@@ -143,6 +143,22 @@ def perfect_channel(theory: str) -> Case:
                 "of one load and energy, where the path ends.")
 
 
+def clamped_channel(theory: str) -> Case:
+    """Both ends clamped: the contact alone spreads though they lose their curvature with it."""
+    events = [
+        ("buckling", load("branch-point"), 1.7416248517343),
+        ("touch", load("contact-closes"), 1.7429697472686),
+        ("the contact spreads to a line", load("contact-spreads"), 7.144943444364),
+        ("the flat part buckles", load("branch-point", 1), 16.875454912815),
+        ("shortening there", monitor("shortening", "branch-point", 1), 0.167042775151),
+    ]
+    return Case(f"Perfect clamped column between walls, theory {theory}", "docs/validation/channel_perfect.toml",
+                meshes({"column": 1}, [10, 20, 40, 80]),
+                [Quantity(what, of, reference, BETWEEN_CONTACTS) for what, of, reference in events],
+                always=(f"member.column.theory='{theory}'", "support={left=['x','z','rotation'],right=['z','rotation']}",
+                        "wall.0.profile.z=0.1", "wall.1.profile.z=-0.1", "path.stop.event='contact-opens'"))
+
+
 def force_passed(theory: str) -> Case:
     """Contact that is at 0.5858 of the beam at λ = 0.1 and at 0.6159 at λ = 0.2, with a force at 0.6."""
     return Case(f"Contact that slides past a force, theory {theory}", "docs/validation/force_passed.toml",
@@ -433,6 +449,7 @@ def cases() -> list:
                    "path.stop.lambda=[-1.0, 3.0]")),
         *(essenburg_foundation(order) for order in (1, 2)),
         *(perfect_channel(theory) for theory in ("classic", "elastica")),
+        *(clamped_channel(theory) for theory in ("classic", "elastica")),
         Case("Column in a channel, half sine of 0.00176 cm", "docs/validation/channel_half_sine.toml",
              meshes({"column": 1}, [20, 40, 80, 160]), [
             Quantity("load of the first touch", load("contact-closes"), 0.430656908534, IMPERFECT),

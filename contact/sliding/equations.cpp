@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/algebra/assembly.hpp"
 
@@ -27,6 +28,14 @@ void for_each_tip_moment(const SlidingSetting& setting, const SlidingState& at, 
   for (std::size_t i = 0; i < tips.size(); ++i) visit(touch_of_tip(setting, tips[i]), at.index.tip_moment(i));
 }
 
+// visit(span, unknowns of its middle, index of its force) for all neutral spans.
+template <typename Visit>
+void for_each_middle(const SlidingState& at, const Visit& visit) {
+  const auto& spans = at.layout.neutral_spans();
+  for (std::size_t i = 0; i < spans.size(); ++i)
+    visit(spans[i], at.mesh.node_unknowns(spans[i].strand, spans[i].middle), at.index.holding_force(i));
+}
+
 NodeUnknowns unknowns_of(const SlidingState& at, const Touch& touch) {
   return at.mesh.node_unknowns(touch.strand, touch.position);
 }
@@ -37,6 +46,11 @@ void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::R
     const TouchGap touching = touch_gap(setting, touch, at);
     add_at_node(unknowns_of(at, touch), -at.state.x[p] * touching.gap.gradient, F);
     F[p] = -touching.gap.value;
+  });
+  for_each_middle(at, [&](const SlidingContactLayout::NeutralSpan& span, const NodeUnknowns& unknowns, Index p) {
+    const NodeFunction off = off_halfway(setting, at, span);
+    add_at_node(unknowns, -at.state.x[p] * off.gradient, F);
+    F[p] = -off.value;
   });
   for_each_tip_moment(setting, at, [&](const Touch& touch, Index m) {
     const TouchGap touching = touch_gap(setting, touch, at);
@@ -84,11 +98,15 @@ void add_constraint(const NodeFunction& constraint, const NodeUnknowns& unknowns
 // The pattern of K: that of the mesh with rows of forces and moments behind it.
 void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
   std::vector<RowEntry> entries;
-  const auto add = [&](const Touch& touch, Index row) {
-    for (const Index unknown : unknowns_of(at, touch))
+  const auto add_row = [&](const NodeUnknowns& unknowns, Index row) {
+    for (const Index unknown : unknowns)
       if (unknown >= 0) entries.push_back({.row = row - at.index.nodes, .column = unknown});
   };
+  const auto add = [&](const Touch& touch, Index row) { add_row(unknowns_of(at, touch), row); };
   for_each_force(setting, at, add);
+  for_each_middle(at, [&](const SlidingContactLayout::NeutralSpan&, const NodeUnknowns& unknowns, Index row) {
+    add_row(unknowns, row);
+  });
   for_each_tip_moment(setting, at, add);
   out.holding.clear();
   for (Index k = 0; k < at.index.points; ++k) {
@@ -131,6 +149,9 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
   out.border_rates = border_rates(setting, at);
   for_each_force(setting, at, [&](const Touch& touch, Index p) {
     add_constraint(touch_gap(setting, touch, at).gap, unknowns_of(at, touch), p, at, out);
+  });
+  for_each_middle(at, [&](const SlidingContactLayout::NeutralSpan& span, const NodeUnknowns& unknowns, Index p) {
+    add_constraint(off_halfway(setting, at, span), unknowns, p, at, out);
   });
   for_each_tip_moment(setting, at, [&](const Touch& touch, Index m) {
     add_constraint(touch_gap(setting, touch, at).tilt, unknowns_of(at, touch), m, at, out);

@@ -23,7 +23,7 @@ Index SlidingContactLayout::add_segments(const SlidingBody& body, Index strand, 
   Point touching;  // the last point before the segment, or what lies before the first one
   if (std::count_if(segments.begin(), segments.end(), [](const MeshSegment& at) { return !at.ends_at_load(); }) > 1) {
     const Point& first = points_[static_cast<std::size_t>(next_point)];
-    touching = {.obstacle = first.obstacle, .behind = first.before};
+    touching = {.obstacle = first.obstacle, .behind = first.before, .neutral_behind = first.neutral_before};
   }
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const auto [elements, load] = segments[i];
@@ -37,6 +37,12 @@ Index SlidingContactLayout::add_segments(const SlidingBody& body, Index strand, 
                          .elements = elements,
                          .span = touching.behind,
                          .place = i});
+    if (touching.neutral_behind && elements % 2 == 0 && load_before < 0 && load < 0)
+      neutral_spans_.push_back({.strand = strand,
+                                .middle = position + elements / 2,
+                                .end = i == 0 ? 0 : mesh_->nodes(strand) - 1,
+                                .first_point = before,
+                                .last_point = point});
     if (touching.behind == Span::pressed)
       for (Index node = position + 1; node < position + elements; ++node)
         pressed_nodes_.push_back(

@@ -27,7 +27,9 @@ class SlidingContactLayout final : public SlidingLayout {
   struct Point {
     std::size_t obstacle = 0;
     Span behind = Span::free;
-    Span before = Span::free;  ///< of a strand's first point: up to it from the strand's beginning
+    Span before = Span::free;     ///< of a strand's first point: up to it from the strand's beginning
+    bool neutral_behind = false;  ///< the free span behind it is a neutral one
+    bool neutral_before = false;  ///< of a strand's first point: the free span before it is
   };
 
   /// A node inside a pressed part, which is a segment.
@@ -40,6 +42,18 @@ class SlidingContactLayout final : public SlidingLayout {
   struct PressedTip {
     Index strand, position;
     std::size_t obstacle;
+  };
+
+  /// A free span at both ends of which the body has neither slope nor moment: between a point and one on another wall,
+  /// or a clamped end. Nothing but a force holds its middle halfway (docs/theory.md, section 8.3).
+  struct NeutralSpan {
+    Index strand;
+    Index middle, end;              ///< positions of nodes; `end`: the clamped one, where there is one
+    Index first_point, last_point;  ///< −1: a clamped end
+
+    /// The tracked point at one of its ends: the first if both are.
+    std::size_t end_point() const { return static_cast<std::size_t>(first_point >= 0 ? first_point : last_point); }
+    bool joins_points() const { return first_point >= 0 && last_point >= 0; }
   };
 
   /// A part of a strand between tracked points, point loads that have nodes and the strand's ends. −1: no such thing
@@ -66,6 +80,7 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::vector<Point>& points() const { return points_; }
   const std::vector<PressedNode>& pressed_nodes() const { return pressed_nodes_; }
   const std::vector<PressedTip>& pressed_tips() const { return pressed_tips_; }
+  const std::vector<NeutralSpan>& neutral_spans() const { return neutral_spans_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
   /// The bounds within which the layout is valid: guards behind those of the contacts.
@@ -114,6 +129,7 @@ class SlidingContactLayout final : public SlidingLayout {
   std::vector<Point> points_;
   std::vector<PressedNode> pressed_nodes_;
   std::vector<PressedTip> pressed_tips_;
+  std::vector<NeutralSpan> neutral_spans_;
   std::vector<Segment> segments_;
   Vector origin_;
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;

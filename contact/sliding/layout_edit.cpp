@@ -127,6 +127,8 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   while (k < points.size() &&
          (strands[k] < entry.strand || (strands[k] == entry.strand && s[static_cast<Index>(k)] < entry.s)))
     ++k;
+  if (k < points.size() && strands[k] == entry.strand) points[k].neutral_before = false;
+  if (k > 0 && strands[k - 1] == entry.strand) points[k - 1].neutral_behind = false;
   insert_at(points, k, entry.point);
   insert_at(strands, k, entry.strand);
   insert_at(closed, k, static_cast<std::uint8_t>(entry.closed));
@@ -175,8 +177,23 @@ void settle_loads(LayoutEdit& edit) {
   }
 }
 
+namespace {
+
+// Neutral spans are held at the node in their middle.
+void give_middles(LayoutEdit& edit) {
+  const auto make_even = [](int& number) { number += number % 2; };
+  for (std::size_t k = 0; k < edit.points.size(); ++k) {
+    const bool is_first = k == 0 || edit.strands[k - 1] != edit.strands[k];
+    if (is_first && edit.points[k].neutral_before) make_even(edit.elements_before(k));
+    if (edit.points[k].neutral_behind) make_even(edit.elements_behind(k));
+  }
+}
+
+}  // namespace
+
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
   settle_loads(edit);
+  give_middles(edit);
   return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s);
 }
 

@@ -36,7 +36,8 @@ struct LayoutEdit {
     double force = 0.0;
   };
 
-  /// The segment in which the entry falls becomes two of these numbers of elements; which point it is now.
+  /// The segment in which the entry falls becomes two of these numbers of elements, neither of them neutral unless the
+  /// entry says so; which point it is now.
   std::size_t insert(const Entry& entry, int elements_before, int elements_behind);
 
   /// The segments before and behind a point become one with so many elements.
@@ -72,7 +73,7 @@ LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at);
 /// inside parts that lie on a wall have none: such a layout is not valid.
 void settle_loads(LayoutEdit& edit);
 
-/// The layout that has been made of one, with its loads settled.
+/// The layout that has been made of one, with its loads settled and nodes in the middles of neutral spans.
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit);
 
 }  // namespace arcwall::sliding

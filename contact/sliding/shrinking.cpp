@@ -67,6 +67,7 @@ Transition gathered(const SlidingSetting& setting, const SlidingState& at, const
   for (auto k = spans.rbegin(); k != spans.rend(); ++k) {
     const double s = middle(*k);
     edit.points[*k].behind = edit.points[*k + 1].behind;
+    edit.points[*k].neutral_behind = edit.points[*k + 1].neutral_behind;
     edit.forces[*k] += edit.forces[*k + 1];
     edit.erase(*k + 1, edit.elements_behind(*k + 1));
     edit.place(*k) = s;

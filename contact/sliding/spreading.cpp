@@ -7,6 +7,7 @@
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
+#include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
@@ -25,56 +26,21 @@ std::string counted(Index count, const std::string& what) {
   return std::to_string(count) + " " + what + (count > 1 ? "s" : "");
 }
 
-double element_length(const SlidingState& at, Index strand, Index element) {
-  return at.mesh.coordinate(strand, element + 1, at.now.s) - at.mesh.coordinate(strand, element, at.now.s);
-}
-
-// The greatest curvature of a strand, by the turn of its elements.
-double greatest_curvature(const SlidingState& at, Index strand) {
-  double greatest = 0.0;
-  for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e) {
-    const double turn = at.mesh.node(strand, e + 1, at.now).angle - at.mesh.node(strand, e, at.now).angle;
-    greatest = std::max(greatest, std::abs(turn) / element_length(at, strand, e));
-  }
-  return greatest;
-}
-
-// Clamped ends of a point's strand, parallel to its wall, at which the body loses its curvature with the point: like
-// contacts (the first integral of the elastica), and then straight parts begin to grow there.
-Index straightened_ends(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  constexpr double parallel = 1e-9, straight = 0.1;  // [rad]; of the greatest curvature in the strand
-  const Touch touch = touch_of_contact(setting, at.layout, point);
-  const Index strand = touch.strand, last = at.mesh.nodes(strand) - 1;
-  const double angle_there = touch.axis(at).angle, greatest = greatest_curvature(at, strand);
-  Index count = 0;
-  for (const bool end : {false, true}) {
-    const Index node = end ? last : 0, e = end ? last - 1 : 0;
-    const NodeUnknowns unknowns = at.mesh.node_unknowns(strand, node);
-    if (unknowns[1] >= 0 || unknowns[2] >= 0) continue;
-    const auto angle = [&](double t) { return at.mesh.inside(strand, e, end ? 1.0 - t : t, at.now).angle; };
-    if (std::abs(angle(0.0) - angle_there) > parallel) continue;
-    const double curvature = (4.0 * angle(0.5) - 3.0 * angle(0.0) - angle(1.0)) / element_length(at, strand, e);
-    if (std::abs(curvature) <= straight * greatest) ++count;
-  }
-  return count;
-}
-
 // One that reaches the end of its member has a length of its own: no force is in it.
 bool is_flat_between_points(const SlidingContactLayout::Segment& segment) {
   return segment.span == Span::flat && segment.first_point >= 0 && segment.last_point >= 0;
 }
 
-// `lines`: of contacts that lie on walls by themselves, `ends`: of clamped ends where straight parts begin to grow.
-Transition continuum(const SlidingState& at, Index lines, Index ends) {
+// `lines`: of contacts that lie on walls by themselves.
+Transition continuum(const SlidingState& at, Index lines) {
   Continuum common{.energy = at.mesh.energy(at.now)};
   for (const SlidingContactLayout::Segment& segment : at.layout.segments())
     if (is_flat_between_points(segment)) common.length += at.s(segment.last_point) - at.s(segment.first_point);
-  return {.change = Transition::Change::continuum,
-          .detail = counted(lines, "contact") + (ends > 0 ? " and " + counted(ends, "clamped end") : "") +
-                    " become lines together: only the sum of their lengths is determined, " +
-                    round_trip(common.length) + " here; all such equilibria have the energy " +
-                    round_trip(common.energy),
-          .continuum = common};
+  return {
+      .change = Transition::Change::continuum,
+      .detail = counted(lines, "contact") + " become lines together: only the sum of their lengths is determined, " +
+                round_trip(common.length) + " here; all such equilibria have the energy " + round_trip(common.energy),
+      .continuum = common};
 }
 
 // Whether a point load is so near to a point that it has no node.
@@ -116,10 +82,19 @@ Transition with_spans(const SlidingSetting& setting, const SlidingState& at, con
   return transition;
 }
 
-// Each of the points, ascending, becomes two, a short way apart.
+// The spans of a layout that are neutral become so in an edit of it.
+void make_neutral(const NeutralSides& sides, LayoutEdit& edit) {
+  for (std::size_t k = 0; k < edit.points.size(); ++k) {
+    edit.points[k].neutral_before = sides.before[k];
+    edit.points[k].neutral_behind = sides.behind[k];
+  }
+}
+
+// Each of the points, ascending, becomes two, a short way apart; `neutral`: spans beside them that are then.
 Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, Span between,
-                  double length) {
+                  double length, const NeutralSides* neutral = nullptr) {
   LayoutEdit edit = edit_of(setting.body, at);
+  if (neutral != nullptr) make_neutral(*neutral, edit);
   for (auto k = points.rbegin(); k != points.rend(); ++k) {
     const Span span = lies_by_itself(setting, at, *k) ? Span::flat : between;
     const int behind = edit.elements_behind(*k);
@@ -250,9 +225,14 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   const bool new_lines = lines > 0;
   const auto& segments = at.layout.segments();
   lines += std::count_if(segments.begin(), segments.end(), is_flat_between_points);
-  const Index ends = new_lines ? straightened_ends(setting, at, points.front()) : 0;
-  if (new_lines && lines + ends > 1) return {continuum(at, lines, ends)};
-  return spreads(setting, at, points);
+  if (new_lines && lines > 1) return {continuum(at, lines)};
+  const NeutralSides neutral = spans_made_neutral(setting, at, points);
+  std::vector<Transition> transitions = spreads(setting, at, points);
+  if (!neutral.any()) return transitions;
+  const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);
+  transitions.insert(transitions.begin(), spread(setting, at, points, Span::flat, length, &neutral));
+  for (Transition& transition : transitions) transition.from_singular = true;
+  return transitions;
 }
 
 }  // namespace arcwall::sliding

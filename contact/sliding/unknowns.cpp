@@ -9,6 +9,7 @@ SlidingUnknowns::SlidingUnknowns(const Piece& piece) : piece_(&piece) {
   nodes = layout.mesh().unknowns();
   closed = piece.closed_count();
   pressed = static_cast<Index>(layout.pressed_nodes().size());
+  neutral = static_cast<Index>(layout.neutral_spans().size());
   tips = static_cast<Index>(layout.pressed_tips().size());
   points = static_cast<Index>(layout.points().size());
 }

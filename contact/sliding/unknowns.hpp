@@ -12,6 +12,7 @@ namespace arcwall {
 ///     x   `nodes`    positions and rotations of the mesh's nodes              unknowns of the mesh
 ///     p   `closed`   forces of the closed contacts, in the piece's order      multipliers, with −g = 0
 ///     p   `pressed`  forces of the pressed nodes, in the layout's order       multipliers, with −g = 0
+///     p   `neutral`  forces that hold the middles of neutral spans            multipliers, with −c = 0
 ///     m   `tips`     moments that hold the tangency at pressed tips           multipliers, with −t = 0
 ///     m   `points`   moments that hold the tangency at the tracked points     multipliers, with −t = 0
 ///     s   `points`   material coordinates of the tracked points               the border
@@ -25,10 +26,11 @@ class SlidingUnknowns {
   Index nodes = 0;    ///< entries of x
   Index closed = 0;   ///< forces of closed contacts
   Index pressed = 0;  ///< forces of pressed nodes
+  Index neutral = 0;  ///< neutral spans
   Index tips = 0;     ///< pressed tips
   Index points = 0;   ///< tracked points
 
-  Index multipliers() const { return closed + pressed + tips + points; }
+  Index multipliers() const { return closed + pressed + neutral + tips + points; }
   Index of_K() const { return nodes + multipliers(); }
   Index size() const { return of_K() + points; }
 
@@ -36,8 +38,9 @@ class SlidingUnknowns {
   std::optional<Index> force(std::size_t contact) const;
 
   Index pressed_force(std::size_t node) const { return nodes + closed + static_cast<Index>(node); }
-  Index tip_moment(std::size_t tip) const { return nodes + closed + pressed + static_cast<Index>(tip); }
-  Index moment(Index point) const { return nodes + closed + pressed + tips + point; }
+  Index holding_force(std::size_t span) const { return nodes + closed + pressed + static_cast<Index>(span); }
+  Index tip_moment(std::size_t tip) const { return nodes + closed + pressed + neutral + static_cast<Index>(tip); }
+  Index moment(Index point) const { return nodes + closed + pressed + neutral + tips + point; }
   Index coordinate(Index point) const { return of_K() + point; }
 
  private:

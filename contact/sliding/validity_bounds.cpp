@@ -5,6 +5,7 @@
 #include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/load.hpp"
+#include "contact/sliding/bounds/neutral.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/room.hpp"
 #include "contact/sliding/bounds/tail.hpp"
@@ -64,6 +65,7 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   for (std::size_t i = 0; i < on.segments().size(); ++i) add_of_segment(body, on, i, bounds);
   for (Index strand = 0; strand < body.strands(); ++strand) add_of_inner_loads(body, on, strand, bounds);
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i) add_if<PressureBound>(true, bounds, i);
+  for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) add_if<NeutralBound>(true, bounds, i);
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (const bool last : {false, true}) {
       const bool free = !body.end_is_held(strand, last);

@@ -164,7 +164,8 @@ std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, c
       const Way to = way_to(system, point.state, at.state, guard_tolerance);
       if (to == Way::ends_at_a_wall) continue;
       const Direction chord = difference(at.state, point.state);
-      if (to == Way::is_free && metric.norm(chord) <= 2.0 * distance) {
+      const bool leaves = metric.inner(chord, way.forward) >= std::abs(metric.inner(chord, point.along));
+      if (to == Way::is_free && leaves && metric.norm(chord) <= 2.0 * distance) {
         Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);
         return SteppedOff{.state = std::move(at.state), .tangent = std::move(tangent)};
       }

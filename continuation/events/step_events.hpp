@@ -20,8 +20,8 @@ struct ArcEnd {
   std::optional<Landing> passed_bound{};  ///< a validity bound that lies a little before `point`, a target value
   double turn = 0.0;                      ///< of the tangent over the step that was tried [rad]
 
-  /// Whether a continuum of equilibria lies behind.
-  bool at_continuum() const { return landing && landing->continuum; }
+  /// Whether the equations are singular where contacts change.
+  bool at_singular_change() const { return landing && landing->singular; }
 };
 
 /// An arc's end, or why it is not sure.

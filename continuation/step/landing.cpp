@@ -54,15 +54,13 @@ bool lands_where_it_began(const StepOrigin& origin, double tolerance, const Path
          origin.metric.distance(at.state, from.state) <= coincidence_tolerance;
 }
 
-// Where a continuum of equilibria lies ahead, the equations are singular at the change: guards that should vanish
-// together miss each other by more than elsewhere, eigenvalues that should be zero have no sure sign, and the tangent
-// is any.
-bool leads_to_continuum(const TraceTools& tools, const PathPoint& at, const Landing& landing) {
+// Where a continuum of equilibria lies ahead, the equations are singular at the change: see Transition::from_singular.
+bool is_singular_change(const TraceTools& tools, const PathPoint& at, const Landing& landing) {
   constexpr double singular = 1e-6;  // in the scale of guards
   if (landing.guard < static_cast<Index>(at.state.piece.size()) || landing.slack > singular) return false;
   const double tolerance = std::max(tools.options.guard_tolerance, 2.0 * landing.slack);
   const auto ahead = tools.system.transitions(at.state, at.tangent, landing.guard, tolerance);
-  return !ahead.empty() && ahead.front().change == Transition::Change::continuum;
+  return !ahead.empty() && (ahead.front().from_singular || ahead.front().change == Transition::Change::continuum);
 }
 
 // Onto the zero of one guard, with what the other guards say there.
@@ -73,8 +71,8 @@ LandedStep land_on(TraceTools& tools, const StepOrigin& origin, const StepEnd& e
   if (!at.point || lands_where_it_began(origin, tolerance, *at.point, crossing.guard))
     return {.end = std::nullopt, .failure = at.status};
   Landing landing{.guard = crossing.guard, .slack = std::max(0.0, -at.point->guards.minCoeff())};
-  landing.continuum = leads_to_continuum(tools, *at.point, landing);
-  if (landing.continuum && segment.length() > coincidence_tolerance)
+  landing.singular = is_singular_change(tools, *at.point, landing);
+  if (landing.singular && segment.length() > coincidence_tolerance)
     at.point->tangent = tangent_from(origin.metric, origin.point(), *at.point);
   return {.end = StepEnd{.point = std::move(*at.point), .turn = end.turn, .landing = landing}};
 }
@@ -101,7 +99,7 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
     if (!landed.end) break;
     end = std::move(*landed.end);
     const double slack = end.landing->slack;
-    if (slack <= tolerance || end.landing->continuum) return {.end = std::move(end)};
+    if (slack <= tolerance || end.landing->singular) return {.end = std::move(end)};
     if (slack <= together * tolerance && (!nearly || slack < nearly->landing->slack)) nearly = end;
     crossing = crossing_before(end);
     if (nearly && round >= 3) break;

@@ -108,8 +108,8 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
       return rejected(StepOutcome::penetrates);
   }
   decide_count(tools, end.point);
-  // Eigenvalues that vanish along a continuum of equilibria have no sure sign where it begins.
-  if (end.landing && end.landing->continuum) end.point.negative_eigenvalues.reset();
+  // Eigenvalues that vanish behind the change have no sure sign there.
+  if (end.landing && end.landing->singular) end.point.negative_eigenvalues.reset();
   tried.result = std::move(end);
   return tried;
 }

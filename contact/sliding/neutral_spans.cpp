@@ -1,0 +1,145 @@
+#include "contact/sliding/neutral_spans.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/sliding/bending.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+using NeutralSpan = SlidingContactLayout::NeutralSpan;
+using Span = SlidingContactLayout::Span;
+
+constexpr double parallel = 1e-9;  // [rad]
+
+std::size_t obstacle_at(const SlidingState& at, Index point) {
+  return at.layout.points()[static_cast<std::size_t>(point)].obstacle;
+}
+
+// The gap between the axis at a node and an obstacle.
+NodeFunction axis_gap(const SlidingSetting& setting, const SlidingState& at, Index strand, Index position,
+                      std::size_t obstacle) {
+  return touch_gap(setting, {.strand = strand, .position = position, .obstacle = obstacle, .offset = 0.0}, at).gap;
+}
+
+// The same where the body lies on the obstacle.
+double axis_gap_lying(const SlidingSetting& setting, std::size_t obstacle, Index strand) {
+  return std::abs(setting.face_offset(obstacle, strand));
+}
+
+// ½ (f − g)
+NodeFunction half_difference(const NodeFunction& f, const NodeFunction& g) {
+  return {.value = 0.5 * (f.value - g.value),
+          .gradient = 0.5 * (f.gradient - g.gradient),
+          .hessian = 0.5 * (f.hessian - g.hessian),
+          .rate = 0.5 * (f.rate - g.rate),
+          .gradient_rate = 0.5 * (f.gradient_rate - g.gradient_rate)};
+}
+
+// Whether the axis at a node is parallel to the obstacle of a point. One is straight wherever this is asked.
+bool is_parallel(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double angle) {
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  return std::abs(angle - touch.axis(at).angle) <= parallel;
+}
+
+double element_length(const SlidingState& at, Index strand, Index element) {
+  return at.mesh.coordinate(strand, element + 1, at.now.s) - at.mesh.coordinate(strand, element, at.now.s);
+}
+
+// The greatest curvature of a strand, by the turn of its elements.
+double greatest_curvature(const SlidingState& at, Index strand) {
+  double greatest = 0.0;
+  for (Index e = 0; e + 1 < at.mesh.nodes(strand); ++e) {
+    const double turn = at.mesh.node(strand, e + 1, at.now).angle - at.mesh.node(strand, e, at.now).angle;
+    greatest = std::max(greatest, std::abs(turn) / element_length(at, strand, e));
+  }
+  return greatest;
+}
+
+// Whether an end of a point's strand is clamped, parallel to the obstacle there, and the body has no curvature at it.
+bool is_straightened_end(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool last) {
+  constexpr double straight = 0.1;  // of the greatest curvature in the strand
+  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first, nodes = at.mesh.nodes(strand);
+  const Index node = last ? nodes - 1 : 0, e = last ? nodes - 2 : 0;
+  const NodeUnknowns unknowns = at.mesh.node_unknowns(strand, node);
+  if (unknowns[1] >= 0 || unknowns[2] >= 0) return false;
+  const NodeFunction gap = axis_gap(setting, at, strand, node, at.layout.points()[point].obstacle);
+  if (unknowns[0] >= 0 && (gap.gradient[0] != 0.0 || gap.gradient_rate[0] != 0.0)) return false;
+  const auto angle = [&](double t) { return at.mesh.inside(strand, e, last ? 1.0 - t : t, at.now).angle; };
+  if (!is_parallel(setting, at, point, angle(0.0))) return false;
+  const double curvature = (4.0 * angle(0.5) - 3.0 * angle(0.0) - angle(1.0)) / element_length(at, strand, e);
+  return std::abs(curvature) <= straight * greatest_curvature(at, strand);
+}
+
+}  // namespace
+
+// Between two obstacles the middle is as far from one as from the other, what lies on them being so far, too.
+NodeFunction off_halfway(const SlidingSetting& setting, const SlidingState& at, const NeutralSpan& span) {
+  const std::size_t obstacle = at.layout.points()[span.end_point()].obstacle;
+  const NodeFunction middle = axis_gap(setting, at, span.strand, span.middle, obstacle);
+  NodeFunction off;
+  double halfway = axis_gap_lying(setting, obstacle, span.strand);
+  if (span.joins_points()) {
+    const std::size_t other = obstacle_at(at, span.last_point);
+    off = half_difference(middle, axis_gap(setting, at, span.strand, span.middle, other));
+    halfway -= axis_gap_lying(setting, other, span.strand);
+  } else {
+    const NodeFunction end = axis_gap(setting, at, span.strand, span.end, obstacle);
+    off = middle;
+    off.rate -= 0.5 * end.rate;
+    halfway += end.value;
+  }
+  off.value -= 0.5 * halfway;
+  return off;
+}
+
+Across distance_across(const SlidingSetting& setting, const SlidingState& at, const NeutralSpan& span) {
+  const std::size_t obstacle = at.layout.points()[span.end_point()].obstacle;
+  const double lying = axis_gap_lying(setting, obstacle, span.strand);
+  if (!span.joins_points()) {
+    const NodeFunction end = axis_gap(setting, at, span.strand, span.end, obstacle);
+    return {.value = end.value - lying, .rate = end.rate};
+  }
+  const std::size_t other = obstacle_at(at, span.last_point);
+  const NodeFunction near = axis_gap(setting, at, span.strand, span.middle, obstacle),
+                     far = axis_gap(setting, at, span.strand, span.middle, other);
+  return {.value = near.value + far.value - lying - axis_gap_lying(setting, other, span.strand),
+          .rate = near.rate + far.rate};
+}
+
+bool NeutralSides::any() const {
+  const auto holds = [](const std::vector<bool>& sides) {
+    return std::find(sides.begin(), sides.end(), true) != sides.end();
+  };
+  return holds(before) || holds(behind);
+}
+
+NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingState& at,
+                                const std::vector<std::size_t>& lines) {
+  const auto& points = at.layout.points();
+  const auto strand_of = [&](std::size_t k) { return at.mesh.breakpoint(static_cast<Index>(k)).first; };
+  const auto is_line = [&](std::size_t k) {
+    const bool lies = points[k].behind == Span::flat || at.layout.span_before(k) == Span::flat;
+    return (lies || std::find(lines.begin(), lines.end(), k) != lines.end()) && lies_by_itself(setting, at, k);
+  };
+  NeutralSides sides{.before = std::vector<bool>(points.size()), .behind = std::vector<bool>(points.size())};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Index strand = strand_of(k);
+    if (!is_line(k) || !setting.body.point_loads(strand).empty()) continue;
+    const bool is_first = k == 0 || strand_of(k - 1) != strand;
+    const bool is_last = k + 1 == points.size() || strand_of(k + 1) != strand;
+    if (is_first && at.layout.span_before(k) == Span::free)
+      sides.before[k] = is_straightened_end(setting, at, k, false);
+    if (points[k].behind != Span::free) continue;
+    if (is_last)
+      sides.behind[k] = is_straightened_end(setting, at, k, true);
+    else
+      sides.behind[k] = is_line(k + 1) && points[k].obstacle != points[k + 1].obstacle &&
+                        is_parallel(setting, at, k, touch_of_contact(setting, at.layout, k + 1).axis(at).angle);
+  }
+  return sides;
+}
+
+}  // namespace arcwall::sliding

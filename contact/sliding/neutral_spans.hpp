@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/sliding/touch.hpp"
+
+/// Neutral spans: see SlidingContactLayout::NeutralSpan.
+namespace arcwall::sliding {
+
+/// By how much the axis in the middle of a neutral span is off halfway between its ends, across the wall, as a function
+/// of the node there [length].
+NodeFunction off_halfway(const SlidingSetting& setting, const SlidingState& at,
+                         const SlidingContactLayout::NeutralSpan& span);
+
+/// The distance across the wall between the ends of a neutral span, and its rate by λ [length].
+struct Across {
+  double value = 0.0, rate = 0.0;
+};
+Across distance_across(const SlidingSetting& setting, const SlidingState& at,
+                       const SlidingContactLayout::NeutralSpan& span);
+
+/// The same points of contact with the spans beside some of them neutral, one entry a point.
+struct NeutralSides {
+  std::vector<bool> before, behind;
+
+  bool any() const;
+};
+
+/// Which spans are neutral once all the points in `lines` have become flat parts, as those that the layout has are. A
+/// clamped end counts if it is parallel to the wall beside it and the body loses its curvature there with the points:
+/// by the first integral of the elastica |M| is the same at all places without slope.
+NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingState& at,
+                                const std::vector<std::size_t>& lines);
+
+}  // namespace arcwall::sliding
