@@ -207,13 +207,41 @@ void add_row(Matrix& G, const std::vector<Index>& unknowns, const Vector& gradie
 
 }  // namespace
 
+bool is_driven_by_supports_alone(const Model& model) {
+  const deck::Deck& deck = model.deck();
+  const auto varies = [](const deck::Load& load) { return !load.constant; };
+  const auto moves = [](const deck::Wall& wall) { return wall.motion && wall.motion->progress.proportional != 0.0; };
+  return model.sliding() == nullptr && std::none_of(deck.loads.begin(), deck.loads.end(), varies) &&
+         std::none_of(deck.walls.begin(), deck.walls.end(), moves);
+}
+
+namespace {
+
+// λ as the last unknown of K, which moves supports.
+void add_moved_supports(const PointAtHand& at, Matrix& K) {
+  const Index last = K.rows() - 1;
+  for (const Potential& potential : at.potentials) {
+    const Vector change = gradient_rate(potential);
+    if (change.size() == 0) continue;
+    for (std::size_t i = 0; i < potential.unknowns.size(); ++i)
+      if (const Index unknown = potential.unknowns[i]; unknown >= 0) {
+        K(unknown, last) += change[static_cast<Index>(i)];
+        K(last, unknown) += change[static_cast<Index>(i)];
+      }
+    K(last, last) += potential.rates.dot(change);
+  }
+}
+
+enum class Supports { held, dead };  // those that λ moves, or their forces in their place
+
 // K of the elements, less p ∂²g of the contacts, plus their springs; on the motions that leave closed contacts closed.
 // What walls touch from opposite sides cannot move across them, with or without a force.
 // Lengths and angles are made comparable: D K D has a unit diagonal.
-CountRange unstable_range(const PointAtHand& at, double zero) {
-  const Index n = structure_unknowns(at.model, at.point.state);
+CountRange range_of_counts(const PointAtHand& at, double zero, Supports supports) {
+  const Index n = structure_unknowns(at.model, at.point.state) + (supports == Supports::dead ? 1 : 0);
   Matrix K = Matrix::Zero(n, n), idle_springs = Matrix::Zero(n, n), strong(0, n), all(0, n);
   for (std::size_t e = 0; e < at.potentials.size(); ++e) add_block(K, at.potentials[e].unknowns, at.stiffness[e]);
+  if (supports == Supports::dead) add_moved_supports(at, K);
   for (const Touch& touch : at.touches.all) {
     if (!touch.closed && !touch.two_sided) continue;
     const Vector gradient = touch.gap.gradient();
@@ -246,6 +274,20 @@ CountRange unstable_range(const PointAtHand& at, double zero) {
   const bool all_carry = all.rows() == strong.rows() && idle_springs.isZero(0.0);
   const Eigencount free = all_carry ? held : eigencount(scaled(K), strong * scale.asDiagonal(), zero);
   return {.least = held.negative, .most = free.negative + free.zero};
+}
+
+}  // namespace
+
+CountRange unstable_range(const PointAtHand& at, double zero) { return range_of_counts(at, zero, Supports::held); }
+
+std::optional<CountRange> unstable_dead_range(const PointAtHand& at, double zero) {
+  const auto is_held = [](const Touch& touch) {
+    const auto& unknowns = touch.gap.unknowns;
+    return touch.closed && std::find(unknowns.begin(), unknowns.end(), -1) != unknowns.end();
+  };
+  if (!is_driven_by_supports_alone(at.model) || std::any_of(at.touches.all.begin(), at.touches.all.end(), is_held))
+    return std::nullopt;
+  return range_of_counts(at, zero, Supports::dead);
 }
 
 }  // namespace arcwall::verify

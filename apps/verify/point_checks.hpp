@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "apps/verify/findings.hpp"
 #include "apps/verify/potentials.hpp"
 #include "apps/verify/touches.hpp"
@@ -50,5 +52,12 @@ struct CountRange {
   Index least = 0, most = 0;
 };
 CountRange unstable_range(const PointAtHand& at, double zero);
+
+/// The same where the forces of the supports that λ moves are dead loads, and λ one more unknown. Empty where λ drives
+/// anything else, where the mesh slides, and where a held node is in contact.
+std::optional<CountRange> unstable_dead_range(const PointAtHand& at, double zero);
+
+/// Whether supports are all that λ drives, on a mesh that does not slide.
+bool is_driven_by_supports_alone(const Model& model);
 
 }  // namespace arcwall::verify

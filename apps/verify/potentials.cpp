@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -45,6 +46,19 @@ std::vector<double> element_lengths(const Structure& structure) {
   return lengths;
 }
 
+using Rates = std::map<Index, double>;  // by λ, of the freedoms that supports move
+
+Rates rates_of_supports(const Structure& structure) {
+  Rates rates;
+  structure.nodal_terms().for_each_moved_support([&](Index freedom, double rate) { rates[freedom] = rate; });
+  return rates;
+}
+
+double rate_of(const Rates& rates, Index freedom) {
+  const auto found = rates.find(freedom);
+  return found == rates.end() ? 0.0 : found->second;
+}
+
 // The kind of each local unknown, by how many a node has: x, z, then a rotation, then changes of thickness.
 Freedom kind_of(std::size_t local, std::size_t stride) {
   constexpr Freedom kinds[] = {Freedom::x, Freedom::z, Freedom::rotation, Freedom::thickness, Freedom::thickness2};
@@ -77,14 +91,16 @@ struct LoadedElement {
   }
 };
 
-Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride, double length) {
+Potential fixed_potential(const Structure& structure, Index e, const State& state, std::size_t stride, double length,
+                          const Rates& rates) {
   const auto freedoms = structure.element_freedoms(e);
   const auto n = static_cast<Index>(freedoms.size());
   LoadedElement loaded{.element = &structure.element(e), .loads = {}, .lambda = state.lambda};
   for (const std::uint32_t i : structure.loads_of_element(e))
     loaded.loads.push_back(structure.element_loads()[i].potential.get());
-  Potential potential{.at = Vector(n), .steps = Vector(n)};
+  Potential potential{.at = Vector(n), .steps = Vector(n), .rates = Vector::Zero(n)};
   for (std::size_t i = 0; i < freedoms.size(); ++i) {
+    potential.rates[static_cast<Index>(i)] = rate_of(rates, freedoms[i]);
     potential.unknowns.push_back(structure.unknown(freedoms[i]).value_or(-1));
     potential.at[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
     potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, stride), length);
@@ -97,10 +113,11 @@ Potential fixed_potential(const Structure& structure, Index e, const State& stat
 std::vector<Potential> fixed_potentials(const Structure& structure, const State& state) {
   std::vector<Potential> all;
   const std::vector<double> lengths = element_lengths(structure);
+  const Rates rates = rates_of_supports(structure);
   for (const MemberMesh& mesh : structure.members())
     for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
       const auto e = static_cast<Index>(all.size());
-      all.push_back(fixed_potential(structure, e, state, unknowns_a_node(mesh), lengths[all.size()]));
+      all.push_back(fixed_potential(structure, e, state, unknowns_a_node(mesh), lengths[all.size()], rates));
     }
   return all;
 }
@@ -233,9 +250,13 @@ double table_energy(const deck::TableLaw& law, double stretch) {
 Potential spring_potential(const Model& model, const State& state, double k, const deck::TableLaw* law,
                            const std::vector<Index>& freedoms, Freedom which) {
   const auto n = static_cast<Index>(freedoms.size());
-  Potential potential{.at = Vector(n), .steps = Vector::Constant(n, step_of(which, model.structure().length_scale()))};
+  Potential potential{.at = Vector(n),
+                      .steps = Vector::Constant(n, step_of(which, model.structure().length_scale())),
+                      .rates = Vector::Zero(n)};
+  const Rates rates = rates_of_supports(model.structure());
   for (Index i = 0; i < n; ++i) {
     const Index freedom = freedoms[static_cast<std::size_t>(i)];
+    potential.rates[i] = rate_of(rates, freedom);
     const SlidingStructure* body = model.sliding_structure();
     const auto unknown =
         body != nullptr ? body->unknown(sliding_mesh(state), freedom) : model.structure().unknown(freedom);
@@ -289,9 +310,12 @@ void add_pressed_ends(const Model& model, const State& state, std::vector<Potent
   const SlidingStructure* body = model.sliding_structure();
   for (const NodalTerms::PressedEnd& end : model.structure().nodal_terms().pressed_ends()) {
     Potential potential{.at = Vector(2),
-                        .steps = Vector::Constant(2, relative_step * model.structure().length_scale())};
+                        .steps = Vector::Constant(2, relative_step * model.structure().length_scale()),
+                        .rates = Vector::Zero(2)};
+    const Rates rates = rates_of_supports(model.structure());
     for (const Index freedom : {end.x, end.z}) {
       const Index i = static_cast<Index>(potential.unknowns.size());
+      potential.rates[i] = rate_of(rates, freedom);
       const auto unknown =
           body != nullptr ? body->unknown(sliding_mesh(state), freedom) : model.structure().unknown(freedom);
       potential.unknowns.push_back(unknown.value_or(-1));
@@ -418,6 +442,14 @@ Matrix stiffness(const Potential& potential) {
           },
           potential.steps[i]);
   return 0.5 * (K + K.transpose());
+}
+
+Vector gradient_rate(const Potential& potential) {
+  double step = infinity;
+  for (Index i = 0; i < potential.rates.size(); ++i)
+    if (potential.rates[i] != 0.0) step = std::min(step, potential.steps[i] / std::abs(potential.rates[i]));
+  if (!std::isfinite(step)) return {};
+  return derivative([&](double along) { return potential.gradient(potential.at + along * potential.rates); }, step);
 }
 
 }  // namespace arcwall::verify

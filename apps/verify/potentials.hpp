@@ -13,6 +13,7 @@ struct Potential {
   std::vector<Index> unknowns{};                    ///< −1: a support holds it
   Vector at{};                                      ///< their values; those of held ones do not vary
   Vector steps{};                                   ///< with which differences are taken
+  Vector rates{};                                   ///< by λ, of those that supports move; empty: none moves
   std::function<double(const Vector&)> energy{};    ///< [force·length]
   std::function<Vector(const Vector&)> gradient{};  ///< as the element has it
 };
@@ -37,5 +38,8 @@ Vector forces(const Potential& potential);
 
 /// ∂²U/∂u² by differences of its gradient.
 Matrix stiffness(const Potential& potential);
+
+/// How its gradient changes with λ while supports alone move, by differences too; empty where none does.
+Vector gradient_rate(const Potential& potential);
 
 }  // namespace arcwall::verify

@@ -90,6 +90,13 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
     findings.require("unstable directions", rest[1] != "stable" || count == 0.0, "stability is stable");
     findings.require("unstable directions", rest[1] != "unstable" || most > 0, "stability is unstable");
   }
+  if (expected.unstable_dead && expected.moves_supports && !rest[6].empty()) {
+    const double count = number(rest[6]);
+    const auto [least, most] = *expected.unstable_dead;
+    findings.compare("unstable directions under dead loads", std::max(double(least) - count, count - double(most)), 0.0,
+                     fmt::format("unstable_dead is {}, dense eigenvalues say {}{}", rest[6], least,
+                                 least == most ? "" : fmt::format(" to {}", most)));
+  }
   expect_same("path.csv tells the states", rest[0], point.count.unstable ? std::to_string(*point.count.unstable) : "",
               "unstable", findings);
   expect_same("path.csv tells the states", rest[2], std::to_string(expected.contacts), "contacts", findings);

@@ -101,7 +101,8 @@ std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Ind
   sentences.emplace_back(
       "arc lengths, iterations, residuals, modes and types of branch points: they are not told by single states");
   if (moves_supports)
-    sentences.emplace_back("unstable_dead: it tells of the path beside a point, not of its state alone");
+    sentences.emplace_back(
+        "unstable_dead on meshes that slide, where held nodes touch, and where λ drives more than supports");
   if (!model.in_increments())
     sentences.emplace_back("what happens and is undone between two points of the path; --again traces it anew");
   return sentences;
@@ -158,7 +159,11 @@ class Verifier {
       check_contacts(at, findings);
       check_equilibrium(at, findings);
       expected.energy = energy(at);
-      if (count) expected.unstable = unstable_range(at, zero_eigenvalue(model, record_, point));
+      if (count) {
+        const double zero = zero_eigenvalue(model, record_, point);
+        expected.unstable = unstable_range(at, zero);
+        if (record_.moves_supports && point.unstable_dead) expected.unstable_dead = unstable_dead_range(at, zero);
+      }
     }
     if (number < path_rows_.size()) {
       findings.at("path.csv", point.branch, point.step);

@@ -412,6 +412,32 @@ TEST_F(FalsifiedRun, ACountOffByOneIsCaught) {
   }
 }
 
+// Lee's frame with its loaded point moved: under the force that it has there it loses stability at the greatest force,
+// with its movement given where that turns.
+TEST(FalsifiedMovedRun, ACountUnderDeadLoadsOffByOneIsCaught) {
+  std::string text(example("lee"));
+  const std::string load = "[[load]]\nat = \"loaded\"\nforce = [0.0, -1.0]";
+  text.replace(text.find(load), load.size(), "[[prescribed]]\nat = \"loaded\"\nz = -90.0");
+  const TracedDeck traced(text);
+  const Record& record = traced.record();
+  const Verdict verdict = verify(traced.model(), record, stored_files_of(record), "checkpoint");
+  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+  EXPECT_TRUE(has_check(verdict, "unstable directions under dead loads"));
+  std::set<Index> counts;
+  for (std::size_t i = 1; i < record.points.size(); i += 2) {
+    if (!record.points[i].unstable_dead || record.points[i].event) continue;
+    counts.insert(*record.points[i].unstable_dead - *record.points[i].count.unstable);
+    for (const int by : {-1, 1}) {
+      Record falsified = record;
+      falsified.points[i].unstable_dead = *record.points[i].unstable_dead + by;
+      const Verdict found = verify(traced.model(), falsified, stored_files_of(falsified), "checkpoint");
+      ASSERT_TRUE(found.findings.first().has_value()) << i;
+      EXPECT_NE(found.findings.first()->what.find("unstable_dead is"), std::string::npos) << i;
+    }
+  }
+  EXPECT_EQ(counts, (std::set<Index>{0, 1}));
+}
+
 TEST_F(FalsifiedRun, ADigitOfPathCsvIsCaught) {
   const RecordPoint& last = traced_.record().points.back();
   const auto caught = [&](double number, const std::string& what) {
