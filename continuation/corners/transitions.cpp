@@ -83,16 +83,9 @@ const TargetValue* value_moved_over(const std::vector<TargetValue>& targets, con
   return found == targets.end() ? nullptr : &*found;
 }
 
-// Whether λ tells places of a path apart that runs in a direction.
-bool runs_in_lambda(const Metric& metric, const Direction& along) {
-  constexpr double least = 1e-3;  // of the direction's length
-  return std::abs(along.dlambda) >= least * metric.lambda_scale() * metric.norm(along);
-}
-
 // From a transition's guess to an equilibrium of the piece ahead. A new mesh moves the path by the error of its
-// elements. Where λ runs along the path its value is kept, so that λ turns nowhere but at events; where the path would
-// be moved over a target value, or off one, the point is the one at which that quantity has the value of before. So
-// what lay ahead still does, and what was met is met no more.
+// elements: where that would move it over a target value, or off one, the point is the one at which that quantity has
+// the value of before. So what lay ahead still does, and what was met is met no more.
 CorrectorResult arrive(TraceTools& tools, const Transition& transition, const PathPoint& from, const Ahead& ahead,
                        Effort effort) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
@@ -102,24 +95,10 @@ CorrectorResult arrive(TraceTools& tools, const Transition& transition, const Pa
                : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
   };
   const State& guess = transition.guess;
-  const bool remeshed = transition.change == Transition::Change::remeshed;
-  const auto across = [&](const Direction& normal) {
-    return corrected(guess, PlaneConstraint(ahead.metric, guess, normal, 0.0));
-  };
-  const auto is_near = [&](const State& state) {
-    constexpr double near = 0.01;  // [path metric]
-    return ahead.metric.distance(state, guess) <= near;
-  };
-  CorrectorResult result{};
-  if (transition.quantity) {
-    result = corrected(guess, ValueConstraint(*transition.quantity, transition.value));
-  } else if (remeshed && runs_in_lambda(ahead.metric, ahead.along)) {
-    result = across({.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0});
-    if (!result.converged() || !is_near(result.state)) result = across(ahead.along);
-  } else {
-    result = across(ahead.along);
-  }
-  if (!result.converged() || !remeshed) return result;
+  CorrectorResult result = transition.quantity
+                               ? corrected(guess, ValueConstraint(*transition.quantity, transition.value))
+                               : corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0));
+  if (!result.converged() || transition.change != Transition::Change::remeshed) return result;
   const TargetValue* const kept = value_moved_over(tools.options.target_values, from.state, result.state);
   if (!kept) return result;
   CorrectorResult moved_back =
