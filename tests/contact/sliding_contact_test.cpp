@@ -117,8 +117,8 @@ std::vector<test::TestWall> two_of(const std::vector<test::TestWall>& walls, std
 }  // namespace
 
 // Central differences of fourth order and step 1e-6: round-off 1e-10 of the greatest entry; a thousand times that in
-// guards, which are of order 1 where entries of short elements are of order 1000. Of these a wrong one shows with either
-// of two steps, and round-off with the shorter one alone.
+// guards, which are of order 1 where entries of short elements are of order 1000. Of these a wrong one shows with
+// either of two steps, and round-off with the shorter one alone.
 TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
   Numbers numbers(70);
   for (const bool on_axis : {false, true}) {
