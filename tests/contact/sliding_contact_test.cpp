@@ -134,8 +134,9 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
           EXPECT_LE(report.F_lambda, 1e-8);
           EXPECT_EQ(report.consistency, 0.0);
           EXPECT_LE(report.energy, 1e-7);
-          const double longer = check_derivatives(model.system(), state, 3e-6).guard_gradient;
-          EXPECT_LE(std::min(report.guard_gradient, longer), 1e-6);
+          if (report.guard_gradient > 1e-6) {
+            EXPECT_LE(check_derivatives(model.system(), state, 3e-6).guard_gradient, 1e-6);
+          }
         }
       }
   }
