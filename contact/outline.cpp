@@ -176,7 +176,7 @@ double doubled_area(const std::vector<Vec2>& polygon) {
   double area = 0.0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
-    area += a.x() * b.y() - a.y() * b.x();
+    area += cross(a, b);
   }
   return area;
 }

@@ -17,8 +17,6 @@ struct OnCurve {
   Vec2 p, first, second, third;
 };
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 double curvature_of(const OnCurve& at) { return cross(at.first, at.second) / std::pow(at.first.norm(), 3); }
 
 // d κ / d length
@@ -230,7 +228,7 @@ class CurveOutline final : public ParametricOutline {
     Vec2 before = at(from).first;
     for (int k = 1; k <= looks; ++k) {
       const Vec2 here = at(from + (to - from) * k / looks).first;
-      turn += std::abs(std::atan2(cross(before, here), before.dot(here)));
+      turn += std::abs(turn_between(before, here));
       before = here;
     }
     return std::clamp(static_cast<int>(std::ceil(turn / most_turn)), 4, looks);

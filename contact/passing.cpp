@@ -10,7 +10,7 @@ double winding_about(const Vec2& place, const std::vector<Vec2>& round) {
   double turned = 0.0;
   for (std::size_t i = 0; i < round.size(); ++i) {
     const Vec2 a = round[i] - place, b = round[(i + 1) % round.size()] - place;
-    turned += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    turned += turn_between(a, b);
   }
   return turned / (2.0 * pi);
 }

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double arc_turn = pi / 18.0;  // of an arc between two knots [rad]
 
-double turn_between(const Vec2& a, const Vec2& b) { return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)); }
-
 // A straight part, from a coordinate along the outline on.
 struct Flank {
   double along;

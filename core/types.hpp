@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -28,5 +29,11 @@ bool all_finite(const Eigen::DenseBase<Entries>& entries) {
 
 /// v turned by +90° (anticlockwise).
 inline Vec2 perp(const Vec2& v) { return {-v.y(), v.x()}; }
+
+/// a × b: the area between two sides, positive if b lies to the left of a.
+inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// By how much a has to turn to point as b does, anticlockwise, from −π to π [rad].
+inline double turn_between(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
 }  // namespace arcwall

@@ -18,7 +18,6 @@ template <unsigned points>
 using AxisGauss = boost::math::quadrature::gauss<double, points>;
 using Gauss = AxisGauss<10>;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
 // cos n φ + i sin n φ = (cos φ + i sin φ)ⁿ, by products where they are few.
@@ -169,7 +168,7 @@ class ParametricAxis : public Axis {
     const auto k = interval(s);
     // The tangent's angle, continued from the knot before (turns between knots stay below half a turn).
     const Vec2 tangent_before = curve(knots_[k]).first;
-    const double turn = std::atan2(cross(tangent_before, r.first), tangent_before.dot(r.first));
+    const double turn = turn_between(tangent_before, r.first);
     return {.position = r.value,
             .angle = angles_[k] + turn,
             .curvature = curvature,
@@ -191,7 +190,7 @@ class ParametricAxis : public Axis {
     for (std::size_t k = 1; k < knots_.size(); ++k) {
       lengths_.push_back(lengths_.back() + length_between(knots_[k - 1], knots_[k]));
       const Vec2 a = curve(knots_[k - 1]).first, b = curve(knots_[k]).first;
-      angles_.push_back(angles_.back() + std::atan2(cross(a, b), a.dot(b)));
+      angles_.push_back(angles_.back() + turn_between(a, b));
     }
   }
 

@@ -7,7 +7,6 @@ namespace arcwall {
 namespace {
 
 // Of the triangle of an origin and two places, a × b.
-double twice_the_area(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
@@ -15,7 +14,7 @@ double twice_the_area(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y
 StretchLoad::Response pressure_on_stretch(const Vec2& r1, double angle1, const Vec2& r2, double angle2) {
   const Vec2 c = r2 - r1;
   const double bend = angle1 - angle2, square = c.squaredNorm();
-  StretchLoad::Response out{.energy = -0.5 * twice_the_area(r1, r2) + square * bend / 12.0};
+  StretchLoad::Response out{.energy = -0.5 * cross(r1, r2) + square * bend / 12.0};
   out.force << 0.5 * perp(r2) - bend / 6.0 * c, square / 12.0, -0.5 * perp(r1) + bend / 6.0 * c, -square / 12.0;
   Eigen::Matrix2d J;
   J << 0.0, -1.0, 1.0, 0.0;
@@ -76,7 +75,7 @@ double ExactPressure::evaluate(const double* u, double* f, double* K) const {
   for (const auto& [a, b, weight] : pairs_) {
     const Vec2 first = place(u, a), second = place(u, b);
     const std::size_t i = stride * a, j = stride * b;
-    V -= 0.5 * weight * (twice_the_area(first, second) - twice_the_area(places_[a], places_[b]));
+    V -= 0.5 * weight * (cross(first, second) - cross(places_[a], places_[b]));
     if (f != nullptr) {
       f[i] -= 0.5 * weight * second.y();
       f[i + 1] += 0.5 * weight * second.x();

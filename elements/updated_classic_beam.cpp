@@ -60,7 +60,7 @@ std::unique_ptr<Element> UpdatedClassicBeam::updated(const double* u) const {
   const Vector6 du = at - reference();
   const Vec2 chord = chord_ + du.segment<2>(3) - du.head<2>();
   const double l = chord_.norm(), stretch = chord.norm() / l;
-  const double turned = std::atan2(chord_.x() * chord.y() - chord_.y() * chord.x(), chord_.dot(chord));
+  const double turned = turn_between(chord_, chord);
   const double t1 = du[2] - turned, t2 = du[5] - turned;
   const double strain = 0.5 * (stretch * stretch - 1.0) + shortening(t1, t2);
   const Resultants change{

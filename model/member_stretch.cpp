@@ -9,8 +9,6 @@ namespace {
 
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Forces differ, beyond what equilibrium leaves open.
 bool jumps(const ShapePoint& before, const ShapePoint& behind, double force, double moment) {
   constexpr double relative = 1e-6;

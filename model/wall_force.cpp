@@ -14,7 +14,7 @@ double WallForce::of(const ContactPoint& contact) const {
     case What::z:
       return force.y();
     case What::moment:
-      return arm.x() * force.y() - arm.y() * force.x();
+      return cross(arm, force);
   }
   return 0.0;
 }

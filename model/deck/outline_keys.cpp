@@ -48,8 +48,6 @@ std::string text_of_point(const Vec2& point) {
   return "(" + round_trip(point.x()) + ", " + round_trip(point.y()) + ")";
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 bool cross_each_other(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double of_c = cross(b - a, c - a), of_d = cross(b - a, d - a);
   const double of_a = cross(d - c, a - c), of_b = cross(d - c, b - c);
@@ -110,10 +108,8 @@ std::vector<Corner> corners_of(const PolylineOutline& outline) {
   std::vector<Corner> corners;
   for (std::size_t i = outline.closed ? 0 : 1; i + (outline.closed ? 0 : 1) < count; ++i) {
     const Vec2 before = points[i] - points[(i + count - 1) % count], behind = points[(i + 1) % count] - points[i];
-    corners.push_back({.place = points[i],
-                       .turn = std::atan2(cross(before, behind), before.dot(behind)),
-                       .before = before.norm(),
-                       .behind = behind.norm()});
+    corners.push_back(
+        {.place = points[i], .turn = turn_between(before, behind), .before = before.norm(), .behind = behind.norm()});
   }
   const bool runs_the_other_way = outline.closed && (doubled_area(points) > 0.0) == (outline.keep == Keep::outside);
   if (runs_the_other_way)

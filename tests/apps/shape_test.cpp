@@ -15,8 +15,6 @@ namespace {
 
 using test::TracedDeck;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // A cantilever of length 2 along x with a force across its tip, up to λ = 1.
 std::string cantilever(const std::string& theory, const std::string& more = "", const std::string& load = R"(
 at = "tip"

@@ -43,8 +43,6 @@ Vector end_forces(const Element& element, const Vector& u) {
   return f;
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // An arch from (−1, 0) over the crown (0, 1) in two members, pressed from outside by p; joints 0, 1 and 2.
 StructureBuilder arch(const test::BeamTheory& theory, int elements, double EA = 1e4) {
   StructureBuilder builder;
