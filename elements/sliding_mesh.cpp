@@ -453,8 +453,7 @@ double SlidingStructureMesh::energy(const MeshState& now) const {
 //
 //   curvature = κ₀ ± M/EI,   stretch = 1 + e ± N/EA,   N = f·t
 //
-// κ₀ and e with what temperatures make.
-// At a node whose material coordinate is fixed.
+// κ₀ and e with what temperatures make. The derivatives are those at a node whose material coordinate is fixed.
 AxisStrain SlidingStructureMesh::strain_at_node(Index strand, Index position, At side, const MeshState& now) const {
   const bool before = side == At::before;
   const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();

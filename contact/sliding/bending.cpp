@@ -25,10 +25,10 @@ void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index)
   row.dlambda += factor * dlambda;
 }
 
-// ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve at the
-// face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
 namespace {
 
+// ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve at the
+// face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
 CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
                                const AxisStrain& strain) {
   const AxisPlace axis = touch.axis(at);

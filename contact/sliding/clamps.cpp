@@ -51,9 +51,10 @@ Transition with_parts(const SlidingSetting& setting, const SlidingState& at, con
   const std::size_t point = on->point_at_end(first.strand(), first.last()).value();
   Transition transition = up_to(length, std::make_shared<TailLength>(point, coordinate), Change::spreads,
                                 mapped_onto(setting, at, edit, on));
-  for (std::size_t i = 0; i < at.layout.bounds().size(); ++i)
-    for (const ClampBound* clamp : clamps)
-      if (at.layout.bounds()[i].get() == clamp) transition.contacts.push_back(static_cast<Index>(at.contacts() + i));
+  for (const ClampBound* clamp : clamps) {
+    const std::size_t i = bound_number<ClampBound>(at.layout, [&](const ClampBound& other) { return &other == clamp; });
+    transition.contacts.push_back(static_cast<Index>(at.contacts() + i));
+  }
   return transition;
 }
 
@@ -97,13 +98,11 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
   }
   const auto on = layout_of(edit);
   Transition transition = up_to(0.0, nullptr, Change::gathers, mapped_onto(setting, at, edit, on));
-  for (std::size_t i = 0; i < on->bounds().size(); ++i) {
-    const auto* clamp = dynamic_cast<const ClampBound*>(on->bounds()[i].get());
-    for (const TailBound* part : parts) {
-      if (clamp == nullptr || clamp->strand() != part->strand() || clamp->last() != part->last()) continue;
-      if (!transition.quantity) transition.quantity = std::make_shared<BoundValue>(setting, i);
-      transition.contacts.push_back(static_cast<Index>(transition.guess.piece.size() + i));
-    }
+  for (const TailBound* part : parts) {
+    const std::size_t i = bound_number<ClampBound>(
+        *on, [&](const ClampBound& clamp) { return clamp.strand() == part->strand() && clamp.last() == part->last(); });
+    if (!transition.quantity) transition.quantity = std::make_shared<BoundValue>(setting, i);
+    transition.contacts.push_back(static_cast<Index>(transition.guess.piece.size() + i));
   }
   return {transition, unsupported("a part on a wall gathers at a clamp, and no equilibrium was found without it")};
 }
