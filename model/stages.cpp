@@ -47,7 +47,7 @@ std::vector<Thing> in_stage(const std::vector<Thing>& things, const std::string&
       result.push_back(things[i]);
       continue;
     }
-    const std::string name = kind + "." + std::to_string(i);
+    const std::string name = deck::driven_thing(kind, i);
     result.push_back(held(things[i], progress_of(progress, name).gone));
     if (drives(stage, name)) result.push_back(things[i]);
   }

@@ -135,12 +135,12 @@ std::vector<LoadText> driven_by_lambda(const deck::Deck& deck, const deck::Stage
   std::vector<LoadText> driven;
   const auto is_driven = [&](const std::string& thing) { return stage == nullptr || drives(*stage, thing); };
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
-    if (deck.loads[i].constant || !is_driven("load." + std::to_string(i))) continue;
+    if (deck.loads[i].constant || !is_driven(deck::driven_thing("load", i))) continue;
     driven.push_back(load_text(deck.loads[i], deck.units));
     driven.back().text = "load " + driven.back().text;
   }
   for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
-    if (!deck.prescribed[i].constant && is_driven("prescribed." + std::to_string(i)))
+    if (!deck.prescribed[i].constant && is_driven(deck::driven_thing("prescribed", i)))
       driven.push_back(movement_text(deck.prescribed[i], deck.units));
   for (const deck::Wall& wall : deck.walls)
     if (wall.motion && is_driven("wall." + wall.name)) driven.push_back(movement_text(wall, deck.units));

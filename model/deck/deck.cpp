@@ -77,12 +77,13 @@ std::optional<LineProfile> line_without_clearance(const Wall& a, const Wall& b) 
   return meet ? line : std::nullopt;
 }
 
-// Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
+std::string driven_thing(const std::string& kind, std::size_t which) { return kind + "." + std::to_string(which); }
+
 std::vector<std::string> driven_things(const Deck& deck) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& kind, const auto& things) {
     for (std::size_t i = 0; i < things.size(); ++i)
-      if (!things[i].constant) names.push_back(kind + "." + std::to_string(i));
+      if (!things[i].constant) names.push_back(driven_thing(kind, i));
   };
   add("load", deck.loads);
   add("prescribed", deck.prescribed);
@@ -95,6 +96,7 @@ bool drives(const Stage& stage, const std::string& thing) {
   return std::find(stage.drives.begin(), stage.drives.end(), thing) != stage.drives.end();
 }
 
+// Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
   if (!deck.stages.empty()) return {.points = ContactPoints::nodes, .why = "a deck with stages has contact at nodes"};

@@ -560,6 +560,9 @@ const Named* find(const std::vector<Named>& list, const std::string& name) {
 /// Names of all that λ may drive, by kind and number or name: `load.0`, `prescribed.1`, `wall.hill`.
 std::vector<std::string> driven_things(const Deck& deck);
 
+/// The name there of a load or of a movement that is prescribed, by its place in the deck's list of these.
+std::string driven_thing(const std::string& kind, std::size_t which);
+
 bool drives(const Stage& stage, const std::string& thing);
 
 /// Where contact is looked for, and in words why: the deck says so, or it is the default.

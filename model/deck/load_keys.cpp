@@ -187,7 +187,7 @@ bool varies(const Deck& deck, const std::string& thing) {
   bool found = false;
   const auto look = [&](const std::string& kind, const auto& things, const auto& moves) {
     for (std::size_t i = 0; i < things.size(); ++i)
-      found = found || (thing == kind + "." + std::to_string(i) && moves(things[i]));
+      found = found || (thing == driven_thing(kind, i) && moves(things[i]));
   };
   look("load", deck.loads, follows_lambda);
   look("prescribed", deck.prescribed, [](const Prescribed& moved) { return moves_with_lambda(moved); });
@@ -197,7 +197,7 @@ bool varies(const Deck& deck, const std::string& thing) {
 
 // A constant movement and one that λ multiplies add, and so do those that stages drive apart.
 void check_movements(Keys& root, const Deck& deck) {
-  const auto name = [](std::size_t i) { return "prescribed." + std::to_string(i); };
+  const auto name = [](std::size_t i) { return driven_thing("prescribed", i); };
   const auto driven_apart = [&](std::size_t a, std::size_t b) {
     return std::any_of(deck.stages.begin(), deck.stages.end(),
                        [&](const Stage& stage) { return drives(stage, name(a)) != drives(stage, name(b)); });
