@@ -146,19 +146,9 @@ TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
 TEST(SlidingContact, DerivativesAreConsistentAtAClampOnAWall) {
   Numbers numbers(71);
   for (const bool reversed : {false, true}) {
-    StructureBuilder builder;
-    const Vec2 clamp(0.0, 0.0), tip(2.0, 0.0);
-    const Index clamped = reversed ? 1 : 0, free = 1 - clamped;
-    builder.add_joint(reversed ? tip : clamp);
-    builder.add_joint(reversed ? clamp : tip);
-    builder.add_member({.name = "beam",
-                        .from = 0,
-                        .to = 1,
-                        .axis = reversed ? straight_axis(tip, clamp) : straight_axis(clamp, tip),
-                        .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2},
-                        .elements = 7});
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(clamped, which));
-    builder.fix(builder.shared_rotation(clamped).value());
+    auto [builder, clamped, free] = test::clamped_member(
+        {0.0, 0.0}, {2.0, 0.0}, reversed,
+        {.name = "beam", .section = {.E = 100.0, .A = 1.0, .I = 0.1, .height = 0.2}, .elements = 7});
     builder.add_load(builder.freedom(free, Freedom::z), -1.0, LoadKind::proportional);
     builder.add_distributed_load(0, {0.1, -0.3}, LoadKind::proportional);
     const SlidingModel model(

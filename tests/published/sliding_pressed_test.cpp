@@ -168,21 +168,12 @@ namespace {
 // A leaf of length 1 (EI = 1, EA = 1e5), clamped on a cylinder of radius 1 and tangentially to it, with the load λ on
 // its tip. It runs from the clamp, or towards it.
 SlidingModel leaf_on_cylinder(int elements, Theory theory, bool reversed) {
-  StructureBuilder builder;
-  const Vec2 clamp(0.0, 0.0), tip(1.0, 0.0);
-  const Index clamped = reversed ? 1 : 0, free = reversed ? 0 : 1;
-  builder.add_joint(reversed ? tip : clamp);
-  builder.add_joint(reversed ? clamp : tip);
-  builder.add_member({.name = "leaf",
-                      .from = 0,
-                      .to = 1,
-                      .axis = reversed ? straight_axis(tip, clamp) : straight_axis(clamp, tip),
-                      .theory = theory,
-                      .order = theory == Theory::elastica ? 6 : 2,
-                      .section = {.E = 1.0, .A = 1e5, .I = 1.0, .height = 0.01},
-                      .elements = elements});
-  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(clamped, which));
-  builder.fix(builder.shared_rotation(clamped).value());
+  auto [builder, clamped, free] = test::clamped_member({0.0, 0.0}, {1.0, 0.0}, reversed,
+                                                       {.name = "leaf",
+                                                        .theory = theory,
+                                                        .order = theory == Theory::elastica ? 6 : 2,
+                                                        .section = {.E = 1.0, .A = 1e5, .I = 1.0, .height = 0.01},
+                                                        .elements = elements});
   builder.add_load(builder.freedom(free, Freedom::z), -1.0, LoadKind::proportional);
   return {builder,
           {{.name = "cylinder",

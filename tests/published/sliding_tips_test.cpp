@@ -56,23 +56,17 @@ struct Cantilever {
   double moment = 0.0;       // on the tip, clockwise, times λ
 
   SlidingModel above(std::unique_ptr<Profile> wall) const {
-    StructureBuilder builder;
-    const Vec2 clamp(0.0, 0.0), middle(std::sin(0.15) / 0.3, (1.0 - std::cos(0.15)) / 0.3);
+    const Vec2 middle(std::sin(0.15) / 0.3, (1.0 - std::cos(0.15)) / 0.3);
     const Vec2 tip = curved ? Vec2(std::sin(0.3) / 0.3, (1.0 - std::cos(0.3)) / 0.3) : Vec2(1.0, 0.0);
-    const Vec2 &from = reversed ? tip : clamp, &to = reversed ? clamp : tip;
-    const Index clamped = reversed ? 1 : 0, free = reversed ? 0 : 1;
-    builder.add_joint(from);
-    builder.add_joint(to);
-    builder.add_member({.name = "strip",
-                        .from = 0,
-                        .to = 1,
-                        .axis = curved ? arc_axis(from, middle, to) : straight_axis(from, to),
-                        .theory = theory,
-                        .order = theory == Theory::elastica ? 6 : 2,
-                        .section = {.E = 1.0, .A = 1e5, .I = 1.0, .height = 0.01},
-                        .elements = elements});
-    for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(clamped, which));
-    builder.fix(builder.shared_rotation(clamped).value());
+    test::ClampedMember strip = test::clamped_member({0.0, 0.0}, tip, reversed,
+                                                     {.name = "strip",
+                                                      .theory = theory,
+                                                      .order = theory == Theory::elastica ? 6 : 2,
+                                                      .section = {.E = 1.0, .A = 1e5, .I = 1.0, .height = 0.01},
+                                                      .elements = elements},
+                                                     curved ? std::optional(middle) : std::nullopt);
+    StructureBuilder& builder = strip.builder;
+    const Index free = strip.free;
     const auto node = static_cast<std::size_t>(std::lround(elements * (reversed ? 1.0 - load_at : load_at)));
     const auto push = [&](Index at, double force) {
       if (force != 0.0) builder.add_load(builder.freedom(at, Freedom::z), -force, LoadKind::proportional);

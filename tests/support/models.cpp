@@ -70,6 +70,22 @@ std::unique_ptr<Structure> Cantilever::structure() const {
   return builder.build();
 }
 
+ClampedMember clamped_member(const Vec2& clamp, const Vec2& tip, bool reversed, MemberDescription described,
+                             const std::optional<Vec2>& middle) {
+  ClampedMember member{.clamped = reversed ? 1 : 0, .free = reversed ? 0 : 1};
+  const Vec2 &from = reversed ? tip : clamp, &to = reversed ? clamp : tip;
+  member.builder.add_joint(from);
+  member.builder.add_joint(to);
+  described.from = 0;
+  described.to = 1;
+  described.axis = middle ? arc_axis(from, *middle, to) : straight_axis(from, to);
+  member.builder.add_member(std::move(described));
+  for (const Freedom which : {Freedom::x, Freedom::z})
+    member.builder.fix(member.builder.freedom(member.clamped, which));
+  member.builder.fix(member.builder.shared_rotation(member.clamped).value());
+  return member;
+}
+
 std::unique_ptr<Structure> Column::structure() const {
   StructureBuilder builder;
   const auto at = add_joints(builder, {{0.0, 0.0}, {length, 0.0}});

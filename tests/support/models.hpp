@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,16 @@ struct Cantilever {
 
   std::unique_ptr<Structure> structure() const;
 };
+
+/// A member that is clamped at one end and free at the other: joints 0 and 1, of which these are which.
+struct ClampedMember {
+  StructureBuilder builder{};
+  Index clamped = 0, free = 1;
+};
+
+/// From the clamp to the tip, or where it is `reversed` the other way; along an arc if it has a middle, else straight.
+ClampedMember clamped_member(const Vec2& clamp, const Vec2& tip, bool reversed, MemberDescription described,
+                             const std::optional<Vec2>& middle = std::nullopt);
 
 /// A straight column from (0, 0) to (L, 0), pushed at its right end, joint 1, by λ. The left end is held, the right one
 /// slides along x; both are pinned, or clamped.
