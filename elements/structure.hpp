@@ -354,6 +354,7 @@ class StructureBuilder {
   std::vector<Structure::Meaning> freedoms_;
   std::vector<MemberDescription> descriptions_;
   std::vector<MemberMesh> meshes_;
+  std::vector<Index> first_element_;  // of each member
   NodalTerms nodal_;
   std::vector<DistributedLoad> distributed_loads_;
   std::vector<FoundationLaw> foundations_;  // of each member
@@ -366,6 +367,16 @@ class StructureBuilder {
   std::vector<NodalTerms::PressedEnd> pressed_ends() const;
   NodalTerms nodal_terms(bool ramp) const;
   std::vector<AddedElement> added_elements_;
+
+  // The steps of build().
+  std::unique_ptr<Structure> numbered() const;
+  template <class Make>
+  void add_along(Structure& structure, std::size_t m, const Make& make, bool is_grounded = false) const;
+  void add_dead_loads(Structure& structure, bool ramp) const;
+  void add_foundations(Structure& structure) const;
+  void add_pressures(Structure& structure, bool ramp) const;
+  void scale_by_heat(Structure& structure, const std::vector<ThermalStrain>& thermal) const;
+  static void sort_loads(Structure& structure);
 };
 
 }  // namespace arcwall

@@ -4,227 +4,19 @@
 #include <cstdint>
 #include <numeric>
 
-#include "elements/axis_load.hpp"
-#include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
-#include "elements/elastica_beam.hpp"
-#include "elements/essenburg_beam.hpp"
-#include "elements/foundation.hpp"
-#include "elements/heated_beam.hpp"
-#include "elements/pressure.hpp"
-#include "elements/reissner_beam.hpp"
+#include "elements/member_elements.hpp"
 #include "elements/structure.hpp"
-#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 
 namespace {
 
-// Element k of a member and what its stress-free shape is made of.
-struct Stretch {
-  const MemberDescription& member;
-  const ImperfectAxis& shape;
-  const MemberMesh& mesh;
-  std::size_t k;
-
-  // Arc length of the axis without imperfection at a fraction of the element.
-  double at(double fraction) const { return (double(k) + fraction) / count() * member.axis->length(); }
-  double count() const { return double(mesh.nodes.size() - 1); }
-
-  bool is_like_all_others() const { return shape.is_straight() && shape.deviations().empty(); }
-
-  // Between the nodes as they are: joints may differ from the axis' ends by its round-off. Elements that are alike are
-  // so to the last digit.
-  Vec2 chord() const {
-    if (is_like_all_others()) return (mesh.shape.back().position - mesh.shape.front().position) / count();
-    return mesh.shape[k + 1].position - mesh.shape[k].position;
-  }
-};
-
-BeamReference beam_reference(const Stretch& stretch) {
-  const AxisPoint first = stretch.mesh.shape[stretch.k], second = stretch.mesh.shape[stretch.k + 1];
-  const Vec2 chord = stretch.chord();
-  const double direction = std::atan2(chord.y(), chord.x());
-  const auto against_chord = [&](double angle) { return std::remainder(angle - direction, 2.0 * pi); };
-  return {.chord = chord,
-          .length = stretch.shape.length(stretch.at(0.0), stretch.at(1.0)),
-          .slope1 = against_chord(first.angle),
-          .slope2 = against_chord(second.angle)};
-}
-
-StretchReference slender_reference(const Stretch& stretch) {
-  StretchReference reference = stretch_reference(stretch.shape, stretch.at(0.0), stretch.at(1.0));
-  reference.chord = stretch.chord();
-  return reference;
-}
-
-// From its first node, so that places far from the origin keep their digits.
-ExactBeamReference exact_reference(const Stretch& stretch) {
-  const AxisPoints& nodes = stretch.mesh.shape;
-  ExactBeamReference reference{.nodes = {Vec2::Zero()}, .arcs = {0.0}};
-  const auto add = [&](const Vec2& position, double fraction) {
-    reference.nodes.push_back(position - nodes[stretch.k].position);
-    reference.arcs.push_back(stretch.shape.length(stretch.at(0.0), stretch.at(fraction)));
-  };
-  if (stretch.member.order == 2) add(stretch.shape.at(stretch.at(0.5)).position, 0.5);
-  add(nodes[stretch.k + 1].position, 1.0);
-  return reference;
-}
-
-bool has_middle_nodes(const MemberDescription& member) {
-  return (member.theory == Theory::exact || member.theory == Theory::essenburg) && member.order == 2;
-}
-
-EssenburgReference essenburg_reference(const Stretch& stretch) {
-  const MemberMesh& mesh = stretch.mesh;
-  const Vec2 origin = mesh.shape[stretch.k].position;
-  EssenburgReference reference;
-  const auto add = [&](const AxisPoint& axis, const AxisPoint& shape) {
-    const MemberSection section{.axis = axis, .shape = shape, .quadratic = stretch.member.quadratic};
-    reference.nodes.push_back(shape.position - origin);
-    reference.sections.push_back(section.kinematics());
-  };
-  add(mesh.axis[stretch.k], mesh.shape[stretch.k]);
-  if (stretch.member.order == 2) add(mesh.middle_axis[stretch.k], mesh.middle_shape[stretch.k]);
-  add(mesh.axis[stretch.k + 1], mesh.shape[stretch.k + 1]);
-  return reference;
-}
-
-EssenburgStiffness essenburg_stiffness(const Section& section) {
-  return {.E = section.E,
-          .nu = 0.5 * section.E / section.G - 1.0,
-          .shear_correction = section.shear_area / section.A,
-          .points = section.points};
-}
-
 // What a ramp makes of a value: its constant part grows with λ, the other is left out.
 Driven ramp_of(const Driven& value) { return {.constant = 0.0, .proportional = value.constant}; }
 
-// Under temperatures.
-std::unique_ptr<Element> make_heated_element(const Stretch& stretch, const ThermalStrain& thermal) {
-  const Section& section = stretch.member.section;
-  SlenderSection slender{.EA = section.EA(), .EI = section.EI()};
-  if (stretch.member.theory == Theory::elastica)
-    slender.order = stretch.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
-  switch (stretch.member.theory) {
-    case Theory::classic:
-    case Theory::elastica:
-      return std::make_unique<HeatedBeam>(slender_reference(stretch), slender, thermal);
-    case Theory::exact:
-      return std::make_unique<HeatedReissnerBeam>(
-          exact_reference(stretch), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()},
-          thermal);
-    case Theory::truss:
-      return std::make_unique<HeatedTruss>(beam_reference(stretch).chord, section.EA(), stretch.member.strain,
-                                           thermal.strain);
-    case Theory::essenburg:
-      break;
-  }
-  return nullptr;
-}
-
-std::unique_ptr<Element> make_element(const Stretch& stretch) {
-  const Section& section = stretch.member.section;
-  switch (stretch.member.theory) {
-    case Theory::classic:
-      return std::make_unique<ClassicBeam>(beam_reference(stretch), section.EA(), section.EI());
-    case Theory::elastica:
-      return std::make_unique<ElasticaBeam>(slender_reference(stretch), section.EA(), section.EI(),
-                                            stretch.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four);
-    case Theory::exact:
-      return std::make_unique<ReissnerBeam>(
-          exact_reference(stretch), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
-    case Theory::essenburg:
-      return std::make_unique<EssenburgBeam>(essenburg_reference(stretch), essenburg_stiffness(section));
-    case Theory::truss:
-      return std::make_unique<Truss>(beam_reference(stretch).chord, section.EA(), stretch.member.strain);
-  }
-  return nullptr;
-}
-
-// Of a member, in turn. Those that are alike are one object, where it knows no more of its place than the chord.
-void add_elements(const MemberDescription& member, const MemberMesh& mesh, const ThermalStrain& thermal,
-                  ElementList& elements) {
-  const ImperfectAxis shape(*member.axis, member.imperfection);
-  const auto element = [&](std::size_t k) { return Stretch{.member = member, .shape = shape, .mesh = mesh, .k = k}; };
-  const std::size_t count = mesh.nodes.size() - 1;
-  const auto make = [&](std::size_t k) {
-    return thermal.is_zero() ? make_element(element(k)) : make_heated_element(element(k), thermal);
-  };
-  const bool knows_places = member.theory == Theory::exact || member.theory == Theory::essenburg;
-  if (!knows_places && element(0).is_like_all_others())
-    elements.add(make(0), count);
-  else
-    for (std::size_t k = 0; k < count; ++k) elements.add(make(k));
-}
-
-std::unique_ptr<Element> make_load(const Stretch& stretch, const Vec2& load) {
-  switch (stretch.member.theory) {
-    case Theory::classic:
-    case Theory::elastica:
-      return std::make_unique<BeamDistributedLoad>(beam_reference(stretch), load);
-    case Theory::exact:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), load);
-    case Theory::essenburg:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), load, EssenburgBeam::unknowns_a_node);
-    case Theory::truss:
-      return std::make_unique<TrussDistributedLoad>(beam_reference(stretch).length * load);
-  }
-  return nullptr;
-}
-
-// Along and across the stress-free axis, in x and z at a fraction of the element.
-Vec2 turned_load(const Stretch& stretch, const Vec2& load, double fraction) {
-  const Vec2 t = unit_tangent(stretch.shape.at(stretch.at(fraction)).angle);
-  return load.x() * t + load.y() * perp(t);
-}
-
-// The same along and across the stress-free axis.
-std::unique_ptr<Element> make_axis_load(const Stretch& stretch, const Vec2& load) {
-  const auto turned = [&](double fraction) { return turned_load(stretch, load, fraction); };
-  switch (stretch.member.theory) {
-    case Theory::classic:
-    case Theory::elastica:
-      return std::make_unique<BeamAxisLoad>(slender_reference(stretch), load);
-    case Theory::exact:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), turned);
-    case Theory::essenburg:
-      return std::make_unique<ExactDistributedLoad>(exact_reference(stretch), turned, EssenburgBeam::unknowns_a_node);
-    case Theory::truss:
-      return std::make_unique<TrussDistributedLoad>(beam_reference(stretch).length * turned(0.5));
-  }
-  return nullptr;
-}
-
-std::unique_ptr<Element> make_foundation(const Stretch& stretch, const FoundationLaw& law) {
-  switch (stretch.member.theory) {
-    case Theory::classic:
-    case Theory::elastica:
-      return std::make_unique<BeamFoundation>(slender_reference(stretch), law);
-    case Theory::exact:
-      return std::make_unique<ExactFoundation>(exact_reference(stretch), law);
-    case Theory::essenburg:
-      return std::make_unique<ExactFoundation>(exact_reference(stretch), law, EssenburgBeam::unknowns_a_node);
-    case Theory::truss:
-      break;
-  }
-  return nullptr;
-}
-
-std::unique_ptr<Element> make_pressure(const Stretch& stretch, const Vec2& origin) {
-  const Vec2 first = stretch.mesh.shape[stretch.k].position - origin;
-  switch (stretch.member.theory) {
-    case Theory::classic:
-    case Theory::elastica:
-      return std::make_unique<BeamPressure>(beam_reference(stretch), first);
-    case Theory::exact:
-      return std::make_unique<ExactPressure>(exact_reference(stretch), first);
-    case Theory::essenburg:
-      return std::make_unique<ExactPressure>(exact_reference(stretch), first, EssenburgBeam::unknowns_a_node);
-    case Theory::truss:
-      break;
-  }
-  return nullptr;
+bool has_middle_nodes(const MemberDescription& member) {
+  return (member.theory == Theory::exact || member.theory == Theory::essenburg) && member.order == 2;
 }
 
 }  // namespace
@@ -315,6 +107,7 @@ Index StructureBuilder::add_member(MemberDescription member) {
       mesh.thickness.push_back(first || last ? end_thickness(mesh.nodes.back(), member, place.angle, hinged)
                                              : add_thickness(mesh.nodes.back()));
   }
+  first_element_.push_back(meshes_.empty() ? 0 : first_element_.back() + descriptions_.back().elements);
   meshes_.push_back(std::move(mesh));
   descriptions_.push_back(std::move(member));
   foundations_.emplace_back();
@@ -468,12 +261,9 @@ bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
          nodal_.load(rotation).is_zero();
 }
 
-std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
-  const auto proportional = [&](LoadKind kind) {
-    return ramp ? kind == LoadKind::constant : kind == LoadKind::proportional;
-  };
-
-  // Unknowns are numbered along the members, so that neighbours stay near.
+// The structure without elements, loads and supports: its unknowns are numbered along the members, so that neighbours
+// stay near.
+std::unique_ptr<Structure> StructureBuilder::numbered() const {
   std::vector<std::int32_t> unknown_of_freedom(freedoms_.size(), -1), freedom_of_unknown;
   const auto number = [&](Index freedom) {
     auto& unknown = unknown_of_freedom[static_cast<std::size_t>(freedom)];
@@ -509,13 +299,89 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->meaning_of_freedom_ = freedoms_;
   structure->element_freedoms_ = std::move(freedoms_of_elements);
   structure->length_scale_ = box_diagonal(positions_);
+  const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
+  structure->rotations_ = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
+  return structure;
+}
 
-  const std::vector<ThermalStrain> thermal = thermal_of(ramp);
-  std::vector<Index> first_element;
-  for (std::size_t m = 0; m < meshes_.size(); ++m) {
-    first_element.push_back(static_cast<Index>(structure->elements_.size()));
-    add_elements(descriptions_[m], meshes_[m], thermal[m], structure->elements_);
+// Adds what `make` gives for each element of a member to the loads of elements.
+template <class Make>
+void StructureBuilder::add_along(Structure& structure, std::size_t m, const Make& make, bool is_grounded) const {
+  const MemberDescription& member = descriptions_[m];
+  const ImperfectAxis shape(*member.axis, member.imperfection);
+  for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
+    structure.element_loads_.push_back(
+        {.potential = make(MemberElement{.member = member, .shape = shape, .mesh = meshes_[m], .k = k}),
+         .element = first_element_[m] + static_cast<Index>(k),
+         .is_grounded = is_grounded});
+}
+
+void StructureBuilder::add_dead_loads(Structure& structure, bool ramp) const {
+  for (const DistributedLoad& load : distributed_loads_) {
+    if (ramp && load.kind == LoadKind::proportional) continue;
+    const bool varies = load.kind == (ramp ? LoadKind::constant : LoadKind::proportional);
+    const Driven factor = varies ? Driven{.proportional = 1.0} : Driven{.constant = 1.0};
+    const auto m = static_cast<std::size_t>(load.member);
+    add_along(structure, m, [&](const MemberElement& at) {
+      return std::make_shared<DrivenLoad>(
+          load.frame == LoadFrame::member ? make_axis_load(at, load.load) : make_load(at, load.load), factor);
+    });
+    if (varies)
+      structure.force_scale_ = std::max(structure.force_scale_, load.load.norm() * descriptions_[m].axis->length());
   }
+}
+
+void StructureBuilder::add_foundations(Structure& structure) const {
+  for (std::size_t m = 0; m < meshes_.size(); ++m)
+    if (!foundations_[m].is_zero())
+      add_along(
+          structure, m, [&](const MemberElement& at) { return make_foundation(at, foundations_[m]); }, true);
+}
+
+void StructureBuilder::add_pressures(Structure& structure, bool ramp) const {
+  const std::vector<Driven> pressures = pressures_of(ramp);
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    if (pressures[m].is_zero()) continue;
+    add_along(structure, m, [&](const MemberElement& at) {
+      return std::make_shared<DrivenLoad>(make_pressure(at, origin()), pressures[m]);
+    });
+    structure.force_scale_ =
+        std::max(structure.force_scale_, std::abs(pressures[m].proportional) * descriptions_[m].axis->length());
+  }
+}
+
+// The rate of heat, and the force that it would take to hold the members against it.
+void StructureBuilder::scale_by_heat(Structure& structure, const std::vector<ThermalStrain>& thermal) const {
+  const double L = structure.length_scale_;
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const double strain = std::abs(thermal[m].strain.proportional), bend = std::abs(thermal[m].curvature.proportional);
+    const Section& section = descriptions_[m].section;
+    structure.heat_rate_ = std::max({structure.heat_rate_, strain, bend * L});
+    structure.force_scale_ = std::max({structure.force_scale_, section.EA() * strain, section.EI() * bend / L});
+  }
+}
+
+// Sorts the loads of elements by their elements: see Structure::loads_of_element().
+void StructureBuilder::sort_loads(Structure& structure) {
+  std::vector<std::uint32_t>& loads = structure.loads_by_element_;
+  loads.resize(structure.element_loads_.size());
+  std::iota(loads.begin(), loads.end(), 0U);
+  const auto element_of = [&](std::uint32_t load) { return structure.element_loads_[load].element; };
+  std::stable_sort(loads.begin(), loads.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return element_of(a) < element_of(b); });
+  if (!loads.empty()) structure.first_load_of_element_.push_back(0);
+  auto behind = loads.begin();
+  for (Index e = 0; e < structure.element_count() && !loads.empty(); ++e) {
+    behind = std::find_if(behind, loads.end(), [&](std::uint32_t load) { return element_of(load) > e; });
+    structure.first_load_of_element_.push_back(static_cast<std::uint32_t>(behind - loads.begin()));
+  }
+}
+
+std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
+  std::unique_ptr<Structure> structure = numbered();
+  const std::vector<ThermalStrain> thermal = thermal_of(ramp);
+  for (std::size_t m = 0; m < meshes_.size(); ++m)
+    add_elements(descriptions_[m], meshes_[m], thermal[m], structure->elements_);
   structure->first_added_ = static_cast<Index>(structure->elements_.size());
   for (const AddedElement& added : added_elements_) structure->elements_.add(added.element);
   structure->elements_.shrink_to_fit();
@@ -523,70 +389,11 @@ std::unique_ptr<Structure> StructureBuilder::build(bool ramp) const {
   structure->arrange();
 
   structure->force_scale_ = force_scale(structure->nodal_, structure->length_scale_);
-  for (const DistributedLoad& load : distributed_loads_) {
-    if (ramp && load.kind == LoadKind::proportional) continue;
-    const auto m = static_cast<std::size_t>(load.member);
-    const MemberDescription& member = descriptions_[m];
-    const ImperfectAxis shape(*member.axis, member.imperfection);
-    const Driven factor = proportional(load.kind) ? Driven{.proportional = 1.0} : Driven{.constant = 1.0};
-    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k) {
-      const Stretch stretch{.member = member, .shape = shape, .mesh = meshes_[m], .k = k};
-      structure->element_loads_.push_back(
-          {.potential = std::make_shared<DrivenLoad>(
-               load.frame == LoadFrame::member ? make_axis_load(stretch, load.load) : make_load(stretch, load.load),
-               factor),
-           .element = first_element[m] + static_cast<Index>(k)});
-    }
-    if (proportional(load.kind))
-      structure->force_scale_ = std::max(structure->force_scale_, load.load.norm() * member.axis->length());
-  }
-  for (std::size_t m = 0; m < meshes_.size(); ++m) {
-    const double strain = std::abs(thermal[m].strain.proportional), bend = std::abs(thermal[m].curvature.proportional);
-    const double L = structure->length_scale_;
-    const Section& section = descriptions_[m].section;
-    structure->heat_rate_ = std::max({structure->heat_rate_, strain, bend * L});
-    structure->force_scale_ = std::max({structure->force_scale_, section.EA() * strain, section.EI() * bend / L});
-  }
-  for (std::size_t m = 0; m < meshes_.size(); ++m) {
-    if (foundations_[m].is_zero()) continue;
-    const MemberDescription& member = descriptions_[m];
-    const ImperfectAxis shape(*member.axis, member.imperfection);
-    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
-      structure->element_loads_.push_back(
-          {.potential =
-               make_foundation({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, foundations_[m]),
-           .element = first_element[m] + static_cast<Index>(k),
-           .is_grounded = true});
-  }
-  const std::vector<Driven> pressures = pressures_of(ramp);
-  for (std::size_t m = 0; m < meshes_.size(); ++m) {
-    if (pressures[m].is_zero()) continue;
-    const MemberDescription& member = descriptions_[m];
-    const ImperfectAxis shape(*member.axis, member.imperfection);
-    for (std::size_t k = 0; k + 1 < meshes_[m].nodes.size(); ++k)
-      structure->element_loads_.push_back(
-          {.potential = std::make_shared<DrivenLoad>(
-               make_pressure({.member = member, .shape = shape, .mesh = meshes_[m], .k = k}, origin()), pressures[m]),
-           .element = first_element[m] + static_cast<Index>(k)});
-    structure->force_scale_ =
-        std::max(structure->force_scale_, std::abs(pressures[m].proportional) * member.axis->length());
-  }
-
-  std::vector<std::uint32_t>& loads = structure->loads_by_element_;
-  loads.resize(structure->element_loads_.size());
-  std::iota(loads.begin(), loads.end(), 0U);
-  const auto element_of = [&](std::uint32_t load) { return structure->element_loads_[load].element; };
-  std::stable_sort(loads.begin(), loads.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return element_of(a) < element_of(b); });
-  if (!loads.empty()) structure->first_load_of_element_.push_back(0);
-  auto behind = loads.begin();
-  for (Index e = 0; e < structure->element_count() && !loads.empty(); ++e) {
-    behind = std::find_if(behind, loads.end(), [&](std::uint32_t load) { return element_of(load) > e; });
-    structure->first_load_of_element_.push_back(static_cast<std::uint32_t>(behind - loads.begin()));
-  }
-
-  const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
-  structure->rotations_ = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));
+  scale_by_heat(*structure, thermal);
+  add_dead_loads(*structure, ramp);
+  add_foundations(*structure);
+  add_pressures(*structure, ramp);
+  sort_loads(*structure);
   return structure;
 }
 

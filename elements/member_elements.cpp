@@ -1,0 +1,199 @@
+#include "elements/member_elements.hpp"
+
+#include <cmath>
+
+#include "elements/axis_load.hpp"
+#include "elements/classic_beam.hpp"
+#include "elements/distributed_load.hpp"
+#include "elements/elastica_beam.hpp"
+#include "elements/essenburg_beam.hpp"
+#include "elements/foundation.hpp"
+#include "elements/heated_beam.hpp"
+#include "elements/pressure.hpp"
+#include "elements/reissner_beam.hpp"
+#include "elements/unit_tangent.hpp"
+
+namespace arcwall {
+
+namespace {
+
+BeamReference beam_reference(const MemberElement& at) {
+  const AxisPoint first = at.mesh.shape[at.k], second = at.mesh.shape[at.k + 1];
+  const Vec2 chord = at.chord();
+  const double direction = std::atan2(chord.y(), chord.x());
+  const auto against_chord = [&](double angle) { return std::remainder(angle - direction, 2.0 * pi); };
+  return {.chord = chord,
+          .length = at.shape.length(at.arc(0.0), at.arc(1.0)),
+          .slope1 = against_chord(first.angle),
+          .slope2 = against_chord(second.angle)};
+}
+
+StretchReference slender_reference(const MemberElement& at) {
+  StretchReference reference = stretch_reference(at.shape, at.arc(0.0), at.arc(1.0));
+  reference.chord = at.chord();
+  return reference;
+}
+
+// From its first node, so that places far from the origin keep their digits.
+ExactBeamReference exact_reference(const MemberElement& at) {
+  const AxisPoints& nodes = at.mesh.shape;
+  ExactBeamReference reference{.nodes = {Vec2::Zero()}, .arcs = {0.0}};
+  const auto add = [&](const Vec2& position, double fraction) {
+    reference.nodes.push_back(position - nodes[at.k].position);
+    reference.arcs.push_back(at.shape.length(at.arc(0.0), at.arc(fraction)));
+  };
+  if (at.member.order == 2) add(at.shape.at(at.arc(0.5)).position, 0.5);
+  add(nodes[at.k + 1].position, 1.0);
+  return reference;
+}
+
+EssenburgReference essenburg_reference(const MemberElement& at) {
+  const MemberMesh& mesh = at.mesh;
+  const Vec2 origin = mesh.shape[at.k].position;
+  EssenburgReference reference;
+  const auto add = [&](const AxisPoint& axis, const AxisPoint& shape) {
+    const MemberSection section{.axis = axis, .shape = shape, .quadratic = at.member.quadratic};
+    reference.nodes.push_back(shape.position - origin);
+    reference.sections.push_back(section.kinematics());
+  };
+  add(mesh.axis[at.k], mesh.shape[at.k]);
+  if (at.member.order == 2) add(mesh.middle_axis[at.k], mesh.middle_shape[at.k]);
+  add(mesh.axis[at.k + 1], mesh.shape[at.k + 1]);
+  return reference;
+}
+
+EssenburgStiffness essenburg_stiffness(const Section& section) {
+  return {.E = section.E,
+          .nu = 0.5 * section.E / section.G - 1.0,
+          .shear_correction = section.shear_area / section.A,
+          .points = section.points};
+}
+
+// Under temperatures.
+std::unique_ptr<Element> make_heated_element(const MemberElement& at, const ThermalStrain& thermal) {
+  const Section& section = at.member.section;
+  SlenderSection slender{.EA = section.EA(), .EI = section.EI()};
+  if (at.member.theory == Theory::elastica)
+    slender.order = at.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four;
+  switch (at.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<HeatedBeam>(slender_reference(at), slender, thermal);
+    case Theory::exact:
+      return std::make_unique<HeatedReissnerBeam>(
+          exact_reference(at), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()}, thermal);
+    case Theory::truss:
+      return std::make_unique<HeatedTruss>(beam_reference(at).chord, section.EA(), at.member.strain, thermal.strain);
+    case Theory::essenburg:
+      break;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Element> make_element(const MemberElement& at) {
+  const Section& section = at.member.section;
+  switch (at.member.theory) {
+    case Theory::classic:
+      return std::make_unique<ClassicBeam>(beam_reference(at), section.EA(), section.EI());
+    case Theory::elastica:
+      return std::make_unique<ElasticaBeam>(slender_reference(at), section.EA(), section.EI(),
+                                            at.member.order == 6 ? ElasticaOrder::six : ElasticaOrder::four);
+    case Theory::exact:
+      return std::make_unique<ReissnerBeam>(
+          exact_reference(at), ExactBeamStiffness{.EA = section.EA(), .GA = section.GA(), .EI = section.EI()});
+    case Theory::essenburg:
+      return std::make_unique<EssenburgBeam>(essenburg_reference(at), essenburg_stiffness(section));
+    case Theory::truss:
+      return std::make_unique<Truss>(beam_reference(at).chord, section.EA(), at.member.strain);
+  }
+  return nullptr;
+}
+
+// Along and across the stress-free axis, in x and z at a fraction of the element.
+Vec2 turned_load(const MemberElement& at, const Vec2& load, double fraction) {
+  const Vec2 t = unit_tangent(at.shape.at(at.arc(fraction)).angle);
+  return load.x() * t + load.y() * perp(t);
+}
+
+}  // namespace
+
+void add_elements(const MemberDescription& member, const MemberMesh& mesh, const ThermalStrain& thermal,
+                  ElementList& elements) {
+  const ImperfectAxis shape(*member.axis, member.imperfection);
+  const auto element = [&](std::size_t k) {
+    return MemberElement{.member = member, .shape = shape, .mesh = mesh, .k = k};
+  };
+  const std::size_t count = mesh.nodes.size() - 1;
+  const auto make = [&](std::size_t k) {
+    return thermal.is_zero() ? make_element(element(k)) : make_heated_element(element(k), thermal);
+  };
+  const bool knows_places = member.theory == Theory::exact || member.theory == Theory::essenburg;
+  if (!knows_places && element(0).is_like_all_others())
+    elements.add(make(0), count);
+  else
+    for (std::size_t k = 0; k < count; ++k) elements.add(make(k));
+}
+
+std::unique_ptr<Element> make_load(const MemberElement& at, const Vec2& load) {
+  switch (at.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamDistributedLoad>(beam_reference(at), load);
+    case Theory::exact:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), load);
+    case Theory::essenburg:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), load, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      return std::make_unique<TrussDistributedLoad>(beam_reference(at).length * load);
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Element> make_axis_load(const MemberElement& at, const Vec2& load) {
+  const auto turned = [&](double fraction) { return turned_load(at, load, fraction); };
+  switch (at.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamAxisLoad>(slender_reference(at), load);
+    case Theory::exact:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), turned);
+    case Theory::essenburg:
+      return std::make_unique<ExactDistributedLoad>(exact_reference(at), turned, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      return std::make_unique<TrussDistributedLoad>(beam_reference(at).length * turned(0.5));
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Element> make_foundation(const MemberElement& at, const FoundationLaw& law) {
+  switch (at.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamFoundation>(slender_reference(at), law);
+    case Theory::exact:
+      return std::make_unique<ExactFoundation>(exact_reference(at), law);
+    case Theory::essenburg:
+      return std::make_unique<ExactFoundation>(exact_reference(at), law, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      break;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Element> make_pressure(const MemberElement& at, const Vec2& origin) {
+  const Vec2 first = at.mesh.shape[at.k].position - origin;
+  switch (at.member.theory) {
+    case Theory::classic:
+    case Theory::elastica:
+      return std::make_unique<BeamPressure>(beam_reference(at), first);
+    case Theory::exact:
+      return std::make_unique<ExactPressure>(exact_reference(at), first);
+    case Theory::essenburg:
+      return std::make_unique<ExactPressure>(exact_reference(at), first, EssenburgBeam::unknowns_a_node);
+    case Theory::truss:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace arcwall
