@@ -1,5 +1,6 @@
 #include "continuation/segment.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/root_find.hpp"
@@ -14,6 +15,11 @@ State Segment::at(double t) const {
   return {.x = a.x + h01 * (b.x - a.x) + (h10 * u.dx + h11 * v.dx),
           .lambda = a.lambda + h01 * (b.lambda - a.lambda) + (h10 * u.dlambda + h11 * v.dlambda),
           .piece = a.piece};
+}
+
+bool Segment::follows_the_path() const {
+  constexpr double follows = 0.99;
+  return length_ == 0.0 || std::min(cosine(from_.tangent), cosine(to_.tangent)) >= follows;
 }
 
 std::optional<double> Segment::first_zero(double v0, double rate0, double v1, double rate1, double noise) const {

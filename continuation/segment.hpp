@@ -18,6 +18,10 @@ class Segment {
   double length() const { return length_; }
   double cosine(const Direction& tangent) const { return metric_.inner(chord(), tangent) / length_; }
 
+  /// Whether its ends follow each other along the path, which hardly bends over so short a way: the chord has the sense
+  /// of both tangents. If not they lie on branches that pass each other, as those of an imperfect pitchfork do.
+  bool follows_the_path() const;
+
   /// The state at fraction t of the chord, by Hermite's cubic.
   State at(double t) const;
 

@@ -130,6 +130,9 @@ SingularSearch find_limit_point(TraceTools& tools, const StepOrigin& origin, con
     point.change = count_after - count_before;
     return {.points = {std::move(point)}, .clear = L <= shortest_telling_step};
   }
+  // Where they do not, λ turns on none of the branches that pass each other there.
+  if (L > shortest_telling_step && !Segment(origin.metric, *sides.before, *sides.after).follows_the_path())
+    return {.clear = false};
   add_branch_point_at_limit(tools, origin, *sides.before, *sides.after, sides.distance / L, point);
   return {.points = {std::move(point)}};
 }

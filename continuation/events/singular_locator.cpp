@@ -102,21 +102,19 @@ std::vector<SingularPlace> nearest_sample(const std::vector<PathSample>& seen, c
   return {place};
 }
 
-// Whether the points on both sides of a bracket follow each other along the path, however near they are. If not they
-// lie on branches that pass each other, as those of an imperfect pitchfork do, and nothing is singular in between.
+// Whether the points on both sides of a bracket follow each other along the path, however near they are; else nothing
+// is singular in between.
 bool on_one_branch(SegmentSamples& on, CountBracket bracket) {
-  constexpr double follows = 0.99;  // cosine between the path and the way to the next point
   constexpr int halvings = 16;
   const auto at = [&](double t, const PathPoint& end) {
+    PathPoint point{.state = end.state, .tangent = end.tangent};
     for (const PathSample& sample : on.seen)
-      if (sample.t == t) return std::pair(sample.state, sample.tangent);
-    return std::pair(end.state, end.tangent);
+      if (sample.t == t) point = {.state = sample.state, .tangent = sample.tangent};
+    return point;
   };
   for (int halving = 0; halving <= halvings; ++halving) {
-    const auto before = at(bracket.from, on.segment.from()), after = at(bracket.to, on.segment.to());
-    const Direction way = difference(after.first, before.first);
-    const double along = std::min(on.metric.inner(way, before.second), on.metric.inner(way, after.second));
-    if (along < follows * on.metric.norm(way)) return false;
+    const PathPoint before = at(bracket.from, on.segment.from()), after = at(bracket.to, on.segment.to());
+    if (!Segment(on.metric, before, after).follows_the_path()) return false;
     if (!halve(on, bracket)) break;
   }
   return true;
