@@ -136,6 +136,28 @@ step = 0.05
 stop = { lambda = [-1.0, 11.3], shortening = [-2.97, 10.4] }
 )toml";
 
+// On its way back from the wall the path passes by the straight column of the second buckling load, within some 1e-5 of
+// it: a step may end on a branch that passes by, where lambda rises.
+constexpr const char* past_the_second_load = R"toml(
+title = "A nearly perfect clamped column on its way back from a wall"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.22, height = 0.048 }
+point = { left = [0.0, 0.0], right = [1.2, 0.0] }
+support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
+load = [{ at = "right", force = [-1.2, 0.0] }]
+wall = [{ name = "lower", side = "below", profile = { type = "flat", z = -0.042 } }]
+monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
+path = { step = 0.05, stop = { mid = [-1.0, 0.03], lambda = [-1.0, 11.0] } }
+[member.column]
+from = "left"
+to = "right"
+theory = "elastica"
+material = "steel"
+section = "s"
+elements = 12
+imperfection = [{ shape = "sine", amplitude = -6.4e-5, waves = 2 }, { shape = "sine", amplitude = 8.8e-5, waves = 3 }]
+)toml";
+
 std::vector<EventKind> kinds_of(const char* deck, const std::vector<std::string>& assignments) {
   const Model model(deck::read_deck_text(deck, "deck.toml", assignments));
   std::string reason;
@@ -166,6 +188,14 @@ TEST(RetriedStarts, ThePathDoesNotTurnRound) {
                                         limit_point, contact_opens,  contact_closes};
   for (const char* longest : {"path.max_step=0.2", "path.max_step=0.05"})
     EXPECT_EQ(kinds_of(along_the_wall, {longest, "path.stop.shortening=[-2.97, 4.6]"}), expected) << longest;
+}
+
+// A limit point and a suspected branch point were found between the two branches, on neither, and the path ended there.
+TEST(RetriedStarts, ABranchThatPassesByIsNotEntered) {
+  using enum EventKind;
+  const std::vector<EventKind> expected{start, contact_closes, limit_point, contact_opens};
+  for (const char* longest : {"path.max_step=0.2", "path.max_step=0.02", "path.max_step=0.01"})
+    EXPECT_EQ(kinds_of(past_the_second_load, {"path.step=0.005", longest}), expected) << longest;
 }
 
 }  // namespace arcwall::retried_starts_test
