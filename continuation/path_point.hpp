@@ -85,6 +85,7 @@ struct Event {
   bool suspected = false;  ///< zero is touched without a change of sign, as nearly as can be told
   std::optional<Index> unstable_before{}, unstable_after{};
   std::vector<Index> guards{};                     ///< contacts that change
+  std::optional<Continuum> continuum{};            ///< of which the path keeps to one member from here on
   std::shared_ptr<const BranchPoint> branching{};  ///< of branch points
 };
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "contact/contact_scales.hpp"
+#include "contact/continuum_choice.hpp"
 #include "contact/sliding_obstacle.hpp"
 #include "core/sliding_body.hpp"
 
@@ -26,6 +27,7 @@ struct SlidingSetting {
   std::vector<SlidingObstacle> obstacles{};
   ContactScales scales{};
   std::vector<FreeEnd> free_ends{};
+  ContinuumChoice continuum = ContinuumChoice::symmetric;
 
   /// Of the face that looks at an obstacle from the axis, along the obstacle's normal (upwards) [length].
   double face_offset(std::size_t obstacle, Index strand) const {
