@@ -23,7 +23,7 @@ struct Transition {
     spreads,      ///< a point contact becomes a line
     gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
     splits,       ///< a part on a wall lifts off inside
-    passes,       ///< a contact at a tip moves inside, or one that has come to the tip stays there
+    passes,       ///< a contact at a tip or a joint moves inside, or one that has come to it stays there
     joins,        ///< the reverse, or a whole tail is touched; the place is known on the piece ahead alone
     remeshed,     ///< the same point in other unknowns
     continuum,    ///< a continuum of equilibria with the same load and energy
