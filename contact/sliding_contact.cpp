@@ -43,13 +43,16 @@ bool is_bound(const SlidingState& at, Index guard) { return guard >= static_cast
 }  // namespace
 
 SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObstacle> obstacles,
-                               const ContactScales& scales) {
+                               const ContactScales& scales, ContinuumChoice continuum) {
   const auto layout = plain_layout(body);
   const Vector x = body.rest(layout->mesh(), Vector()), s;
   std::vector<FreeEnd> ends = free_ends(body, obstacles, layout->mesh(), {.x = x, .s = s, .lambda = 0.0});
   open_ = Piece(ends.size(), 0, layout);
-  setting_ = std::make_unique<SlidingSetting>(
-      SlidingSetting{.body = body, .obstacles = std::move(obstacles), .scales = scales, .free_ends = std::move(ends)});
+  setting_ = std::make_unique<SlidingSetting>(SlidingSetting{.body = body,
+                                                             .obstacles = std::move(obstacles),
+                                                             .scales = scales,
+                                                             .free_ends = std::move(ends),
+                                                             .continuum = continuum});
 }
 
 SlidingContact::~SlidingContact() = default;

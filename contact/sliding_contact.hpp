@@ -5,6 +5,7 @@
 
 #include "contact/contact_point.hpp"
 #include "contact/contact_scales.hpp"
+#include "contact/continuum_choice.hpp"
 #include "contact/sliding/layout.hpp"
 #include "contact/sliding_obstacle.hpp"
 #include "core/sliding_body.hpp"
@@ -29,7 +30,8 @@ struct SlidingSetting;
 class SlidingContact final : public System, public ContactQuery {
  public:
   /// `body` must outlive this.
-  SlidingContact(const SlidingBody& body, std::vector<SlidingObstacle> obstacles, const ContactScales& scales);
+  SlidingContact(const SlidingBody& body, std::vector<SlidingObstacle> obstacles, const ContactScales& scales,
+                 ContinuumChoice continuum = ContinuumChoice::symmetric);
   ~SlidingContact() override;
 
   Index size(const Piece& piece) const override;

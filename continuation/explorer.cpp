@@ -163,7 +163,8 @@ void Explorer::look_at(const Event& event) {
     return;  // the tracer has taken the one that `follow` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
-  if (options_.policy == BranchPolicy::follow && ahead_is_stable) return;
+  const bool nothing_is_known = system_.leaves_stability_open(point.state.piece);
+  if (options_.policy == BranchPolicy::follow && (ahead_is_stable || nothing_is_known)) return;
 
   const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);
   if (ways.empty()) {

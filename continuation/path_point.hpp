@@ -33,7 +33,7 @@ enum class EventKind {
   contact_opens,
   contact_spreads,  ///< a point contact becomes a line
   contact_gathers,  ///< a line becomes a point contact
-  contact_passes,   ///< a contact moves from a tip to the inside of its member, or back
+  contact_passes,   ///< a contact moves from a tip or a joint to the inside of a member, or back
   limit_point,
   contact_limit_point,
   displacement_limit,
@@ -85,6 +85,7 @@ struct Event {
   bool suspected = false;  ///< zero is touched without a change of sign, as nearly as can be told
   std::optional<Index> unstable_before{}, unstable_after{};
   std::vector<Index> guards{};                     ///< contacts that change
+  std::optional<Continuum> continuum{};            ///< of which the path keeps to one member from here on
   std::shared_ptr<const BranchPoint> branching{};  ///< of branch points
 };
 

@@ -15,6 +15,13 @@ struct MaterialPoint {
   double s = 0.0;
 };
 
+/// An end of a strand.
+struct StrandEnd {
+  Index strand = 0;
+  bool last = false;
+  bool operator==(const StrandEnd&) const = default;
+};
+
 /// Elements of one length, up to a breakpoint, a point load inside the strand or the strand's end.
 struct MeshSegment {
   MeshSegment() = default;
@@ -184,12 +191,19 @@ class SlidingBody {
   /// Whether a support holds the end of a strand in z.
   virtual bool end_is_held(Index strand, bool last) const = 0;
 
-  /// The end of a strand before this one that is the same end: at a joint where both turn together, in line and as
-  /// thick. What touches there is one contact.
-  virtual std::optional<std::pair<Index, bool>> same_end_before(Index strand, bool last) const = 0;
+  /// The first of the ends that are one place to a contact, with the end of this strand: at a joint whose strands turn
+  /// together. To contact on faces they are if they are in line and as thick.
+  virtual StrandEnd first_of_joint(Index strand, bool last, bool on_axis) const = 0;
 
   /// Whether an end of a strand is a tip: free to move in z and to turn, with no other strand at it.
   virtual bool is_tip(Index strand, bool last) const = 0;
+
+  /// The other end at a joint of two strands that turn together, which no support holds in z or from turning; empty at
+  /// other ends.
+  virtual std::optional<StrandEnd> joined_end(Index strand, bool last) const = 0;
+
+  /// Whether contact that comes to an end of a strand is one of the end itself, be it a tip or such a joint.
+  bool takes_contact(Index strand, bool last) const { return is_tip(strand, last) || joined_end(strand, last); }
 
   /// Whether supports hold an end of a strand in z and its rotation.
   virtual bool is_clamped(Index strand, bool last) const = 0;

@@ -10,10 +10,11 @@
 
 namespace arcwall {
 
-/// What the equilibria of a continuum have in common.
+/// What the equilibria of a continuum have in common: only the sum of the lengths of their flat parts is determined.
 struct Continuum {
+  Index parts = 0;      ///< flat parts on walls, new ones being points yet
   double energy = 0.0;  ///< total potential [force·length]
-  double length = 0.0;  ///< sum of the lengths of the body's flat parts on walls, new ones being points yet [length]
+  double length = 0.0;  ///< sum of the lengths of the parts [length]
 };
 
 /// What lies behind a validity bound of a piece: another piece that meets it there.
@@ -22,7 +23,7 @@ struct Transition {
     spreads,      ///< a point contact becomes a line
     gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
     splits,       ///< a part on a wall lifts off inside
-    passes,       ///< a contact at a tip moves inside, or one that has come to the tip stays there
+    passes,       ///< a contact at a tip or a joint moves inside, or one that has come to it stays there
     joins,        ///< the reverse, or a whole tail is touched; the place is known on the piece ahead alone
     remeshed,     ///< the same point in other unknowns
     continuum,    ///< a continuum of equilibria with the same load and energy
@@ -30,7 +31,8 @@ struct Transition {
   };
   Change change = Change::remeshed;
   std::string detail{};  ///< of the last two: what and why
-  std::optional<Continuum> continuum{};
+  std::optional<Continuum>
+      continuum{};                ///< that lies ahead, of which the piece ahead, where there is one, keeps one member
   std::vector<Index> contacts{};  ///< that change: in the piece behind, of `gathers` and `joins` in the piece ahead
   State guess{};                  ///< on the piece ahead, near the first point there
   Direction forward{};            ///< there, roughly

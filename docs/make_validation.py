@@ -134,13 +134,13 @@ def perfect_channel(theory: str) -> Case:
         ("load at the least shortening", load("displacement-limit"), 6.214791656),
         ("touch of the opposite wall", load("contact-closes", 1), 4.253608535128),
         ("shortening there", monitor("shortening", "contact-closes", 1), 0.313645142120),
-        ("three contacts become lines (the end of the path)", load("end", -1), 14.8210269646),
+        ("three contacts become lines", load("contact-spreads", 1), 14.8210269646),
     ]
     return Case(f"Perfect column in a channel, theory {theory}", "docs/validation/channel_perfect.toml",
                 meshes({"column": 1}, [10, 20, 40, 80]),
                 [Quantity(what, of, reference, BETWEEN_CONTACTS) for what, of, reference in events],
-                always=(f"member.column.theory='{theory}'",), note="Behind the last event lies a family of equilibria "
-                "of one load and energy, where the path ends.")
+                always=(f"member.column.theory='{theory}'",), note="Behind the last event only the sum of the lengths of "
+                "the three lines is determined, and the path keeps to equal ones.")
 
 
 def clamped_channel(theory: str) -> Case:

@@ -56,26 +56,42 @@ double SlidingStructure::natural_curvature_second(const MaterialPoint& point) co
   return (curvature_aa - curvature_a * v_a / v) / (v * v);
 }
 
-std::optional<std::pair<Index, bool>> SlidingStructure::same_end_before(Index strand, bool last) const {
+std::vector<StrandEnd> SlidingStructure::ends_at(Index freedom_z) const {
+  std::vector<StrandEnd> ends;
+  for (Index strand = 0; strand < strands(); ++strand)
+    for (const bool last : {false, true})
+      if (at(strand).ends[last ? 1 : 0].freedom[1] == freedom_z) ends.push_back({.strand = strand, .last = last});
+  return ends;
+}
+
+StrandEnd SlidingStructure::first_of_joint(Index strand, bool last, bool on_axis) const {
   constexpr double in_line = 0.05;  // [rad]
-  const auto freedoms = [&](Index run, bool end) { return at(run).ends[end ? 1 : 0].freedom; };
-  const auto angle = [&](Index run, bool end) {
-    return undeformed({.strand = run, .s = end ? length(run) : 0.0}, true).angle;
+  const auto freedoms = [&](const StrandEnd& end) { return at(end.strand).ends[end.last ? 1 : 0].freedom; };
+  const auto angle = [&](const StrandEnd& end) {
+    return undeformed({.strand = end.strand, .s = end.last ? length(end.strand) : 0.0}, true).angle;
   };
-  for (Index other = 0; other < strand; ++other)
-    for (const bool end : {false, true})
-      if (freedoms(other, end) == freedoms(strand, last) && half_height(other) == half_height(strand) &&
-          std::abs(std::remainder(angle(other, end) - angle(strand, last), pi)) <= in_line)
-        return std::pair(other, end);
-  return std::nullopt;
+  const StrandEnd here{.strand = strand, .last = last};
+  const auto is_same = [&](const StrandEnd& other) {
+    if (freedoms(other) != freedoms(here)) return false;
+    return on_axis || (half_height(other.strand) == half_height(strand) &&
+                       std::abs(std::remainder(angle(other) - angle(here), pi)) <= in_line);
+  };
+  const std::vector<StrandEnd> ends = ends_at(freedoms(here)[1]);
+  return *std::find_if(ends.begin(), ends.end(), is_same);
 }
 
 bool SlidingStructure::is_tip(Index strand, bool last) const {
   const End& end = at(strand).ends[last ? 1 : 0];
-  Index strands_there = 0;
-  for (const Run& run : runs_)
-    for (const End& other : run.ends) strands_there += other.freedom[1] == end.freedom[1];
-  return strands_there == 1 && !nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+  return ends_at(end.freedom[1]).size() == 1 && !nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+}
+
+std::optional<StrandEnd> SlidingStructure::joined_end(Index strand, bool last) const {
+  const End& end = at(strand).ends[last ? 1 : 0];
+  const std::vector<StrandEnd> ends = ends_at(end.freedom[1]);
+  if (ends.size() != 2 || nodal_.is_held(end.freedom[1]) || nodal_.is_held(end.freedom[2])) return std::nullopt;
+  const StrandEnd other = ends[ends[0] == StrandEnd{.strand = strand, .last = last} ? 1 : 0];
+  const bool turn_together = at(other.strand).ends[other.last ? 1 : 0].freedom == end.freedom;
+  return turn_together ? std::optional(other) : std::nullopt;
 }
 
 Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {

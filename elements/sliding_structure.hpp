@@ -43,8 +43,9 @@ class SlidingStructure final : public SlidingBody {
   bool end_is_held(Index strand, bool last) const override {
     return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
   }
-  std::optional<std::pair<Index, bool>> same_end_before(Index strand, bool last) const override;
+  StrandEnd first_of_joint(Index strand, bool last, bool on_axis) const override;
   bool is_tip(Index strand, bool last) const override;
+  std::optional<StrandEnd> joined_end(Index strand, bool last) const override;
   bool is_clamped(Index strand, bool last) const override {
     const End& end = at(strand).ends[last ? 1 : 0];
     return nodal_.is_held(end.freedom[1]) && nodal_.is_held(end.freedom[2]);
@@ -153,6 +154,7 @@ class SlidingStructure final : public SlidingBody {
   void join_straight_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone,
                           const Alike& alike);
   PointLoad point_load(Index node) const;
+  std::vector<StrandEnd> ends_at(Index freedom_z) const;  // all ends of strands at the joint with this freedom
   double rest_value(Index freedom) const;  // of the mesh's unknown at rest: the position, where that is one
   const Run& at(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
 

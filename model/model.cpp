@@ -276,7 +276,7 @@ std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilde
 
 void Model::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
   const auto on = [&](const SlidingStructure& structure, const deck::Deck& deck) {
-    return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), scales);
+    return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), scales, deck.path.continuum);
   };
   sliding_ = on(*sliding_structure_, deck_);
   if (!ramp) return;

@@ -64,6 +64,7 @@ struct RecordEvent {
   std::vector<RecordContact> contacts{};    ///< of a change of contact
   std::optional<std::string> monitor{};     ///< of a displacement limit
   std::optional<BranchEnd> branch_end{};    ///< of an end
+  std::optional<Continuum> continuum{};     ///< of a change of contact: the branch keeps to one member from here on
   std::optional<BranchType> branch_type{};  ///< of a branch point
   Index multiplicity = 1;                   ///< of a branch point: critical modes
   bool suspected = false;                   ///< zero is touched without a change of sign, as nearly as can be told

@@ -124,6 +124,7 @@ RecordEvent Recorder::recorded(const Event& event) const {
                      .unstable_after = event.unstable_after,
                      .residual = event.residual,
                      .localised = event.localised,
+                     .continuum = event.continuum,
                      .suspected = event.suspected};
   if (const auto origin = record_.branches[branch_].origin; event.kind == EventKind::start && origin)
     record.localised = record_.events[static_cast<std::size_t>(*origin)].localised;

@@ -29,6 +29,10 @@ OrderedJson contact(const RecordContact& contact) {
           {"x", number(contact.x)}};
 }
 
+OrderedJson family(const Continuum& continuum) {
+  return {{"parts", continuum.parts}, {"energy", number(continuum.energy)}, {"length", number(continuum.length)}};
+}
+
 OrderedJson branch(const Record& record, const RecordBranch& branch) {
   OrderedJson json;
   json["id"] = branch.id;
@@ -74,6 +78,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
     json["contact"] = OrderedJson::array();
     for (const RecordContact& one : event.contacts) json["contact"].push_back(contact(one));
   }
+  if (event.continuum) json["family"] = family(*event.continuum);
   if (event.monitor) json["monitor"] = *event.monitor;
   if (event.branch_type || event.kind == EventKind::limit_point) json["suspected"] = event.suspected;
   if (event.branch_type) {
@@ -108,8 +113,7 @@ OrderedJson point_json(const Record& record, const RecordPoint& point) {
 OrderedJson end_json(const BranchEnd& end) {
   OrderedJson json{{"reason", to_text(end.reason)}, {"detail", end.detail}};
   if (end.partner) json["partner"] = *end.partner;
-  if (end.continuum)
-    json["family"] = {{"energy", number(end.continuum->energy)}, {"length", number(end.continuum->length)}};
+  if (end.continuum) json["family"] = family(*end.continuum);
   return json;
 }
 

@@ -90,6 +90,8 @@ std::string event_detail(const RecordEvent& event) {
            (event.suspected ? ", suspected" : "") + (event.discretisation ? ", of the node contact" : "");
   if (event.suspected) return "suspected";
   if (event.monitor) return *event.monitor;
+  if (event.continuum)
+    return contacts(event.contacts) + fmt::format("; of {} lengths only the sum is determined", event.continuum->parts);
   return contacts(event.contacts);
 }
 

@@ -274,8 +274,11 @@ std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& a
     for (const PlainWall& wall : walls)
       for (const bool last : {false, true}) {
         if (!concerns(wall, strand) || at.body.end_is_held(strand, last)) continue;
-        const auto same = at.body.same_end_before(strand, last);
-        if (same && concerns(wall, same->first)) continue;
+        const bool on_axis = wall.has_outline() || wall.deck().acts_on == deck::ActsOn::axis;
+        const StrandEnd first = at.body.first_of_joint(strand, last, on_axis);
+        const bool is_as_thick = wall.deck().acts_on == deck::ActsOn::axis ||
+                                 at.body.half_height(first.strand) == at.body.half_height(strand);
+        if (first != StrandEnd{.strand = strand, .last = last} && is_as_thick && concerns(wall, first.strand)) continue;
         ends.push_back({{.strand = strand, .position = last ? at.mesh.nodes(strand) - 1 : 0}, &wall});
       }
   return ends;

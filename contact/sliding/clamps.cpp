@@ -90,7 +90,7 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
                                                double tolerance) {
   std::vector<const TailBound*> parts;
   for (const TailBound* bound : reached<TailBound>(setting, at, tolerance))
-    if (!setting.body.is_tip(bound->strand(), bound->last())) parts.push_back(bound);
+    if (!setting.body.takes_contact(bound->strand(), bound->last())) parts.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
     const std::size_t point = (*part)->point();

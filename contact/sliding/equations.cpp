@@ -36,11 +36,25 @@ void for_each_middle(const SlidingState& at, const Visit& visit) {
     visit(spans[i], at.mesh.node_unknowns(spans[i].strand, spans[i].middle), at.index.holding_force(i));
 }
 
+// visit(span) for all neutral spans that may be anywhere between the flat parts beside them.
+template <typename Visit>
+void for_each_loose(const SlidingState& at, const Visit& visit) {
+  for (const SlidingContactLayout::NeutralSpan& span : at.layout.neutral_spans())
+    if (at.layout.is_loose(span)) visit(span);
+}
+
+// Of the equation that lengths of flat parts keep their difference, which then is a moment as its neighbours are.
+double moment_of_length(const SlidingSetting& setting, const SlidingContactLayout::NeutralSpan& span) {
+  const double L = setting.body.length(span.strand);
+  return setting.body.bending_stiffness(span.strand) / (L * L);
+}
+
 NodeUnknowns unknowns_of(const SlidingState& at, const Touch& touch) {
   return at.mesh.node_unknowns(touch.strand, touch.position);
 }
 
-// The forces of contact on the body, and the equations −g = 0, −t = 0 and m = 0 or EI (κ̂ − κ) = m.
+// The forces of contact on the body, and the equations −g = 0, −t = 0 and m = 0 or EI (κ̂ − κ) = m. The moments m₁ and
+// m₂ at the ends of a loose span are equal by symmetry: m₁ + m₂ = 0 says all of them, and (8.6b) where the span is.
 void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
   for_each_force(setting, at, [&](const Touch& touch, Index p) {
     const TouchGap touching = touch_gap(setting, touch, at);
@@ -67,6 +81,10 @@ void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::R
                                                                     curvature_gap(setting, at, point).value
                                                               : at.moment(k);
   }
+  for_each_loose(at, [&](const SlidingContactLayout::NeutralSpan& span) {
+    F[at.index.coordinate(span.first_point)] += at.moment(span.last_point);
+    F[at.index.coordinate(span.last_point)] = moment_of_length(setting, span) * grown_apart(at, span);
+  });
 }
 
 // The row of a constraint, less its gradient by a node.
@@ -171,6 +189,10 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
       out.C(k, at.index.moment(k)) = 1.0;
     }
   }
+  for_each_loose(at, [&](const SlidingContactLayout::NeutralSpan& span) {
+    out.C(span.first_point, at.index.moment(span.last_point)) = 1.0;
+    out.C.row(span.last_point) = moment_of_length(setting, span) * grown_apart_gradient(at, span).dx;
+  });
 }
 
 }  // namespace arcwall::sliding

@@ -64,6 +64,20 @@ bool SlidingContactLayout::has_node(Index strand, Index load) const {
                      [&](const Segment& segment) { return segment.strand == strand && segment.last_load == load; });
 }
 
+bool SlidingContactLayout::is_loose(const NeutralSpan& span) const {
+  if (!span.joins_points()) return false;
+  const auto joins_flat = [&](const Segment& segment, Index first, Index last) {
+    return segment.strand == span.strand && segment.span == Span::flat && segment.first_point == first &&
+           segment.last_point == last;
+  };
+  const auto has_part = [&](Index first, Index last) {
+    return std::any_of(segments_.begin(), segments_.end(),
+                       [&](const Segment& segment) { return joins_flat(segment, first, last); });
+  };
+  return span.first_point > 0 && has_part(span.first_point - 1, span.first_point) &&
+         has_part(span.last_point, span.last_point + 1);
+}
+
 bool SlidingContactLayout::joins_one_obstacle(const Segment& segment) const {
   return segment.first_point >= 0 && segment.last_point >= 0 &&
          points_[static_cast<std::size_t>(segment.first_point)].obstacle ==

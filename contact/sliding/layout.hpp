@@ -89,6 +89,10 @@ class SlidingContactLayout final : public SlidingLayout {
   /// `s` where it began.
   const Vector& origin() const { return origin_; }
 
+  /// Whether a neutral span lies between two flat parts that end at tracked points on both sides: it may then be
+  /// anywhere between them, and only the sum of their lengths is determined.
+  bool is_loose(const NeutralSpan& span) const;
+
   /// Whether two tracked points are the ends of a segment and touch one obstacle.
   bool joins_one_obstacle(const Segment& segment) const;
 

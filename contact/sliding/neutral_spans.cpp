@@ -109,12 +109,44 @@ Across distance_across(const SlidingSetting& setting, const SlidingState& at, co
           .rate = near.rate + far.rate};
 }
 
+Row grown_apart_gradient(const SlidingState& at, const NeutralSpan& span) {
+  Row row = at.no_slope();
+  row.dx[at.index.coordinate(span.last_point + 1)] = 1.0;
+  row.dx[at.index.coordinate(span.last_point)] = -1.0;
+  row.dx[at.index.coordinate(span.first_point)] = -1.0;
+  row.dx[at.index.coordinate(span.first_point - 1)] = 1.0;
+  return row;
+}
+
+double grown_apart(const SlidingState& at, const NeutralSpan& span) {
+  const Index first = span.first_point, last = span.last_point;
+  const Vector grown = at.now.s - at.layout.origin();
+  return (grown[last + 1] - grown[last]) - (grown[first] - grown[first - 1]);
+}
+
 bool NeutralSides::any() const {
   const auto holds = [](const std::vector<bool>& sides) {
     return std::find(sides.begin(), sides.end(), true) != sides.end();
   };
   return holds(before) || holds(behind);
 }
+
+Index NeutralSides::between_points(const SlidingContactLayout& on) const {
+  const auto strand_of = [&](std::size_t k) { return on.mesh().breakpoint(static_cast<Index>(k)).first; };
+  Index count = 0;
+  for (std::size_t k = 0; k + 1 < behind.size(); ++k) count += behind[k] && strand_of(k) == strand_of(k + 1);
+  return count;
+}
+
+namespace {
+
+// Whether a point load of a strand lies between two places.
+bool is_loaded(const SlidingSetting& setting, Index strand, double from, double to) {
+  const std::vector<double>& loads = setting.body.point_loads(strand);
+  return std::any_of(loads.begin(), loads.end(), [&](double place) { return from <= place && place <= to; });
+}
+
+}  // namespace
 
 NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingState& at,
                                 const std::vector<std::size_t>& lines) {
@@ -126,13 +158,15 @@ NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingStat
   };
   NeutralSides sides{.before = std::vector<bool>(points.size()), .behind = std::vector<bool>(points.size())};
   for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!is_line(k)) continue;
     const Index strand = strand_of(k);
-    if (!is_line(k) || !setting.body.point_loads(strand).empty()) continue;
+    const double s = at.s(static_cast<Index>(k));
     const bool is_first = k == 0 || strand_of(k - 1) != strand;
     const bool is_last = k + 1 == points.size() || strand_of(k + 1) != strand;
-    if (is_first && at.layout.span_before(k) == Span::free)
+    if (is_first && at.layout.span_before(k) == Span::free && !is_loaded(setting, strand, 0.0, s))
       sides.before[k] = is_straightened_end(setting, at, k, false);
-    if (points[k].behind != Span::free) continue;
+    const double end = is_last ? setting.body.length(strand) : at.s(static_cast<Index>(k) + 1);
+    if (points[k].behind != Span::free || is_loaded(setting, strand, s, end)) continue;
     if (is_last)
       sides.behind[k] = is_straightened_end(setting, at, k, true);
     else

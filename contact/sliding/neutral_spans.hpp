@@ -19,11 +19,19 @@ struct Across {
 Across distance_across(const SlidingSetting& setting, const SlidingState& at,
                        const SlidingContactLayout::NeutralSpan& span);
 
+/// By how much more than the flat part before a loose span the one behind it has grown since the layout began, as a
+/// function of the coordinates of the points at their ends [length].
+Row grown_apart_gradient(const SlidingState& at, const SlidingContactLayout::NeutralSpan& span);
+double grown_apart(const SlidingState& at, const SlidingContactLayout::NeutralSpan& span);
+
 /// The same points of contact with the spans beside some of them neutral, one entry a point.
 struct NeutralSides {
   std::vector<bool> before, behind;
 
   bool any() const;
+
+  /// How many of the spans lie between two points.
+  Index between_points(const SlidingContactLayout& on) const;
 };
 
 /// Which spans are neutral once all the points in `lines` have become flat parts, as those that the layout has are. A

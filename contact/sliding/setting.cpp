@@ -1,5 +1,6 @@
 #include "contact/sliding/setting.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcwall {
@@ -12,8 +13,14 @@ std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<Slidin
     for (std::size_t w = 0; w < obstacles.size(); ++w)
       for (const bool last : {false, true}) {
         if (!obstacles[w].concerns(strand) || body.end_is_held(strand, last)) continue;
-        const auto same = body.same_end_before(strand, last);
-        if (same && obstacles[w].concerns(same->first)) continue;
+        const StrandEnd first = body.first_of_joint(strand, last, !obstacles[w].on_face);
+        const auto same = std::find_if(ends.begin(), ends.end(), [&](const FreeEnd& end) {
+          return end.obstacle == w && end.strand == first.strand && end.last == first.last;
+        });
+        if (same != ends.end()) {
+          same->joined.push_back({.strand = strand, .last = last});
+          continue;
+        }
         FreeEnd end{.strand = strand, .last = last, .obstacle = w};
         const double along = std::cos(mesh.node(strand, end.position(mesh), rest).angle);
         if (std::abs(along) > vertical) end.travel = std::copysign(1.0, along);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "contact/contact_scales.hpp"
+#include "contact/continuum_choice.hpp"
 #include "contact/sliding_obstacle.hpp"
 #include "core/sliding_body.hpp"
 
@@ -14,9 +16,24 @@ struct FreeEnd {
   Index strand = 0;
   bool last = false;
   std::size_t obstacle = 0;
-  double travel = 0.0;  ///< of the axis at rest: 1 with x, −1 against it, 0 where it stands upright
+  double travel = 0.0;              ///< of the axis at rest: 1 with x, −1 against it, 0 where it stands upright
+  std::vector<StrandEnd> joined{};  ///< ends of later strands at a joint that are the same place to the obstacle
 
   Index position(const SlidingMesh& mesh) const { return last ? mesh.nodes(strand) - 1 : 0; }
+
+  /// Whether it is the contact of an end of a strand.
+  bool is_of(const StrandEnd& end) const {
+    return end == StrandEnd{.strand = strand, .last = last} ||
+           std::find(joined.begin(), joined.end(), end) != joined.end();
+  }
+
+  /// The same contact, seen from another of its ends.
+  FreeEnd seen_from(const StrandEnd& end) const {
+    FreeEnd seen = *this;
+    seen.strand = end.strand;
+    seen.last = end.last;
+    return seen;
+  }
 };
 
 /// A body among obstacles: all that contact which slides depends on and that stays the same along a path. The contacts
@@ -26,6 +43,12 @@ struct SlidingSetting {
   std::vector<SlidingObstacle> obstacles{};
   ContactScales scales{};
   std::vector<FreeEnd> free_ends{};
+  ContinuumChoice continuum = ContinuumChoice::symmetric;
+
+  /// How far the body's outside is from the axis where an obstacle touches it [length].
+  double half_height_touched(std::size_t obstacle, Index strand) const {
+    return obstacles[obstacle].on_face ? body.half_height(strand) : obstacles[obstacle].surface->half_height();
+  }
 
   /// Of the face that looks at an obstacle from the axis, along the obstacle's normal (upwards) [length].
   double face_offset(std::size_t obstacle, Index strand) const {

@@ -26,8 +26,9 @@ double shortest_span_on_straight(const SlidingBody& body, Index strand);
 /// where the part ends, the pressure grows at a rate p̄′, and the force there is p̄′ d²/20.
 double shortest_sure_arch(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
 
-/// The same of a part between a contact and a tip: the contact is at the tip.
-double shortest_tail(const SlidingBody& body, Index strand);
+/// The same of a part between a contact and an end of the strand: the contact is at the end. Shorter at a tip, up to
+/// which the part bears nothing.
+double shortest_tail(const SlidingBody& body, Index strand, bool last);
 
 /// The same of the span behind a tracked point.
 double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point);

@@ -32,15 +32,20 @@ bool is_flat_between_points(const SlidingContactLayout::Segment& segment) {
 }
 
 // `lines`: of contacts that lie on walls by themselves.
-Transition continuum(const SlidingState& at, Index lines) {
-  Continuum common{.energy = at.mesh.energy(at.now)};
+Continuum continuum_of(const SlidingState& at, Index lines) {
+  Continuum common{.parts = lines, .energy = at.mesh.energy(at.now)};
   for (const SlidingContactLayout::Segment& segment : at.layout.segments())
     if (is_flat_between_points(segment)) common.length += at.s(segment.last_point) - at.s(segment.first_point);
-  return {
-      .change = Transition::Change::continuum,
-      .detail = counted(lines, "contact") + " become lines together: only the sum of their lengths is determined, " +
-                round_trip(common.length) + " here; all such equilibria have the energy " + round_trip(common.energy),
-      .continuum = common};
+  return common;
+}
+
+Transition end_before(const Continuum& common) {
+  return {.change = Transition::Change::continuum,
+          .detail = counted(common.parts, "contact") +
+                    " become lines together: only the sum of their lengths is determined, " +
+                    round_trip(common.length) + " here; all such equilibria have the energy " +
+                    round_trip(common.energy),
+          .continuum = common};
 }
 
 // Whether a point load is so near to a point that it has no node.
@@ -90,11 +95,27 @@ void make_neutral(const NeutralSides& sides, LayoutEdit& edit) {
   }
 }
 
+// Flat parts beside loose spans grow by a length, as the new ones do.
+void grow_with_new_parts(const NeutralSides& sides, double length, LayoutEdit& edit) {
+  for (std::size_t k = 0; k + 1 < edit.points.size(); ++k) {
+    const bool is_part = edit.points[k].behind == Span::flat && edit.strands[k] == edit.strands[k + 1];
+    const bool is_beside =
+        (k > 0 && edit.strands[k - 1] == edit.strands[k] && sides.behind[k - 1]) ||
+        (k + 2 < edit.points.size() && edit.strands[k + 2] == edit.strands[k] && sides.behind[k + 1]);
+    if (!is_part || !is_beside) continue;
+    edit.place(k) -= 0.5 * length;
+    edit.place(k + 1) += 0.5 * length;
+  }
+}
+
 // Each of the points, ascending, becomes two, a short way apart; `neutral`: spans beside them that are then.
 Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, Span between,
                   double length, const NeutralSides* neutral = nullptr) {
   LayoutEdit edit = edit_of(setting.body, at);
-  if (neutral != nullptr) make_neutral(*neutral, edit);
+  if (neutral != nullptr) {
+    make_neutral(*neutral, edit);
+    grow_with_new_parts(*neutral, length, edit);
+  }
   for (auto k = points.rbegin(); k != points.rend(); ++k) {
     const Span span = lies_by_itself(setting, at, *k) ? Span::flat : between;
     const int behind = edit.elements_behind(*k);
@@ -225,12 +246,20 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   const bool new_lines = lines > 0;
   const auto& segments = at.layout.segments();
   lines += std::count_if(segments.begin(), segments.end(), is_flat_between_points);
-  if (new_lines && lines > 1) return {continuum(at, lines)};
   const NeutralSides neutral = spans_made_neutral(setting, at, points);
-  std::vector<Transition> transitions = spreads(setting, at, points);
+  const bool is_continuum = new_lines && neutral.between_points(at.layout) > 0;
+  const Continuum common = continuum_of(at, lines);
+  if (is_continuum && setting.continuum == ContinuumChoice::stop) return {end_before(common)};
+  std::vector<Transition> transitions;
+  if (is_continuum) {
+    transitions.push_back(end_before(common));
+  } else {
+    transitions = spreads(setting, at, points);
+  }
   if (!neutral.any()) return transitions;
   const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);
   transitions.insert(transitions.begin(), spread(setting, at, points, Span::flat, length, &neutral));
+  if (is_continuum) transitions.front().continuum = common;
   for (Transition& transition : transitions) transition.from_singular = true;
   return transitions;
 }

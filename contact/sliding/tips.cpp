@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "contact/sliding/bending.hpp"
@@ -20,7 +21,7 @@ namespace {
 using Span = SlidingContactLayout::Span;
 using Change = Transition::Change;
 
-// A free end with a closed contact: its number among the free ends, and what is there.
+// An end of a strand with a closed contact: its number among the free ends, and what is there.
 struct ClosedTip {
   std::size_t end = 0;
   Index strand = 0;
@@ -33,12 +34,13 @@ struct ClosedTip {
 };
 
 // By what the last element carries: its end force is that of the contact and of all that is put on the tip.
-ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std::size_t end) {
+ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std::size_t end, const StrandEnd& of) {
   constexpr double round_off = 1e-6;  // of curvatures, times the length scale
   const std::size_t contact = at.layout.points().size() + end;
-  const FreeEnd& there = setting.free_ends[end];
-  const auto [strand, last, obstacle, along_rest] = there;
-  const Touch touch = touch_of_contact(setting, at.layout, contact);
+  const FreeEnd there = setting.free_ends[end].seen_from(of);
+  const auto [strand, last] = of;
+  const std::size_t obstacle = there.obstacle;
+  const Touch touch = touch_of_end(setting, at.layout, there);
   const AxisPlace axis = touch.axis(at);
   const Obstacle& surface = *setting.obstacles[obstacle].surface;
   const Eigen::Vector3d carried = at.mesh.end_forces(strand, last ? touch.position - 1 : 0, at.now)[last ? 1 : 0];
@@ -92,27 +94,98 @@ std::vector<Span> lying_spans(const SlidingSetting& setting, const Transition& f
   return lifts_off ? std::vector{Span::free, Span::pressed} : std::vector{Span::pressed, Span::free};
 }
 
+// The tips and joints that become tangent to their obstacles together. A joint may do so with both of its strands,
+// where they continue each other smoothly: contact moves into the one whose angle with the obstacle shrinks.
+std::vector<ClosedTip> tangent_tips(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  struct Reached {
+    StrandEnd end;
+    double rate;
+  };
+  std::map<std::size_t, Reached> by_contact;
+  for (const LiesDownBound* bound : reached<LiesDownBound>(setting, at, arrival.tolerance)) {
+    const double rate = apply(bound->gradient(setting, at), arrival.forward);
+    for (std::size_t end = 0; end < setting.free_ends.size(); ++end) {
+      if (!setting.free_ends[end].is_of(bound->end()) || !at.is_closed(at.layout.points().size() + end)) continue;
+      const auto [known, is_new] = by_contact.try_emplace(end, Reached{.end = bound->end(), .rate = rate});
+      if (!is_new && rate < known->second.rate) known->second = {.end = bound->end(), .rate = rate};
+    }
+  }
+  std::vector<ClosedTip> tips;
+  for (const auto& [end, there] : by_contact) tips.push_back(closed_tip(setting, at, end, there.end));
+  return tips;
+}
+
+// What the face of a strand that touches comes to at an end.
+enum class Beyond {
+  nothing,     // it ends there: at a tip, or at a joint behind which the next face is set back or turns away
+  same_face,   // that of the next strand goes on, flush and in line
+  step,        // that stands out
+  hollow_bend  // that turns towards the obstacle
+};
+
+Beyond beyond_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  constexpr double in_line = 1e-9;  // sine of the angle between both strands
+  const auto other = setting.body.joined_end(end.strand, end.last);
+  for (std::size_t w = 0; other && w < setting.obstacles.size(); ++w) {
+    const bool is_of_wall = setting.obstacles[w].name == setting.obstacles[end.obstacle].name;
+    if (!is_of_wall || !setting.obstacles[w].concerns(other->strand)) continue;
+    const double step =
+        setting.half_height_touched(w, other->strand) - setting.half_height_touched(end.obstacle, end.strand);
+    const FreeEnd next{.strand = other->strand, .last = other->last, .obstacle = w};
+    const double turn = sine_from_end(setting, at, end) + sine_from_end(setting, at, next);
+    if (step != 0.0) return step > 0.0 ? Beyond::step : Beyond::nothing;
+    return turn > in_line ? Beyond::nothing : turn < -in_line ? Beyond::hollow_bend : Beyond::same_face;
+  }
+  return Beyond::nothing;
+}
+
+// Why contact that comes to an end cannot be one of the end; `inner`: how the body runs up to it from inside. Empty
+// where it can.
+std::optional<std::string> what_hinders(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end,
+                                        Span inner) {
+  const Beyond beyond = beyond_end(setting, at, end);
+  if (beyond == Beyond::step)
+    return "contact came to a joint behind which the member is thicker, and its step would touch";
+  if (beyond == Beyond::hollow_bend)
+    return "contact came to a hollow joint of members, behind which the next one would touch";
+  if (inner == Span::free) return std::nullopt;
+  if (setting.body.is_tip(end.strand, end.last)) return "a part that lies on a wall reached the free end of its member";
+  if (beyond == Beyond::same_face) return "a part that lies on a wall reached a joint behind which its face goes on";
+  if (inner == Span::pressed) return "a part that is pressed on a wall reached a corner of the body";
+  return std::nullopt;
+}
+
+// Takes the point out that has come to an end. A flat part of which it was the edge lifts off between its other edge,
+// which becomes a point contact, and the end: nothing holds a moment at the end but that of an arch.
+void erase_before_end(const SlidingSetting& setting, const StrandEnd& end, bool flat, std::size_t point,
+                      LayoutEdit& edit) {
+  const std::size_t inner = end.last ? point - 1 : point + 1;
+  int elements = end.last ? edit.elements_before(point) : edit.elements_behind(point);
+  if (flat) {
+    const double from = end.last ? edit.place(inner) : 0.0;
+    const double to = end.last ? setting.body.length(end.strand) : edit.place(inner);
+    elements = elements_asked(setting.body, end.strand, from, to, 2);
+    if (end.last) edit.points[inner].behind = Span::free;
+  }
+  edit.erase(point, elements);
+}
+
 }  // namespace
 
-std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  const std::vector<ClosedTip> tips = tangent_tips(setting, at, arrival);
+  const bool all_tips = std::all_of(tips.begin(), tips.end(),
+                                    [&](const ClosedTip& tip) { return setting.body.is_tip(tip.strand, tip.last); });
   const Transition none =
-      unsupported("the free end of a member lies down on a wall, and no equilibrium was found there");
-  std::vector<ClosedTip> tips;
-  for (const LiesDownBound* bound : reached<LiesDownBound>(setting, at, tolerance))
-    for (std::size_t end = 0; end < setting.free_ends.size(); ++end) {
-      const FreeEnd& there = setting.free_ends[end];
-      if (there.strand != bound->strand() || there.last != bound->last()) continue;
-      if (!at.is_closed(at.layout.points().size() + end)) continue;
-      if (!setting.body.is_tip(there.strand, there.last))
-        return {unsupported("a joint of members lies down on a wall")};
-      tips.push_back(closed_tip(setting, at, end));
-    }
+      unsupported(all_tips ? "the free end of a member lies down on a wall, and no equilibrium was found there"
+                           : "a joint of members lies down on a wall, and no equilibrium was found there");
   if (tips.empty()) return {none};
-  const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
+  const double length = 2.0 * shortest_tail(setting.body, tips.front().strand, tips.front().last);
   const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Span::free), length);
   std::vector<std::vector<Span>> ways;
   for (const ClosedTip& tip : tips) {
     if (!tip.bends_with_it && tip.bend < 0.0) return {none};
+    if (tip.bends_with_it && !setting.body.is_tip(tip.strand, tip.last)) return {none};
     ways.push_back(tip.bends_with_it ? lying_spans(setting, free, tip) : std::vector{Span::free});
   }
   std::vector<Transition> transitions;
@@ -129,7 +202,8 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
 std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
   std::vector<const TailBound*> tails;
   for (const TailBound* bound : reached<TailBound>(setting, at, tolerance))
-    if (at.is_closed(bound->point()) && setting.body.is_tip(bound->strand(), bound->last())) tails.push_back(bound);
+    if (at.is_closed(bound->point()) && setting.body.takes_contact(bound->strand(), bound->last()))
+      tails.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
   std::vector<std::size_t> ends;
   bool lay = false;
@@ -137,26 +211,27 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     const std::size_t point = (*tail)->point();
     const auto [strand, last] = std::pair((*tail)->strand(), (*tail)->last());
     const Span inner = last ? at.layout.span_before(point) : at.layout.points()[point].behind;
-    if (inner != Span::free) return {unsupported("a part that lies on a wall reached the free end of its member")};
     lay = lay || at.layout.span_at_end(strand, last) != Span::free;
+    const StrandEnd of{.strand = strand, .last = last};
     std::size_t end = 0;
-    while (setting.free_ends[end].strand != strand || setting.free_ends[end].last != last ||
-           setting.free_ends[end].obstacle != at.layout.points()[point].obstacle)
+    while (!setting.free_ends[end].is_of(of) || setting.free_ends[end].obstacle != at.layout.points()[point].obstacle)
       ++end;
+    const FreeEnd there = setting.free_ends[end].seen_from(of);
+    if (auto why = what_hinders(setting, at, there, inner)) return {unsupported(std::move(*why))};
     ends.push_back(end);
     edit.end_forces[end] += edit.forces[point];
     edit.ends_closed[end] = 1;
-    edit.erase(point, last ? edit.elements_before(point) : edit.elements_behind(point));
+    erase_before_end(setting, of, inner == Span::flat, point, edit);
   }
   const auto on = layout_of(edit);
   State guess = mapped_onto(setting, at, edit, on);
   const std::size_t lies_down = bound_number<LiesDownBound>(*on, [&](const LiesDownBound& bound) {
-    return bound.strand() == tails.back()->strand() && bound.last() == tails.back()->last();
+    return bound.end() == StrandEnd{.strand = tails.back()->strand(), .last = tails.back()->last()};
   });
   Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, lies_down),
                                 lay ? Change::gathers : Change::passes, std::move(guess));
   for (const std::size_t end : ends) transition.contacts.push_back(static_cast<Index>(on->points().size() + end));
-  return {transition, unsupported("contact came to the free end of a member, and no equilibrium was found there")};
+  return {transition, unsupported("contact came to the end of a member, and no equilibrium was found there")};
 }
 
 std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {

@@ -251,7 +251,8 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
               .residual = at.residual,
               .unstable_before = corner.before.unstable,
               .unstable_after = ahead.count.unstable,
-              .guards = transition.contacts};
+              .guards = transition.contacts,
+              .continuum = transition.continuum};
   if (transition.change != Transition::Change::remeshed) {
     event.kind = kind_of(transition.change);
     if (!begins_with_length(transition)) {
@@ -260,6 +261,7 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
     }
     events.push_back(event);
     event.guards.clear();
+    event.continuum.reset();
   }
   add_turns(tools, corner.signs, ahead, event, events);
 }

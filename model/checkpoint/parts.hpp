@@ -76,14 +76,14 @@ void parts(Archive& archive, BranchPoint& point) {
 }
 
 template <typename Archive>
-void parts(Archive& archive, Event& event) {
-  archive(event.kind, event.label, event.state, event.arc, event.residual, event.localised, event.suspected,
-          event.unstable_before, event.unstable_after, event.guards, event.branching);
+void parts(Archive& archive, Continuum& family) {
+  archive(family.parts, family.energy, family.length);
 }
 
 template <typename Archive>
-void parts(Archive& archive, Continuum& family) {
-  archive(family.energy, family.length);
+void parts(Archive& archive, Event& event) {
+  archive(event.kind, event.label, event.state, event.arc, event.residual, event.localised, event.suspected,
+          event.unstable_before, event.unstable_after, event.guards, event.continuum, event.branching);
 }
 
 template <typename Archive>

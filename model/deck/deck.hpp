@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "contact/continuum_choice.hpp"
 #include "contact/multiplier_contact.hpp"
 #include "contact/outline.hpp"
 #include "continuation/explorer.hpp"
@@ -507,6 +508,7 @@ struct Path {
   int depth = 2;
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
   EventSearch events = EventSearch::locate;
+  ContinuumChoice continuum = ContinuumChoice::symmetric;
   Stop stop{};
 
   bool operator==(const Path&) const = default;

@@ -143,6 +143,11 @@ void path_keys(Keys& keys, Path& path) {
       optional("events"), path.events, events_words,
       "`\"locate\"`: limit points and turning points become points of the path; `\"detect\"`: reported at the end "
       "of the step that holds them; `\"none\"`: not looked for. Changes of contact are landed on always");
+  keys.word(
+      optional("continuum"), path.continuum, continuum_words,
+      "of contact that slides, where equilibria form a continuum, since only the sum of the lengths of several flat "
+      "parts is determined: `\"symmetric\"` goes on with the one in which neighbouring parts keep the difference of "
+      "their lengths, `\"stop\"` ends the branch with the reason `family`");
   keys.table(
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
   check_method(keys, path, lands_on_lambda);

@@ -99,6 +99,9 @@ inline constexpr Words<BranchPolicy, 3> branches_words{
 inline constexpr Words<EventSearch, 3> events_words{
     {{"locate", EventSearch::locate}, {"detect", EventSearch::detect}, {"none", EventSearch::none}}};
 
+inline constexpr Words<ContinuumChoice, 2> continuum_words{
+    {{"symmetric", ContinuumChoice::symmetric}, {"stop", ContinuumChoice::stop}}};
+
 inline constexpr Words<EventKind, 9> stop_event_words{{{"contact-closes", EventKind::contact_closes},
                                                        {"contact-opens", EventKind::contact_opens},
                                                        {"contact-spreads", EventKind::contact_spreads},

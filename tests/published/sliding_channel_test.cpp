@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
+#include "contact/sliding/unknowns.hpp"
+#include "core/derivative_check.hpp"
 #include "tests/support/branch.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/invariants.hpp"
@@ -32,8 +35,10 @@ TraceOptions until(double lambda) {
   return options;
 }
 
-SlidingModel channel(int elements, std::vector<SineDeviation> imperfection = {}) {
-  return SlidingChannel{.members = {{2.0, elements}}, .imperfection = std::move(imperfection)}.model();
+SlidingModel channel(int elements, std::vector<SineDeviation> imperfection = {},
+                     ContinuumChoice continuum = ContinuumChoice::symmetric) {
+  return SlidingChannel{.members = {{2.0, elements}}, .imperfection = std::move(imperfection), .continuum = continuum}
+      .model();
 }
 
 std::shared_ptr<const Observable> middle(const SlidingModel& model) { return model.at("0", 0.5, Component::z); }
@@ -46,7 +51,8 @@ struct PerfectChannel {
   TraceOptions options;
   std::vector<ExploredBranch> branches;
 
-  explicit PerfectChannel(int elements, double to = 10.0) : model(channel(elements)), options(until(to)) {
+  explicit PerfectChannel(int elements, double to = 10.0, ContinuumChoice continuum = ContinuumChoice::symmetric)
+      : model(channel(elements, {}, continuum)), options(until(to)) {
     options.target_values.push_back({.quantity = middle(model), .value = 0.0});
     branches = test::follow(model.system(), model.system().rest(), options, {middle(model)},
                             {{.quantity = model.joint(1, Freedom::x), .label = "shortening"}});
@@ -166,14 +172,15 @@ TEST(SlidingChannelEvents, KeepTheInvariants) {
     test::expect_sliding_invariants(found.model.system(), branch.arcs, found.options, branch.lambda_scale);
 }
 
-// Beyond 14.821 the three contacts are lines, of whose lengths only the sum is determined.
-TEST(SlidingChannelEvents, EndInAFamilyOfThreeLines) {
+// Beyond 14.821 the three contacts are lines, of whose lengths only the sum is determined. A path may end there.
+TEST(SlidingChannelEvents, EndBeforeAContinuumIfToldSo) {
   std::vector<double> ends;
   for (const int elements : {20, 40, 80}) {
-    const PerfectChannel found(elements, 20.0);
+    const PerfectChannel found(elements, 20.0, ContinuumChoice::stop);
     const BranchEnd& end = *found.branches.back().record.end;
     EXPECT_EQ(end.reason, EndReason::continuum);
     ASSERT_TRUE(end.continuum.has_value());
+    EXPECT_EQ(end.continuum->parts, 3);
     EXPECT_EQ(end.continuum->length, 0.0);  // all three are points yet
     EXPECT_EQ(end.continuum->energy, found.model.system().energy(found.branches.back().arcs.back().to.state));
     const auto events = test::events_of(found.branches);
@@ -184,6 +191,112 @@ TEST(SlidingChannelEvents, EndInAFamilyOfThreeLines) {
   }
   EXPECT_LE(std::abs(ends[2]), 1e-6);
   EXPECT_GE(test::observed_order({4.0, 2.0, 1.0}, ends), 3.8);
+}
+
+namespace {
+
+// Three flat parts of a pinned column, at the last point of its path: upper, lower, upper.
+struct ThreeParts {
+  std::array<double, 3> lengths{};
+  double before = 0.0, behind = 0.0;  // what is left at the ends
+};
+
+ThreeParts three_parts(const State& state) {
+  ThreeParts parts;
+  const Vector s = state.x.tail(mesh_of(state).breakpoints());
+  EXPECT_EQ(s.size(), 6);
+  if (s.size() != 6) return parts;
+  for (std::size_t i = 0; i < 3; ++i) parts.lengths[i] = s[2 * Index(i) + 1] - s[2 * Index(i)];
+  parts.before = s[0];
+  parts.behind = 2.0 - s[5];
+  return parts;
+}
+
+}  // namespace
+
+// In the continuum the path keeps to the member that is symmetric, as the column was where it began.
+TEST(SlidingChannelEvents, GoOnWithTheSymmetricMemberOfAContinuum) {
+  const PerfectChannel found(20, 17.0);
+  EXPECT_EQ(found.branches.back().record.end->reason, EndReason::stop);
+  const auto events = test::events_of(found.branches);
+  ASSERT_EQ(events.size(), kinds.size() + 1);
+  const Event& spreading = events.back();
+  EXPECT_EQ(spreading.kind, EventKind::contact_spreads);
+  EXPECT_EQ(spreading.guards.size(), 3U);
+  ASSERT_TRUE(spreading.continuum.has_value());
+  EXPECT_EQ(spreading.continuum->parts, 3);
+  EXPECT_EQ(spreading.continuum->length, 0.0);
+  EXPECT_FALSE(spreading.unstable_after.has_value());  // neutral to the second order
+  const SlidingContact& system = found.model.system();
+  const State& last = found.branches.back().arcs.back().to.state;
+  EXPECT_NEAR(last.lambda, 17.0, 1e-12);
+  const ThreeParts parts = three_parts(last);
+  EXPECT_GT(parts.lengths[0], 0.05);
+  for (const double length : parts.lengths) EXPECT_NEAR(length, parts.lengths[0], 1e-10);
+  EXPECT_NEAR(parts.before, parts.behind, 1e-8);
+  EXPECT_GE(system.least_gap(last, 10), -1e-9);
+  State beside = last;  // where neither moments nor forces of the neutral spans are round-off
+  for (Index i = 0; i < beside.x.size(); ++i) beside.x[i] += 1e-3 * std::sin(1.0 + 2.0 * double(i));
+  const SlidingUnknowns index(beside.piece);
+  for (std::size_t span = 0; span < 2; ++span) beside.x[index.holding_force(span)] = 1e-7;
+  EXPECT_LE(check_derivatives(system, beside, 1e-6).worst(), 1e-6);
+}
+
+// A loose span has neither moment nor slope at its ends, a height of 0.3 between them, and is antisymmetric: between
+// its ends and its middle, which are its inflections, it turns by 2 β. By the first integral of the extensible
+// elastica, with the resultant R at the angle β,
+//
+//     ½ EI κ² = R (cos φ − cos β) [1 − R (cos φ + cos β)/2EA],     P = R cos β,
+//
+// φ from −β to β. Quadrature gives its length and height, and a span to a pinned end is half of one. So at P = 17 the
+// sum of the three lengths is 0.16351457603; no β makes P greater than 18.7729113084, where both spans turn at once.
+TEST(SlidingChannelEvents, ReachTheGreatestLoadOfAContinuum) {
+  std::vector<double> sums, greatest;
+  for (const int elements : {20, 40, 80}) {
+    const SlidingModel model = channel(elements);
+    TraceOptions options = until(20.0);
+    options.target_values.push_back(test::stop_at_lambda(17.0));
+    options.target_values.back().stops = false;
+    const auto branches = test::follow(model.system(), model.system().rest(), options, {middle(model)});
+    const auto& arcs = branches.back().arcs;
+    const auto begins = std::find_if(arcs.begin(), arcs.end(), [](const Arc& arc) {
+      return std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) { return event.continuum; });
+    });
+    const auto at_17 =
+        std::find_if(begins, arcs.end(), [](const Arc& arc) { return std::abs(arc.to.state.lambda - 17.0) <= 1e-12; });
+    ASSERT_NE(at_17, arcs.end());
+    double sum = 0.0;
+    for (const double length : three_parts(at_17->to.state).lengths) sum += length;
+    sums.push_back(sum - 0.16351457603);
+    const auto last = std::max_element(
+        begins, arcs.end(), [](const Arc& a, const Arc& b) { return a.to.state.lambda < b.to.state.lambda; });
+    greatest.push_back(last->to.state.lambda / 18.7729113084 - 1.0);
+  }
+  EXPECT_LE(std::abs(sums.back()), 1e-6);
+  EXPECT_GE(test::observed_order({4.0, 2.0, 1.0}, sums), 3.5);
+  EXPECT_LE(std::abs(greatest.back()), 1e-6);
+  EXPECT_GE(test::observed_order({4.0, 2.0, 1.0}, greatest), 3.5);
+}
+
+// In small slopes k² = P Λ/EI, Λ = 1 − P/EA. A span from a pinned end, without moment, to a flat part, without slope
+// and moment, has w = C (sin k s + k s) and is half a wave long, k l = π; one from a flat part on one wall to one on
+// the other is a whole wave long, k l = 2π. Three flat parts leave two of either: L − 6 π/k is the sum of their
+// lengths, but for the square of the slopes, that is of the gap.
+TEST(SlidingChannelEvents, LeaveAllLengthButThreeWavesToThreeFlatParts) {
+  std::vector<double> errors;
+  for (const double gap : {0.02, 0.01}) {
+    const SlidingModel model = SlidingChannel{.members = {{2.0, 40}}, .upper = gap, .lower = gap}.model();
+    const auto branches = test::follow(model.system(), model.system().rest(), until(20.0), {middle(model)});
+    ASSERT_EQ(branches.back().record.end->reason, EndReason::stop);
+    const State& last = branches.back().arcs.back().to.state;
+    ASSERT_NEAR(last.lambda, 20.0, 1e-12);
+    double sum = 0.0;
+    for (const double length : three_parts(last).lengths) sum += length;
+    const double k = std::sqrt(20.0 * (1.0 - 20.0 / 210.0) / 0.175);
+    errors.push_back(sum / (2.0 - 6.0 * pi / k) - 1.0);
+  }
+  EXPECT_LE(std::abs(errors[1]), 1e-2);
+  EXPECT_NEAR(errors[0] / errors[1], 4.0, 0.1);
 }
 
 // A half sine of 0.00176 presses the flat part onto the wall: it never buckles. Touch: 0.430656908534.

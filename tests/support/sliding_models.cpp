@@ -11,7 +11,8 @@
 
 namespace arcwall::test {
 
-SlidingModel::SlidingModel(const StructureBuilder& builder, const std::vector<TestWall>& walls, double first_step)
+SlidingModel::SlidingModel(const StructureBuilder& builder, const std::vector<TestWall>& walls, double first_step,
+                           ContinuumChoice continuum)
     : structure_(builder.build_sliding()) {
   const auto tied = builder.build();
   const double force = std::max(10.0 * tied->force_scale() * std::abs(first_step),
@@ -23,7 +24,7 @@ SlidingModel::SlidingModel(const StructureBuilder& builder, const std::vector<Te
                          .on_face = !wall.on_axis,
                          .strands = std::vector<std::uint8_t>(static_cast<std::size_t>(structure_->strands()), 1)});
   contact_ = std::make_unique<SlidingContact>(*structure_, std::move(obstacles),
-                                              ContactScales{.length = tied->length_scale(), .force = force});
+                                              ContactScales{.length = tied->length_scale(), .force = force}, continuum);
 }
 
 std::shared_ptr<const Observable> SlidingModel::at(const std::string& member, double fraction,
@@ -72,7 +73,7 @@ SlidingModel SlidingChannel::model() const {
   const auto wall = [&](double z) { return slope == 0.0 ? flat_profile(z * cm) : line_profile(z * cm, slope); };
   if (upper) walls.push_back({.name = "upper", .side = Side::above, .profile = wall(*upper + 0.05)});
   if (lower) walls.push_back({.name = "lower", .side = Side::below, .profile = wall(-*lower - 0.05)});
-  return {builder, walls, first_step};
+  return {builder, walls, first_step, continuum};
 }
 
 SlidingModel SlidingFoundation::model() const {

@@ -26,7 +26,8 @@ namespace arcwall::test {
 /// A body with sliding contact: guards are scaled as in a study whose first step is `first_step`.
 class SlidingModel {
  public:
-  SlidingModel(const StructureBuilder& builder, const std::vector<TestWall>& walls, double first_step);
+  SlidingModel(const StructureBuilder& builder, const std::vector<TestWall>& walls, double first_step,
+               ContinuumChoice continuum = ContinuumChoice::symmetric);
 
   const SlidingStructure& structure() const { return *structure_; }
   const SlidingContact& system() const { return *contact_; }
@@ -56,6 +57,7 @@ struct SlidingChannel {
   std::optional<double> upper = 0.15, lower = 0.15;  ///< gaps at rest, at x = 0
   double slope = 0.0;                                ///< of both walls
   bool clamped = false;
+  ContinuumChoice continuum = ContinuumChoice::symmetric;
   double end_moment = 0.0;  ///< at the left end, times λ
   double lateral = 0.0;     ///< along all members in z, times λ [per length]
   Theory theory = Theory::classic;

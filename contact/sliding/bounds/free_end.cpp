@@ -1,5 +1,6 @@
 #include "contact/sliding/bounds/free_end.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -14,28 +15,21 @@ namespace {
 constexpr double out_of_reach = 1.0;     // value of the bounds of an end that does not touch
 constexpr double nearly_upright = 0.02;  // cosine: beyond 0 the section's other corner touches, and nothing is smooth
 
-// A free end that touches an obstacle.
-struct TouchingEnd {
-  const FreeEnd& end;
-  Touch touch;
-};
-
-// The contact of an end of a strand that is closed, if one is and the body does not lie on the obstacle beside it.
-std::optional<TouchingEnd> touching_end(const SlidingSetting& setting, const SlidingState& at, Index strand,
-                                        bool last) {
-  if (at.layout.span_at_end(strand, last) != SlidingContactLayout::Span::free) return std::nullopt;
+// The contact of an end of a strand that is closed, seen from that end, if one is and the body does not lie on the
+// obstacle beside it.
+std::optional<FreeEnd> touching_end(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of) {
+  if (at.layout.span_at_end(of.strand, of.last) != SlidingContactLayout::Span::free) return std::nullopt;
   const std::size_t points = at.layout.points().size();
-  for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
-    const FreeEnd& end = setting.free_ends[j];
-    if (!at.is_closed(points + j)) continue;
-    Touch touch = touch_of_contact(setting, at.layout, points + j);
-    if (end.strand == strand && end.last == last) return TouchingEnd{.end = end, .touch = touch};
-    if (setting.body.same_end_before(strand, last) != std::pair(end.strand, end.last)) continue;
-    touch.strand = strand;
-    touch.position = FreeEnd{.strand = strand, .last = last}.position(at.mesh);
-    return TouchingEnd{.end = end, .touch = touch};
-  }
+  for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
+    if (at.is_closed(points + j) && setting.free_ends[j].is_of(of)) return setting.free_ends[j].seen_from(of);
   return std::nullopt;
+}
+
+// Whether an end is the first of those that are one place to the obstacle.
+bool is_first(const SlidingSetting& setting, const FreeEnd& seen) {
+  return std::any_of(setting.free_ends.begin(), setting.free_ends.end(), [&](const FreeEnd& end) {
+    return end.obstacle == seen.obstacle && end.strand == seen.strand && end.last == seen.last;
+  });
 }
 
 // The sine of the angle between body and wall has this sign at an end where the gap grows from there on.
@@ -43,45 +37,50 @@ double outward(Side side, bool last) { return (side == Side::below) == last ? -1
 
 }  // namespace
 
+double sine_from_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  return outward(setting.obstacles[end.obstacle].surface->side(), end.last) *
+         std::sin(touch_gap(setting, touch_of_end(setting, at.layout, end), at).angle);
+}
+
 double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  const auto touching = touching_end(setting, at, strand_, last_);
-  if (!touching) return out_of_reach;
-  return outward(setting.obstacles[touching->end.obstacle].surface->side(), last_) *
-         std::sin(touch_gap(setting, touching->touch, at).angle);
+  const auto touching = touching_end(setting, at, end());
+  return touching ? sine_from_end(setting, at, *touching) : out_of_reach;
 }
 
 Row LiesDownBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = at.no_slope();
-  const auto touching = touching_end(setting, at, strand_, last_);
+  const auto touching = touching_end(setting, at, end());
   if (!touching) return row;
-  const TouchGap gap = touch_gap(setting, touching->touch, at);
-  const double by_tilt =
-      outward(setting.obstacles[touching->end.obstacle].surface->side(), last_) * std::cos(gap.angle);
-  add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), by_tilt * gap.tilt.gradient,
-              row.dx);
+  const Touch touch = touch_of_end(setting, at.layout, *touching);
+  const TouchGap gap = touch_gap(setting, touch, at);
+  const double by_tilt = outward(setting.obstacles[touching->obstacle].surface->side(), last_) * std::cos(gap.angle);
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_tilt * gap.tilt.gradient, row.dx);
   row.dlambda = by_tilt * gap.tilt.rate;
   return row;
 }
 
 std::vector<Transition> LiesDownBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                    const Arrival& arrival) const {
-  return tips_lie_down(setting, at, arrival.tolerance);
+  return tips_lie_down(setting, at, arrival);
 }
 
 double UprightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  const auto touching = touching_end(setting, at, strand_, last_);
-  if (!touching || touching->touch.offset == 0.0 || touching->end.travel == 0.0) return out_of_reach;
-  if (touching->end.strand != strand_) return out_of_reach;  // the bound of that strand says it
-  return touching->end.travel * std::cos(touching->touch.axis(at).angle) - nearly_upright;
+  const auto touching = touching_end(setting, at, {.strand = strand_, .last = last_});
+  if (!touching || touching->travel == 0.0 || !is_first(setting, *touching)) return out_of_reach;
+  const Touch touch = touch_of_end(setting, at.layout, *touching);
+  if (touch.offset == 0.0) return out_of_reach;
+  return touching->travel * std::cos(touch.axis(at).angle) - nearly_upright;
 }
 
 Row UprightBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = at.no_slope();
-  const auto touching = touching_end(setting, at, strand_, last_);
-  if (!touching || touching->touch.offset == 0.0 || touching->end.strand != strand_) return row;
-  const double turned = -touching->end.travel * std::sin(touching->touch.axis(at).angle);
-  add_at_node(at.mesh.node_unknowns(touching->touch.strand, touching->touch.position), {0.0, 0.0, turned}, row.dx);
-  row.dlambda = turned * at.mesh.node_rate(touching->touch.strand, touching->touch.position)[2];
+  const auto touching = touching_end(setting, at, {.strand = strand_, .last = last_});
+  if (!touching || !is_first(setting, *touching)) return row;
+  const Touch touch = touch_of_end(setting, at.layout, *touching);
+  if (touch.offset == 0.0) return row;
+  const double turned = -touching->travel * std::sin(touch.axis(at).angle);
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), {0.0, 0.0, turned}, row.dx);
+  row.dlambda = turned * at.mesh.node_rate(touch.strand, touch.position)[2];
   return row;
 }
 

@@ -4,6 +4,9 @@
 
 namespace arcwall::sliding {
 
+/// The sine of the angle at which the body leaves an obstacle from an end on that touches it; < 0 where it would enter.
+double sine_from_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
 /// How fast the gap grows from a free end on that touches: behind the bound a tip lies down on the wall, or contact
 /// moves inside. Positive where the end does not touch.
 class LiesDownBound final : public ValidityBound {
@@ -14,8 +17,7 @@ class LiesDownBound final : public ValidityBound {
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 
-  Index strand() const { return strand_; }
-  bool last() const { return last_; }
+  StrandEnd end() const { return {.strand = strand_, .last = last_}; }
 
  private:
   Index strand_;

@@ -10,9 +10,7 @@ namespace arcwall::sliding {
 double TailBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const double s = at.s(static_cast<Index>(point_));
   const double length = last_ ? setting.body.length(strand_) - s : s;
-  const bool tip = setting.body.is_tip(strand_, last_);
-  const double shortest = tip ? shortest_tail(setting.body, strand_) : shortest_span(setting.body, strand_);
-  return (length - shortest) / setting.scales.length;
+  return (length - shortest_tail(setting.body, strand_, last_)) / setting.scales.length;
 }
 
 Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
@@ -23,7 +21,7 @@ Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
 
 std::vector<Transition> TailBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {
-  if (!setting.body.is_tip(strand_, last_)) return parts_gather_at_clamps(setting, at, arrival.tolerance);
+  if (!setting.body.takes_contact(strand_, last_)) return parts_gather_at_clamps(setting, at, arrival.tolerance);
   if (!at.is_closed(point_)) return {without_point(setting, at, arrival.forward, point_)};
   return contacts_come_to_tips(setting, at, arrival.tolerance);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/output/events_text.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
 #include "tests/apps/output/sample_record.hpp"
@@ -65,6 +66,17 @@ TEST(EventsJson, ADisplacementLimitNamesItsMonitorAndABranchPointItsType) {
   EXPECT_EQ(events[1]["type"], "one-sided");
   EXPECT_EQ(events[1]["mode"].dump(), R"({"mid":1.0,"turn":0.5})");
   EXPECT_FALSE(events[1].contains("contact"));
+}
+
+// Of a change of contact, and of an end, behind which the equilibria form a continuum.
+TEST(EventsJson, AContinuumIsAFamily) {
+  Record record = sample_record();
+  record.events[0].kind = EventKind::contact_spreads;
+  record.events[0].continuum = Continuum{.parts = 3, .energy = -4.5, .length = 0.25};
+  const Json events = events_json(record)["events"];
+  EXPECT_EQ(events[0]["family"].dump(), R"({"parts":3,"energy":-4.5,"length":0.25})");
+  EXPECT_FALSE(events[1].contains("family"));
+  EXPECT_TRUE(event_detail(record.events[0]).ends_with("of 3 lengths only the sum is determined"));
 }
 
 TEST(EventsJson, WhatIsUnknownOrNotFiniteIsNull) {

@@ -135,6 +135,7 @@ TEST(DeckReader, ReadsPathAndMonitors) {
   EXPECT_EQ(deck.path.branches, BranchPolicy::all);
   EXPECT_EQ(deck.path.watch, (std::vector<std::string>{"mid", "end"}));
   EXPECT_EQ(deck.path.events, EventSearch::detect);
+  EXPECT_EQ(deck.path.continuum, ContinuumChoice::stop);
   EXPECT_EQ(deck.path.stop.bounds.at(0).low, -0.16);
   EXPECT_EQ(deck.path.stop.contacts, 40);
   EXPECT_EQ(deck.monitors.at(0).component, Component::face_below_z);

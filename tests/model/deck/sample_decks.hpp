@@ -221,6 +221,7 @@ branches = "all"
 depth = 3
 watch = ["mid", "end"]
 events = "detect"
+continuum = "stop"
 [path.stop]
 mid = [-0.16, 0.16]
 lambda = [-1, 10.0]
