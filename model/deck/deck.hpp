@@ -507,6 +507,7 @@ struct Path {
   int depth = 2;
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
   EventSearch events = EventSearch::locate;
+  std::vector<std::string> sensitivity{};  ///< keys of numbers, as in `--set`, by which events have derivatives
   Stop stop{};
 
   bool operator==(const Path&) const = default;

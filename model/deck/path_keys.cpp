@@ -143,6 +143,15 @@ void path_keys(Keys& keys, Path& path) {
       optional("events"), path.events, events_words,
       "`\"locate\"`: limit points and turning points become points of the path; `\"detect\"`: reported at the end "
       "of the step that holds them; `\"none\"`: not looked for. Changes of contact are landed on always");
+  bool landing = false;
+  if (keys.flag(optional("landing"), landing,
+                "`true` is refused: where a structure falls to behind an event is not looked for") &&
+      landing)
+    keys.report("landing", "where a structure falls to behind an event is not looked for",
+                "leave landing out, and land on the load with land = { lambda = [...] }");
+  keys.any_texts(optional("sensitivity", "none"), path.sensitivity,
+                 "numbers of the deck, as in `--set`, by which each located event has a derivative: "
+                 "`[\"wall.upper.profile.z\", \"material.m.E\"]`, see [answers.md](answers.md)");
   keys.table(
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
   check_method(keys, path, lands_on_lambda);
