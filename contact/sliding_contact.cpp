@@ -200,6 +200,24 @@ State SlidingContact::adopted(const State& state) const {
   return {.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
 }
 
+std::optional<State> SlidingContact::taken_over(const State& state) const {
+  const SlidingState at(state);
+  const ElementsPerSegment& elements = at.mesh.elements_per_segment();
+  const std::size_t ends = at.contacts() - at.layout.points().size();
+  if (static_cast<Index>(elements.size()) != body().strands() || ends != setting_->free_ends.size())
+    return std::nullopt;
+  for (std::size_t strand = 0; strand < elements.size(); ++strand) {
+    const auto loads = static_cast<Index>(body().point_loads(static_cast<Index>(strand)).size());
+    for (const MeshSegment& segment : elements[strand])
+      if (segment.load >= loads) return std::nullopt;
+  }
+  const auto mesh = body().mesh(elements);
+  if (mesh->unknowns() != at.mesh.unknowns() || mesh->breakpoints() != at.mesh.breakpoints()) return std::nullopt;
+  const auto here = std::make_shared<SlidingContactLayout>(body(), mesh, at.layout.points(), at.layout.origin());
+  if (here->bounds().size() != at.layout.bounds().size()) return std::nullopt;
+  return State{.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
+}
+
 std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const ElementsPerSegment& elements,
                                                                       std::vector<SlidingContactLayout::Point> points,
                                                                       const Vector& origin) const {

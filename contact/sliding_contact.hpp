@@ -73,6 +73,10 @@ class SlidingContact final : public System, public ContactQuery {
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
+  /// The state with the same unknowns, of a body among obstacles that differs from this one in numbers alone. Empty
+  /// where other numbers make other strands, ends or bounds, so that the unknowns do not mean the same.
+  std::optional<State> taken_over(const State& state) const;
+
   /// The layout of so many elements and these points that began at these places; null if they do not belong together.
   std::shared_ptr<const SlidingContactLayout> layout_of(const ElementsPerSegment& elements,
                                                         std::vector<SlidingContactLayout::Point> points,

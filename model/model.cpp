@@ -9,6 +9,7 @@
 #include "model/build_contact.hpp"
 #include "model/build_path.hpp"
 #include "model/build_structure.hpp"
+#include "model/sensitivities.hpp"
 
 namespace arcwall {
 
@@ -232,6 +233,7 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   structure_->nodal_terms().for_each_moved_support(
       [&](Index freedom, double rate) { moved_.push_back({.rate = rate, .reaction = body_->reaction(freedom)}); });
   options_ = trace_options(deck_, read_off, monitors_, problems);
+  if (stage_ == 0) check_sensitivity(whole_deck_, problems);
   problems.raise();
 
   for (const std::string& name : deck_.path.watch)

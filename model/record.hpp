@@ -49,6 +49,14 @@ struct RecordContact {
   double x = 0.0;  ///< present, of the contact point [length]
 };
 
+/// How λ of an event depends on a number of the deck.
+struct RecordSensitivity {
+  std::string key{};              ///< as the deck names it
+  double value = 0.0;             ///< of the number
+  std::optional<double> slope{};  ///< dλ/dvalue [1 over the number's unit]; empty: there is none, or none is known
+  std::string why_none{};         ///< then
+};
+
 struct RecordEvent {
   Index id = 0;  ///< counts from 0 over all branches
   EventKind kind = EventKind::start;
@@ -71,6 +79,7 @@ struct RecordEvent {
   bool discretisation = false;              ///< of a branch point that only contact at nodes makes
   std::vector<Index> branches{};            ///< that leave a branch point
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
+  std::vector<RecordSensitivity> sensitivity{};  ///< by the deck's numbers of `path.sensitivity`, in their order
 };
 
 struct RecordBranch {

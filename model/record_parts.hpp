@@ -28,11 +28,16 @@ void parts(Archive& archive, RecordContact& contact) {
 }
 
 template <typename Archive>
+void parts(Archive& archive, RecordSensitivity& sensitivity) {
+  archive(sensitivity.key, sensitivity.value, sensitivity.slope, sensitivity.why_none);
+}
+
+template <typename Archive>
 void parts(Archive& archive, RecordEvent& event) {
   archive(event.id, event.kind, event.branch, event.step, event.arc, event.lambda, event.monitors,
           event.unstable_before, event.unstable_after, event.unstable_dead, event.residual, event.localised,
           event.contacts, event.monitor, event.branch_end, event.branch_type, event.multiplicity, event.suspected,
-          event.discretisation, event.branches, event.mode);
+          event.discretisation, event.branches, event.mode, event.sensitivity);
 }
 
 template <typename Archive>

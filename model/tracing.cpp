@@ -9,6 +9,7 @@
 #include "model/build_path.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
+#include "model/sensitivities.hpp"
 #include "model/step_ledger.hpp"
 
 namespace arcwall {
@@ -18,9 +19,12 @@ namespace {
 // Every branch, one after the other.
 class PathTracing final : public Tracing {
  public:
-  PathTracing(const Model& model, Record& record, const State& start, StepLedger ledger)
+  // `ended_stages`: the λ at which the stages before the model's have ended.
+  PathTracing(const Model& model, Record& record, const State& start, StepLedger ledger,
+              std::vector<double> ended_stages = {})
       : model_(model),
         record_(record),
+        sensitivities_(model, std::move(ended_stages)),
         first_(static_cast<int>(record.branches.size())),
         explorer_(model.system(), start, options(ledger), model.watched(), model.explore()) {}
 
@@ -38,6 +42,9 @@ class PathTracing final : public Tracing {
       recorder_.emplace(model_, record_, begun);
     }
     recorder_->add(step->arc);
+    const std::size_t first_event = record_.events.size() - step->arc.events.size();
+    for (std::size_t i = 0; i < step->arc.events.size(); ++i)
+      record_.events[first_event + i].sensitivity = sensitivities_.of(step->arc, step->arc.events[i]);
     return true;
   }
 
@@ -90,6 +97,7 @@ class PathTracing final : public Tracing {
 
   const Model& model_;
   Record& record_;
+  Sensitivities sensitivities_;
   int first_;  // of the branches that the explorer counts from 0
   Explorer explorer_;
   std::optional<Recorder> recorder_;
@@ -133,7 +141,9 @@ class StageTracing final : public Tracing {
  private:
   void begin(Index stage, const State& start) {
     stage_ = stage;
-    tracing_ = std::make_unique<PathTracing>(model_.at_stage(stage), record_, start, ledger_);
+    const std::vector<double>& ended = model_.ended_stages();
+    tracing_ = std::make_unique<PathTracing>(model_.at_stage(stage), record_, start, ledger_,
+                                             std::vector(ended.begin(), ended.begin() + stage));
   }
 
   // A bound or an event of `stop` ends a stage; what ends it otherwise ends the run.

@@ -18,6 +18,7 @@ Command run_command();
 Command resume_command();
 Command report_command();
 Command verify_command();
+Command converge_command();
 Command check_command();
 Command examples_command();
 

@@ -7,6 +7,7 @@
 
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/json_lines.hpp"
+#include "apps/converge/convergence_files.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
@@ -133,6 +134,13 @@ void remove_pictures(const OutputFolder& folder) {
   }
 }
 
+// The table of events, with error bars where a study of the deck lies in the folder.
+std::string report_of_events(const OutputFolder& folder, const Session& run) {
+  const StudiedDeck deck{.text = run.description().deck_text, .assignments = run.description().assignments};
+  return events_text(run.record(), names_of_lambda(run.model().whole_deck())) +
+         error_bars_text(folder.path(), run.record(), deck);
+}
+
 // result.json comes last: where it is, the others are, but for the pictures, which can be many.
 void write_files(const OutputFolder& folder, const Session& run, const CallOptions& options, const RunSeconds& seconds,
                  ExitStatus status) {
@@ -145,7 +153,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   files.write("path.csv", path_csv(record, description.units));
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
-  files.write("events.txt", events_text(record, names_of_lambda(run.model().whole_deck())));
+  files.write("events.txt", report_of_events(folder, run));
   if (pictures) files.write("report.html", ReportPage(record, report_content(run.model(), record, drawn)).pieces());
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
   files.write("deck.toml", deck::to_toml(run.model().whole_deck()));
@@ -221,7 +229,7 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
   }
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
-  if (options.report == Report::table) std::cout << events_text(record, names_of_lambda(run.model().whole_deck()));
+  if (options.report == Report::table) std::cout << report_of_events(folder, run);
   say_how_it_ended(stopped, run, folder.path().string());
   return status;
 }

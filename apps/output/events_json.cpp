@@ -33,6 +33,18 @@ OrderedJson family(const Continuum& continuum) {
   return {{"parts", continuum.parts}, {"energy", number(continuum.energy)}, {"length", number(continuum.length)}};
 }
 
+// Keys with their derivatives, and why those that are null are.
+void add_sensitivity(const std::vector<RecordSensitivity>& sensitivity, OrderedJson& json) {
+  if (sensitivity.empty()) return;
+  OrderedJson slopes = OrderedJson::object(), reasons = OrderedJson::object();
+  for (const RecordSensitivity& one : sensitivity) {
+    slopes[one.key] = one.slope ? number(*one.slope) : OrderedJson(nullptr);
+    if (!one.slope) reasons[one.key] = one.why_none;
+  }
+  json["sensitivity"] = std::move(slopes);
+  if (!reasons.empty()) json["no_sensitivity"] = std::move(reasons);
+}
+
 OrderedJson branch(const Record& record, const RecordBranch& branch) {
   OrderedJson json;
   json["id"] = branch.id;
@@ -88,6 +100,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
     json["branches"] = event.branches;
   }
   if (!event.mode.empty()) json["mode"] = monitors(record, event.mode);
+  add_sensitivity(event.sensitivity, json);
   if (event.branch_end) json.update(end_json(*event.branch_end));
   return json;
 }

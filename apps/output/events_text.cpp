@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/text_table.hpp"
 #include "model/event_names.hpp"
@@ -127,6 +128,11 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
   text += table(record) + "\n";
   if (const std::string note = uncertainty_note(record); !note.empty()) text += note + "\n\n";
   text += tree(record, std::nullopt, 0);
+  if (const auto rows = sensitivity_rows(record); !rows.empty())
+    text +=
+        "\nWhat λ of the events depends on: its derivative by a number n of the deck, and by how many per cent it "
+        "changes where n grows by one\n\n" +
+        text_table(sensitivity_columns(), rows);
   return text;
 }
 

@@ -35,9 +35,11 @@ std::string bytes_of(const fs::path& file) {
 // The deck that filled a folder, by its result.json, or of a run that has not ended by its checkpoint; empty if that
 // cannot be told.
 std::string filled_by(const fs::path& folder) {
-  if (std::error_code ignored; !fs::exists(folder / "result.json", ignored))
+  std::error_code ignored;
+  const bool has_result = fs::exists(folder / "result.json", ignored);
+  if (!has_result && !fs::exists(folder / "convergence.json", ignored))
     return deck_of_checkpoint(bytes_of(folder / "checkpoint"));
-  const std::string text = bytes_of(folder / "result.json");
+  const std::string text = bytes_of(folder / (has_result ? "result.json" : "convergence.json"));
   const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
   const auto file = nlohmann::json::json_pointer("/deck/file");
   if (!result.is_object() || !result.contains(file) || !result.at(file).is_string()) return {};
@@ -48,7 +50,7 @@ std::string filled_by(const fs::path& folder) {
 bool is_leftover(const fs::path& file) {
   static const std::regex hidden(
       R"(\.(path\.csv|contacts\.csv|events\.json|events\.txt|deck\.toml|result\.json|report\.html|shapes\.pvd|)"
-      R"(steps\.jsonl|checkpoint|probe|([0-9]+|walls)\.vtu)\.[0-9]+)");
+      R"(steps\.jsonl|checkpoint|probe|convergence\.(json|txt)|([0-9]+|walls)\.vtu)\.[0-9]+)");
   std::error_code ignored;
   return std::regex_match(file.filename().string(), hidden) && fs::is_regular_file(file, ignored);
 }

@@ -18,6 +18,7 @@
 #include "apps/output/path_lines.hpp"
 #include "apps/output/report_data.hpp"
 #include "apps/output/report_parts.hpp"
+#include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
 #include "model/deck/writer.hpp"
@@ -288,6 +289,26 @@ std::string event_note(const Record& record) {
   return note.empty() ? "" : "<p class=\"note\">" + escaped(note) + "</p>";
 }
 
+// What λ of the events depends on; a section of its own where the deck asks for it.
+std::string sensitivities(const Record& record) {
+  const auto rows = sensitivity_rows(record);
+  if (rows.empty()) return "";
+  const std::vector<TableColumn> columns = sensitivity_columns();
+  const auto is_figure = [&](std::size_t i) { return columns[i].side == TableColumn::Side::right; };
+  std::string text =
+      "<section aria-labelledby=\"sensitivity-title\"><h2 id=\"sensitivity-title\">What λ depends on</h2>"
+      "<div class=\"scroll\"><table id=\"sensitivity\"><thead><tr>";
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    text += fmt::format("<th{}>{}</th>", is_figure(i) ? " class=\"figure\"" : "", escaped(columns[i].title));
+  text += "</tr></thead><tbody>\n";
+  for (const std::vector<std::string>& row : rows) {
+    text += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) text += is_figure(i) ? figure_cell(row[i]) : cell(plain(row[i], 400));
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div></section>";
+}
+
 // The branches that leave a branch, and those that leave them in turn.
 std::string branch_tree(const Record& record, std::optional<Index> parent) {
   std::string items;
@@ -385,6 +406,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
               {"event_titles", event_titles(record)},
               {"event_rows", event_rows(record)},
               {"event_note", event_note(record)},
+              {"sensitivities", sensitivities(record)},
               {"branches", branch_tree(record, std::nullopt)},
               {"deck", escaped(plain(content.deck_text))},
               {"facts", facts(content)},

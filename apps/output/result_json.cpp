@@ -11,13 +11,13 @@ namespace arcwall {
 
 using OrderedJson = nlohmann::ordered_json;
 
-namespace {
-
-constexpr int schema_version = 1;
-
 std::string crc32_text(std::string_view text) {
   return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
+
+namespace {
+
+constexpr int schema_version = 1;
 
 OrderedJson model_sizes(const Model& model) {
   const MultiplierContact* contact = model.contact();

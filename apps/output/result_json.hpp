@@ -20,4 +20,7 @@ struct RunSeconds {
 nlohmann::ordered_json result_json(const Model& model, std::string_view deck_text, const Record& record,
                                    const RunSeconds& seconds, int status);
 
+/// The checksum by which a deck's text is known again.
+std::string crc32_text(std::string_view text);
+
 }  // namespace arcwall

@@ -509,6 +509,7 @@ struct Path {
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
   EventSearch events = EventSearch::locate;
   ContinuumChoice continuum = ContinuumChoice::symmetric;
+  std::vector<std::string> sensitivity{};  ///< keys of numbers, as in `--set`, by which events have derivatives
   Stop stop{};
 
   bool operator==(const Path&) const = default;

@@ -119,7 +119,7 @@ bool KeyReader::word(const Key& key, const std::vector<std::string>& words, std:
   return known;
 }
 
-// Words or names.
+// Words, names or any texts.
 bool KeyReader::list(const Key& key, const Declared& declared, std::vector<std::string>& values) {
   const Value* array = table_.find(key.name, key.presence);
   if (array == nullptr) return false;
@@ -128,7 +128,8 @@ bool KeyReader::list(const Key& key, const Declared& declared, std::vector<std::
   bool right = table_.references(key.name, key.presence, found);
   const std::string path = table_.path_of(key.name);
   for (const Reference& one : found) {
-    const bool known = declared.name_of ? is_one_of(one, path, *declared.name_of) : contains(declared.words, one.text);
+    const bool known = declared.any_text || (declared.name_of ? is_one_of(one, path, *declared.name_of)
+                                                              : contains(declared.words, one.text));
     if (known) values.push_back(one.text);
     if (!known && !declared.name_of) table_.report_unknown(one, path, std::string(declared.unknown), declared.words);
     right = right && known;

@@ -146,6 +146,11 @@ class Keys {
     return declare(key, &values, {.meaning = meaning, .words = known, .unknown = unknown});
   }
 
+  /// Any texts, each once; an empty list is none.
+  bool any_texts(const Key& key, std::vector<std::string>& values, std::string_view meaning) {
+    return declare(key, &values, {.meaning = meaning, .any_text = true, .empty = EmptyList::means_none});
+  }
+
   // --- tables -------------------------------------------------------------------------------------------------------
 
   /// A table of its own.
@@ -252,6 +257,7 @@ class Keys {
     IntegerRange range{};
     std::vector<std::string> words{};
     std::string_view unknown{};  ///< what is said of other words
+    bool any_text = false;       ///< of a list, whose texts need not be words or names
     std::optional<Named> name_of{};
     EmptyList empty = EmptyList::refused;
   };

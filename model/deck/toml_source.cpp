@@ -178,12 +178,7 @@ std::optional<Assignment> taken_apart(const std::string& text, const std::string
   return result;
 }
 
-Value* element(Value& array, const std::string& part) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  if (error != std::errc{} || end != part.data() + part.size() || index >= array.items.size()) return nullptr;
-  return &array.items[index];
-}
+Value* element(Value& array, const std::string& part) { return const_cast<Value*>(element_of(array, part)); }
 
 // The value with that key in a table (made if there is none) or an array, or null if there is no such place.
 Value* child(Value& parent, const std::string& part, const Position& position) {
@@ -196,6 +191,19 @@ Value* child(Value& parent, const std::string& part, const Position& position) {
 }
 
 }  // namespace
+
+const Value* element_of(const Value& array, const std::string& part) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (error == std::errc{} && end == part.data() + part.size())
+    return index < array.items.size() ? &array.items[index] : nullptr;
+  const auto is_named = [&](const Value& item) {
+    const Value* const name = item.kind == Value::Kind::table ? find(item, "name") : nullptr;
+    return name != nullptr && name->kind == Value::Kind::string && name->string == part;
+  };
+  const auto named = std::find_if(array.items.begin(), array.items.end(), is_named);
+  return named == array.items.end() ? nullptr : &*named;
+}
 
 Value parse_toml(std::string_view text, const std::string& file) { return converted(parsed(text, file)); }
 
@@ -234,7 +242,7 @@ void assign(Value& root, const std::string& assignment, int number) {
       fail({.file = origin,
             .key = path,
             .message = shown(*target) + " has no part " + key_text(key),
-            .cure = "name a key of the deck; elements of an array count from 0"});
+            .cure = "name a key of the deck; elements of an array count from 0, or go by their name"});
     }
     target = next;
     path += (path.empty() ? "" : ".") + key_text(key);

@@ -14,8 +14,12 @@ Value parse_toml(std::string_view text, const std::string& file);
 /// The bytes of a regular file of at most 16 MB; InputError otherwise.
 std::string read_text_file(const std::string& file);
 
-/// Replaces or adds one value: `assignment` is `dotted.key=value`, the value as in TOML; a number among the parts of
-/// the key is an index from 0 where there is an array. What it puts in carries `number` in its positions.
+/// What a part of a dotted key means in an array: the element with that index, from 0, or the table with that `name`.
+/// Null if there is none.
+const Value* element_of(const Value& array, const std::string& part);
+
+/// Replaces or adds one value: `assignment` is `dotted.key=value`, the value as in TOML; where there is an array a part
+/// of the key is an index from 0, or the name of one of its tables. What it puts in carries `number` in its positions.
 void assign(Value& root, const std::string& assignment, int number);
 
 }  // namespace arcwall::deck

@@ -242,6 +242,9 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
                                 "report",
                                 "report a b",
                                 "verify",
+                                "converge",
+                                "converge truss.toml --levels 1",
+                                "converge truss.toml --factor 1",
                                 "''",
                                 "run ''",
                                 "--quiet truss.toml",
@@ -257,7 +260,7 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
 }
 
 TEST_F(ProgramTest, HelpBeginsWithAnExample) {
-  for (const char* command : {"", "run", "resume", "report", "verify", "check", "examples"}) {
+  for (const char* command : {"", "run", "resume", "report", "verify", "converge", "check", "examples"}) {
     const Outcome outcome = run(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.out.find("  trace-path " + std::string(command)), 0u) << outcome.out;

@@ -1,0 +1,318 @@
+#include "continuation/answers/event_derivative.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "core/algebra/bordered_solver.hpp"
+#include "core/central_difference.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double longest_step =
+    6.4e-2;                          // h of differences of J along a direction [path metric]; the best is looked for,
+constexpr int steps = 7;             // each half as long as the one before
+constexpr double vanishing = 1e-8;   // guards below this are zero at the event, which is landed on
+constexpr double negligible = 1e-9;  // of what changes a guard: it does not tell
+constexpr double agreeing = 1e-6;    // relative difference of what several guards say
+constexpr double persistent = 1e-6;  // of the most that it could be wᵀ F_κ is zero
+constexpr double roundoff = 1e-10;   // of the loads in what a step of the number changes
+constexpr double symmetric = 1e-6;   // a ratio of two coefficients below which the first is zero
+constexpr double singular_beside = 1e-7;  // where K is singular to the last digit its null vectors come from beside
+
+bool is_change_of_contact(EventKind kind) {
+  switch (kind) {
+    case EventKind::contact_closes:
+    case EventKind::contact_opens:
+    case EventKind::contact_spreads:
+    case EventKind::contact_gathers:
+    case EventKind::contact_passes:
+      return true;
+    case EventKind::start:
+    case EventKind::end:
+    case EventKind::limit_point:
+    case EventKind::contact_limit_point:
+    case EventKind::displacement_limit:
+    case EventKind::branch_point:
+    case EventKind::user:
+      break;
+  }
+  return false;
+}
+
+// Several directions leave a change of contact. On a smooth arc a branch point is one-sided where a contact forbids one
+// of the two.
+bool is_at_corner(const BranchPoint& point) { return point.type == BranchType::one_sided && point.modes.empty(); }
+
+// Also where the direction that is taken keeps the old contacts.
+bool is_at_change_of_contact(const Arc& arc) {
+  return std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) {
+    return is_change_of_contact(event.kind) || (event.branching && is_at_corner(*event.branching));
+  });
+}
+
+// The branch point on the smooth arc's end; null if there is none.
+const BranchPoint* crossing_at(const Arc& arc) {
+  for (const Event& event : arc.events)
+    if (event.branching && !is_at_corner(*event.branching)) return event.branching.get();
+  return nullptr;
+}
+
+bool turns(const Arc& arc) {
+  return std::any_of(arc.events.begin(), arc.events.end(),
+                     [](const Event& event) { return event.kind == EventKind::limit_point; });
+}
+
+// J k_x + F_λ k_λ at a state.
+Vector directional(const Equations& system, const State& state, const Direction& k, Linearization& workspace) {
+  system.linearize(state, workspace);
+  return product(workspace, k.dx).col(0) + k.dlambda * workspace.F_lambda;
+}
+
+// dF/dκ, and d(J k_x + F_λ k_λ)/dκ, at the same state.
+Vector residual_rate(const std::vector<SystemSample>& samples) {
+  Vector sum, F;
+  for (const SystemSample& sample : samples) {
+    F.resize(sample.state.x.size());
+    sample.system->residual(sample.state, F);
+    if (sum.size() == 0) sum = Vector::Zero(F.size());
+    sum += sample.weight * F;
+  }
+  return sum;
+}
+
+Vector directional_rate(const std::vector<SystemSample>& samples, const Direction& k) {
+  Vector sum = Vector::Zero(k.dx.size());
+  for (const SystemSample& sample : samples) {
+    Linearization of_sample;
+    sum += sample.weight * directional(*sample.system, sample.state, k, of_sample);
+  }
+  return sum;
+}
+
+// Σ weight f(offset · h)/h, at states along d
+template <typename Function>
+auto difference_along(const Metric& metric, const State& state, const Direction& d, double part, const Function& f) {
+  // Forces alone have no length, and equations are linear in them.
+  const double length = metric.norm(d), h = length > 0.0 ? part / length : 1.0 / d.dx.cwiseAbs().maxCoeff();
+  std::decay_t<decltype(f(state))> sum = f(state);
+  sum *= 0.0;
+  for (const DifferencePlace& place : central_difference)
+    sum += place.weight / h * f(moved(state, d, place.offset * h));
+  return sum;
+}
+
+// Long steps have an error of their own, where contacts slide over bends or elements are slender, short ones that of
+// round-off: of the two steps in a row whose derivatives differ least the longer one is taken.
+template <typename Function>
+double with_best_step(const Function& derivative) {
+  double best = std::nan(""), least = infinity, before = derivative(longest_step);
+  for (int i = 1; i < steps; ++i) {
+    const double now = derivative(std::ldexp(longest_step, -i));
+    if (std::abs(now - before) < least) {
+      least = std::abs(now - before);
+      best = before;
+    }
+    before = now;
+  }
+  return best;
+}
+
+// The length of a step of the number.
+double step_of(const std::vector<SystemSample>& samples) {
+  double greatest = 0.0;
+  for (const SystemSample& sample : samples) greatest = std::max(greatest, std::abs(sample.weight));
+  return 1.0 / greatest;
+}
+
+EventDerivative none(std::string why) { return {.value = std::nullopt, .why_none = std::move(why)}; }
+
+EventDerivative known(double value) {
+  if (!std::isfinite(value)) return none("the equations are singular at the event");
+  return {.value = value, .why_none = {}};
+}
+
+}  // namespace
+
+EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const Event& event, const Observable* turning,
+                                   double lambda_scale, const MakeFactorization& factorization)
+    : system_(system),
+      metric_(system.weights(event.state.piece), lambda_scale),
+      corrector_(system, {}, lambda_scale, factorization),
+      state_(event.state),
+      turning_(turning) {
+  const BranchPoint* const crossing = crossing_at(arc);
+  const bool corner = is_at_change_of_contact(arc);
+  if (event.suspected) {
+    why_none_ = "the event is only suspected";
+  } else if (corner) {
+    condition_ = Condition::guards;
+  } else if (event.kind == EventKind::contact_limit_point) {
+    why_none_ = "λ turns where the mesh changes";
+  } else if (crossing != nullptr) {
+    condition_ = Condition::crossing;
+    if (crossing->multiplicity > 1 || (turns(arc) && crossing->ways.empty()))
+      why_none_ = "several modes are critical at once";
+    else if (crossing->modes.empty())
+      why_none_ = "the critical mode is not known";
+  } else if (event.kind == EventKind::displacement_limit) {
+    condition_ = Condition::turning;
+  }
+  if (!why_none_.empty()) return;
+  const bool begun = condition_ == Condition::crossing ? begin_crossing(*crossing) : begin_regular(arc.to.tangent);
+  if (!begun && why_none_.empty()) why_none_ = "the equations are singular at the event";
+}
+
+// Tangent and, of events of contact, the guards that vanish; of a turning monitor the rate of its rate.
+bool EventDerivatives::begin_regular(const Direction& along) {
+  if (along.dx.size() != state_.x.size()) return false;
+  CorrectorResult here = corrector_.inspect(state_, metric_, along);
+  if (!here.converged()) return false;
+  tangent_ = std::move(here.tangent);
+  if (condition_ == Condition::guards) {
+    const Vector guards = system_.guards(state_);
+    for (Index j = 0; j < guards.size(); ++j)
+      if (std::abs(guards[j]) <= vanishing) guards_.push_back(j);
+  }
+  if (condition_ == Condition::turning) turning_along_ = turning_rate(tangent_, Vector::Zero(state_.x.size()), 0.0);
+  return true;
+}
+
+// The left null vector w of J and the null vectors (φ, 0) and (v, 1) of [J F_λ].
+bool EventDerivatives::begin_crossing(const BranchPoint& point) {
+  std::optional<NearNull> pairs;
+  for (const double beside : {0.0, singular_beside, -singular_beside}) {
+    const State here = moved(state_, point.along, beside);
+    corrector_.inspect(here, metric_, point.along);
+    if ((pairs = corrector_.near_null(here, metric_.weights(), 1))) break;
+  }
+  if (!pairs || pairs->vectors->cols() < 1) return false;
+  left_ = corrector_.left_null(pairs->vectors->col(0));
+  auto mode = corrector_.right_null(left_);
+  if (!mode) return false;
+  kernel_.push_back({.dx = std::move(*mode), .dlambda = 0.0});
+  const Vector F_lambda = corrector_.factorized().equations().F_lambda;
+  auto response = corrector_.response_across(metric_.row(kernel_.front()), -F_lambda);
+  if (!response) return false;
+  kernel_.push_back({.dx = std::move(*response), .dlambda = 1.0});
+  load_work_ = greatest_work(F_lambda) * std::max(std::abs(state_.lambda), metric_.lambda_scale());
+  for (Index i = 0; i < 2; ++i)
+    for (Index j = 0; j <= i; ++j)
+      bend_(i, j) = bend_(j, i) = bend(kernel_[static_cast<std::size_t>(i)], kernel_[static_cast<std::size_t>(j)]);
+  is_symmetric_ = point.type == BranchType::symmetric || std::abs(bend_(0, 0)) <= symmetric * std::abs(bend_(0, 1));
+  return bend_.allFinite();
+}
+
+// D²F[k, d]
+Vector EventDerivatives::second_derivative(const Direction& k, const Direction& d, double h) {
+  if (metric_.norm(d) == 0.0 && d.dx.isZero(0.0)) return Vector::Zero(state_.x.size());
+  return difference_along(metric_, state_, d, h,
+                          [&](const State& at) { return directional(system_, at, k, workspace_); });
+}
+
+// wᵀ D²F[k, d]
+double EventDerivatives::bend(const Direction& k, const Direction& d) {
+  return with_best_step([&](double h) { return left_.dot(second_derivative(k, d, h)); });
+}
+
+// The change of the equilibrium that answers f, across the path:  J δx + F_λ δλ = f,  ⟨t, δ⟩ = 0
+Direction EventDerivatives::along_path(const Vector& f) {
+  auto solution = corrector_.factorized().solver().solve(metric_.row(tangent_), f, 0.0);
+  if (!solution) return {.dx = Vector::Constant(f.size(), std::nan("")), .dlambda = std::nan("")};
+  return std::move(*solution);
+}
+
+EventDerivative EventDerivatives::by(const std::vector<SystemSample>& samples) {
+  if (!why_none_.empty()) return none(why_none_);
+  const Vector F_kappa = residual_rate(samples);
+  if (condition_ == Condition::crossing) return by_crossing(F_kappa, samples);
+  const Direction response = along_path(-F_kappa);
+  switch (condition_) {
+    case Condition::guards:
+      return by_guards(response, samples);
+    case Condition::turning:
+      return by_turning(response, samples);
+    case Condition::limit:  // along the path λ does not change
+    case Condition::crossing:
+      break;
+  }
+  return known(response.dlambda);
+}
+
+// Where λ moves along the path by −t_λ (dg/dκ)/(dg/ds), the guard stays zero. Those that vanish together must agree,
+// else they do so at this value of the number alone.
+EventDerivative EventDerivatives::by_guards(const Direction& response, const std::vector<SystemSample>& samples) const {
+  const double size = step_of(samples);
+  std::optional<double> found;
+  for (const Index j : guards_) {
+    const Row row = system_.guard_gradient(state_, j);
+    const double rate = apply(row, tangent_);
+    double by_number = apply(row, response);
+    for (const SystemSample& sample : samples) by_number += sample.weight * sample.system->guard(sample.state, j);
+    if (std::abs(rate) <= negligible && std::abs(by_number) * size <= negligible) continue;
+    const double moves = response.dlambda - by_number / rate * tangent_.dlambda;
+    if (std::abs(rate) <= negligible) return none("a contact is only touched there");
+    const double scale = std::abs(moves) + std::abs(found.value_or(moves)) + negligible / size;
+    if (found && std::abs(*found - moves) > agreeing * scale)
+      return none("contacts change together there, and would not for another value");
+    if (!found) found = moves;
+  }
+  if (!found) return none("what changes there is not met to the last digit, since the mesh changes with it");
+  return known(*found);
+}
+
+// The rate along d of the rate m′ = ∇m · t of a monitor: t changes by
+//
+//   J δt_x + F_λ δt_λ = −D²F[t, d] − more,    ⟨t, δt⟩ = 0
+double EventDerivatives::turning_rate(const Direction& d, const Vector& more, double more_of_gradient) {
+  const Row gradient = turning_->gradient(state_);
+  return with_best_step([&](double h) {
+    const Direction change = along_path(-second_derivative(tangent_, d, h) - more);
+    const double of_gradient = difference_along(
+        metric_, state_, d, h, [&](const State& at) { return apply(turning_->gradient(at), tangent_); });
+    return apply(gradient, change) + of_gradient + more_of_gradient;
+  });
+}
+
+EventDerivative EventDerivatives::by_turning(const Direction& response, const std::vector<SystemSample>& samples) {
+  double of_gradient = 0.0;
+  for (const SystemSample& sample : samples)
+    of_gradient += sample.weight * apply(sample.turning->gradient(sample.state), tangent_);
+  const double rate = turning_rate(response, directional_rate(samples, tangent_), of_gradient);
+  return known(response.dlambda - rate / turning_along_ * tangent_.dlambda);
+}
+
+// The most work that f does along the left null vector, displacements and multipliers by themselves: the metric knows
+// no lengths of the latter.
+double EventDerivatives::greatest_work(const Vector& f) const {
+  const Vector& weights = metric_.weights();
+  const auto has_weight = weights.array() > 0.0;
+  const Vector w = has_weight.select(left_, 0.0), multipliers = left_ - w;
+  const double length = std::sqrt(metric_.inner_x(w, w));
+  return length * metric_.dual_norm(f) + multipliers.norm() * Vector(has_weight.select(0.0, f)).norm();
+}
+
+// The two null vectors k_i of [J F_λ] remain null vectors, as wᵀ sees them, while the point moves by c k₁ + λ′ k₂ + v:
+//
+//   [ B₁₁ B₁₂ ] [c ]     [ wᵀ(D²F[k₁, v] + DF_κ k₁) ]
+//   [ B₂₁ B₂₂ ] [λ′] = − [ wᵀ(D²F[k₂, v] + DF_κ k₂) ],    B_ij = wᵀ D²F[k_i, k_j],    J v = −F_κ
+EventDerivative EventDerivatives::by_crossing(const Vector& F_kappa, const std::vector<SystemSample>& samples) {
+  if (std::abs(left_.dot(F_kappa)) > persistent * greatest_work(F_kappa) + load_work_ * roundoff / step_of(samples))
+    return none("the branch point does not persist: for other values the branches do not meet");
+  auto v = corrector_.response_across(metric_.row(kernel_.front()), -F_kappa);
+  if (!v) return none("the equations are singular at the event");
+  const Direction response{.dx = std::move(*v), .dlambda = 0.0};
+  Eigen::Vector2d right;
+  for (Index i = 0; i < 2; ++i) {
+    const Direction& k = kernel_[static_cast<std::size_t>(i)];
+    right[i] = bend(k, response) + left_.dot(directional_rate(samples, k));
+  }
+  if (is_symmetric_) return known(-right[0] / bend_(0, 1));
+  const double determinant = bend_.determinant();
+  return known(-(bend_(0, 0) * right[1] - bend_(1, 0) * right[0]) / determinant);
+}
+
+}  // namespace arcwall

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "continuation/metric.hpp"
+#include "continuation/path_point.hpp"
+#include "continuation/step/corrector.hpp"
+#include "core/system.hpp"
+
+namespace arcwall {
+
+/// The system for one of a few values of a number κ of the model. A derivative by κ is a sum over such samples,
+///
+///     dQ/dκ = Σ weight · Q(sample)
+struct SystemSample {
+  const System* system = nullptr;               ///< must outlive its use
+  State state{};                                ///< the event's, in the unknowns of this system
+  std::shared_ptr<const Observable> turning{};  ///< the quantity that turns at a displacement limit, of this system
+  double weight = 0.0;                          ///< [1/κ]
+};
+
+/// dλ/dκ of an event, or in words why there is none.
+struct EventDerivative {
+  std::optional<double> value{};
+  std::string why_none{};
+};
+
+/// How an event moves along λ where a number of the model changes (docs/theory.md, section 12): along the equilibria
+/// that fulfil the event's condition. That is a vanishing guard for changes of contact and what turns with them, λ′ = 0
+/// for a limit point, m′ = 0 for a monitor m that turns, and two tangents for a branch point.
+class EventDerivatives {
+ public:
+  /// Of an event of an arc, which lies at the arc's end. `system` must outlive this. `turning`: the quantity that turns
+  /// at a displacement limit, which must outlive this too; null for others.
+  EventDerivatives(const System& system, const Arc& arc, const Event& event, const Observable* turning,
+                   double lambda_scale, const MakeFactorization& factorization);
+
+  /// By one number. The samples lie on both sides of its value.
+  EventDerivative by(const std::vector<SystemSample>& samples);
+
+ private:
+  enum class Condition { limit, turning, guards, crossing };
+
+  bool begin_regular(const Direction& along);
+  bool begin_crossing(const BranchPoint& point);
+  Vector second_derivative(const Direction& k, const Direction& d, double h);
+  double bend(const Direction& k, const Direction& d);
+  Direction along_path(const Vector& f);
+  EventDerivative by_guards(const Direction& response, const std::vector<SystemSample>& samples) const;
+  EventDerivative by_turning(const Direction& response, const std::vector<SystemSample>& samples);
+  double turning_rate(const Direction& d, const Vector& more, double more_of_gradient);
+  double greatest_work(const Vector& f) const;
+  EventDerivative by_crossing(const Vector& F_kappa, const std::vector<SystemSample>& samples);
+
+  const System& system_;
+  Metric metric_;
+  Corrector corrector_;
+  Linearization workspace_;
+  State state_;
+  Condition condition_ = Condition::limit;
+  std::string why_none_;
+  Direction tangent_;                    // of the path; of a branch point none
+  const Observable* turning_ = nullptr;  // of a displacement limit
+  double turning_along_ = 0.0;           // the rate of its rate along the path
+  std::vector<Index> guards_;            // that vanish
+  Vector left_;                          // of a branch point: the left null vector w,
+  double load_work_ = 0.0;               // the most work of the loads along it,
+  std::vector<Direction> kernel_;        // the null vectors of [J F_λ]: the mode, and one with λ = 1,
+  bool is_symmetric_ = false;            // whether it is a pitchfork,
+  Eigen::Matrix2d bend_;                 // and wᵀ D²F of these
+};
+
+}  // namespace arcwall

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "model/deck/keys.hpp"
+
+namespace arcwall::deck {
+
+/// A number of a deck that may have any value near its own.
+struct DeckNumber {
+  std::string key{};  ///< as in `--set`, with indices for the names of walls and loads
+  double value = 0.0;
+  Dimension unit{};
+};
+
+/// Why a key names no such number, and what would be right.
+struct NoNumber {
+  std::string message{}, cure{};
+};
+
+/// The number behind a key as in `--set`, also where the deck's text leaves it to its default.
+std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key);
+
+/// The deck with another value of a number. Throws InputError where that makes a wrong deck.
+Deck with_number(const Deck& deck, const DeckNumber& number, double value);
+
+}  // namespace arcwall::deck

@@ -1,0 +1,184 @@
+#include "model/sensitivities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "continuation/answers/event_derivative.hpp"
+#include "core/central_difference.hpp"
+#include "core/error.hpp"
+#include "model/build_structure.hpp"
+#include "model/deck/value.hpp"
+
+namespace arcwall {
+
+namespace {
+
+// The step by which a number is varied: a part of its value, greater where it is measured in forces, in which equations
+// are linear, and no less than a part of what it is measured in, so that round-off does not hide what a small
+// imperfection does.
+double natural_step(const deck::DeckNumber& number, const Structure& structure) {
+  constexpr double of_force = 3e-2, of_value = 1e-3, of_unit = 1e-5;
+  const double unit = std::pow(structure.length_scale(), number.unit.length) *
+                      std::pow(std::max(structure.force_scale(), 1e-300), number.unit.force);
+  if (number.unit.force != 0) return number.value != 0.0 ? of_force * std::abs(number.value) : of_unit * unit;
+  return std::max(of_value * std::abs(number.value), of_unit * unit);
+}
+
+const deck::StopBounds* bounds_of_lambda(const deck::Deck& deck, std::size_t stage) {
+  const auto& own = deck.stages[stage].stop;
+  const std::vector<deck::StopBounds>& bounds = own ? own->bounds : deck.path.stop.bounds;
+  const auto is_lambda = [](const deck::StopBounds& one) { return one.name == "lambda"; };
+  const auto found = std::find_if(bounds.begin(), bounds.end(), is_lambda);
+  return found == bounds.end() ? nullptr : &*found;
+}
+
+// Where a stage of a varied deck ends: at its own bound of λ. Elsewhere it ends at what moves with the number, in a way
+// that is not followed.
+std::optional<double> end_of_stage(const deck::Deck& deck, const deck::Deck& varied, std::size_t stage, double lambda) {
+  const deck::StopBounds *const own = bounds_of_lambda(deck, stage), *const other = bounds_of_lambda(varied, stage);
+  if (own == nullptr || other == nullptr) return std::nullopt;
+  if (lambda == own->low) return other->low;
+  if (lambda == own->high) return other->high;
+  return std::nullopt;
+}
+
+// The event's state in the unknowns of another model.
+std::optional<State> state_on(const Model& model, const State& state) {
+  if (model.sliding() != nullptr) return model.sliding()->taken_over(state);
+  const System& system = model.system();
+  if (system.open_piece().size() != state.piece.size() || system.size(state.piece) != state.x.size())
+    return std::nullopt;
+  return state;
+}
+
+// The monitor that turns at a displacement limit; null at other events.
+std::shared_ptr<const Observable> turning_of(const Model& model, const Event& event) {
+  for (const Watch& watch : model.watched())
+    if (event.kind == EventKind::displacement_limit && watch.label == event.label) return watch.quantity;
+  return nullptr;
+}
+
+bool has_sensitivity(EventKind kind) {
+  return kind != EventKind::start && kind != EventKind::end && kind != EventKind::user;
+}
+
+std::string first_message(const InputError& error) {
+  const Diagnostic& first = error.diagnostics().front();
+  return (first.key.empty() ? "" : first.key + ": ") + first.message;
+}
+
+}  // namespace
+
+// The models of decks with values beside a number's own, or why there are none.
+struct Sensitivities::Beside {
+  struct One {
+    std::unique_ptr<Model> model;  // of the first stage
+    double weight;
+  };
+  std::vector<One> models{};
+  std::string problem{};
+
+  void build(const deck::Deck& deck, const deck::DeckNumber& number, double h, const std::vector<double>& ended_stages);
+};
+
+void Sensitivities::Beside::build(const deck::Deck& deck, const deck::DeckNumber& number, double h,
+                                  const std::vector<double>& ended_stages) {
+  models.clear();
+  problem.clear();
+  for (const DifferencePlace& place : central_difference) {
+    std::unique_ptr<Model> model;
+    try {
+      model = std::make_unique<Model>(with_number(deck, number, number.value + place.offset * h));
+    } catch (const InputError& error) {
+      problem = "beside this value there is no deck: " + first_message(error);
+      return;
+    }
+    for (std::size_t stage = 0; stage < ended_stages.size(); ++stage) {
+      const auto end = end_of_stage(deck, model->whole_deck(), stage, ended_stages[stage]);
+      if (!end) {
+        problem =
+            "a stage before ended at something else than a bound of lambda, and what that changes is not followed";
+        return;
+      }
+      model->begin_stage(*end);
+    }
+    models.push_back({.model = std::move(model), .weight = place.weight / h});
+  }
+}
+
+void check_sensitivity(const deck::Deck& deck, DeckProblems& problems) {
+  if (deck.path.sensitivity.empty()) return;
+  if (deck.path.method == deck::PathMethod::incremental)
+    problems.add(deck.path.position, "path.sensitivity",
+                 "method \"incremental\" finds no events whose derivatives mean anything", "use method \"spherical\"");
+  if (deck.path.events != EventSearch::locate)
+    problems.add(deck.path.position, "path.sensitivity", "events that are not located have no derivatives",
+                 "write events = \"locate\"");
+  for (const std::string& key : deck.path.sensitivity) {
+    const auto found = deck::number_of(deck, key);
+    if (const auto* const none = std::get_if<deck::NoNumber>(&found))
+      problems.add(deck.path.position, "path.sensitivity", deck::in_quotes(key, 100) + " " + none->message, none->cure);
+  }
+}
+
+Sensitivities::Sensitivities(const Model& model, std::vector<double> ended_stages)
+    : model_(model), ended_stages_(std::move(ended_stages)) {
+  for (const std::string& key : model.whole_deck().path.sensitivity)
+    numbers_.push_back(std::get<deck::DeckNumber>(deck::number_of(model.whole_deck(), key)));
+  beside_.resize(numbers_.size());
+}
+
+Sensitivities::~Sensitivities() = default;
+
+// Shorter steps serve where a longer one makes a wrong deck: a member inside a wall, say.
+const Sensitivities::Beside& Sensitivities::beside(std::size_t number) {
+  if (beside_[number]) return *beside_[number];
+  const deck::DeckNumber& varied = numbers_[number];
+  deck::Deck deck = model_.whole_deck();
+  deck.path.sensitivity.clear();
+  auto made = std::make_unique<Beside>();
+  const double step = natural_step(varied, model_.structure());
+  for (const double shorter : {1.0, 1e-1, 1e-2, 1e-3}) {
+    made->build(deck, varied, shorter * step, ended_stages_);
+    if (made->problem.empty()) break;
+  }
+  beside_[number] = std::move(made);
+  return *beside_[number];
+}
+
+std::vector<RecordSensitivity> Sensitivities::of(const Arc& arc, const Event& event) {
+  std::vector<RecordSensitivity> found;
+  if (numbers_.empty() || !has_sensitivity(event.kind)) return found;
+  const double lambda_scale = std::max(std::abs(event.state.lambda), std::abs(model_.options().step.first));
+  const auto turning = turning_of(model_, event);
+  EventDerivatives derivatives(model_.system(), arc, event, turning.get(), lambda_scale,
+                               model_.options().factorization);
+  const std::vector<std::string>& keys = model_.whole_deck().path.sensitivity;
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    RecordSensitivity& one = found.emplace_back(RecordSensitivity{.key = keys[i], .value = numbers_[i].value});
+    const Beside& models = beside(i);
+    one.why_none = models.problem;
+    std::vector<SystemSample> samples;
+    for (const Beside::One& other : models.models) {
+      const Model& model = other.model->at_stage(model_.stage());
+      auto state = state_on(model, event.state);
+      if (!state) break;
+      samples.push_back({.system = &model.system(),
+                         .state = std::move(*state),
+                         .turning = turning_of(model, event),
+                         .weight = other.weight});
+    }
+    if (!one.why_none.empty()) continue;
+    if (samples.size() < models.models.size()) {
+      one.why_none = "beside this value the mesh is another one";
+      continue;
+    }
+    EventDerivative derivative = derivatives.by(samples);
+    one.slope = derivative.value;
+    one.why_none = std::move(derivative.why_none);
+  }
+  return found;
+}
+
+}  // namespace arcwall

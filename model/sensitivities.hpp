@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "continuation/path_point.hpp"
+#include "model/build_structure.hpp"
+#include "model/deck/numbers.hpp"
+#include "model/model.hpp"
+#include "model/record.hpp"
+
+namespace arcwall {
+
+/// What is wrong with the deck's `path.sensitivity`, as problems of the deck.
+void check_sensitivity(const deck::Deck& deck, DeckProblems& problems);
+
+/// How events of a run depend on the numbers that the deck's `path.sensitivity` names (docs/theory.md, section 12).
+///
+/// The equations are derived by a number from models of decks with values beside its own, which are built when they
+/// are needed first.
+class Sensitivities {
+ public:
+  /// Of events of a model, which must outlive this; `ended_stages`: the λ at which the stages before it have ended.
+  Sensitivities(const Model& model, std::vector<double> ended_stages);
+  ~Sensitivities();
+
+  /// By each number, of an event at the end of an arc; none of the ends of branches and of events of a program.
+  std::vector<RecordSensitivity> of(const Arc& arc, const Event& event);
+
+ private:
+  struct Beside;
+
+  const Beside& beside(std::size_t number);
+
+  const Model& model_;
+  std::vector<double> ended_stages_;
+  std::vector<deck::DeckNumber> numbers_;
+  std::vector<std::unique_ptr<Beside>> beside_;
+};
+
+}  // namespace arcwall
