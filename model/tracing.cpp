@@ -38,6 +38,8 @@ class PathTracing final : public Tracing {
       recorder_.emplace(model_, record_, begun);
     }
     recorder_->add(step->arc);
+    if (auto why = model_.adrift(step->arc.to.state))
+      explorer_.stop({.reason = EndReason::adrift, .detail = std::move(*why)});
     return true;
   }
 
