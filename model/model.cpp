@@ -321,8 +321,9 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
 }
 
 std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilder& builder, bool ramp) const {
-  return builder.build_sliding(ramp,
-                               [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
+  return builder.build_sliding(ramp, [this](const std::string& a, const std::string& b) {
+    return same_walls(deck_, a, b) && !is_driven_apart(whole_deck_, a) && !is_driven_apart(whole_deck_, b);
+  });
 }
 
 void Model::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
@@ -388,6 +389,12 @@ std::optional<State> Model::start(std::string& reason) const {
   }
   state.lambda = 0.0;
   return sliding_ ? sliding_->adopted(state) : state;
+}
+
+State Model::taken_over(const State& last) const {
+  State state = sliding_ ? sliding_->adopted(last) : last;
+  state.lambda = 0.0;
+  return state;
 }
 
 // With λ as one more unknown the second variation has the same unstable directions, and one more if the force that goes

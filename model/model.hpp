@@ -97,6 +97,9 @@ class Model {
   /// says why there is none.
   std::optional<State> start(std::string& reason) const;
 
+  /// The state in which the stage before has ended, as the start of this one.
+  State taken_over(const State& last) const;
+
   /// Why a state is none that contact could hold: a body that nothing but contact holds was pushed away. Empty if
   /// there is none such.
   std::optional<std::string> adrift(const State& state) const;

@@ -110,10 +110,9 @@ class StageTracing final : public Tracing {
   bool advance() override {
     if (tracing_->advance()) return true;
     if (!goes_on()) return false;
-    State start = record_.points.back().state;
-    model_.begin_stage(start.lambda);
-    start.lambda = 0.0;
-    begin(stage_ + 1, start);
+    const State last = record_.points.back().state;
+    model_.begin_stage(last.lambda);
+    begin(stage_ + 1, model_.at_stage(stage_ + 1).taken_over(last));
     return tracing_->advance();
   }
 
