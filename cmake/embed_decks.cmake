@@ -1,6 +1,6 @@
 # Makes a C++ source of the examples:
 #
-#   cmake -DFOLDER=… -DDECKS=arch,channel -DSWEEPS=sweep-channel -DOUTPUT=… -P embed_decks.cmake
+#   cmake -DFOLDER=… -DDECKS=arch,channel -DDEVICES=rail,ring -DSWEEPS=sweep-channel -DOUTPUT=… -P embed_decks.cmake
 function(entries_of names result)
   string(REPLACE "," ";" names "${names}")
   set(entries "")
@@ -12,6 +12,7 @@ function(entries_of names result)
 endfunction()
 
 entries_of("${DECKS}" decks)
+entries_of("${DEVICES}" devices)
 entries_of("${SWEEPS}" sweeps)
 file(WRITE "${OUTPUT}" "#include \"apps/cli/example_decks.hpp\"
 
@@ -21,6 +22,12 @@ const std::vector<ExampleDeck>& example_decks() {
   static const std::vector<ExampleDeck> decks{
 ${decks}  };
   return decks;
+}
+
+const std::vector<ExampleDeck>& example_devices() {
+  static const std::vector<ExampleDeck> devices{
+${devices}  };
+  return devices;
 }
 
 const std::vector<ExampleDeck>& example_sweeps() {

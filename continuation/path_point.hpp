@@ -106,6 +106,7 @@ enum class EndReason {
   wall_end,         ///< a contact reached the end of its wall
   continuum,        ///< a continuum of equilibria with one load and energy lies ahead
   unsupported,      ///< something lies ahead that is not modelled
+  adrift,           ///< a body that nothing holds was pushed away
 };
 
 /// How a branch ended.

@@ -53,6 +53,7 @@ struct TraceOptions {
   bool node_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
   double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it degenerate
   double localisation = 1e-12;     ///< bracket of an event as a part of its step
+  std::optional<double> lambda_scale{};  ///< λ₀ of the metric, where the branch's start has none; else by its tangent
   int max_points = 5000;
   bool every_direction = false;  ///< report a change of contacts that several directions leave as a branch point also
                                  ///< where one of them alone is stable

@@ -72,7 +72,8 @@ Arc take(Accepted accepted, TracerState& state) {
 
 Tracer::Tracer(const System& system, BranchStart start, TraceOptions options, std::vector<Watch> watched)
     : tools_(std::make_unique<TraceTools>(system, std::move(options))) {
-  state_.lambda_scale = start.lambda_scale ? *start.lambda_scale : natural_lambda_scale(*tools_, start.state);
+  const std::optional<double>& given = start.lambda_scale ? start.lambda_scale : tools_->options.lambda_scale;
+  state_.lambda_scale = given ? *given : natural_lambda_scale(*tools_, start.state);
   state_.step = StepControl(tools_->options.step, tools_->options.step.max);
   state_.from.point.state = start.state;
   state_.start = std::move(start);

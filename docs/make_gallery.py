@@ -14,6 +14,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from device_cases import devices
 from make_validation import SOURCE, cases, trace_into
 
 FOLDER = SOURCE / "docs/gallery"
@@ -78,6 +79,36 @@ PICTURES = [
             "Two bars at a right angle, the frame on which imperfection sensitivity was first measured."),
     Picture("diamond", "Diamond frame", "inwards at λ = 1", "end", "A diamond drawn out",
             "A hinged square drawn out at two corners."),
+    Picture("snap-fit", "Snap-fit", "greatest push by the way of the nose there", "displacement-limit", "A snap-fit",
+            "A catch moves under a hook: the push grows up its flat flank, vanishes on its top, and is negative where the hook snaps down the steep "
+            "one. Backwards the same path is the removal, whose force is the greater by about what the steeper flank asks for."),
+    Picture("guidewire", "Guidewire in a bend", "push far in the bend", "end", "A guidewire in a bend",
+            "The tip of a wire slides along the outer wall of a bend, and the wire leans on the inner one. The push grows to what it takes to "
+            "bend each new length of wire, and stays there."),
+    Picture("drill-string", "Drill string in a bore", "weight on the bit at which it buckles", "end", "A drill string in its bore",
+            "Pressed on its bit a hanging string buckles below and leans on its bore. It buckles at a quarter of its own weight; the bore then holds it."),
+    Picture("mems-switch", "Bistable switch", "greatest force", "limit-point", "A bistable switch",
+            "A shuttle on two cosine beams snaps through onto a stop. The force falls from its peak at a sixth of the height to a negative value, "
+            "at which the stop is met before the second resting place."),
+    Picture("harvester", "Precompressed harvester", "deflection at rest", "end", "A harvester",
+            "A strip is shortened in a first stage and so bent; in a second one a load makes it snap to the other side, to a stop. "
+            "It sways at a branch point before it snaps."),
+    Picture("leaf-spring", "Leaf spring on a former", "deflection at λ = 4", "end", "A leaf spring on a former",
+            "A leaf is bent onto a round former and lies on it from the clamp on. It becomes stiffer as less of it is free, while the moment at the "
+            "clamp stays what the former's radius asks for."),
+    Picture("rail", "Heated rail", "force at which it buckles", "limit-point", "A heated rail",
+            "A rail on ballast that yields buckles sideways under heat. Behind the first limit point it would jump far out at the same "
+            "temperature, and its compression falls."),
+    Picture("portal", "Portal with a stop", "load at which it sways", "end", "A portal with a stop",
+            "A portal frame sways under loads on its corners until a stop holds it. It then carries more, and the stop little."),
+    Picture("ring", "Ring between plates", "force at the way R/100", "end", "A ring between plates",
+            "A ring that nothing else holds is squeezed between two plates, which touch it at a point each. It might roll and slide, and "
+            "the program says that it does neither."),
+    Picture("bow", "Bow pressed onto a floor", "force at which contact spreads", "end", "A bow pressed onto a floor",
+            "The ends of a bow are pressed down to the floor, and it unrolls on it. The force grows without bounds as less of it stands off."),
+    Picture("lattice", "Lattice of curved bars", "force at which the first row gives way", "displacement-limit", "A lattice of curved bars",
+            "A plate presses on two rows of curved bars, which give way one after the other. Both do so at the same force, and between "
+            "them it falls to a tenth."),
 ]
 
 
@@ -127,7 +158,8 @@ def entry(program: str, picture: Picture, known: dict) -> str:
 
 HEAD = """# Gallery
 
-What the report of each run shows: the load over the first monitor, with the events, and the shape at one of them. The page is
+What the report of each run shows: the load over the first monitor, with the events, and the shape at one of them. The devices at
+the end come with the program (`trace-path examples`). The page is
 written by `docs/make_gallery.py`; more quantities and meshes are in [validation.md](validation.md). Times are those of whole
 processes.
 """
@@ -138,7 +170,7 @@ def main() -> None:
         sys.exit("usage: python3 docs/make_gallery.py TRACE_PATH")
     program = str(Path(sys.argv[1]).resolve())
     FOLDER.mkdir(exist_ok=True)
-    known = {case.title: case for case in cases()}
+    known = {case.title: case for case in [*cases(), *devices()]}
     page = "\n".join([HEAD, *(entry(program, picture, known) for picture in PICTURES)])
     (SOURCE / "docs/gallery.md").write_text(page)
 

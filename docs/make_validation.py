@@ -327,6 +327,11 @@ def driven_otherwise() -> list:
         ], always=("load=[]", "prescribed=[{at='loaded', z=-1.0}]", "path.step=1.0", "path.watch=[]",
                    "path.stop={lambda=[-1.0, 90.0]}",
                    *(f"member.{name}.theory='elastica'" for name in ("column", "short", "long")))),
+        Case("Heated rail on ballast that yields", "examples/rail.toml", meshes({"rail": 1}, [8, 16, 32, 64]), [
+            Quantity("force at which it buckles", monitor("force", "branch-point"),
+                     2100 * (math.pi / 4) ** 2 + 500 / (math.pi / 4) ** 2, "closed form; fixed ends keep the axis' length"),
+        ], always=("path.branches='primary'",),
+             note="A foundation with a law buckles at the load of its first stiffness."),
         Case("Sine arch under a round indenter", "docs/validation/indenter.toml", meshes({"arch": 1}, [10, 20, 40]), [
             Quantity("way at the greatest push", load("displacement-limit"), 0.056131352628, SHOOTING),
             Quantity("greatest push", monitor("F", "displacement-limit"), 0.17024981411406, SHOOTING),

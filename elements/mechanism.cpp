@@ -201,17 +201,28 @@ class Conditions {
   Eigen::Index rows_ = 0;
 };
 
-// A unit vector q with C q = 0, or none: where the columns of Cᵀ have no full rank, the last column of Q in
-// Cᵀ = Q R is orthogonal to all of them.
-std::optional<Vector> null_vector(const Rows& C) {
+// An orthonormal basis of all q with C q = 0, at most `most` of its vectors: where the columns of Cᵀ have no full rank,
+// the last columns of Q in Cᵀ = Q R are orthogonal to all of them.
+std::vector<Vector> null_vectors(const Rows& C, Eigen::Index most) {
   const Eigen::Index n = C.cols();
-  if (C.rows() == 0) return Vector::Unit(n, n - 1);
+  std::vector<Vector> vectors;
   Rows transposed = C.transpose();
   transposed.makeCompressed();
-  const Eigen::SparseQR<Rows, Eigen::COLAMDOrdering<int>> qr(transposed);
-  if (qr.rank() == n) return std::nullopt;
-  const Vector last = Vector::Unit(n, n - 1);
-  return Vector(qr.matrixQ() * last);
+  std::optional<Eigen::SparseQR<Rows, Eigen::COLAMDOrdering<int>>> qr;
+  if (C.rows() > 0) qr.emplace(transposed);
+  const Eigen::Index count = std::min(most, n - (qr ? qr->rank() : 0));
+  for (Eigen::Index i = 1; i <= count; ++i) {
+    const Vector unit = Vector::Unit(n, n - i);
+    vectors.push_back(qr ? Vector(qr->matrixQ() * unit) : unit);
+  }
+  return vectors;
+}
+
+// How much a motion moves a node in a direction.
+double moved(const Motions& motions, const Vector& q, Index node, const Vec2& direction) {
+  double sum = 0.0;
+  for (const auto& [place, factor] : motions.of_node(node, direction)) sum += factor * q[place];
+  return sum;
 }
 
 }  // namespace
@@ -219,8 +230,9 @@ std::optional<Vector> null_vector(const Rows& C) {
 std::optional<Mechanism> find_mechanism(const Structure& structure) {
   const Motions motions(structure);
   if (motions.count == 0) return std::nullopt;
-  const auto q = null_vector(Conditions(motions).matrix());
-  if (!q) return std::nullopt;
+  const std::vector<Vector> null = null_vectors(Conditions(motions).matrix(), 1);
+  if (null.empty()) return std::nullopt;
+  const Vector& q = null.front();
 
   Mechanism greatest{};
   double motion = -1.0;
@@ -229,21 +241,31 @@ std::optional<Mechanism> find_mechanism(const Structure& structure) {
     motion = std::abs(here);
     greatest = {.node = node, .freedom = freedom};
   };
-  const auto moves = [&](Index node, const Vec2& direction) {
-    double sum = 0.0;
-    for (const auto& [place, factor] : motions.of_node(node, direction)) sum += factor * (*q)[place];
-    return sum;
-  };
   for (const MemberMesh& mesh : structure.members())
     for (const Index node : mesh.nodes) {
-      compare(node, Freedom::x, moves(node, Vec2::UnitX()));
-      compare(node, Freedom::z, moves(node, Vec2::UnitY()));
+      compare(node, Freedom::x, moved(motions, q, node, Vec2::UnitX()));
+      compare(node, Freedom::z, moved(motions, q, node, Vec2::UnitY()));
     }
   for (std::size_t b = 0; b < motions.bodies.size(); ++b) {
-    const double turns = (*q)[3 * static_cast<Eigen::Index>(b) + 2] / motions.bodies[b].size;
+    const double turns = q[3 * static_cast<Eigen::Index>(b) + 2] / motions.bodies[b].size;
     compare(motions.bodies[b].ends.front().node, Freedom::rotation, turns * 0.5 * structure.length_scale());
   }
   return greatest;
+}
+
+std::vector<NodeDirection> free_directions(const Structure& structure, const std::vector<Index>& nodes) {
+  constexpr double least = 1e-9;  // of a motion of unit length
+  const Motions motions(structure);
+  std::vector<NodeDirection> free;
+  if (motions.count == 0) return free;
+  const std::vector<Vector> null = null_vectors(Conditions(motions).matrix(), motions.count);
+  for (const Index node : nodes)
+    for (const Freedom freedom : {Freedom::x, Freedom::z}) {
+      const Vec2 direction = freedom == Freedom::x ? Vec2(Vec2::UnitX()) : Vec2(Vec2::UnitY());
+      const auto moves = [&](const Vector& q) { return std::abs(moved(motions, q, node, direction)) > least; };
+      if (std::any_of(null.begin(), null.end(), moves)) free.push_back({.node = node, .freedom = freedom});
+    }
+  return free;
 }
 
 }  // namespace arcwall

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "elements/structure.hpp"
 
@@ -19,5 +20,14 @@ struct Mechanism {
 /// bodies at their joints and those of bars and supports: their rank is counted. So the answer does not depend on how
 /// finely beams are divided, on how slender they are, or on whether a beam is written as one member or as many.
 std::optional<Mechanism> find_mechanism(const Structure& structure);
+
+/// A node and x or z.
+struct NodeDirection {
+  Index node;
+  Freedom freedom;
+};
+
+/// The directions of those nodes in which some motion without strain moves them.
+std::vector<NodeDirection> free_directions(const Structure& structure, const std::vector<Index>& nodes);
 
 }  // namespace arcwall

@@ -21,9 +21,10 @@ constexpr std::array event_kinds{EventKind::start,
                                  EventKind::user};
 
 constexpr std::array end_reasons{
-    EndReason::stop,     EndReason::closed_loop,     EndReason::joined,   EndReason::branched,  EndReason::max_points,
-    EndReason::max_time, EndReason::interrupted,     EndReason::min_step, EndReason::singular,  EndReason::not_finite,
-    EndReason::no_ray,   EndReason::turning_control, EndReason::wall_end, EndReason::continuum, EndReason::unsupported};
+    EndReason::stop,       EndReason::closed_loop, EndReason::joined,      EndReason::branched,
+    EndReason::max_points, EndReason::max_time,    EndReason::interrupted, EndReason::min_step,
+    EndReason::singular,   EndReason::not_finite,  EndReason::no_ray,      EndReason::turning_control,
+    EndReason::wall_end,   EndReason::continuum,   EndReason::unsupported, EndReason::adrift};
 
 template <class List>
 std::optional<typename List::value_type> with_text(const List& list, std::string_view text) {
@@ -98,6 +99,8 @@ std::string_view to_text(EndReason reason) {
       return "family";
     case EndReason::unsupported:
       return "unsupported";
+    case EndReason::adrift:
+      return "adrift";
   }
   assert(false);
   return {};
@@ -188,6 +191,8 @@ std::string_view explanation(EndReason reason) {
       return "a continuum of equilibria lies ahead";
     case EndReason::unsupported:
       return "something lies ahead that is not modelled";
+    case EndReason::adrift:
+      return "a body that nothing holds was pushed away";
   }
   assert(false);
   return {};
@@ -224,6 +229,8 @@ std::string_view what_to_try(EndReason reason) {
       return "contact.points = \"nodes\" or contact.method = \"penalty\", which have no such limit, but contact at "
              "nodes: "
              "loads then depend on the mesh, so compare several numbers of elements";
+    case EndReason::adrift:
+      return "a support or a wall that holds the body there; or [[prescribed]], which moves it instead of a load";
   }
   assert(false);
   return {};

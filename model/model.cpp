@@ -31,20 +31,12 @@ double force_of_movements(const Structure& structure) {
   return greatest;
 }
 
-// The force that the most flexible member has against a wall that λ moves: 3 EI w/ℓ³ at the end of a cantilever, of a
-// bar EA w/ℓ [force].
+// The force that the most flexible member has against a wall that λ moves [force].
 double force_of_walls(const deck::Deck& deck, const Structure& structure) {
-  double speed = 0.0, stiffness = infinity;
+  double speed = 0.0;
   for (const deck::Wall& wall : deck.walls)
     speed = std::max(speed, obstacle_of(wall)->greatest_speed(structure.length_scale()));
-  for (std::size_t m = 0; m < deck.members.size(); ++m) {
-    const deck::Member& member = deck.members[m];
-    const deck::SectionProperties section = deck::properties(*deck::find(deck.sections, member.section));
-    const double E = deck::find(deck.materials, member.material)->E, length = structure.members()[m].length;
-    stiffness = std::min(stiffness, member.theory == Theory::truss ? E * section.A / length
-                                                                   : 3.0 * E * section.I / (length * length * length));
-  }
-  return speed > 0.0 ? stiffness * speed : 0.0;
+  return speed > 0.0 ? softest_stiffness(deck, structure) * speed : 0.0;
 }
 
 bool moves_walls(const deck::Deck& deck) {
@@ -53,12 +45,12 @@ bool moves_walls(const deck::Deck& deck) {
 }
 
 // Forces below the tolerance times this scale count as zero: small against what λ brings in a step, above the round-off
-// of the mesh.
-ContactScales contact_scales(const deck::Deck& deck, const Structure& structure, double first_step) {
+// of the mesh. `held` is the structure with supports for what nothing but contact holds.
+ContactScales contact_scales(const deck::Deck& deck, const Structure& structure, const Structure& held,
+                             double first_step) {
   constexpr double steps = 10.0;
   const double tolerance = TraceOptions{}.guard_tolerance;
-  const double force =
-      std::max({structure.force_scale(), force_of_movements(structure), force_of_walls(deck, structure)});
+  const double force = std::max({structure.force_scale(), force_of_movements(held), force_of_walls(deck, structure)});
   return {.length = structure.length_scale(),
           .force = std::max({steps * force * std::abs(first_step), structure.force_roundoff() / tolerance, 1e-300})};
 }
@@ -207,6 +199,7 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   DeckProblems problems(deck_.source);
   StructureOfDeck described = describe_structure(deck_, problems);
   problems.raise();
+  if (hold_loose_bodies()) described = describe_structure(deck_, problems);
   hold_between_walls(deck_, described.builder);
   check_mechanism(deck_, problems);
   problems.raise();
@@ -221,7 +214,8 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   const bool sliding = slides(deck_, described.builder, candidates, problems);
   if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
-  if (sliding_ && problems.empty()) check_between_nodes(deck_, *sliding_, problems);
+  for (const LooseHolds::Hold& hold : loose_holds_.holds) held_.push_back(described.places.joints.at(hold.point));
+  if (sliding_ && stage_ == 0 && problems.empty()) check_between_nodes(deck_, *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
                   : body_of(*structure_, theories_of(deck_), incremental_structure_.get());
   const Measured read_off{.structure = *structure_,
@@ -235,6 +229,10 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   options_ = trace_options(deck_, read_off, monitors_, problems);
   if (stage_ == 0) check_sensitivity(whole_deck_, problems);
   problems.raise();
+  if (!loose_holds_.empty()) {
+    options_.lambda_scale = lambda_scale_if_held(deck_, false);
+    options_.corner.max_enumerated = 0;
+  }
 
   for (const std::string& name : deck_.path.watch)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
@@ -252,6 +250,58 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
 }
 
+// Springs for what nothing but contact holds are part of the deck that is traced.
+bool Model::hold_loose_bodies() {
+  DeckProblems mechanism(deck_.source);
+  check_mechanism(deck_, mechanism);
+  if (mechanism.empty()) return false;
+  loose_holds_ = loose_holds(deck_);
+  const std::vector<deck::Spring> springs = loose_holds_.springs();
+  deck_.springs.insert(deck_.springs.end(), springs.begin(), springs.end());
+  if (!loose_holds_.empty()) warnings_.push_back(loose_holds_.warning(deck_.units));
+  return !loose_holds_.empty();
+}
+
+// The structure with springs as stiff as its members in place of those that hold loose bodies.
+std::unique_ptr<Structure> Model::held_structure(bool ramp) const {
+  deck::Deck held = deck_;
+  held.springs.resize(held.springs.size() - loose_holds_.holds.size());
+  double softest = 0.0;
+  for (const LooseHolds::Hold& hold : loose_holds_.holds)
+    softest = std::max({softest, hold.stiffness.x, hold.stiffness.z});
+  const std::vector<deck::Spring> springs = loose_holds_.springs(softest_stiffness(deck_, *structure_) / softest);
+  held.springs.insert(held.springs.end(), springs.begin(), springs.end());
+  DeckProblems known(held.source);
+  StructureOfDeck described = describe_structure(held, known);
+  hold_between_walls(held, described.builder);
+  return described.builder.build(ramp);
+}
+
+// A loose body moves by any amount under hardly any load before it meets something: the λ that would deform it counts.
+double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
+  const auto held = held_structure(ramp);
+  DeckProblems known(deck.source);
+  const MultiplierContact contact(*held, contact_candidates(deck, *held, known), contact_->scales());
+  TraceOptions options = options_;
+  options.lambda_scale.reset();
+  const Piece open = contact.open_piece();
+  return Tracer(contact, {.state = {.x = Vector::Zero(contact.size(open)), .lambda = 0.0, .piece = open}}, options)
+      .lambda_scale();
+}
+
+std::optional<std::string> Model::adrift(const State& state) const {
+  constexpr double far = 2.0;  // of the structure's size
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    double squared = 0.0;
+    for (const Freedom direction : {Freedom::x, Freedom::z})
+      squared += std::pow(body_->motion(structure_->freedom(held_[i], direction))->value(state), 2.0);
+    if (squared <= std::pow(far * structure_->length_scale(), 2.0)) continue;
+    return "nothing holds the body at \"" + loose_holds_.holds[i].point + "\", which has moved by more than " +
+           "twice the size of the structure";
+  }
+  return std::nullopt;
+}
+
 void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding) {
   const auto constant = [](const auto& driven) { return driven.constant; };
   const bool ramp =
@@ -259,7 +309,8 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
                       std::any_of(whole_deck_.prescribed.begin(), whole_deck_.prescribed.end(), constant));
   if (ramp) ramp_structure_ = builder.build(true);
   if (!deck_.walls.empty()) {
-    const ContactScales scales = contact_scales(deck_, *structure_, deck_.path.step);
+    const auto held = loose_holds_.empty() ? nullptr : held_structure(false);
+    const ContactScales scales = contact_scales(deck_, *structure_, held ? *held : *structure_, deck_.path.step);
     const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
     const ContactLaw law{.method = deck_.contact.method, .stiffness = deck_.contact.penalty.value_or(0.0)};
     contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
@@ -272,8 +323,9 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
 }
 
 std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilder& builder, bool ramp) const {
-  return builder.build_sliding(ramp,
-                               [this](const std::string& a, const std::string& b) { return same_walls(deck_, a, b); });
+  return builder.build_sliding(ramp, [this](const std::string& a, const std::string& b) {
+    return same_walls(deck_, a, b) && !is_driven_apart(whole_deck_, a) && !is_driven_apart(whole_deck_, b);
+  });
 }
 
 void Model::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
@@ -314,6 +366,10 @@ std::optional<State> Model::start(std::string& reason) const {
   options.events = EventSearch::none;
   options.target_values.push_back(
       {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
+  if (!loose_holds_.empty()) {
+    options.lambda_scale = lambda_scale_if_held(with_walls_at_rest(deck_), true);
+    options.corner.max_enumerated = 0;
+  }
   const System* ramp = ramp_structure_.get();
   if (ramp_contact_) ramp = ramp_contact_.get();
   if (sliding_ramp_) {
@@ -321,7 +377,13 @@ std::optional<State> Model::start(std::string& reason) const {
     state = sliding_ramp_->rest();
   }
   Tracer tracer(*ramp, state, options);
-  while (const auto arc = tracer.next()) state = arc->to.state;
+  while (const auto arc = tracer.next()) {
+    state = arc->to.state;
+    if (auto why = adrift(state)) {
+      reason = "the constant loads and movements find no equilibrium: " + *why;
+      return std::nullopt;
+    }
+  }
   if (!tracer.end() || tracer.end()->reason != EndReason::stop) {
     reason = "the constant loads and movements find no equilibrium: their growth ends at " +
              std::to_string(state.lambda) + " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
@@ -329,6 +391,12 @@ std::optional<State> Model::start(std::string& reason) const {
   }
   state.lambda = 0.0;
   return sliding_ ? sliding_->adopted(state) : state;
+}
+
+State Model::taken_over(const State& last) const {
+  State state = sliding_ ? sliding_->adopted(last) : last;
+  state.lambda = 0.0;
+  return state;
 }
 
 // With λ as one more unknown the second variation has the same unstable directions, and one more if the force that goes

@@ -13,6 +13,7 @@
 #include "elements/sliding_structure.hpp"
 #include "model/body.hpp"
 #include "model/deck/deck.hpp"
+#include "model/loose_bodies.hpp"
 #include "model/stages.hpp"
 
 namespace arcwall {
@@ -96,11 +97,21 @@ class Model {
   /// says why there is none.
   std::optional<State> start(std::string& reason) const;
 
+  /// The state in which the stage before has ended, as the start of this one.
+  State taken_over(const State& last) const;
+
+  /// Why a state is none that contact could hold: a body that nothing but contact holds was pushed away. Empty if
+  /// there is none such.
+  std::optional<std::string> adrift(const State& state) const;
+
   /// Number of closed contact points.
   Index closed_contacts(const State& state) const;
 
  private:
   Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress);
+  bool hold_loose_bodies();
+  std::unique_ptr<Structure> held_structure(bool ramp) const;
+  double lambda_scale_if_held(const deck::Deck& deck, bool ramp) const;
   std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
   // Also the structure under what is constant alone.
   void make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding);
@@ -112,6 +123,8 @@ class Model {
   std::vector<std::unique_ptr<Model>> later_;
   std::vector<double> ended_stages_;
   deck::Deck deck_;
+  LooseHolds loose_holds_;
+  std::vector<Index> held_;  // nodes of their points
   std::unique_ptr<Structure> structure_, ramp_structure_;
   std::unique_ptr<IncrementalStructure> incremental_structure_;
   std::unique_ptr<MultiplierContact> contact_, ramp_contact_;

@@ -45,7 +45,13 @@ bool is_whole(const Record& record, std::size_t ended_stages) {
   return true;
 }
 
-ArchiveModel model_of(const Model& model) { return {.system = &model.system(), .sliding = model.sliding()}; }
+ArchiveModel model_of(const Model& model) {
+  ArchiveModel result{.system = &model.system()};
+  for (std::size_t stage = 0; stage <= model.ended_stages().size(); ++stage)
+    if (const SlidingContact* sliding = model.at_stage(static_cast<Index>(stage)).sliding())
+      result.sliding.push_back(sliding);
+  return result;
+}
 
 }  // namespace
 
@@ -120,6 +126,7 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     archive(program, session.description_, stopped, session.start_, ended_stages);
     for (const double lambda : ended_stages)
       archive.require(std::isfinite(lambda) && session.model_->begin_stage(lambda));
+    archive.set_sliding(model_of(*session.model_).sliding);
     archive.require(session.start_.x.size() > 0);
     session.tracing_ = make_tracing(*session.model_, *session.record_, session.start_, session.description_.ledger);
     keep_traced(archive, *session.record_);

@@ -1,6 +1,8 @@
 #include "model/stages.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 namespace arcwall {
 
@@ -77,9 +79,20 @@ deck::Deck deck_of_stage(const deck::Deck& deck, std::size_t stage, const std::v
   result.path.step = now.step.value_or(deck.path.step);
   result.path.max_step = now.max_step.value_or(deck.path.max_step);
   result.path.branches = now.branches.value_or(deck.path.branches);
-  result.contact.points = points_of_contact(deck).points;
   result.stages.clear();
   return result;
+}
+
+bool is_driven_apart(const deck::Deck& deck, const std::string& member) {
+  const auto acts_along = [&](const auto& action) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(action)>, deck::PointLoad>)
+      return false;
+    else
+      return action.member == member;
+  };
+  return !deck.stages.empty() && std::any_of(deck.loads.begin(), deck.loads.end(), [&](const deck::Load& load) {
+    return !load.constant && std::visit(acts_along, load.action);
+  });
 }
 
 std::vector<DrivenThing> progress_after(const deck::Stage& stage, double lambda, std::vector<DrivenThing> progress) {

@@ -20,6 +20,10 @@ std::vector<DrivenThing> things_to_drive(const deck::Deck& deck);
 /// A deck without stages is what it is.
 deck::Deck deck_of_stage(const deck::Deck& deck, std::size_t stage, const std::vector<DrivenThing>& progress);
 
+/// Whether stages drive loads along a member, so that it and its neighbours may be loaded alike in one stage and not in
+/// another.
+bool is_driven_apart(const deck::Deck& deck, const std::string& member);
+
 /// The progress when a stage has ended at λ.
 std::vector<DrivenThing> progress_after(const deck::Stage& stage, double lambda, std::vector<DrivenThing> progress);
 

@@ -45,6 +45,8 @@ class PathTracing final : public Tracing {
     const std::size_t first_event = record_.events.size() - step->arc.events.size();
     for (std::size_t i = 0; i < step->arc.events.size(); ++i)
       record_.events[first_event + i].sensitivity = sensitivities_.of(step->arc, step->arc.events[i]);
+    if (auto why = model_.adrift(step->arc.to.state))
+      explorer_.stop({.reason = EndReason::adrift, .detail = std::move(*why)});
     return true;
   }
 
@@ -116,10 +118,9 @@ class StageTracing final : public Tracing {
   bool advance() override {
     if (tracing_->advance()) return true;
     if (!goes_on()) return false;
-    State start = record_.points.back().state;
-    model_.begin_stage(start.lambda);
-    start.lambda = 0.0;
-    begin(stage_ + 1, start);
+    const State last = record_.points.back().state;
+    model_.begin_stage(last.lambda);
+    begin(stage_ + 1, model_.at_stage(stage_ + 1).taken_over(last));
     return tracing_->advance();
   }
 

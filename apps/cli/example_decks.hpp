@@ -14,6 +14,9 @@ struct ExampleDeck {
 /// In the order of their names; made from the files of examples/ when the program is built.
 const std::vector<ExampleDeck>& example_decks();
 
+/// Decks of real devices, likewise: each has a number that can be had by hand.
+const std::vector<ExampleDeck>& example_devices();
+
 /// The sweeps, likewise.
 const std::vector<ExampleDeck>& example_sweeps();
 

@@ -17,10 +17,11 @@ namespace {
 
 void list_examples() {
   std::vector<std::vector<std::string>> rows;
-  for (const ExampleDeck& example : example_decks()) {
-    const std::string name(example.name);
-    rows.push_back({name, deck::read_deck_text(example.text, name + ".toml").title});
-  }
+  for (const auto* list : {&example_decks(), &example_devices()})
+    for (const ExampleDeck& example : *list) {
+      const std::string name(example.name);
+      rows.push_back({name, deck::read_deck_text(example.text, name + ".toml").title});
+    }
   for (const ExampleDeck& example : example_sweeps()) {
     const std::string name(example.name);
     rows.push_back({name, sweep::read_sweep_text(example.text, name + ".toml").title});
@@ -30,7 +31,7 @@ void list_examples() {
 
 const ExampleDeck& example_named(const std::string& name) {
   std::vector<std::string> names;
-  for (const auto* list : {&example_decks(), &example_sweeps()})
+  for (const auto* list : {&example_decks(), &example_devices(), &example_sweeps()})
     for (const ExampleDeck& example : *list) {
       if (example.name == name) return example;
       names.emplace_back(example.name);

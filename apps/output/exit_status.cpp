@@ -24,6 +24,7 @@ ExitStatus exit_status(EndReason reason) {
     case EndReason::wall_end:
     case EndReason::continuum:
     case EndReason::unsupported:
+    case EndReason::adrift:
       return ExitStatus::ended_early;
   }
   assert(false);

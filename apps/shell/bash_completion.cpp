@@ -39,7 +39,8 @@ std::string completer(const std::string& placeholder) {
   if (placeholder == "FILE") return "_trace_path_files";
   if (placeholder == "DECK" || placeholder == "SWEEP") return "_trace_path_decks";
   if (placeholder == "NAME")
-    return "_trace_path_words '" + joined(names_of(example_decks())) + " " + joined(names_of(example_sweeps())) + "'";
+    return "_trace_path_words '" + joined(names_of(example_decks())) + " " + joined(names_of(example_devices())) + " " +
+           joined(names_of(example_sweeps())) + "'";
   if (placeholder == "key=value") return "_trace_path_keys '" + joined(beginnings_of_keys()) + "'";
   if (placeholder.find('|') == std::string::npos) return "";
   std::string words = placeholder;

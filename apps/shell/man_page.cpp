@@ -97,7 +97,7 @@ std::string meaning(ExitStatus status) {
 
 std::string example_names() {
   std::string text;
-  for (const auto* list : {&example_decks(), &example_sweeps()})
+  for (const auto* list : {&example_decks(), &example_devices(), &example_sweeps()})
     for (const ExampleDeck& deck : *list) text += (text.empty() ? "" : ", ") + std::string(deck.name);
   return text;
 }

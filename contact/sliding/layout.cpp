@@ -8,7 +8,7 @@ namespace arcwall {
 
 SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh,
                                            std::vector<Point> points, const Vector& s)
-    : mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
+    : body_(&body), mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
   Index first_point = 0;
   for (Index strand = 0; strand < body.strands(); ++strand) first_point = add_segments(body, strand, first_point);
   bounds_ = sliding::validity_bounds(body, *this);

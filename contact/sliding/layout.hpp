@@ -76,6 +76,9 @@ class SlidingContactLayout final : public SlidingLayout {
   ~SlidingContactLayout() override;
 
   const SlidingMesh& mesh() const override { return *mesh_; }
+
+  /// Whether it was made for this very body.
+  bool is_of(const SlidingBody& body) const { return &body == body_; }
   const std::shared_ptr<const SlidingMesh>& shared_mesh() const { return mesh_; }
   const std::vector<Point>& points() const { return points_; }
   const std::vector<PressedNode>& pressed_nodes() const { return pressed_nodes_; }
@@ -129,6 +132,7 @@ class SlidingContactLayout final : public SlidingLayout {
   Index add_segments(const SlidingBody& body, Index strand, Index next_point);
   const Segment& segment_at_end(Index strand, bool last) const;
 
+  const SlidingBody* body_;
   std::shared_ptr<const SlidingMesh> mesh_;
   std::vector<Point> points_;
   std::vector<PressedNode> pressed_nodes_;

@@ -228,6 +228,60 @@ std::vector<OutgoingDirection> direction_of(const UnilateralSystem& system, cons
   return {std::move(way)};
 }
 
+// The way on in which these of the degenerate contacts are closed and λ grows or falls, by the equations of that piece
+// alone; none if a rate has the wrong sign.
+std::vector<OutgoingDirection> way_on_piece(const UnilateralSystem& system, const State& corner,
+                                            const std::vector<Index>& degenerate, unsigned closed, double sign,
+                                            const CornerOptions& options, CornerWorkspace& workspace) {
+  Piece piece = corner.piece;
+  for (std::size_t i = 0; i < degenerate.size(); ++i)
+    piece[static_cast<std::size_t>(degenerate[i])] = static_cast<std::uint8_t>(closed >> i & 1U);
+  const State here = system.with_piece(corner, piece);
+  auto& [now, solver] = workspace;
+  system.linearize(here, now);
+  if (solver.factorize(now, system.multiplier_count(piece)) != FactorStatus::ok) return {};
+  Matrix X = -sign * now.F_lambda;
+  if (!solver.solve_inner(X)) return {};
+  const Direction motion{.dx = X.col(0), .dlambda = sign};
+  const double moves = std::sqrt((system.weights(piece).array() * motion.dx.array().square()).sum());
+  Vector rates(static_cast<Index>(degenerate.size()));
+  double loads = 0.0;  // the greatest rate of a force
+  for (std::size_t i = 0; i < degenerate.size(); ++i) {
+    rates[static_cast<Index>(i)] = apply(system.guard_gradient(here, degenerate[i]), motion);
+    if (closed >> i & 1U) loads = std::max(loads, std::abs(rates[static_cast<Index>(i)]));
+  }
+  OutgoingDirection way;
+  way.piece = corner.piece;
+  way.loading = Piece(corner.piece.size(), 0);
+  for (std::size_t i = 0; i < degenerate.size(); ++i) {
+    const bool is_closed = (closed >> i & 1U) != 0;
+    const double zero = options.rate_tolerance * (is_closed ? loads : moves), rate = rates[static_cast<Index>(i)];
+    const auto j = static_cast<std::size_t>(degenerate[i]);
+    if (rate < -zero) return {};
+    if (rate <= zero) continue;
+    way.piece[j] = way.loading[j] = static_cast<std::uint8_t>(is_closed);
+  }
+  const double length = std::hypot(moves, 1.0);
+  way.direction = {.dx = system.transfer(motion.dx / length, piece, way.piece), .dlambda = sign / length};
+  return {std::move(way)};
+}
+
+// Where next to nothing but degenerate contacts resists a motion, K with all of them open says nothing of the rest.
+// The last piece that is tried has all of them closed.
+std::vector<OutgoingDirection> ways_by_piece(const UnilateralSystem& system, const State& corner,
+                                             const std::vector<Index>& degenerate, const CornerOptions& options,
+                                             CornerWorkspace& workspace) {
+  constexpr std::size_t most = 6;  // contacts up to which all pieces are tried
+  std::vector<OutgoingDirection> found;
+  if (degenerate.size() > most) return found;
+  const unsigned all = (1U << degenerate.size()) - 1U;
+  for (const double sign : {1.0, -1.0})
+    for (unsigned closed = 0; closed <= all; ++closed)
+      for (OutgoingDirection& way : way_on_piece(system, corner, degenerate, closed, sign, options, workspace))
+        found.push_back(std::move(way));
+  return found;
+}
+
 // Whether two directions move the structure, whose unknowns are the first n, alike; contact forces follow from that.
 bool same(const UnilateralSystem& system, Index n, const OutgoingDirection& a, const OutgoingDirection& b,
           double tolerance) {
@@ -245,17 +299,27 @@ std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& syste
                                                    const std::vector<Index>& degenerate, const CornerOptions& options,
                                                    CornerWorkspace& workspace) {
   const bool small = static_cast<int>(degenerate.size()) <= options.max_enumerated;
-  const auto problem = reduce(system, corner, degenerate, small, workspace);
-  if (!problem) return {};
-  const Index n = workspace.equations.K.cols() - system.multiplier_count(problem->open.piece);
   std::vector<OutgoingDirection> found;
-  for (const Solution& solution : small ? enumerate(*problem) : pivoted(*problem))
-    for (OutgoingDirection& way : direction_of(system, corner, degenerate, *problem, solution, options)) {
-      const auto known = [&](const OutgoingDirection& other) {
-        return same(system, n, way, other, options.same_direction);
-      };
-      if (std::none_of(found.begin(), found.end(), known)) found.push_back(std::move(way));
-    }
+  Index n = 0;  // unknowns of the structure
+  const auto add = [&](OutgoingDirection& way) {
+    const auto known = [&](const OutgoingDirection& other) {
+      return same(system, n, way, other, options.same_direction);
+    };
+    if (std::none_of(found.begin(), found.end(), known)) found.push_back(std::move(way));
+  };
+  std::vector<OutgoingDirection> ways;
+  if (options.max_enumerated == 0) ways = ways_by_piece(system, corner, degenerate, options, workspace);
+  if (!ways.empty()) {
+    Piece all = corner.piece;
+    for (const Index j : degenerate) all[static_cast<std::size_t>(j)] = 1;
+    n = workspace.equations.K.cols() - system.multiplier_count(all);
+  } else if (const auto problem = reduce(system, corner, degenerate, small, workspace)) {
+    n = workspace.equations.K.cols() - system.multiplier_count(problem->open.piece);
+    for (const Solution& solution : small ? enumerate(*problem) : pivoted(*problem))
+      for (OutgoingDirection& way : direction_of(system, corner, degenerate, *problem, solution, options))
+        ways.push_back(std::move(way));
+  }
+  for (OutgoingDirection& way : ways) add(way);
   return found;
 }
 

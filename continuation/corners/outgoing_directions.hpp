@@ -28,7 +28,7 @@ struct CornerWorkspace {
 ///
 /// `degenerate` are the contacts whose gap and force are both zero there. The direction by which the place was reached
 /// (backwards) is among them. Where K with all degenerate contacts open is singular, or all but singular, the rate of
-/// one of their gaps stands in the place of that of λ; empty where that does not determine the motion either.
+/// one of their gaps stands in the place of that of λ; with max_enumerated = 0 each piece is asked by itself.
 /// `workspace` leaves no trace in the result.
 std::vector<OutgoingDirection> outgoing_directions(const UnilateralSystem& system, const State& corner,
                                                    const std::vector<Index>& degenerate, const CornerOptions& options,

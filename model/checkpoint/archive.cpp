@@ -48,7 +48,7 @@ Matrix to_numbers(const Json& json) {
 
 }  // namespace archive_detail
 
-ArchiveWriter::ArchiveWriter(const ArchiveModel& model) : shared_(std::make_shared<Shared>()) {
+ArchiveWriter::ArchiveWriter(const ArchiveModel& model) : shared_(std::make_shared<Shared>(Shared{.model = model})) {
   shared_->layouts.push_back(model.system->open_piece().layout().get());
 }
 
@@ -67,11 +67,14 @@ Json ArchiveWriter::piece(const Piece& piece) {
     return json;
   }
   const auto& layout = dynamic_cast<const SlidingContactLayout&>(*piece.layout());
+  const auto& stages = shared_->model.sliding;
+  const auto is_its = [&](const SlidingContact* contact) { return layout.is_of(contact->body()); };
+  auto stage = static_cast<Index>(std::find_if(stages.begin(), stages.end(), is_its) - stages.begin());
   ElementsPerSegment cut = layout.mesh().elements_per_segment();
   std::vector<SlidingContactLayout::Point> points = layout.points();
   Vector origin = layout.origin();
   ArchiveWriter inner(shared_);
-  inner(cut, points, origin);
+  inner(stage, cut, points, origin);
   json.push_back(std::move(inner.json_));
   return json;
 }
@@ -108,13 +111,15 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   if (!json.is_array())
     return shared_->layouts[static_cast<std::size_t>(
         whole_number(json, 0, static_cast<std::int64_t>(shared_->layouts.size()) - 1))];
+  Index stage = 0;
   ElementsPerSegment cut;
   std::vector<SlidingContactLayout::Point> points;
   Vector origin;
   ArchiveReader inner(json, shared_);
-  inner(cut, points, origin);
-  require(inner.at_end() && model().sliding != nullptr);
-  shared_->layouts.push_back(model().sliding->layout_of(cut, std::move(points), origin));
+  inner(stage, cut, points, origin);
+  require(inner.at_end() && stage < static_cast<Index>(model().sliding.size()));
+  shared_->layouts.push_back(
+      model().sliding[static_cast<std::size_t>(stage)]->layout_of(cut, std::move(points), origin));
   require(shared_->layouts.back() != nullptr);
   return shared_->layouts.back();
 }

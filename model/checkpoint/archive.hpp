@@ -29,7 +29,7 @@ class BadArchive : public std::runtime_error {
 /// What the states of a run belong to.
 struct ArchiveModel {
   const System* system = nullptr;
-  const SlidingContact* sliding = nullptr;  ///< null where contact is tied to nodes
+  std::vector<const SlidingContact*> sliding{};  ///< of each stage that has begun; empty where contact is tied to nodes
 
   /// Whether a state has the unknowns of its piece, and that is a piece of the system. A state without anything is.
   bool owns(const State& state) const;
@@ -80,7 +80,8 @@ class ArchiveWriter {
  private:
   using Json = nlohmann::json;
   struct Shared {
-    std::vector<const void*> layouts, branch_points;  // in the order in which they were met
+    ArchiveModel model;
+    std::vector<const void*> layouts{}, branch_points{};  // in the order in which they were met
   };
 
   explicit ArchiveWriter(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {}
@@ -148,6 +149,9 @@ class ArchiveReader {
   }
 
   const ArchiveModel& model() const { return shared_->model; }
+
+  /// The contacts of stages that are known to have begun now.
+  void set_sliding(std::vector<const SlidingContact*> sliding) { shared_->model.sliding = std::move(sliding); }
 
   /// Whether all entries have been read.
   bool at_end() const { return at_ == json_.size(); }

@@ -10,7 +10,7 @@ namespace arcwall {
 constexpr std::int64_t greatest(Stability) { return static_cast<std::int64_t>(Stability::undecided); }
 constexpr std::int64_t greatest(EventKind) { return static_cast<std::int64_t>(EventKind::user); }
 constexpr std::int64_t greatest(BranchType) { return static_cast<std::int64_t>(BranchType::undetermined); }
-constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::unsupported); }
+constexpr std::int64_t greatest(EndReason) { return static_cast<std::int64_t>(EndReason::adrift); }
 
 constexpr std::int64_t greatest(SlidingContactLayout::Span) {
   return static_cast<std::int64_t>(SlidingContactLayout::Span::pressed);

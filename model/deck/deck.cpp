@@ -99,7 +99,6 @@ bool drives(const Stage& stage, const std::string& thing) {
 // Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
-  if (!deck.stages.empty()) return {.points = ContactPoints::nodes, .why = "a deck with stages has contact at nodes"};
   if (deck.contact.method != ContactLaw::Method::rigid)
     return {.points = ContactPoints::nodes,
             .why = "method " + text_of(contact_method_words, deck.contact.method) + " puts springs at nodes"};

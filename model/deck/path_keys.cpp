@@ -212,8 +212,6 @@ void check_stages(Keys& root, const Deck& deck) {
   }
   if (deck.path.method == PathMethod::incremental)
     root.report("path", "method \"incremental\" has no stages", "use method \"spherical\"");
-  if (deck.contact.points == ContactPoints::sliding)
-    root.report("contact", "contact that slides has no stages", "use points = \"nodes\"");
   if (find(deck.monitors, std::string("stage")) != nullptr)
     root.report("monitor", "\"stage\" is the name of another column of path.csv", "choose another name");
 }

@@ -178,6 +178,26 @@ TEST(FindMechanism, SoundModelsHaveNone) {
   EXPECT_FALSE(find_mechanism(*test::Cantilever{.elements = 1, .tip_force = 1.0}.structure()).has_value());
 }
 
+// A beam that is held in x at one end moves in z at both, and by turning; two springs leave it nothing.
+TEST(FreeDirections, AreThoseOfAllMotions) {
+  for (const bool sprung : {false, true}) {
+    StructureBuilder builder;
+    builder.add_joint({0.0, 0.0});
+    builder.add_joint({2.0, 0.0});
+    builder.add_member({.name = "beam",
+                        .from = 0,
+                        .to = 1,
+                        .axis = straight_axis({0.0, 0.0}, {2.0, 0.0}),
+                        .section = {.E = 1.0, .A = 1.0, .I = 1.0}});
+    builder.fix(builder.freedom(0, Freedom::x));
+    if (sprung)
+      for (const Index end : {0, 1}) builder.add_ground_stiffness(builder.freedom(end, Freedom::z), 1e-3);
+    const std::vector<NodeDirection> free = free_directions(*builder.build(), {0, 1});
+    ASSERT_EQ(free.size(), sprung ? 0u : 2u);
+    for (const NodeDirection& one : free) EXPECT_EQ(one.freedom, Freedom::z);
+  }
+}
+
 // A beam on one hinge turns about it, unless a spring holds its other end or its rotation.
 TEST(FindMechanism, SpringsToTheGroundHold) {
   for (const int springs : {0, 1, 2}) {

@@ -103,7 +103,7 @@ TEST(EventNames, EveryNameReadsBack) {
     const auto kind = static_cast<EventKind>(i);
     EXPECT_EQ(event_kind(to_text(kind)), kind) << to_text(kind);
   }
-  for (int i = 0; i <= static_cast<int>(EndReason::wall_end); ++i) {
+  for (int i = 0; i <= static_cast<int>(EndReason::adrift); ++i) {
     const auto reason = static_cast<EndReason>(i);
     EXPECT_EQ(end_reason(to_text(reason)), reason) << to_text(reason);
     EXPECT_FALSE(explanation(reason).empty());

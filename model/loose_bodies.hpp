@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elements/structure.hpp"
+#include "model/deck/deck.hpp"
+
+namespace arcwall {
+
+/// How bodies that nothing but contact holds are kept where they are as far as neither contact nor loads say where they
+/// go: by springs to the ground at ends of members, in the directions in which these can move without strain. The
+/// springs are so soft that their forces do not count beside those that deform a member, and stiff enough for the
+/// equations to have one solution.
+struct LooseHolds {
+  static constexpr double softness = 1e-7;  ///< beside the softest member; 1000 times as much in decks without loads
+
+  struct Hold {
+    std::string point{};
+    deck::Stiffness stiffness{};
+  };
+  std::vector<Hold> holds{};
+
+  bool empty() const { return holds.empty(); }
+
+  /// As springs of a deck, `times` as stiff.
+  std::vector<deck::Spring> springs(double times = 1.0) const;
+
+  /// What the user should know of them.
+  std::string warning(const deck::Units& units) const;
+};
+
+/// Those of a deck whose structure can move without strain; none if no wall concerns it, if its contact knows no such
+/// bodies, or if they would not hold it.
+LooseHolds loose_holds(const deck::Deck& deck);
+
+/// The force by which the most flexible member resists a displacement of one of its ends: 3 EI/ℓ³ of a cantilever, of a
+/// bar EA/ℓ [force/length]. `structure` is that of the deck.
+double softest_stiffness(const deck::Deck& deck, const Structure& structure);
+
+}  // namespace arcwall

@@ -1,0 +1,146 @@
+// The examples of devices: each runs to its end, is confirmed, and has the number that its first lines give by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "apps/cli/example_decks.hpp"
+#include "apps/verify/verify.hpp"
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/stored_files_of.hpp"
+
+namespace arcwall::devices_test {
+namespace {
+
+using std::numbers::pi;
+
+double monitor(const Record& record, const std::vector<double>& values, const std::string& name) {
+  for (std::size_t m = 0; m < record.columns.size(); ++m)
+    if (record.columns[m].name == name) return values[m];
+  ADD_FAILURE() << "no monitor " << name;
+  return 0.0;
+}
+
+const RecordEvent& event(const Record& record, EventKind kind, int number = 0) {
+  for (const RecordEvent& event : record.events)
+    if (event.kind == kind && number-- == 0) return event;
+  ADD_FAILURE() << "no such event";
+  return record.events.front();
+}
+
+const RecordPoint& landed(const Record& record, double lambda) {
+  return *std::min_element(record.points.begin(), record.points.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.lambda - lambda) < std::abs(b.lambda - lambda);
+  });
+}
+
+// A number of a run, what it is by hand, and how far the hand is off.
+struct Number {
+  double found, by_hand, relative;
+};
+
+Number of_bow(const Record& record) {  // EI/(R a), from a point to a stretch
+  const double a = 100.0, sagitta = 4.5, R = (a * a + sagitta * sagitta) / (2.0 * sagitta);
+  const RecordEvent& spreads = event(record, EventKind::contact_spreads);
+  return {monitor(record, spreads.monitors, "press"), 2.0e5 * 20.0 / 12.0 / (R * a), 0.01};
+}
+
+// The least eigenvalue of EI θ″ + (W − p x) θ = H with θ′ = 0 at both ends and ∫ θ dx = 0 at the length of 7.968
+// (EI/p)^⅓, by Runge-Kutta's method of order 4.
+Number of_drill_string(const Record& record) {
+  const double EI = 2.1e8 * pi / 4.0 * (std::pow(0.08, 4.0) - std::pow(0.035, 4.0));
+  return {event(record, EventKind::branch_point).lambda, 1.938332 * std::cbrt(EI * 1.2 * 1.2), 1e-4};
+}
+
+Number of_guidewire(const Record& record) {  // EI/(2 R²)
+  const double EI = 6.0e4 * pi / 4.0 * std::pow(0.18, 4.0);
+  return {monitor(record, landed(record, 60.0).monitors, "push"), EI / (2.0 * 58.0 * 58.0), 0.02};
+}
+
+Number of_harvester(const Record& record) {  // 2 √(δ L)/π
+  const RecordPoint* rests = nullptr;
+  for (const RecordPoint& point : record.points)
+    if (record.stage_of(point.branch) == "shorten") rests = &point;
+  return {monitor(record, rests->monitors, "middle"), 2.0 * std::sqrt(0.5 * 100.0) / pi, 5e-3};
+}
+
+// Qiu, Lang and Slocum's force of a cosine beam without its second mode, (3π⁴Q²/2) Δ ((Δ − 3/2)² − ¼ + 4/(3 Q²)) EI
+// h/ℓ³ with Q = h/t and the way Δ h; here the greatest, for small slopes.
+Number of_lattice(const Record& record) {
+  const double Q = 3.0 / 1.364, EI = 1600.0 * 10.0 * std::pow(1.364, 3.0) / 12.0;
+  double greatest = 0.0;
+  for (double d = 0.0; d < 1.0; d += 1e-3)
+    greatest =
+        std::max(greatest, 1.5 * std::pow(pi, 4.0) * Q * Q * d * ((d - 1.5) * (d - 1.5) - 0.25 + 4.0 / (3.0 * Q * Q)));
+  const RecordEvent& peak = event(record, EventKind::displacement_limit);
+  return {monitor(record, peak.monitors, "force"), 2.0 * greatest * EI * 3.0 / std::pow(40.0, 3.0), 0.06};
+}
+
+Number of_leaf_spring(const Record& record) {  // an arc of the former, and a cantilever on its end
+  const double EI = 175000.0, R = 800.0, P = 4.0, free = EI / (P * R), c = 100.0 - free;
+  return {monitor(record, landed(record, P).monitors, "tip"),
+          c * c / (2.0 * R) + c / R * free + P * std::pow(free, 3.0) / (3.0 * EI), 0.01};
+}
+
+Number of_mems_switch(const Record& record) {  // 740 EI h/ℓ³
+  const double EI = 1.6e5 * 100.0 * 125.0 / 12.0;
+  return {event(record, EventKind::limit_point).lambda, 740.0 * EI * 40.0 / 1e9, 0.02};
+}
+
+Number of_portal(const Record& record) {  // k h tan k h = 6
+  return {event(record, EventKind::branch_point).lambda, 1.34955 * 1.34955 * 2100.0 / 16.0, 2e-3};
+}
+
+Number of_rail(const Record& record) {  // EI q² + k/q² of three half waves
+  const double q = 3.0 * pi / 12.0;
+  return {monitor(record, event(record, EventKind::branch_point).monitors, "force"), 2100.0 * q * q + 500.0 / (q * q),
+          2e-3};
+}
+
+Number of_ring(const Record& record) {  // at 1/100 of the radius
+  const double EI = 5.0 * 20.0 * 8.0 / 12.0, R = 30.0;
+  return {monitor(record, landed(record, 0.3).monitors, "force"), 0.3 * EI / (R * R * R) / (pi / 4.0 - 2.0 / pi), 0.02};
+}
+
+Number of_snap_fit(const Record& record) {  // P t with P = (3 EI y/ℓ³)/(1 − 3 a t/(2 ℓ)), at the greatest push
+  const RecordEvent& greatest = event(record, EventKind::displacement_limit);
+  const double EI = 2400.0 * 5.0 * std::pow(1.5, 3.0) / 12.0, y = monitor(record, greatest.monitors, "lift");
+  return {monitor(record, greatest.monitors, "push"), 0.5 * 3.0 * EI * y / 8000.0 / (1.0 - 1.5 * 3.0 * 0.5 / 20.0),
+          0.08};
+}
+
+const std::map<std::string_view, Number (*)(const Record&)> numbers{{"bow", of_bow},
+                                                                    {"drill-string", of_drill_string},
+                                                                    {"guidewire", of_guidewire},
+                                                                    {"harvester", of_harvester},
+                                                                    {"lattice", of_lattice},
+                                                                    {"leaf-spring", of_leaf_spring},
+                                                                    {"mems-switch", of_mems_switch},
+                                                                    {"portal", of_portal},
+                                                                    {"rail", of_rail},
+                                                                    {"ring", of_ring},
+                                                                    {"snap-fit", of_snap_fit}};
+
+}  // namespace
+
+TEST(ExampleDevices, HaveTheNumbersThatTheySaySlow) {
+  EXPECT_EQ(example_devices().size(), numbers.size());
+  for (const ExampleDeck& device : example_devices()) {
+    SCOPED_TRACE(std::string(device.name));
+    const test::TracedDeck traced(device.text);
+    const Record& record = traced.record();
+    for (const RecordBranch& branch : record.branches)
+      EXPECT_TRUE(branch.end->reason == EndReason::stop || branch.end->reason == EndReason::branched)
+          << branch.end->detail;
+    const Number number = numbers.at(device.name)(record);
+    EXPECT_NEAR(number.found, number.by_hand, number.relative * number.by_hand);
+    const verify::Verdict verdict =
+        verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
+    EXPECT_FALSE(verdict.findings.first().has_value()) << verify::to_text(*verdict.findings.first());
+  }
+}
+
+}  // namespace arcwall::devices_test

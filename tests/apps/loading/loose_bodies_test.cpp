@@ -1,0 +1,192 @@
+// Bodies that nothing but contact holds: they fall onto it, are pressed on it, or are pushed to it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "apps/output/exit_status.hpp"
+#include "core/error.hpp"
+#include "tests/apps/loading/loading_decks.hpp"
+
+namespace arcwall::loading_test {
+
+namespace {
+
+// A beam of EI = 1000 · 8/3, 120 long, over round props that are 100 apart; a nose comes down on its middle [mm, N].
+std::string three_point_bending(double props, double nose, const std::string& more = "") {
+  return fmt::format(R"(
+title = "Three-point bending"
+material.m = {{ E = 1000.0 }}
+section.s = {{ shape = "rectangle", width = 4.0, height = 2.0 }}
+point = {{ A = [-60.0, 0.0], B = [60.0, 0.0] }}
+member.beam = {{ from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 24 }}
+[[wall]]
+name = "left"
+acts_on = "axis"
+outline = {{ type = "circle", centre = [-50.0, {0:.17g}], radius = 5.0 }}
+[[wall]]
+name = "right"
+acts_on = "axis"
+outline = {{ type = "circle", centre = [50.0, {0:.17g}], radius = 5.0 }}
+[[wall]]
+name = "nose"
+acts_on = "axis"
+outline = {{ type = "circle", centre = [0.0, {1:.17g}], radius = 5.0 }}
+motion = {{ z = -1.0 }}
+[path]
+step = 0.02
+[[monitor]]
+name = "push"
+wall = "nose"
+component = "force-z"
+sign = -1
+[[monitor]]
+name = "middle"
+at = "beam:0.5"
+component = "z"
+)",
+                     props, nose) +
+         more;
+}
+
+// A hook that a force pushes along x to a catch, and nothing else holds in that direction [mm, N].
+const std::string pushed_hook = R"(
+title = "Hook"
+material.pa = { E = 2400.0 }
+section.hook = { shape = "rectangle", width = 5.0, height = 1.5 }
+point = { base = [0.0, 0.0], tip = [20.0, 0.0], nose = [20.0, -1.5] }
+support = { base = ["z", "rotation"] }
+[member]
+beam = { from = "base", to = "tip", theory = "elastica", material = "pa", section = "hook", elements = 8 }
+nose = { from = "tip", to = "nose", theory = "elastica", material = "pa", section = "hook", elements = 2 }
+[[load]]
+at = "base"
+force = [1.0, 0.0]
+[[wall]]
+name = "catch"
+side = "below"
+acts_on = "axis"
+members = ["nose"]
+profile = { type = "parabola", apex = [25.0, -0.5], curvature = -0.2 }
+[path]
+step = 0.01
+[[monitor]]
+name = "way"
+at = "base"
+component = "x"
+[[monitor]]
+name = "lift"
+at = "tip"
+component = "z"
+[path.stop]
+)";
+
+double monitored(const RecordPoint& point, std::size_t which) { return point.monitors[which]; }
+
+}  // namespace
+
+// In small slopes P = 48 EI w/ℓ³ = 0.128 w. Nothing holds the beam along x, and nothing pushes it.
+TEST(LooseBodies, AreBentOverProps) {
+  const TracedDeck bent(three_point_bending(-5.0, 5.0, "[path.stop]\nlambda = [-0.01, 0.1]\n"));
+  const RecordPoint& last = bent.record().points.back();
+  ASSERT_EQ(last.lambda, 0.1);
+  EXPECT_NEAR(monitored(last, 0), 0.0128, 2e-5);
+  EXPECT_NEAR(monitored(last, 1), -0.1, 1e-9);
+  EXPECT_EQ(bent.model().warnings().size(), 1u);
+  EXPECT_NE(bent.model().warnings().front().find("A in x and z, B in x and z"), std::string::npos);
+  expect_confirmed(bent);
+}
+
+// Half a millimetre above its props the beam falls onto them: it rests with the deflection of its weight, between two
+// props with ends that overhang, and the nose meets it there.
+TEST(LooseBodies, FallOntoWhatHoldsThem) {
+  const double q = 1e-4, EI = 1000.0 * 8.0 / 3.0, l = 100.0, a = 10.0;
+  const TracedDeck rests(three_point_bending(-5.5, 6.0, R"(
+[[load]]
+on = "beam"
+distributed = [0.0, -0.0001]
+constant = true
+[path.stop]
+lambda = [-0.1, 2.0]
+)"));
+  const double sag = q * l * l * (5.0 * l * l - 24.0 * a * a) / (384.0 * EI);
+  EXPECT_NEAR(monitored(rests.record().points.front(), 1), -0.5 - sag, 1e-3 * sag);
+  const auto meets = events_of(rests, EventKind::contact_closes);
+  ASSERT_FALSE(meets.empty());
+  EXPECT_NEAR(meets.front().lambda, 1.5 + sag, 1e-3 * sag);
+  expect_confirmed(rests);
+}
+
+// The hook goes to the catch without a force worth the name, over it with one, and on without. It touches where the
+// parabola is as high as its nose, at 25 ∓ √10.
+TEST(LooseBodies, ArePushedToWhatHoldsThem) {
+  const TracedDeck pushed(pushed_hook + "way = [-0.1, 12.0]\n");
+  const auto meets = events_of(pushed, EventKind::contact_closes), leaves = events_of(pushed, EventKind::contact_opens);
+  ASSERT_EQ(meets.size(), 1u);
+  ASSERT_EQ(leaves.size(), 1u);
+  EXPECT_NEAR(meets[0].monitors[0], 5.0 - std::sqrt(10.0), 1e-7);
+  EXPECT_NEAR(leaves[0].monitors[0], 5.0 + std::sqrt(10.0), 1e-6);
+  EXPECT_LT(std::abs(meets[0].lambda), 1e-5);
+  EXPECT_LT(std::abs(leaves[0].lambda), 1e-5);
+  EXPECT_EQ(events_of(pushed, EventKind::limit_point).size(), 2u);
+  expect_confirmed(pushed);
+}
+
+// Nothing lies where the force pushes.
+TEST(LooseBodies, AreNotFollowedWhereNothingHoldsThem) {
+  const TracedDeck lost(pushed_hook + "lambda = [-1.0, 1.0]\n", {"load.0.force=[-1.0, 0.0]"});
+  const auto& end = lost.record().branches.back().end;
+  ASSERT_TRUE(end.has_value());
+  EXPECT_EQ(end->reason, EndReason::adrift);
+  EXPECT_NE(end->detail.find("\"base\""), std::string::npos) << end->detail;
+}
+
+// Walls that do not concern what is loose hold nothing.
+TEST(LooseBodies, AreStillRefusedWithoutAWall) {
+  std::string deck = pushed_hook;
+  const std::string nose = "members = [\"nose\"]";
+  deck.erase(deck.find("[[wall]]"), deck.find("[path]") - deck.find("[[wall]]"));
+  EXPECT_THROW(TracedDeck(deck + "lambda = [-1.0, 1.0]\n"), InputError);
+}
+
+// A ring of radius 30 between plates: F = (EI/R³)/(π/4 − 2/π) times the way while that is small. It may roll and slide,
+// and does not.
+TEST(LooseBodies, AreSqueezedBetweenPlates) {
+  const TracedDeck ring(R"(
+title = "Ring"
+material.m = { E = 5.0 }
+section.s = { shape = "rectangle", width = 20.0, height = 2.0 }
+point = { west = [-30.0, 0.0], east = [30.0, 0.0] }
+[member]
+under = { from = "west", to = "east", via = [0.0, -30.0], theory = "elastica", material = "m", section = "s", elements = 24 }
+over = { from = "east", to = "west", via = [0.0, 30.0], theory = "elastica", material = "m", section = "s", elements = 24 }
+[[wall]]
+name = "floor"
+side = "below"
+acts_on = "axis"
+profile = { type = "flat", z = -30.0 }
+[[wall]]
+name = "plate"
+side = "above"
+acts_on = "axis"
+profile = { type = "flat", z = 30.0 }
+motion = { z = -1.0 }
+[path]
+step = 0.02
+branches = "primary"
+[path.stop]
+lambda = [-0.1, 0.1]
+[[monitor]]
+name = "force"
+wall = "plate"
+component = "force-z"
+sign = -1
+)");
+  const RecordPoint& last = ring.record().points.back();
+  ASSERT_EQ(last.lambda, 0.1);
+  const double EI = 5.0 * 20.0 * 8.0 / 12.0, pi = 3.14159265358979;
+  EXPECT_NEAR(monitored(last, 0), 0.1 * EI / 27000.0 / (pi / 4.0 - 2.0 / pi), 2e-2 * monitored(last, 0));
+  expect_confirmed(ring);
+}
+
+}  // namespace arcwall::loading_test
