@@ -61,7 +61,7 @@ std::string kinds_of(const Record& record) {
 
 // κ₀″ = 0 where sin πξ + 81 (e₃/e₁) sin 3πξ = 0, sin² πξ = (3 + e₁/(81 e₃))/4: at ξ = 0.3837975 for e₃/e₁ = 1/40, but
 // for the square of the slopes. The touch spreads where the part would be pressed, and its end goes there.
-TEST(LiftingParts, LiftOffWhereTheStressFreeAxisHasNoPressure) {
+TEST(LiftingParts, LiftOffWhereTheStressFreeAxisHasNoPressureSlow) {
   constexpr double first = 0.4, third = 0.01;
   const double place = std::asin(std::sqrt((3.0 + first / (81.0 * third)) / 4.0)) / std::numbers::pi;
   double load = 0.0;
@@ -81,7 +81,7 @@ TEST(LiftingParts, LiftOffWhereTheStressFreeAxisHasNoPressure) {
 }
 
 // κ₀″ = 0 beside the touch itself: when it spreads, one half of the part is pressed and the other arches off at once.
-TEST(LiftingParts, LiftOffAtOnceBesideAPlaceWithoutPressure) {
+TEST(LiftingParts, LiftOffAtOnceBesideAPlaceWithoutPressureSlow) {
   double load = 0.0;
   for (const int elements : {12, 24, 48, 96}) {
     SCOPED_TRACE(elements);

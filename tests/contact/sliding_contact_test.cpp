@@ -363,7 +363,7 @@ TEST(SlidingContact, DerivativesAreConsistentOnAFoundation) {
 }
 
 // Among walls that λ moves and turns.
-TEST(SlidingContact, KnowsTheRatesOfWallsThatMove) {
+TEST(SlidingContact, KnowsTheRatesOfWallsThatMoveSlow) {
   Numbers numbers(78);
   for (const Theory theory : {Theory::classic, Theory::elastica})
     for (const bool on_axis : {false, true}) {

@@ -108,7 +108,7 @@ std::string large_frame() {
          joints.str() + members.str() + "[support]\n" + supports.str() + loads.str() + "[path]\nstep = 0.05\n";
 }
 
-TEST(Checkpoint, ALargeFrameGoesOnToTheLastBitBeyondItsLimitPoint) {
+TEST(Checkpoint, ALargeFrameGoesOnToTheLastBitBeyondItsLimitPointSlow) {
   const RunDescription frame{.deck = "frame.toml", .deck_text = large_frame()};
   Session whole(frame), parts(frame);
   ASSERT_TRUE(whole.begin() && parts.begin()) << whole.problem();

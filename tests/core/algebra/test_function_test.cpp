@@ -96,7 +96,7 @@ std::optional<SignCount> counted(const Case& one, bool& by_pivots) {
 
 // An eigenvalue of the dense matrix is sure to a few n ε ‖A‖. Those above this are classified without an exception, and
 // none of them is called undecided: what is, lies within ε |v|ᵀ |A| |v| of zero, which is less.
-TEST(TestFunction, SignsOfTenThousandSystemsAreThoseOfTheDenseEigenvalues) {
+TEST(TestFunction, SignsOfTenThousandSystemsAreThoseOfTheDenseEigenvaluesSlow) {
   Numbers numbers(11);
   constexpr int cases = 10'000;
   int by_psi = 0, undecided = 0;
