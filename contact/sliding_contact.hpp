@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "contact/contact_point.hpp"
@@ -47,6 +48,7 @@ class SlidingContact final : public System, public ContactQuery {
   Row guard_gradient(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
+  bool is_two_sided(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales().force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
   bool leaves_stability_open(const Piece& piece) const override;
@@ -85,6 +87,13 @@ class SlidingContact final : public System, public ContactQuery {
 
   /// The least gap at `places` points of each element against every obstacle, flat parts included [length].
   double least_gap(const State& state, int places) const;
+
+  /// Where two obstacles leave the body no clearance: two contacts each that are closed for good.
+  struct PinchedPlace {
+    std::string obstacle{}, other{};  ///< their names
+    Vec2 place = Vec2::Zero();        ///< of the axis
+  };
+  std::vector<PinchedPlace> pinches() const;
 
   const ContactScales& scales() const;
   const SlidingBody& body() const;

@@ -70,12 +70,21 @@ std::optional<std::pair<Index, bool>> SlidingStructure::same_end_before(Index st
   return std::nullopt;
 }
 
-bool SlidingStructure::is_tip(Index strand, bool last) const {
-  const End& end = at(strand).ends[last ? 1 : 0];
+bool SlidingStructure::is_alone(const End& end) const {
   Index strands_there = 0;
   for (const Run& run : runs_)
     for (const End& other : run.ends) strands_there += other.freedom[1] == end.freedom[1];
-  return strands_there == 1 && !nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+  return strands_there == 1;
+}
+
+bool SlidingStructure::is_tip(Index strand, bool last) const {
+  const End& end = at(strand).ends[last ? 1 : 0];
+  return is_alone(end) && !nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+}
+
+bool SlidingStructure::is_hinged(Index strand, bool last) const {
+  const End& end = at(strand).ends[last ? 1 : 0];
+  return is_alone(end) && nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
 }
 
 Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {

@@ -49,6 +49,7 @@ class SlidingStructure final : public SlidingBody {
     const End& end = at(strand).ends[last ? 1 : 0];
     return nodal_.is_held(end.freedom[1]) && nodal_.is_held(end.freedom[2]);
   }
+  bool is_hinged(Index strand, bool last) const override;
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
   std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;
   Vector rest(const SlidingMesh& mesh, const Vector& s) const override;
@@ -153,6 +154,7 @@ class SlidingStructure final : public SlidingBody {
   void join_straight_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone,
                           const Alike& alike);
   PointLoad point_load(Index node) const;
+  bool is_alone(const End& end) const;     // no other end is there
   double rest_value(Index freedom) const;  // of the mesh's unknown at rest: the position, where that is one
   const Run& at(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
 

@@ -116,6 +116,11 @@ std::vector<Theory> theories_of(const deck::Deck& deck) {
 
 bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
 
+bool may_slide(const deck::Deck& deck, const StructureBuilder& builder) {
+  return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::sliding &&
+         deck.contact.method == ContactLaw::Method::rigid && !increments_of(deck) && builder.can_slide();
+}
+
 // Whether contact points slide, which springs, increments and members of other theories do not allow.
 bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
             DeckProblems& problems) {
@@ -134,8 +139,7 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
                  "use \"nodes\", or leave a clearance");
     return false;
   }
-  const bool rigid = deck.contact.method == ContactLaw::Method::rigid;
-  if (rigid && !increments_of(deck) && builder.can_slide()) return true;
+  if (may_slide(deck, builder)) return true;
   problems.add({}, "contact.points",
                "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
                "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
@@ -216,9 +220,11 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   if (takes_increments(deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
   DeckProblems not_at_rest(deck_.source);  // where a stage begins the structure is no longer there
-  auto candidates = contact_candidates(deck_, *structure_, stage_ == 0 ? problems : not_at_rest);
+  if (may_slide(deck_, described.builder)) sliding_structure_ = sliding_structure(described.builder, false);
+  const PinchedPlaces pinched = sliding_structure_ ? pinched_places(deck_, *sliding_structure_) : PinchedPlaces{};
+  auto candidates = contact_candidates(deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
   const bool sliding = slides(deck_, described.builder, candidates, problems);
-  if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
+  if (!sliding) sliding_structure_.reset();
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   if (sliding_ && problems.empty()) check_between_nodes(deck_, *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
@@ -264,7 +270,7 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
     DeckProblems known(deck_.source);  // those of the structure itself
     if (ramp)
       ramp_contact_ = std::make_unique<MultiplierContact>(
-          *ramp_structure_, contact_candidates(with_walls_at_rest(deck_), *ramp_structure_, known), scales, law);
+          *ramp_structure_, contact_candidates(with_walls_at_rest(deck_), *ramp_structure_, {}, known), scales, law);
     if (sliding) make_sliding(builder, ramp, scales);
   }
 }
@@ -351,6 +357,10 @@ const ContactQuery* Model::contacts() const {
   return contact_.get();
 }
 
-Index Model::closed_contacts(const State& state) const { return state.piece.closed_count(); }
+// A pinch is one contact of the piece and two of the user.
+Index Model::closed_contacts(const State& state) const {
+  const auto pinches = static_cast<Index>(sliding_ ? sliding_->pinches().size() : 0);
+  return state.piece.closed_count() + pinches;
+}
 
 }  // namespace arcwall

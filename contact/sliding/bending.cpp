@@ -25,8 +25,6 @@ void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index)
   row.dlambda += factor * dlambda;
 }
 
-namespace {
-
 // ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve at the
 // face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
 CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
@@ -50,8 +48,6 @@ CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState
   out.dlambda += by_wall * wall.rate;
   return out;
 }
-
-}  // namespace
 
 CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   return gap_of_curvatures(setting, at, touch_of_contact(setting, at.layout, point), strain_of_free_side(at, point));
@@ -193,7 +189,7 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
   Vector rates = Vector::Zero(at.index.points);
   for (Index k = 0; k < rates.size(); ++k) {
     const auto point = static_cast<std::size_t>(k);
-    if (at.layout.lies_beside(point)) continue;
+    if (at.layout.lies_beside(point) || at.layout.points()[point].is_pinched()) continue;
     const Touch touch = touch_of_contact(setting, at.layout, point);
     const AxisStrain strain = strain_of_free_side(at, point);
     const AxisPlace axis = touch.axis(at);

@@ -16,6 +16,10 @@ struct CurvatureGap {
 };
 CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
+/// The same of any touch, by what the body has on one side of it.
+CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                               const AxisStrain& strain);
+
 /// The same at an end of a strand that touches the obstacle tangentially.
 CurvatureGap end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 

@@ -9,6 +9,8 @@ namespace arcwall {
 SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh,
                                            std::vector<Point> points, const Vector& s)
     : mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (points_[k].is_pinched()) pinched_points_.push_back(k);
   Index first_point = 0;
   for (Index strand = 0; strand < body.strands(); ++strand) first_point = add_segments(body, strand, first_point);
   bounds_ = sliding::validity_bounds(body, *this);
@@ -65,9 +67,10 @@ bool SlidingContactLayout::has_node(Index strand, Index load) const {
 }
 
 bool SlidingContactLayout::joins_one_obstacle(const Segment& segment) const {
-  return segment.first_point >= 0 && segment.last_point >= 0 &&
-         points_[static_cast<std::size_t>(segment.first_point)].obstacle ==
-             points_[static_cast<std::size_t>(segment.last_point)].obstacle;
+  if (segment.first_point < 0 || segment.last_point < 0) return false;
+  const Point& first = points_[static_cast<std::size_t>(segment.first_point)];
+  const Point& last = points_[static_cast<std::size_t>(segment.last_point)];
+  return first.obstacle == last.obstacle && !first.is_pinched() && !last.is_pinched();
 }
 
 SlidingContactLayout::Span SlidingContactLayout::span_before(std::size_t point) const {

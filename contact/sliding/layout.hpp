@@ -27,9 +27,12 @@ class SlidingContactLayout final : public SlidingLayout {
   struct Point {
     std::size_t obstacle = 0;
     Span behind = Span::free;
-    Span before = Span::free;     ///< of a strand's first point: up to it from the strand's beginning
-    bool neutral_behind = false;  ///< the free span behind it is a neutral one
-    bool neutral_before = false;  ///< of a strand's first point: the free span before it is
+    Span before = Span::free;            ///< of a strand's first point: up to it from the strand's beginning
+    bool neutral_behind = false;         ///< the free span behind it is a neutral one
+    bool neutral_before = false;         ///< of a strand's first point: the free span before it is
+    std::optional<std::size_t> pinch{};  ///< that it is at, by its number in the setting: it touches two obstacles
+
+    bool is_pinched() const { return pinch.has_value(); }
   };
 
   /// A node inside a pressed part, which is a segment.
@@ -81,6 +84,9 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::vector<PressedNode>& pressed_nodes() const { return pressed_nodes_; }
   const std::vector<PressedTip>& pressed_tips() const { return pressed_tips_; }
   const std::vector<NeutralSpan>& neutral_spans() const { return neutral_spans_; }
+
+  /// The points at pinches, ascending.
+  const std::vector<std::size_t>& pinched_points() const { return pinched_points_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
   /// The bounds within which the layout is valid: guards behind those of the contacts.
@@ -89,7 +95,7 @@ class SlidingContactLayout final : public SlidingLayout {
   /// `s` where it began.
   const Vector& origin() const { return origin_; }
 
-  /// Whether two tracked points are the ends of a segment and touch one obstacle.
+  /// Whether two tracked points are the ends of a segment and touch one obstacle, and it alone.
   bool joins_one_obstacle(const Segment& segment) const;
 
   /// How the body runs up to a point.
@@ -130,6 +136,7 @@ class SlidingContactLayout final : public SlidingLayout {
   std::vector<PressedNode> pressed_nodes_;
   std::vector<PressedTip> pressed_tips_;
   std::vector<NeutralSpan> neutral_spans_;
+  std::vector<std::size_t> pinched_points_;
   std::vector<Segment> segments_;
   Vector origin_;
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;

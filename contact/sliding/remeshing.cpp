@@ -111,7 +111,9 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
       before = end;
     }
   }
-  const auto unknown = [&](const Point& point) { return point.obstacle >= setting.obstacles.size(); };
+  const auto unknown = [&](const Point& point) {
+    return point.obstacle >= setting.obstacles.size() || (point.pinch && *point.pinch >= setting.pinches.size());
+  };
   if (k != origin.size() || std::any_of(points.begin(), points.end(), unknown)) return nullptr;
   return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin);
 }

@@ -19,6 +19,17 @@ struct FreeEnd {
   Index position(const SlidingMesh& mesh) const { return last ? mesh.nodes(strand) - 1 : 0; }
 };
 
+/// A place where two obstacles leave a strand no clearance, from one side each: the axis goes through it for good,
+/// along one line if the obstacles have a direction there. The strand may slide through.
+struct Pinch {
+  Index strand = 0;
+  double s = 0.0;                       ///< material coordinate of what is there at rest [length]
+  std::size_t obstacle = 0, other = 0;  ///< the one that pushes along `normal`, and the one against it
+  Vec2 place = Vec2::Zero();            ///< of the axis
+  double angle = 0.0;                   ///< of the axis there, continuous along the strand at rest [rad]
+  Vec2 normal = Vec2::Zero();           ///< across the axis
+};
+
 /// A body among obstacles: all that contact which slides depends on and that stays the same along a path. The contacts
 /// of a piece are the points that its layout tracks, then the free ends.
 struct SlidingSetting {
@@ -26,6 +37,7 @@ struct SlidingSetting {
   std::vector<SlidingObstacle> obstacles{};
   ContactScales scales{};
   std::vector<FreeEnd> free_ends{};
+  std::vector<Pinch> pinches{};  ///< along the strands, in their order
 
   /// Of the face that looks at an obstacle from the axis, along the obstacle's normal (upwards) [length].
   double face_offset(std::size_t obstacle, Index strand) const {

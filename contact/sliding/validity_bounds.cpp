@@ -6,6 +6,7 @@
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/neutral.hpp"
+#include "contact/sliding/bounds/pinch.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/room.hpp"
 #include "contact/sliding/bounds/tail.hpp"
@@ -61,7 +62,11 @@ void add_of_inner_loads(const SlidingBody& body, const SlidingContactLayout& on,
 std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingBody& body,
                                                                   const SlidingContactLayout& on) {
   Bounds bounds;
-  for (std::size_t k = 0; k < on.points().size(); ++k) add_if<CurvatureBound>(!on.lies_beside(k), bounds, k);
+  for (std::size_t k = 0; k < on.points().size(); ++k)
+    add_if<CurvatureBound>(!on.lies_beside(k) && !on.points()[k].is_pinched(), bounds, k);
+  for (const std::size_t k : on.pinched_points())
+    for (const auto side : {SlidingMesh::At::before, SlidingMesh::At::behind})
+      for (const bool other : {false, true}) add_if<PinchBound>(true, bounds, k, side, other);
   for (std::size_t i = 0; i < on.segments().size(); ++i) add_of_segment(body, on, i, bounds);
   for (Index strand = 0; strand < body.strands(); ++strand) add_of_inner_loads(body, on, strand, bounds);
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i) add_if<PressureBound>(true, bounds, i);

@@ -14,8 +14,10 @@ bool ArchiveModel::owns(const Piece& piece) const {
   const Piece open = system->open_piece();
   if ((piece.layout() == nullptr) != (open.layout() == nullptr)) return false;
   const auto* layout = dynamic_cast<const SlidingContactLayout*>(piece.layout().get());
+  const auto* at_rest = dynamic_cast<const SlidingContactLayout*>(open.layout().get());
   const auto is_status = [](std::uint8_t closed) { return closed <= 1; };
-  return piece.size() == open.size() + (layout ? layout->points().size() : 0) &&
+  const auto points = [](const SlidingContactLayout* on) { return on ? on->points().size() : 0; };
+  return piece.size() + points(at_rest) == open.size() + points(layout) &&
          std::all_of(piece.begin(), piece.end(), is_status);
 }
 
