@@ -7,6 +7,7 @@
 #include "contact/sliding/equations.hpp"
 #include "contact/sliding/inserted_contact.hpp"
 #include "contact/sliding/least_gaps.hpp"
+#include "contact/sliding/lying.hpp"
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
@@ -209,17 +210,27 @@ State SlidingContact::rest() const {
   return rest;
 }
 
+State SlidingContact::start(double toward) const {
+  const State at_rest = rest();
+  return sliding::with_strands_lying(*setting_, SlidingState(at_rest), toward);
+}
+
+std::string SlidingContact::why_not_lying(const State& state) const {
+  return sliding::why_not_lying(*setting_, SlidingState(state), state.lambda);
+}
+
 State SlidingContact::adopted(const State& state) const {
   const SlidingState at(state);
   const auto here = std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()),
-                                                           at.layout.points(), at.now.s);
+                                                           at.layout.points(), at.now.s, at.layout.lying());
   return {.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
 }
 
 std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const ElementsPerSegment& elements,
                                                                       std::vector<SlidingContactLayout::Point> points,
-                                                                      const Vector& origin) const {
-  return sliding::checked_layout(*setting_, elements, std::move(points), origin);
+                                                                      const Vector& origin,
+                                                                      SlidingContactLayout::Lying lying) const {
+  return sliding::checked_layout(*setting_, elements, std::move(points), origin, std::move(lying));
 }
 
 // --- what is told of contacts ---------------------------------------------------------------------------------------

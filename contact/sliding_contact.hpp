@@ -70,13 +70,21 @@ class SlidingContact final : public System, public ContactQuery {
   /// The stress-free state, all contacts open.
   State rest() const;
 
+  /// The same with those strands pressed along their obstacles that lie on them from end to end at rest and are pressed
+  /// all along as λ goes from 0 towards this value.
+  State start(double toward) const;
+
+  /// Why a state in which strands are pressed along obstacles is none any more as λ goes from 0 towards that of the
+  /// state: it moves what they lie on, or their ends into it; empty if it does not.
+  std::string why_not_lying(const State& state) const;
+
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
   /// The layout of so many elements and these points that began at these places; null if they do not belong together.
   std::shared_ptr<const SlidingContactLayout> layout_of(const ElementsPerSegment& elements,
                                                         std::vector<SlidingContactLayout::Point> points,
-                                                        const Vector& origin) const;
+                                                        const Vector& origin, SlidingContactLayout::Lying lying) const;
 
   /// Where the body is deeper than this inside an obstacle between its contacts, deepest [length].
   struct Entered {

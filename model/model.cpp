@@ -309,7 +309,7 @@ LoadIncrements Model::increments(State start) {
 std::optional<State> Model::start(std::string& reason) const {
   State state{.x = {}, .lambda = 0.0, .piece = contact_ ? contact_->open_piece() : Piece()};
   state.x = Vector::Zero(contact_ ? contact_->size(state.piece) : structure_->size({}));
-  if (sliding_) state = sliding_->rest();
+  if (sliding_) state = sliding_->start(deck_.path.step);
   if (!ramp_structure_) return state;
   // What is constant grows from nothing along a path of their own, contacts included.
   TraceOptions options;
@@ -322,7 +322,7 @@ std::optional<State> Model::start(std::string& reason) const {
   if (ramp_contact_) ramp = ramp_contact_.get();
   if (sliding_ramp_) {
     ramp = sliding_ramp_.get();
-    state = sliding_ramp_->rest();
+    state = sliding_ramp_->start(1.0);
   }
   Tracer tracer(*ramp, state, options);
   while (const auto arc = tracer.next()) state = arc->to.state;
@@ -331,7 +331,12 @@ std::optional<State> Model::start(std::string& reason) const {
              std::to_string(state.lambda) + " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
     return std::nullopt;
   }
+  if (sliding_) {
+    state.lambda = deck_.path.step;
+    reason = sliding_->why_not_lying(sliding_->adopted(state));
+  }
   state.lambda = 0.0;
+  if (!reason.empty()) return std::nullopt;
   return sliding_ ? sliding_->adopted(state) : state;
 }
 

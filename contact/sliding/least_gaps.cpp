@@ -96,6 +96,8 @@ std::vector<Watched> watched_elements(const SlidingSetting& setting, const Slidi
                                       std::size_t obstacle) {
   std::vector<Watched> watched(static_cast<std::size_t>(at.mesh.nodes(strand)));
   const auto& points = at.layout.points();
+  if (at.layout.lies_on(strand) == obstacle)
+    for (Watched& element : watched) element.along = true;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [on, position] = at.mesh.breakpoint(static_cast<Index>(k));
     const std::vector<std::size_t> touched = obstacles_at(setting, at.layout, k);

@@ -1,8 +1,10 @@
 #include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/element_size.hpp"
+#include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/bounds/flat_part.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
+#include "contact/sliding/bounds/holding_moment.hpp"
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/neutral.hpp"
@@ -70,13 +72,18 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   for (std::size_t i = 0; i < on.segments().size(); ++i) add_of_segment(body, on, i, bounds);
   for (Index strand = 0; strand < body.strands(); ++strand) add_of_inner_loads(body, on, strand, bounds);
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i) add_if<PressureBound>(true, bounds, i);
+  for (std::size_t i = 0; i < on.pressed_tips().size(); ++i) {
+    const SlidingContactLayout::PressedTip& tip = on.pressed_tips()[i];
+    add_if<HoldingMomentBound>(body.is_hinged(tip.strand, tip.position > 0), bounds, i);
+  }
   for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) add_if<NeutralBound>(true, bounds, i);
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (const bool last : {false, true}) {
       const bool free = !body.end_is_held(strand, last);
       add_if<LiesDownBound>(free, bounds, strand, last);
       add_if<UprightBound>(free, bounds, strand, last);
-      add_if<ClampBound>(body.is_clamped(strand, last), bounds, strand, last);
+      add_if<EndStaysBound>(!free && on.lies_on(strand).has_value(), bounds, strand, last);
+      add_if<ClampBound>(body.is_clamped(strand, last) || body.is_hinged(strand, last), bounds, strand, last);
       add_if<TailBound>(has_tail(body, on, strand, last), bounds, strand, last,
                         on.point_at_end(strand, last).value_or(0));
     }

@@ -72,8 +72,9 @@ Json ArchiveWriter::piece(const Piece& piece) {
   ElementsPerSegment cut = layout.mesh().elements_per_segment();
   std::vector<SlidingContactLayout::Point> points = layout.points();
   Vector origin = layout.origin();
+  SlidingContactLayout::Lying lying = layout.lying();
   ArchiveWriter inner(shared_);
-  inner(cut, points, origin);
+  inner(cut, points, origin, lying);
   json.push_back(std::move(inner.json_));
   return json;
 }
@@ -113,10 +114,11 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   ElementsPerSegment cut;
   std::vector<SlidingContactLayout::Point> points;
   Vector origin;
+  SlidingContactLayout::Lying lying;
   ArchiveReader inner(json, shared_);
-  inner(cut, points, origin);
+  inner(cut, points, origin, lying);
   require(inner.at_end() && model().sliding != nullptr);
-  shared_->layouts.push_back(model().sliding->layout_of(cut, std::move(points), origin));
+  shared_->layouts.push_back(model().sliding->layout_of(cut, std::move(points), origin, std::move(lying)));
   require(shared_->layouts.back() != nullptr);
   return shared_->layouts.back();
 }

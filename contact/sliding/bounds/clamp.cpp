@@ -13,14 +13,12 @@ constexpr double nothing_touches = 1.0;  // value of the bound of an end that no
 
 double ClampBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto end = touched_clamp(setting, at, strand_, last_);
-  return end ? end_curvature_gap(setting, at, *end).value * setting.scales.length : nothing_touches;
+  return end ? parting(setting, at, *end) : nothing_touches;
 }
 
 Row ClampBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  Row row = at.no_slope();
-  if (const auto end = touched_clamp(setting, at, strand_, last_))
-    end_curvature_gap(setting, at, *end).add_to(row, setting.scales.length, at.index);
-  return row;
+  const auto end = touched_clamp(setting, at, strand_, last_);
+  return end ? parting_gradient(setting, at, *end) : at.no_slope();
 }
 
 std::vector<Transition> ClampBound::transitions(const SlidingSetting& setting, const SlidingState& at,

@@ -38,9 +38,6 @@ std::optional<TouchingEnd> touching_end(const SlidingSetting& setting, const Sli
   return std::nullopt;
 }
 
-// The sine of the angle between body and wall has this sign at an end where the gap grows from there on.
-double outward(Side side, bool last) { return (side == Side::below) == last ? -1.0 : 1.0; }
-
 }  // namespace
 
 double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {
