@@ -106,7 +106,7 @@ TEST(BoundsBehindChanges, ABoundBehindContactSpreadsEndsThePathOnItself) {
   EXPECT_EQ(path.end.reason, EndReason::stop);
   EXPECT_NEAR(path.last_lambda(), 1.35, 1e-11);
   EXPECT_EQ(path.arcs.back().to.count.unstable, 0);
-  EXPECT_EQ(path.arcs.size(), 9U);
+  EXPECT_EQ(path.arcs.size(), 8U);
   EXPECT_NEAR(path.arcs[arc_with(path, EventKind::contact_spreads)].to.state.lambda, 1.343072137, 1e-8);
 }
 
