@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
+#include "continuation/events/branch_point.hpp"
 #include "continuation/events/target_values.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
@@ -267,6 +268,34 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
   add_turns(tools, corner.signs, ahead, event, events);
 }
 
+// Where stability is lost with a span that grows while λ goes on, another branch leaves with the span, across the path:
+// a pitchfork in the corner itself, where the span has no length. Its mode is that of the path's first point behind.
+std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& corner, const PathPoint& at,
+                                               const PathPoint& begin) {
+  const std::optional<Index>&before = corner.before.unstable, &behind = begin.count.unstable;
+  const bool goes_on = begin.tangent.dlambda * at.tangent.dlambda > 0.0;
+  if (!(before && behind && *behind == *before + 1 && goes_on)) return std::nullopt;
+  const SingularPlace place{.point = begin, .change = 1};
+  const Metric metric = tools.metric_on(begin.state.piece, corner.lambda_scale);
+  BranchPoint point = branch_point_at(tools.system, tools.corrector, metric, place);
+  if (point.type != BranchType::symmetric || point.mode.dx.size() == 0) return std::nullopt;
+  return point;
+}
+
+// The branch point, which takes over the change of the count from the last event.
+void add_pitchfork(const PathPoint& at, BranchPoint point, std::vector<Event>& events) {
+  Event& change = events.back();
+  Event event{.kind = EventKind::branch_point,
+              .state = at.state,
+              .arc = at.arc,
+              .residual = at.residual,
+              .unstable_before = change.unstable_before,
+              .unstable_after = change.unstable_after};
+  change.unstable_after = change.unstable_before;
+  event.branching = std::make_shared<const BranchPoint>(std::move(point));
+  events.push_back(std::move(event));
+}
+
 }  // namespace
 
 CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
@@ -284,6 +313,8 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
     if (begins_with_length(*entered->transition)) {
       const PathPoint begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
+      if (auto pitchfork = pitchfork_at_corner(tools, corner, passed.at, begin))
+        add_pitchfork(passed.at, std::move(*pitchfork), passed.events);
       passed.entered = EnteredPiece{.begin = begin, .first = std::move(entered->at)};
       return passed;
     }
