@@ -1,8 +1,6 @@
 #include "model/session.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "core/error.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
@@ -10,6 +8,7 @@
 #include "model/deck/toml_source.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
+#include "model/regular_file.hpp"
 #include "model/session_content.hpp"
 #include "model/tracing.hpp"
 #include "model/version.hpp"
@@ -145,17 +144,11 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
 
 Session stored_session(const std::filesystem::path& folder, Session::Resume how) {
   const std::filesystem::path file = folder / "checkpoint";
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    std::error_code ignored;
-    throw OutputError(std::filesystem::is_directory(folder, ignored)
-                          ? file.string() + ": there is none; `trace-path run DECK --out " + folder.string() +
-                                "` writes it"
-                          : folder.string() + ": there is no such folder");
-  }
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) throw OutputError(file.string() + ": cannot be read");
-  return Session::from(bytes, file.string(), how);
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) throw OutputError(folder.string() + ": there is no such folder");
+  if (!std::filesystem::exists(file, ignored))
+    throw OutputError(file.string() + ": there is none; `trace-path run DECK --out " + folder.string() + "` writes it");
+  return Session::from(bytes_of_regular_file(file), file.string(), how);
 }
 
 }  // namespace arcwall

@@ -61,6 +61,7 @@ ExitStatus converge(const Options& options) {
   };
   study.stopped = [&interrupts] { return interrupts.interrupted(); };
   const std::filesystem::path out = options.text("out").value_or(std::filesystem::path(file).stem().string());
+  require_other_than_input(out, file);
   const OutputFolder folder(out, std::filesystem::path(file).filename().string(),
                             options.has("force") ? Foreign::overwrite : Foreign::refuse);
   const auto found = arcwall::converge(deck, study);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <csignal>
 
 namespace arcwall {
 
-/// While it lives, SIGINT and SIGTERM only set a flag, so that a run can finish its arc and write what it has. At most
-/// one at a time.
+/// While it lives, the signals that ask a program to end (SIGINT and SIGTERM, SIGHUP of a terminal that is closed,
+/// SIGXCPU and SIGUSR1 of batch systems before their limits) only set a flag, so that a run can finish its arc and
+/// write what it has. At most one at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -16,8 +18,7 @@ class InterruptGuard {
   bool interrupted() const;
 
  private:
-  struct sigaction old_interrupt_ {
-  }, old_terminate_{};
+  std::array<struct sigaction, 5> before_{};
 };
 
 /// From here on what cannot be written (a pipe that nobody reads, a file beyond its allowed size) is an error of the

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 #include "apps/cli/commands.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "core/text.hpp"
 #include "model/version.hpp"
 
@@ -152,12 +154,18 @@ ExitStatus run_program(const std::vector<std::string>& arguments) {
 
 ExitStatus report(const std::exception& problem) {
   if (const auto* input = dynamic_cast<const InputError*>(&problem)) {
-    for (const Diagnostic& diagnostic : input->diagnostics()) std::cerr << "error: " << to_text(diagnostic) << "\n";
+    for (const Diagnostic& diagnostic : input->diagnostics())
+      std::cerr << "error: " << printable(to_text(diagnostic)) << "\n";
     return ExitStatus::wrong_input;
   }
   if (dynamic_cast<const OutputError*>(&problem) != nullptr) {
-    std::cerr << "error: " << problem.what() << "\n";
+    std::cerr << "error: " << printable(problem.what()) << "\n";
     return ExitStatus::file_error;
+  }
+  if (dynamic_cast<const std::bad_alloc*>(&problem) != nullptr) {
+    std::cerr << "error: memory ran out; use fewer elements or a machine with more memory. A run that has written a "
+                 "checkpoint goes on from there with trace-path resume DIR\n";
+    return ExitStatus::out_of_memory;
   }
   std::cerr << "error: internal error: " << problem.what()
             << "\nThis is a defect of the program; please report it with the deck that led to it.\n";

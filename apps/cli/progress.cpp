@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "apps/output/text_table.hpp"
+#include "core/printable.hpp"
 
 namespace arcwall {
 
@@ -26,6 +27,12 @@ std::size_t terminal_columns() {
   return (known ? size.ws_col : usual) - 1;
 }
 
+// Past std::cerr, which lets no control characters through. What cannot be shown is not worth an error.
+void to_terminal(const std::string& text) {
+  std::cerr << std::flush;
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;
+}
+
 }  // namespace
 
 Progress progress_wanted() {
@@ -34,7 +41,7 @@ Progress progress_wanted() {
 }
 
 ProgressLine::~ProgressLine() {
-  if (visible_) std::cerr << "\r\x1b[K" << std::flush;
+  if (visible_) to_terminal("\r\x1b[K");
 }
 
 bool ProgressLine::is_due() const {
@@ -48,7 +55,7 @@ void ProgressLine::show(const Record& record, const std::vector<std::string>& la
 
 void ProgressLine::show(const std::string& text) {
   if (!is_due()) return;
-  std::cerr << "\r" << cut(text, terminal_columns()) << "\x1b[K" << std::flush;
+  to_terminal("\r" + cut(printable(text), terminal_columns()) + "\x1b[K");
   last_ = Clock::now();
   visible_ = true;
 }

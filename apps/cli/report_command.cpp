@@ -11,6 +11,9 @@ namespace {
 
 ExitStatus write_report(const Options& options) {
   const std::filesystem::path folder = options.words().front();
+  std::error_code ignored;
+  std::optional<FolderLock> lock;
+  if (std::filesystem::is_directory(folder, ignored)) lock.emplace(folder);
   const Session run = stored_session(folder, Session::Resume::as_ended);
   const std::filesystem::path file = folder / "report.html";
   const DrawnScenes drawn = scenes_to_draw(run.model(), run.record());

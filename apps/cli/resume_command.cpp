@@ -10,8 +10,8 @@ namespace {
 ExitStatus resume(const Options& options) {
   const Stopwatch since_begin;
   const std::filesystem::path where = options.words().front();
+  const OutputFolder folder(where);  // before it is read, so that what is read is the last state
   Session run = stored_session(where, Session::Resume::go_on);
-  const OutputFolder folder(where, run.record().deck, Foreign::overwrite);
   if (run.has_ended()) std::cerr << "note: the run had ended; nothing is left to trace\n";
   return trace_and_write(run, folder, call_options(options), since_begin);
 }

@@ -60,6 +60,7 @@ ExitStatus run(const Options& options) {
   const Stopwatch since_begin;
   const RunRequest request = request_from(options);
   Session run(request.run);
+  require_other_than_input(request.folder, request.run.deck);
   for (const std::string& warning : run.model().warnings()) std::cerr << "warning: " << warning << "\n";
   if (options.has("dry-run")) return dry_run(request, run);
 

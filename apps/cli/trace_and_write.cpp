@@ -117,6 +117,7 @@ const RecordBranch& decisive_branch(const Record& record) {
       case ExitStatus::no_start:
       case ExitStatus::file_error:
       case ExitStatus::not_confirmed:
+      case ExitStatus::out_of_memory:
         return 1;
     }
     return 1;
@@ -127,11 +128,12 @@ const RecordBranch& decisive_branch(const Record& record) {
 
 // Those of an earlier run would show another path than the tables.
 void remove_pictures(const OutputFolder& folder) {
-  for (const char* name : {"report.html", "shapes.pvd", "shapes"}) {
+  for (const char* name : {"report.html", "shapes.pvd"}) {
     std::error_code error;
-    std::filesystem::remove_all(folder.path() / name, error);
+    std::filesystem::remove(folder.path() / name, error);
     if (error) throw OutputError((folder.path() / name).string() + ": cannot be removed: " + error.message());
   }
+  remove_shapes(folder);
 }
 
 // The table of events, with error bars where a study of the deck lies in the folder.

@@ -1,12 +1,11 @@
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "apps/cli/commands.hpp"
 #include "apps/verify/again.hpp"
 #include "apps/verify/verify.hpp"
 #include "core/error.hpp"
+#include "model/regular_file.hpp"
 #include "model/session.hpp"
 
 namespace arcwall {
@@ -14,9 +13,10 @@ namespace arcwall {
 namespace {
 
 std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw OutputError(file.string() + ": cannot be read; trace-path resume writes what a run lacks");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw OutputError(file.string() + ": there is none; trace-path resume writes what a run lacks");
+  return bytes_of_regular_file(file);
 }
 
 // A first step of a quarter, the greatest step likewise: the events must be the same.

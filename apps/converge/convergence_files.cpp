@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/result_json.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/text_table.hpp"
+#include "core/printable.hpp"
 #include "model/event_names.hpp"
+#include "model/regular_file.hpp"
 #include "model/version.hpp"
 
 namespace arcwall {
@@ -98,9 +99,10 @@ std::string event_table(const Convergence& study) {
 
 // The file of an earlier study; null where it is none that can be read, or of another deck.
 Json study_in(const std::filesystem::path& folder, const StudiedDeck& of) {
-  std::ifstream stream(folder / "convergence.json", std::ios::binary);
-  if (!stream) return nullptr;
-  const Json json = Json::parse(stream, nullptr, false);
+  std::error_code ignored;
+  const std::filesystem::path file = folder / "convergence.json";
+  if (!std::filesystem::is_regular_file(file, ignored)) return nullptr;
+  const Json json = Json::parse(bytes_of_regular_file(file), nullptr, false);
   if (!json.is_object() || !json.contains("deck") || !json.contains("events") || !json["events"].is_array())
     return nullptr;
   const Json& deck = json["deck"];
@@ -126,10 +128,10 @@ OrderedJson convergence_json(const Convergence& study, const StudiedDeck& of) {
 }
 
 std::string convergence_text(const Convergence& study) {
-  std::string text = study.title.empty() ? "" : study.title + "\n";
-  text += fmt::format("{}, trace-path {}\n\n", study.deck, program_version());
+  std::string text = study.title.empty() ? "" : printable(study.title) + "\n";
+  text += fmt::format("{}, trace-path {}\n\n", printable(study.deck), program_version());
   text += mesh_table(study) + "\n";
-  for (const std::string& note : study.notes) text += note + "\n";
+  for (const std::string& note : study.notes) text += printable(note) + "\n";
   if (!study.notes.empty()) text += "\n";
   if (study.events.empty()) return text + "No mesh has an event.\n";
   return text + event_table(study) +

@@ -9,6 +9,7 @@
 #include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/text_table.hpp"
+#include "core/printable.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
 
@@ -60,7 +61,7 @@ std::string ending(const RecordBranch& branch) {
   const std::string points =
       fmt::format("branch {}: {} {}", branch.id, branch.points, branch.points == 1 ? "point" : "points");
   if (!branch.end) return points + "\n";
-  return fmt::format("{}, ended: {}\n", points, how_it_ended(*branch.end));
+  return fmt::format("{}, ended: {}\n", points, printable(how_it_ended(*branch.end)));
 }
 
 // The branches that leave a branch, each behind the event where it does, and those that leave them in turn.
@@ -118,8 +119,8 @@ std::string how_it_ended(const BranchEnd& end) {
 }
 
 std::string events_text(const Record& record, const std::vector<std::string>& lambda_is) {
-  std::string text = record.title.empty() ? "" : record.title + "\n";
-  text += fmt::format("{}, trace-path {}\n", record.deck, program_version());
+  std::string text = record.title.empty() ? "" : printable(record.title) + "\n";
+  text += fmt::format("{}, trace-path {}\n", printable(record.deck), program_version());
   for (std::size_t i = 0; i < lambda_is.size(); ++i) {
     if (lambda_is[i].empty()) continue;
     text += "λ" + (i < record.stages.size() ? " of " + record.stages[i] : "") + ": " + lambda_is[i] + "\n";
@@ -133,7 +134,7 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
         "\nWhat λ of the events depends on: its derivative by a number n of the deck, and by how many per cent it "
         "changes where n grows by one\n\n" +
         text_table(sensitivity_columns(), rows);
-  return text;
+  return printable(text, LineBreaks::kept);
 }
 
 }  // namespace arcwall

@@ -14,6 +14,7 @@ enum class ExitStatus {
   file_error = 5,
   limit_met = 6,      ///< on points or time
   not_confirmed = 7,  ///< what a run says does not hold
+  out_of_memory = 8,
   interrupted = 130,
 };
 

@@ -5,10 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <climits>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <system_error>
@@ -16,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
+#include "model/regular_file.hpp"
 
 namespace arcwall {
 
@@ -27,9 +27,10 @@ namespace {
   throw OutputError(file.string() + ": " + what + ": " + reason);
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+// Empty where there is no regular file.
+std::string bytes_if_any(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? bytes_of_regular_file(file) : std::string();
 }
 
 // The deck that filled a folder, by its result.json, or of a run that has not ended by its checkpoint; empty if that
@@ -38,27 +39,37 @@ std::string filled_by(const fs::path& folder) {
   std::error_code ignored;
   const bool has_result = fs::exists(folder / "result.json", ignored);
   if (!has_result && !fs::exists(folder / "convergence.json", ignored))
-    return deck_of_checkpoint(bytes_of(folder / "checkpoint"));
-  const std::string text = bytes_of(folder / (has_result ? "result.json" : "convergence.json"));
+    return deck_of_checkpoint(bytes_if_any(folder / "checkpoint"));
+  const std::string text = bytes_if_any(folder / (has_result ? "result.json" : "convergence.json"));
   const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
   const auto file = nlohmann::json::json_pointer("/deck/file");
   if (!result.is_object() || !result.contains(file) || !result.at(file).is_string()) return {};
   return result.at(file).get<std::string>();
 }
 
-// Whether a file is one that a killed process was writing: see StagedFile.
+// What is written into the folder of a run or of a study of meshes, besides shapes.
+constexpr std::array output_names{"path.csv",    "contacts.csv",     "events.json",    "events.txt",  "deck.toml",
+                                  "result.json", "report.html",      "shapes.pvd",     "steps.jsonl", "checkpoint",
+                                  "probe",       "convergence.json", "convergence.txt"};
+
+// Whether a file is one that a killed process was writing, see StagedFile, or its lock.
 bool is_leftover(const fs::path& file) {
-  static const std::regex hidden(
-      R"(\.(path\.csv|contacts\.csv|events\.json|events\.txt|deck\.toml|result\.json|report\.html|shapes\.pvd|)"
-      R"(steps\.jsonl|checkpoint|probe|convergence\.(json|txt)|([0-9]+|walls)\.vtu)\.[0-9]+)");
+  static const std::regex hidden(R"(\.(.+)\.[0-9]+)"), shape(R"(([0-9]+|walls)\.vtu)");
   std::error_code ignored;
-  return std::regex_match(file.filename().string(), hidden) && fs::is_regular_file(file, ignored);
+  if (!fs::is_regular_file(file, ignored)) return false;
+  const std::string name = file.filename().string();
+  std::smatch parts;
+  if (name == folder_lock_name) return true;
+  if (!std::regex_match(name, parts, hidden)) return false;
+  const std::string target = parts[1];
+  return std::find(output_names.begin(), output_names.end(), target) != output_names.end() ||
+         std::regex_match(target, shape);
 }
 
 void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (is_leftover(entry.path())) fs::remove(entry.path(), ignored);
+    if (is_leftover(entry.path()) && entry.path().filename() != folder_lock_name) fs::remove(entry.path(), ignored);
 }
 
 // Whether nothing but leftovers is in a folder.
@@ -125,6 +136,30 @@ void write_whole(const fs::path& file, const Pieces& text) {
   staged.put_in_place();
 }
 
+void write_durably(const fs::path& file, std::string_view text) {
+  StagedFile staged(file);
+  staged.write(text);
+  staged.flush_to_disk();
+  staged.close();
+  staged.put_in_place();
+  // The new name, too. Not every file system can do this, and none needs it for the file to be whole.
+  const fs::path parent = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const int folder = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
+
+void require_other_than_input(const fs::path& folder, const fs::path& input) {
+  for (const char* name : output_names) {
+    std::error_code ignored;
+    if (fs::equivalent(folder / name, input, ignored))
+      throw InputError({Diagnostic{.file = input.string(),
+                                   .message = "would be written over by " + (folder / name).string(),
+                                   .cure = "name another folder with --out"}});
+  }
+}
+
 void require_usable(const fs::path& folder, const std::string& deck, Foreign foreign) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
@@ -143,17 +178,32 @@ void require_usable(const fs::path& folder, const std::string& deck, Foreign for
        "name another folder with --out, or write over it with --force");
 }
 
+// Whether the folder can be used is asked a second time when no other process can fill it any more.
 OutputFolder::OutputFolder(fs::path folder, const std::string& deck, Foreign foreign) : folder_(std::move(folder)) {
   require_usable(folder_, deck, foreign);
   std::error_code error;
   made_ = fs::create_directories(folder_, error);
   if (error) fail(folder_, "cannot be made", error.message());
+  lock_.emplace(folder_);
+  require_usable(folder_, deck, foreign);
+  take();
+}
+
+OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder_, ignored)) throw OutputError(folder_.string() + ": there is no such folder");
+  lock_.emplace(folder_);
+  take();
+}
+
+void OutputFolder::take() {
   remove_leftovers(folder_);
   remove_leftovers(folder_ / "shapes");
   const StagedFile probe(folder_ / "probe");
 }
 
 OutputFolder::~OutputFolder() {
+  lock_.reset();
   if (made_) ::rmdir(folder_.c_str());  // fails if something is in it, as it should
 }
 
@@ -162,16 +212,7 @@ void OutputFolder::write_whole(const std::string& name, std::string_view text) c
 }
 
 void OutputFolder::write_durably(const std::string& name, std::string_view text) const {
-  StagedFile staged(folder_ / name);
-  staged.write(text);
-  staged.flush_to_disk();
-  staged.close();
-  staged.put_in_place();
-  // The new name, too. Not every file system can do this, and none needs it for the file to be whole.
-  const int folder = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;
-  ::fsync(folder);
-  ::close(folder);
+  arcwall::write_durably(folder_ / name, text);
 }
 
 // After a crash of the machine the new names must not stand for data that never went out.

@@ -2,9 +2,12 @@
 
 #include <filesystem>
 #include <list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "apps/output/folder_lock.hpp"
 
 namespace arcwall {
 
@@ -44,6 +47,12 @@ class StagedFile {
 void write_whole(const std::filesystem::path& file, const Pieces& text);
 inline void write_whole(const std::filesystem::path& file, std::string_view text) { write_whole(file, Pieces{text}); }
 
+/// The same, and the file is on the disk when this returns, whatever happens to the machine then.
+void write_durably(const std::filesystem::path& file, std::string_view text);
+
+/// Throws InputError if a file that is written into `folder` would replace `input`, the file with the deck.
+void require_other_than_input(const std::filesystem::path& folder, const std::filesystem::path& input);
+
 /// What is done with a folder that something other than the same deck filled.
 enum class Foreign { refuse, overwrite };
 
@@ -51,12 +60,16 @@ enum class Foreign { refuse, overwrite };
 /// or without one its convergence.json, does not name `deck`, a file name without folder. Changes nothing.
 void require_usable(const std::filesystem::path& folder, const std::string& deck, Foreign foreign);
 
-/// The folder that a run writes its files into.
+/// The folder that a run writes its files into, and no other process meanwhile.
 class OutputFolder {
  public:
-  /// Makes the folder and its parents if they are not there, and sees that a file can be written into it. Throws
-  /// OutputError; require_usable() holds.
+  /// Makes the folder and its parents if they are not there, and sees that a file can be written into it. Files that a
+  /// killed process has left half written are removed. Throws OutputError, also where another process is writing into
+  /// the folder; require_usable() holds.
   OutputFolder(std::filesystem::path folder, const std::string& deck, Foreign foreign);
+
+  /// The same of a folder that is there, whatever filled it.
+  explicit OutputFolder(std::filesystem::path folder);
 
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -73,7 +86,10 @@ class OutputFolder {
   void write_durably(const std::string& name, std::string_view text) const;
 
  private:
+  void take();
+
   std::filesystem::path folder_;
+  std::optional<FolderLock> lock_{};
   bool made_ = false;
 };
 

@@ -251,7 +251,7 @@ std::string collection(std::size_t points, bool walls) {
   return to_text(document);
 }
 
-// Files of an earlier run that this one has not written: 12345.vtu, walls.vtu.
+// Files of an earlier run that this one has not written: 12345.vtu, walls.vtu. What else is there is somebody's own.
 void remove_others(const fs::path& folder, const std::set<std::string>& written) {
   const auto is_ours = [](const std::string& name) {
     const std::string stem = name.substr(0, name.find('.'));
@@ -267,6 +267,14 @@ void remove_others(const fs::path& folder, const std::set<std::string>& written)
 }
 
 }  // namespace
+
+void remove_shapes(const OutputFolder& folder) {
+  const fs::path shapes = folder.path() / "shapes";
+  std::error_code error;
+  if (!fs::is_directory(shapes, error)) return;
+  remove_others(shapes, {});
+  fs::remove(shapes, error);  // fails if something is left in it, as it should
+}
 
 void write_shapes(const OutputFolder& folder, const Model& model, const Record& record, const DrawnScenes& drawn) {
   const fs::path shapes = folder.path() / "shapes";

@@ -20,4 +20,7 @@ std::string walls_vtu(const std::vector<WallShape>& walls);
 /// known already. Throws OutputError.
 void write_shapes(const OutputFolder& folder, const Model& model, const Record& record, const DrawnScenes& drawn = {});
 
+/// Removes those of an earlier run from shapes/, and shapes/ itself unless something else is in it.
+void remove_shapes(const OutputFolder& folder);
+
 }  // namespace arcwall

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/printable.hpp"
+
 namespace arcwall {
 
 std::size_t display_width(std::string_view text) {
@@ -9,12 +11,14 @@ std::size_t display_width(std::string_view text) {
   return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
 }
 
-std::string text_table(const std::vector<TableColumn>& columns, const std::vector<std::vector<std::string>>& rows) {
+std::string text_table(const std::vector<TableColumn>& columns, std::vector<std::vector<std::string>> rows) {
+  for (auto& row : rows)
+    for (std::string& cell : row) cell = printable(cell);
   std::vector<std::string> titles;
   std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    titles.push_back(columns[i].title);
-    widths.push_back(display_width(columns[i].title));
+    titles.push_back(printable(columns[i].title));
+    widths.push_back(display_width(titles.back()));
     for (const auto& row : rows) widths[i] = std::max(widths[i], display_width(row[i]));
   }
   std::string text;

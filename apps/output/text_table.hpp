@@ -18,6 +18,7 @@ struct TableColumn {
 };
 
 /// Titles, then rows, in aligned columns two blanks apart; every row has one cell a column. Lines end without blanks.
-std::string text_table(const std::vector<TableColumn>& columns, const std::vector<std::vector<std::string>>& rows);
+/// Cells stay on their lines: what is not printable in them is escaped, see printable().
+std::string text_table(const std::vector<TableColumn>& columns, std::vector<std::vector<std::string>> rows);
 
 }  // namespace arcwall

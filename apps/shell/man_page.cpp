@@ -68,7 +68,8 @@ std::string command_section(const CommandDescription& command) {
 
 constexpr std::array statuses{ExitStatus::success,     ExitStatus::internal_error, ExitStatus::wrong_input,
                               ExitStatus::ended_early, ExitStatus::no_start,       ExitStatus::file_error,
-                              ExitStatus::limit_met,   ExitStatus::not_confirmed,  ExitStatus::interrupted};
+                              ExitStatus::limit_met,   ExitStatus::not_confirmed,  ExitStatus::out_of_memory,
+                              ExitStatus::interrupted};
 
 std::string meaning(ExitStatus status) {
   switch (status) {
@@ -88,6 +89,8 @@ std::string meaning(ExitStatus status) {
       return "a limit on points or time was met";
     case ExitStatus::not_confirmed:
       return "verify found something that does not hold";
+    case ExitStatus::out_of_memory:
+      return "memory ran out; trace-path resume goes on from the last checkpoint";
     case ExitStatus::interrupted:
       return "interrupted by a signal";
   }

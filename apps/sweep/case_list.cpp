@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
+#include "model/regular_file.hpp"
 
 namespace arcwall::sweep {
 
@@ -83,7 +83,7 @@ std::vector<Case> read_cases(const std::filesystem::path& folder) {
                                  .message = "is no planned sweep: it has no " + std::string(case_list_name),
                                  .cure = "plan one with trace-path sweep plan SWEEP.toml --out " + folder.string()}});
   std::vector<Case> result;
-  std::istringstream stream(deck::read_text_file(file));
+  std::istringstream stream(bytes_of_regular_file(file));
   for (std::string line; std::getline(stream, line);) {
     Case one;
     if (!read_case(line, one) || one.number != static_cast<int>(result.size()))
@@ -93,6 +93,7 @@ std::vector<Case> read_cases(const std::filesystem::path& folder) {
                                    .cure = "plan the sweep again in a new folder"}});
     result.push_back(std::move(one));
   }
+  if (result.empty()) throw OutputError(file + ": holds no case; plan the sweep again in a new folder");
   return result;
 }
 

@@ -32,7 +32,8 @@ std::vector<Case> cases(const Sweep& sweep, const std::string& deck);
 /// cases.jsonl: one object a line.
 std::string to_text(const std::vector<Case>& cases);
 
-/// The cases of a planned folder, numbered from 0 in the order of their lines. InputError if it is none.
+/// The cases of a planned folder, numbered from 0 in the order of their lines. InputError if it is none,
+/// OutputError if its list cannot be read or is empty.
 std::vector<Case> read_cases(const std::filesystem::path& folder);
 
 /// Numbers as they are written everywhere, texts without quotes, the rest as TOML: for tables and labels.

@@ -1,14 +1,13 @@
 #include "apps/sweep/case_result.hpp"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "apps/output/exit_status.hpp"
 #include "apps/sweep/case_folder.hpp"
 #include "apps/sweep/runner.hpp"
 #include "core/error.hpp"
 #include "model/event_names.hpp"
+#include "model/regular_file.hpp"
 
 namespace arcwall::sweep {
 
@@ -16,9 +15,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Empty where there is none.
 std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::error_code ignored;
+  return fs::exists(file, ignored) ? bytes_of_regular_file(file) : std::string();
 }
 
 [[noreturn]] void fail_as_damaged(const fs::path& path) {
@@ -40,6 +40,8 @@ std::string reason_without_results(int status) {
       return "no_start";
     case ExitStatus::file_error:
       return "file_error";
+    case ExitStatus::out_of_memory:
+      return "out_of_memory";
     case ExitStatus::success:
     case ExitStatus::internal_error:
     case ExitStatus::ended_early:

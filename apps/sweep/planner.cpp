@@ -162,9 +162,9 @@ void write(const Plan& plan, const fs::path& folder) {
     throw OutputError(folder.string() + ": is there already and holds something else; name another folder with --out");
   fs::create_directories(folder, error);
   if (error) throw OutputError(folder.string() + ": cannot be made: " + error.message());
-  write_whole(folder / plan.cases.front().deck, plan.deck_text);
-  write_whole(folder / sweep_file_name, plan.sweep_text);
-  write_whole(folder / case_list_name, to_text(plan.cases));
+  write_durably(folder / plan.cases.front().deck, plan.deck_text);
+  write_durably(folder / sweep_file_name, plan.sweep_text);
+  write_durably(folder / case_list_name, to_text(plan.cases));
 }
 
 }  // namespace arcwall::sweep

@@ -61,14 +61,14 @@ TEST(FileSet, PutsAllFilesInPlaceOrNone) {
     EXPECT_THROW(files.write("gone/events.json", "new"), OutputError);
   }
   EXPECT_EQ(content(folder / "path.csv"), "old");
-  EXPECT_EQ(names_in(folder.path()), Names{"path.csv"});
+  EXPECT_EQ(names_in(folder.path()), (Names{folder_lock_name, "path.csv"}));
 
   FileSet files(output);
   files.write("path.csv", "new");
   files.write("events.json", "new too");
   files.put_in_place();
   EXPECT_EQ(content(folder / "path.csv"), "new");
-  EXPECT_EQ(names_in(folder.path()), (Names{"events.json", "path.csv"}));
+  EXPECT_EQ(names_in(folder.path()), (Names{folder_lock_name, "events.json", "path.csv"}));
 }
 
 TEST(OutputFolder, IsMadeWithItsParents) {
@@ -77,7 +77,7 @@ TEST(OutputFolder, IsMadeWithItsParents) {
   const OutputFolder output(folder / "a" / "b", "deck.toml", Foreign::refuse);
   output.write_whole("path.csv", "text");
 
-  EXPECT_EQ(names_in(folder / "a" / "b"), Names{"path.csv"});
+  EXPECT_EQ(names_in(folder / "a" / "b"), (Names{folder_lock_name, "path.csv"}));
 }
 
 TEST(OutputFolder, GoesAwayIfNothingWasWritten) {
