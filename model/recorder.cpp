@@ -16,26 +16,27 @@ bool moves_supports(const deck::Deck& deck) {
                      [](const deck::Prescribed& moved) { return !moved.constant; });
 }
 
-std::vector<double> values(const std::vector<MonitorColumn>& monitors, const State& state) {
+std::vector<double> values(const Model* model, const State& state) {
   std::vector<double> result;
-  for (const MonitorColumn& monitor : monitors) result.push_back(monitor.quantity->value(state));
+  if (model == nullptr) return result;
+  for (const MonitorColumn& monitor : model->monitors()) result.push_back(monitor.quantity->value(state));
   return result;
 }
 
-std::vector<RecordForce> forces_at(const Model& model, const State& state) {
+std::vector<RecordForce> forces_at(const Model* model, const State& state) {
   std::vector<RecordForce> forces;
-  if (model.contacts() == nullptr) return forces;
-  for (const ContactPoint& contact : model.contacts()->closed_contacts(state))
+  if (model == nullptr || model->contacts() == nullptr) return forces;
+  for (const ContactPoint& contact : model->contacts()->closed_contacts(state))
     forces.push_back(
         {.label = contact.label, .x = contact.place.x(), .force = contact.force, .pressure = contact.pressure()});
   return forces;
 }
 
 // The critical mode has no λ, and only that of a smooth crossing is known.
-std::vector<double> mode_rates(const std::vector<MonitorColumn>& monitors, const BranchPoint& point) {
+std::vector<double> mode_rates(const Model* model, const BranchPoint& point) {
   std::vector<double> result;
-  if (point.mode.dx.size() != point.state.x.size()) return result;
-  for (const MonitorColumn& monitor : monitors)
+  if (model == nullptr || point.mode.dx.size() != point.state.x.size()) return result;
+  for (const MonitorColumn& monitor : model->monitors())
     result.push_back(monitor.quantity->gradient(point.state).dx.dot(point.mode.dx));
   return result;
 }
@@ -57,14 +58,24 @@ Record empty_record(const Model& model) {
 }
 
 Recorder::Recorder(const Model& model, Record& record, const BranchRecord& branch)
-    : model_(model), record_(record), branch_(record.branches.size()) {
-  RecordBranch added{.id = static_cast<Index>(branch_), .stage = model.stage(), .mirrored = branch.mirrored};
+    : Recorder(&model, model.system(), record, record.branches.size()) {
+  begin(branch);
+}
+
+Recorder::Recorder(const System& system, Record& record, const BranchRecord& branch)
+    : Recorder(nullptr, system, record, record.branches.size()) {
+  begin(branch);
+}
+
+void Recorder::begin(const BranchRecord& branch) {
+  RecordBranch added{
+      .id = static_cast<Index>(branch_), .stage = model_ == nullptr ? 0 : model_->stage(), .mirrored = branch.mirrored};
   if (branch.parent) added.parent = *branch.parent;
   const auto same = [&](const RecordBranchPoint& known) { return known.point == branch.origin; };
-  const auto origin = std::find_if(record.branch_points.begin(), record.branch_points.end(), same);
-  if (branch.origin && origin != record.branch_points.end()) {
+  const auto origin = std::find_if(record_.branch_points.begin(), record_.branch_points.end(), same);
+  if (branch.origin && origin != record_.branch_points.end()) {
     added.origin = origin->event;
-    record.events[static_cast<std::size_t>(origin->event)].branches.push_back(added.id);
+    record_.events[static_cast<std::size_t>(origin->event)].branches.push_back(added.id);
   }
   record_.branches.push_back(std::move(added));
 }
@@ -75,11 +86,11 @@ void Recorder::add(const Arc& arc) {
                             .step = branch().points,
                             .arc = to.arc,
                             .lambda = to.state.lambda,
-                            .monitors = values(model_.monitors(), to.state),
+                            .monitors = values(model_, to.state),
                             .count = to.count,
-                            .unstable_dead = model_.unstable_under_dead_load(to),
-                            .contacts = model_.closed_contacts(to.state),
-                            .energy = model_.system().energy(to.state),
+                            .unstable_dead = model_ == nullptr ? std::nullopt : model_->unstable_under_dead_load(to),
+                            .contacts = to.state.piece.closed_count(),
+                            .energy = system_.energy(to.state),
                             .iterations = to.iterations,
                             .residual = to.residual,
                             .forces = forces_at(model_, to.state),
@@ -119,7 +130,7 @@ RecordEvent Recorder::recorded(const Event& event) const {
   RecordEvent record{.kind = event.kind,
                      .arc = event.arc,
                      .lambda = event.state.lambda,
-                     .monitors = values(model_.monitors(), event.state),
+                     .monitors = values(model_, event.state),
                      .unstable_before = event.unstable_before,
                      .unstable_after = event.unstable_after,
                      .residual = event.residual,
@@ -133,11 +144,11 @@ RecordEvent Recorder::recorded(const Event& event) const {
     record.branch_type = event.branching->type;
     record.multiplicity = event.branching->multiplicity;
     record.discretisation = event.branching->discretisation;
-    record.mode = mode_rates(model_.monitors(), *event.branching);
+    record.mode = mode_rates(model_, *event.branching);
   }
-  if (!changes_contact(event.kind)) return record;
+  if (model_ == nullptr || !changes_contact(event.kind)) return record;
   for (const Index j : event.guards) {
-    const ContactPoint contact = model_.contacts()->contact(event.state, j);
+    const ContactPoint contact = model_->contacts()->contact(event.state, j);
     record.contacts.push_back({.label = contact.label, .x = contact.place.x()});
   }
   return record;

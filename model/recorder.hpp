@@ -16,9 +16,12 @@ class Recorder {
   /// `model` and `record` must outlive this. `branch` says where the branch leaves another; without it, it leaves none.
   Recorder(const Model& model, Record& record, const BranchRecord& branch = {});
 
+  /// The same of a system of a program, without contacts, of which no monitors are read off.
+  Recorder(const System& system, Record& record, const BranchRecord& branch = {});
+
   /// Goes on with the last branch of a record.
   static Recorder last_branch(const Model& model, Record& record) {
-    return {model, record, record.branches.size() - 1};
+    return {&model, model.system(), record, record.branches.size() - 1};
   }
 
   /// The arc's end as a point, and its events.
@@ -28,13 +31,16 @@ class Recorder {
   void end(const BranchEnd& end);
 
  private:
-  Recorder(const Model& model, Record& record, std::size_t branch) : model_(model), record_(record), branch_(branch) {}
+  Recorder(const Model* model, const System& system, Record& record, std::size_t branch)
+      : model_(model), system_(system), record_(record), branch_(branch) {}
 
+  void begin(const BranchRecord& branch);
   RecordBranch& branch() { return record_.branches[branch_]; }
   RecordEvent recorded(const Event& event) const;
   void add_event(RecordEvent event);
 
-  const Model& model_;
+  const Model* model_;  // null for a system of a program
+  const System& system_;
   Record& record_;
   std::size_t branch_;
 };

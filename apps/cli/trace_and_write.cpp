@@ -236,4 +236,18 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
   return status;
 }
 
+void write_run(Session& run, const OutputFolder& folder, const CallOptions& options, const BranchEnd& stopped,
+               const RunSeconds& seconds) {
+  const bool ended = run.has_ended();
+  const std::string checkpoint = run.checkpoint(ended ? std::nullopt : std::optional(stopped));
+  folder.write_durably("checkpoint", checkpoint);
+  if (ended) {
+    const ExitStatus status = exit_status(decisive_branch(run.record()).end->reason);
+    return write_files(folder, run, options, seconds, status);
+  }
+  const Session as_ended =
+      Session::from(checkpoint, (folder.path() / "checkpoint").string(), Session::Resume::as_ended);
+  write_files(folder, as_ended, options, seconds, exit_status(stopped.reason));
+}
+
 }  // namespace arcwall

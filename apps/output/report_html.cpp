@@ -361,9 +361,9 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
 namespace {
 
 // With what λ multiplies, where that is one thing: then the axis has a unit.
-std::string load_title(const ReportContent& content) {
-  if (content.loads.size() != 1) return "load factor λ";
-  const LoadText& one = content.loads.front();
+std::string load_title(const std::vector<LoadText>& loads) {
+  if (loads.size() != 1) return "load factor λ";
+  const LoadText& one = loads.front();
   return shown_name(one.name) + " λ" + (one.size.empty() ? "" : ", times " + shown_name(one.size));
 }
 
@@ -378,7 +378,7 @@ std::string load_note(const ReportContent& content) {
 
 nlohmann::ordered_json data_of(const Record& record, const ReportContent& content) {
   nlohmann::ordered_json data = report_data(record, content.shapes);
-  data["load_title"] = load_title(content);
+  data["load_title"] = load_title(content.loads);
   return data;
 }
 
@@ -394,7 +394,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
               {"description", description(content)},
               {"outcome", escaped(outcome(record))},
               {"monitors", monitor_choices(record)},
-              {"charts", charts(record, load_title(content))},
+              {"charts", charts(record, load_title(content.loads))},
               {"load_note", load_note(content)},
               {"legend", legend(record)},
               {"stage", stage(content.shapes)},
@@ -419,6 +419,22 @@ std::string ReportPage::text() const {
   std::string text;
   for (const std::string_view piece : pieces_) text += piece;
   return text;
+}
+
+// The rules of page.css for charts, for this element alone: the page around it has others.
+std::string curve_html(const Record& record, const std::vector<LoadText>& loads, std::optional<std::size_t> monitor) {
+  constexpr std::string_view style =
+      "<style>.arcwall{max-width:720px;background:#fff;color:#1c1f23}.arcwall svg{display:block}"
+      ".arcwall svg.chart text{font:13px sans-serif;fill:#5b6470}.arcwall svg.chart "
+      "text.axis{fill:#1c1f23;font-size:14px}"
+      ".arcwall .grid{stroke:#e8eaed;fill:none}.arcwall .line{fill:none;stroke-width:2.2;stroke-linejoin:round}"
+      ".arcwall .mark{fill:#1c1f23;stroke:#1c1f23;stroke-width:1.4}.arcwall .open.mark{fill:#fff}"
+      ".arcwall .legend{list-style:none;margin:6px 0 0;padding:0;display:flex;flex-wrap:wrap;gap:3px "
+      "18px;font-size:13px}"
+      ".arcwall .legend li{display:flex;align-items:center;gap:6px}.arcwall .key{width:16px;height:16px}"
+      ".arcwall .key.wide{width:40px}</style>";
+  return fmt::format("<div class=\"arcwall\">{}{}{}</div>", style, svg_chart(chart(record, load_title(loads), monitor)),
+                     legend(record));
 }
 
 }  // namespace arcwall

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,5 +42,9 @@ class ReportPage {
   std::map<std::string, std::string, std::less<>> fields_;
   Pieces pieces_;
 };
+
+/// The report's curve alone, with its legend, as an element that can stand in any page: λ, which multiplies these
+/// loads, over a monitor, or over the arc length.
+std::string curve_html(const Record& record, const std::vector<LoadText>& loads, std::optional<std::size_t> monitor);
 
 }  // namespace arcwall

@@ -65,8 +65,7 @@ Dimension unit_of(const std::string& key) {
 
 }  // namespace
 
-std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key) {
-  const Value root = parse_toml(to_toml(deck), deck.source.file);
+std::variant<DeckPart, NoNumber> part_of(const Value& root, const std::string& key) {
   const Value* at = &root;
   std::string written, before;
   for (const std::string& part : split_at_dots(key)) {
@@ -76,6 +75,14 @@ std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string
     written += (written.empty() ? "" : ".") + next.written;
     before += (before.empty() ? "" : ".") + part;
   }
+  return DeckPart{.value = at, .key = written};
+}
+
+std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key) {
+  const Value root = parse_toml(to_toml(deck), deck.source.file);
+  const auto part = part_of(root, key);
+  if (const auto* none = std::get_if<NoNumber>(&part)) return *none;
+  const auto& [at, written] = std::get<DeckPart>(part);
   if (at->kind == Value::Kind::integer)
     return NoNumber{.message = "is a whole number, which does not change by degrees",
                     .cure = "name a number that does"};

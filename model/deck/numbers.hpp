@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "model/deck/keys.hpp"
+#include "model/deck/value.hpp"
 
 namespace arcwall::deck {
 
@@ -14,10 +15,19 @@ struct DeckNumber {
   Dimension unit{};
 };
 
-/// Why a key names no such number, and what would be right.
+/// Why a key names no such number or no part, and what would be right.
 struct NoNumber {
   std::string message{}, cure{};
 };
+
+/// A part of a deck's text.
+struct DeckPart {
+  const Value* value = nullptr;
+  std::string key{};  ///< as in `--set`, with indices for the names of walls and loads
+};
+
+/// The part of a document behind a key as in `--set`, as far as the document has it.
+std::variant<DeckPart, NoNumber> part_of(const Value& root, const std::string& key);
 
 /// The number behind a key as in `--set`, also where the deck's text leaves it to its default.
 std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key);
