@@ -86,7 +86,7 @@ class TimedSystem final : public System {
   }
   Vector unit_force(const State& state, Index j) const override { return inner_.unit_force(state, j); }
   double compliance(Index j) const override { return inner_.compliance(j); }
-  bool is_two_sided(Index j) const override { return inner_.is_two_sided(j); }
+  bool is_two_sided(const Piece& piece, Index j) const override { return inner_.is_two_sided(piece, j); }
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override {
     return inner_.multiplier_index(piece, j);
   }

@@ -158,16 +158,16 @@ Vector MultiplierContact::guards(const State& state) const {
   Vector guards = Vector::Constant(contact_count(), out_of_reach);
   const Index n = inner_.size({});
   for (Index j = 0; j < guards.size(); ++j)
-    if (!state.piece[static_cast<std::size_t>(j)] && !is_two_sided(j)) guards[j] = open_guard(j, state);
+    if (!state.piece[static_cast<std::size_t>(j)] && !has_opposite(j)) guards[j] = open_guard(j, state);
   for_each_force(state.piece, [&](std::size_t j, Index k) {
-    if (const auto contact = static_cast<Index>(j); !is_two_sided(contact))
+    if (const auto contact = static_cast<Index>(j); !has_opposite(contact))
       guards[contact] = state.x[n + k] / scales_.force;
   });
   return guards;
 }
 
 double MultiplierContact::guard(const State& state, Index j) const {
-  if (is_two_sided(j)) return out_of_reach;
+  if (has_opposite(j)) return out_of_reach;
   const auto k = multiplier_index(state.piece, j);
   return k ? state.x[*k] / scales_.force : open_guard(j, state);
 }
@@ -179,7 +179,7 @@ double MultiplierContact::open_guard(Index j, const State& state) const {
 
 Row MultiplierContact::guard_gradient(const State& state, Index j) const {
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  if (is_two_sided(j)) return row;
+  if (has_opposite(j)) return row;
   if (const auto k = multiplier_index(state.piece, j)) {
     row.dx[*k] = 1.0 / scales_.force;
   } else if (candidate(j).faces_wall(state)) {
@@ -197,10 +197,10 @@ Vector MultiplierContact::guard_rates(const State& state, const Direction& direc
   Vector rates = Vector::Zero(contact_count());
   const Index n = inner_.size({});
   for (Index j = 0; j < rates.size(); ++j)
-    if (!state.piece[static_cast<std::size_t>(j)] && !is_two_sided(j))
+    if (!state.piece[static_cast<std::size_t>(j)] && !has_opposite(j))
       rates[j] = candidate(j).gap_rate(state, direction) / scales_.length;
   for_each_force(state.piece, [&](std::size_t j, Index k) {
-    if (const auto contact = static_cast<Index>(j); !is_two_sided(contact))
+    if (const auto contact = static_cast<Index>(j); !has_opposite(contact))
       rates[contact] = direction.dx[n + k] / scales_.force;
   });
   return rates;
@@ -252,8 +252,8 @@ bool MultiplierContact::passes_through(const State& from, const State& to) const
 
 double MultiplierContact::force(const State& state, Index j) const {
   if (const auto k = multiplier_index(state.piece, j))
-    return is_two_sided(j) ? std::max(state.x[*k], 0.0) : state.x[*k];
-  const auto k = is_two_sided(j) ? multiplier_index(state.piece, *candidate(j).opposite()) : std::nullopt;
+    return has_opposite(j) ? std::max(state.x[*k], 0.0) : state.x[*k];
+  const auto k = has_opposite(j) ? multiplier_index(state.piece, *candidate(j).opposite()) : std::nullopt;
   return k ? std::max(-state.x[*k], 0.0) : 0.0;
 }
 

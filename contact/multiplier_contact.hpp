@@ -54,7 +54,7 @@ class MultiplierContact final : public System, public ContactQuery {
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   double compliance(Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
-  bool is_two_sided(Index j) const override { return candidate(j).opposite().has_value(); }
+  bool is_two_sided(const Piece&, Index j) const override { return has_opposite(j); }
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
@@ -77,6 +77,7 @@ class MultiplierContact final : public System, public ContactQuery {
     double c = 0.0, r = 0.0;
   };
   const Springs& springs_at(Index j) const { return springs_[static_cast<std::size_t>(j)]; }
+  bool has_opposite(Index j) const { return candidate(j).opposite().has_value(); }
   bool has_force(const Piece& piece, std::size_t j) const;
   template <typename Visit>
   void for_each_force(const Piece& piece, const Visit& visit) const;

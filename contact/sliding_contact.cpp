@@ -7,6 +7,8 @@
 #include "contact/sliding/equations.hpp"
 #include "contact/sliding/inserted_contact.hpp"
 #include "contact/sliding/least_gaps.hpp"
+#include "contact/sliding/lying.hpp"
+#include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/touch.hpp"
@@ -38,6 +40,10 @@ const sliding::ValidityBound& bound_of(const SlidingState& at, Index guard) {
   return *at.layout.bounds()[static_cast<std::size_t>(guard) - at.contacts()];
 }
 
+bool is_pinched(const SlidingContactLayout& on, std::size_t contact) {
+  return contact < on.points().size() && on.points()[contact].is_pinched();
+}
+
 bool is_bound(const SlidingState& at, Index guard) { return guard >= static_cast<Index>(at.contacts()); }
 
 }  // namespace
@@ -47,12 +53,15 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObsta
   const auto layout = plain_layout(body);
   const Vector x = body.rest(layout->mesh(), Vector()), s;
   std::vector<FreeEnd> ends = free_ends(body, obstacles, layout->mesh(), {.x = x, .s = s, .lambda = 0.0});
-  open_ = Piece(ends.size(), 0, layout);
-  setting_ = std::make_unique<SlidingSetting>(SlidingSetting{.body = body,
-                                                             .obstacles = std::move(obstacles),
-                                                             .scales = scales,
-                                                             .free_ends = std::move(ends),
-                                                             .continuum = continuum});
+  const State rest{.x = x, .lambda = 0.0, .piece = Piece(ends.size(), 0, layout)};
+  auto setting = std::make_unique<SlidingSetting>(SlidingSetting{.body = body,
+                                                                 .obstacles = std::move(obstacles),
+                                                                 .scales = scales,
+                                                                 .free_ends = std::move(ends),
+                                                                 .continuum = continuum});
+  setting->pinches = sliding::pinches_at_rest(*setting, SlidingState(rest));
+  open_ = sliding::pinched_piece(*setting, SlidingState(rest));
+  setting_ = std::move(setting);
 }
 
 SlidingContact::~SlidingContact() = default;
@@ -109,10 +118,11 @@ Vector SlidingContact::guards(const State& state) const {
 }
 
 double SlidingContact::guard(const State& state, Index j) const {
-  constexpr double out_of_reach = 1.0;  // of a contact that faces no wall, or that lies on it without force
+  constexpr double out_of_reach = 1.0;  // of a contact that faces no wall, that lies on it without force, or at a pinch
   const SlidingState at(state);
   if (is_bound(at, j)) return bound_of(at, j).value(*setting_, at);
   const auto contact = static_cast<std::size_t>(j);
+  if (is_pinched(at.layout, contact)) return out_of_reach;
   if (at.is_closed(contact)) return at.force(contact) / scales().force;
   if (sliding::lies_flat(*setting_, at.layout, contact)) return out_of_reach;
   const double gap = sliding::face_gap(*setting_, sliding::touch_of_contact(*setting_, at.layout, contact), at);
@@ -123,6 +133,7 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
   const SlidingState at(state);
   if (is_bound(at, j)) return bound_of(at, j).gradient(*setting_, at);
   Row row = at.no_slope();
+  if (is_pinched(at.layout, static_cast<std::size_t>(j))) return row;
   if (const auto p = at.index.force(static_cast<std::size_t>(j))) {
     row.dx[*p] = 1.0 / scales().force;
     return row;
@@ -138,6 +149,10 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
 
 Vector SlidingContact::unit_force(const State& state, Index j) const {
   return guard_gradient(state, j).dx * scales().length * scales().force;
+}
+
+bool SlidingContact::is_two_sided(const Piece& piece, Index j) const {
+  return is_pinched(sliding_layout(piece), static_cast<std::size_t>(j));
 }
 
 Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {
@@ -190,13 +205,27 @@ Piece SlidingContact::canonical_piece(const State& state) const {
 }
 
 State SlidingContact::rest() const {
-  return {.x = body().rest(sliding_layout(open_).mesh(), Vector()), .lambda = 0.0, .piece = open_};
+  const SlidingContactLayout& on = sliding_layout(open_);
+  const SlidingUnknowns index(open_);
+  State rest{.x = Vector::Zero(index.size()), .lambda = 0.0, .piece = open_};
+  rest.x.head(index.nodes) = body().rest(on.mesh(), on.origin());
+  rest.x.tail(index.points) = on.origin();
+  return rest;
+}
+
+State SlidingContact::start(double toward) const {
+  const State at_rest = rest();
+  return sliding::with_strands_lying(*setting_, SlidingState(at_rest), toward);
+}
+
+std::string SlidingContact::why_not_lying(const State& state) const {
+  return sliding::why_not_lying(*setting_, SlidingState(state), state.lambda);
 }
 
 State SlidingContact::adopted(const State& state) const {
   const SlidingState at(state);
   const auto here = std::make_shared<SlidingContactLayout>(body(), body().mesh(at.mesh.elements_per_segment()),
-                                                           at.layout.points(), at.now.s);
+                                                           at.layout.points(), at.now.s, at.layout.lying());
   return {.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
 }
 
@@ -211,17 +240,23 @@ std::optional<State> SlidingContact::taken_over(const State& state) const {
     for (const MeshSegment& segment : elements[strand])
       if (segment.load >= loads) return std::nullopt;
   }
+  const auto has_pinch = [&](const SlidingContactLayout::Point& point) {
+    return !point.pinch || *point.pinch < setting_->pinches.size();
+  };
+  if (!std::all_of(at.layout.points().begin(), at.layout.points().end(), has_pinch)) return std::nullopt;
   const auto mesh = body().mesh(elements);
   if (mesh->unknowns() != at.mesh.unknowns() || mesh->breakpoints() != at.mesh.breakpoints()) return std::nullopt;
-  const auto here = std::make_shared<SlidingContactLayout>(body(), mesh, at.layout.points(), at.layout.origin());
+  const auto here =
+      std::make_shared<SlidingContactLayout>(body(), mesh, at.layout.points(), at.layout.origin(), at.layout.lying());
   if (here->bounds().size() != at.layout.bounds().size()) return std::nullopt;
   return State{.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
 }
 
 std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const ElementsPerSegment& elements,
                                                                       std::vector<SlidingContactLayout::Point> points,
-                                                                      const Vector& origin) const {
-  return sliding::checked_layout(*setting_, elements, std::move(points), origin);
+                                                                      const Vector& origin,
+                                                                      SlidingContactLayout::Lying lying) const {
+  return sliding::checked_layout(*setting_, elements, std::move(points), origin, std::move(lying));
 }
 
 // --- what is told of contacts ---------------------------------------------------------------------------------------
@@ -231,7 +266,9 @@ ContactPoint SlidingContact::contact(const State& state, Index j) const {
 }
 
 double SlidingContact::force(const State& state, Index j) const {
-  return SlidingState(state).force(static_cast<std::size_t>(j));
+  const SlidingState at(state);
+  const double force = at.force(static_cast<std::size_t>(j));
+  return is_pinched(at.layout, static_cast<std::size_t>(j)) ? std::max(force, 0.0) : force;
 }
 
 std::vector<ContactPoint> SlidingContact::closed_contacts(const State& state) const {
@@ -248,6 +285,14 @@ std::optional<SlidingContact::Entered> SlidingContact::entered(const State& stat
   const auto [member, fraction] = body().label(deepest->at);
   return Entered{.label = {.wall = obstacles()[deepest->obstacle].name, .member = member, .fraction = fraction},
                  .depth = -deepest->gap};
+}
+
+std::vector<SlidingContact::PinchedPlace> SlidingContact::pinches() const {
+  std::vector<PinchedPlace> places;
+  for (const Pinch& pinch : setting_->pinches)
+    places.push_back(
+        {.obstacle = obstacles()[pinch.obstacle].name, .other = obstacles()[pinch.other].name, .place = pinch.place});
+  return places;
 }
 
 double SlidingContact::least_gap(const State& state, int places) const {

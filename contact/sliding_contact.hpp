@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "contact/contact_point.hpp"
@@ -49,6 +50,7 @@ class SlidingContact final : public System, public ContactQuery {
   Row guard_gradient(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
+  bool is_two_sided(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales().force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
   bool leaves_stability_open(const Piece& piece) const override;
@@ -70,6 +72,14 @@ class SlidingContact final : public System, public ContactQuery {
   /// The stress-free state, all contacts open.
   State rest() const;
 
+  /// The same with those strands pressed along their obstacles that lie on them from end to end at rest and are pressed
+  /// all along as λ goes from 0 towards this value.
+  State start(double toward) const;
+
+  /// Why a state in which strands are pressed along obstacles is none any more as λ goes from 0 towards that of the
+  /// state: it moves what they lie on, or their ends into it; empty if it does not.
+  std::string why_not_lying(const State& state) const;
+
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
@@ -80,7 +90,7 @@ class SlidingContact final : public System, public ContactQuery {
   /// The layout of so many elements and these points that began at these places; null if they do not belong together.
   std::shared_ptr<const SlidingContactLayout> layout_of(const ElementsPerSegment& elements,
                                                         std::vector<SlidingContactLayout::Point> points,
-                                                        const Vector& origin) const;
+                                                        const Vector& origin, SlidingContactLayout::Lying lying) const;
 
   /// Where the body is deeper than this inside an obstacle between its contacts, deepest [length].
   struct Entered {
@@ -91,6 +101,13 @@ class SlidingContact final : public System, public ContactQuery {
 
   /// The least gap at `places` points of each element against every obstacle, flat parts included [length].
   double least_gap(const State& state, int places) const;
+
+  /// Where two obstacles leave the body no clearance: two contacts each that are closed for good.
+  struct PinchedPlace {
+    std::string obstacle{}, other{};  ///< their names
+    Vec2 place = Vec2::Zero();        ///< of the axis
+  };
+  std::vector<PinchedPlace> pinches() const;
 
   const ContactScales& scales() const;
   const SlidingBody& body() const;

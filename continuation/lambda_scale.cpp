@@ -17,15 +17,16 @@ struct ModalStiffness {
   double roundoff = 0.0;
 };
 
-ModalStiffness modal_stiffness(const TraceTools& tools, const State& state, const Matrix& modes) {
-  Linearization at;
+ModalStiffness modal_stiffness(TraceTools& tools, const State& state, const Matrix& modes) {
+  Linearization& at = tools.workspace(state.piece);
   tools.system.linearize(state, at);
-  const auto K = at.K.selfadjointView<Eigen::Lower>();
-  const SparseMatrix magnitudes = at.K.cwiseAbs();
-  const Matrix lengths = modes.cwiseAbs();
-  const Matrix bound = lengths.transpose() * (magnitudes.selfadjointView<Eigen::Lower>() * lengths);
-  return {.values = modes.transpose() * (K * modes),
-          .roundoff = std::numeric_limits<double>::epsilon() * bound.maxCoeff()};
+  const auto form = [&](const Matrix& v) -> Matrix {
+    return v.transpose() * (at.K.selfadjointView<Eigen::Lower>() * v);
+  };
+  ModalStiffness stiffness{.values = form(modes)};
+  at.K.coeffs() = at.K.coeffs().abs();
+  stiffness.roundoff = std::numeric_limits<double>::epsilon() * form(modes.cwiseAbs()).maxCoeff();
+  return stiffness;
 }
 
 // Along the tangent t by which the structure moves by 1, with the eigenpairs (μ, Φ) of K nearest zero, it is the least
@@ -34,7 +35,7 @@ ModalStiffness modal_stiffness(const TraceTools& tools, const State& state, cons
 //     det(diag(μ) + s Φᵀ (∂K/∂s) Φ) = 0.
 //
 // Differences to both sides leave out what the membrane forces of the bent structure add: they are of second order.
-double distance_to_buckling(const TraceTools& tools, const State& start, const Direction& t, const NearNull& nearest) {
+double distance_to_buckling(TraceTools& tools, const State& start, const Direction& t, const NearNull& nearest) {
   constexpr double h = 1e-4;  // of the differences, by as much of which the structure moves
   const Matrix& modes = *nearest.vectors;
   if (nearest.values.size() == 0 || (nearest.values.array() <= 0.0).any()) return infinity;

@@ -26,7 +26,7 @@ Piece strictly_active(const UnilateralSystem& system, const State& state, double
   Piece piece = state.piece;
   for (std::size_t j = 0; j < piece.size(); ++j) {
     const auto contact = static_cast<Index>(j);
-    if (system.is_two_sided(contact)) continue;
+    if (system.is_two_sided(state.piece, contact)) continue;
     const auto force = system.multiplier_index(state.piece, contact);
     if (force && state.x[*force] <= force_tolerance * system.multiplier_scale()) piece[j] = 0;
   }

@@ -26,6 +26,9 @@ struct Linearization {
   Vector border_rates{};                   ///< one a column of B: the rate by s_k of the equation that y_k enforces, if
                                            ///< the body slid and y_k did not hold it; 0 where it is truly held.
                                            ///< Stability is counted with the others let go (SlidingStabilityOperator)
+  std::vector<bool> energetic{};           ///< one a column of B: whether its equation is that the energy is stationary
+                                           ///< in s_k, but for discretisation: its row of C is then its column of B,
+                                           ///< what nothing holds is s_k itself, and y_k says nothing. Empty: none is
   Vector F_lambda{};                       ///< ∂F/∂λ
   std::vector<bool> translation_free{};    ///< nodes on which no force arises where everything moves parallel, but for
                                            ///< ground terms, by unknowns of K: true for the displacement in x of such

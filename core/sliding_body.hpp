@@ -208,6 +208,9 @@ class SlidingBody {
   /// Whether supports hold an end of a strand in z and its rotation.
   virtual bool is_clamped(Index strand, bool last) const = 0;
 
+  /// Whether supports hold an end of a strand in z and leave its rotation to it, with no other strand at it.
+  virtual bool is_hinged(Index strand, bool last) const = 0;
+
   /// Words for messages: member and fraction of its length.
   virtual std::pair<std::string, double> label(const MaterialPoint& point) const = 0;
 

@@ -31,11 +31,12 @@ struct Transition {
   };
   Change change = Change::remeshed;
   std::string detail{};  ///< of the last two: what and why
-  std::optional<Continuum>
-      continuum{};                ///< that lies ahead, of which the piece ahead, where there is one, keeps one member
-  std::vector<Index> contacts{};  ///< that change: in the piece behind, of `gathers` and `joins` in the piece ahead
-  State guess{};                  ///< on the piece ahead, near the first point there
-  Direction forward{};            ///< there, roughly
+  /// That lies ahead, of which the piece ahead, where there is one, keeps one member.
+  std::optional<Continuum> continuum{};
+  /// That change: in the piece behind; of `gathers`, of `joins`, and of `splits` without a quantity in the piece ahead.
+  std::vector<Index> contacts{};
+  State guess{};        ///< on the piece ahead, near the first point there
+  Direction forward{};  ///< there, roughly
   /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
   /// through the guess across `forward`.
   std::shared_ptr<const Observable> quantity{};

@@ -54,9 +54,9 @@ class UnilateralSystem : public Equations {
   /// its force. Zero for rigid obstacles.
   virtual double compliance(Index) const { return 0.0; }
 
-  /// Whether a contact holds in both senses: it is closed on every piece, whatever the sign of its force, and holds
-  /// without one, too. Its guard never vanishes.
-  virtual bool is_two_sided(Index) const { return false; }
+  /// Whether a contact of a piece holds in both senses: it is closed all along a path, whatever the sign of its force,
+  /// and holds without one, too. Its guard never vanishes.
+  virtual bool is_two_sided(const Piece&, Index) const { return false; }
 
   /// Where the force of a closed contact stands in x; empty for an open one, and for one whose force is that of
   /// another.

@@ -94,6 +94,11 @@ std::optional<StrandEnd> SlidingStructure::joined_end(Index strand, bool last) c
   return turn_together ? std::optional(other) : std::nullopt;
 }
 
+bool SlidingStructure::is_hinged(Index strand, bool last) const {
+  const End& end = at(strand).ends[last ? 1 : 0];
+  return ends_at(end.freedom[1]).size() == 1 && nodal_.is_held(end.freedom[1]) && !nodal_.is_held(end.freedom[2]);
+}
+
 Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const {
   const Run& strand = at(point.strand);
   Vec2 load = lambda * strand.load + strand.constant_load;

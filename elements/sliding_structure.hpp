@@ -50,6 +50,7 @@ class SlidingStructure final : public SlidingBody {
     const End& end = at(strand).ends[last ? 1 : 0];
     return nodal_.is_held(end.freedom[1]) && nodal_.is_held(end.freedom[2]);
   }
+  bool is_hinged(Index strand, bool last) const override;
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
   std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;
   Vector rest(const SlidingMesh& mesh, const Vector& s) const override;

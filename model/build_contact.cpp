@@ -48,6 +48,7 @@ struct TouchAtRest {
   const deck::Wall* wall;
   Index node;
   std::size_t candidate;
+  Vec2 place{};   ///< of the node
   Vec2 normal{};  ///< of the wall, into the free side
   bool straight;  ///< the wall
 };
@@ -84,15 +85,25 @@ std::optional<NotOneContact> not_one_contact(const TouchAtRest& a, const TouchAt
           "clearance, with contact.points = \"nodes\""};
 }
 
+// Whether a place where two walls touch a node is one of those that are known.
+bool is_known(const PinchedPlaces& known, const TouchAtRest& a, const TouchAtRest& b, double near) {
+  return std::any_of(known.begin(), known.end(), [&](const SlidingContact::PinchedPlace& pinch) {
+    const bool same = (pinch.obstacle == a.wall->name && pinch.other == b.wall->name) ||
+                      (pinch.obstacle == b.wall->name && pinch.other == a.wall->name);
+    return same && (pinch.place - a.place).norm() <= near;
+  });
+}
+
 // Two walls that touch a node from both sides at rest hold it without a force, now and later: its candidates are made
 // opposite to each other. Where the walls would part from it, contact that is closed without a force is not modelled.
-void join_opposite(const std::vector<TouchAtRest>& touches, std::vector<Candidate>& candidates,
-                   DeckProblems& problems) {
+void join_opposite(const std::vector<TouchAtRest>& touches, const PinchedPlaces& known, double near,
+                   std::vector<Candidate>& candidates, DeckProblems& problems) {
   constexpr double opposite = -0.5;  // cosine between the normals
   std::vector<std::pair<const deck::Wall*, const deck::Wall*>> refused;
   for (const TouchAtRest& a : touches)
     for (const TouchAtRest& b : touches) {
       if (&a >= &b || a.node != b.node || a.normal.dot(b.normal) > opposite) continue;
+      if (is_known(known, a, b, near)) continue;
       const auto odd = not_one_contact(a, b);
       if (!odd) {
         Candidate &first = candidates[a.candidate], &second = candidates[b.candidate];
@@ -213,7 +224,7 @@ void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder) {
   if (deck.contact.method == ContactLaw::Method::penalty) return;
   for (const deck::Wall& under : deck.walls)
     for (const deck::Wall& over : deck.walls) {
-      const auto line = under.side == Side::below ? line_without_clearance(under, over) : std::nullopt;
+      const auto line = under.side == Side::below ? line_without_clearance(deck, under, over) : std::nullopt;
       if (!line) continue;
       for (std::size_t m = 0; m < deck.members.size(); ++m) {
         const deck::Member& member = deck.members[m];
@@ -266,7 +277,13 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, DeckProblems& pro
 
 }  // namespace
 
-std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
+PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& structure) {
+  const ContactScales scales{.length = structure.length_scale(), .force = structure.force_scale()};
+  return SlidingContact(structure, sliding_obstacles(deck, structure), scales).pinches();
+}
+
+std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
+                                          const PinchedPlaces& known, DeckProblems& problems) {
   std::vector<Candidate> candidates;
   std::vector<TouchAtRest> touches;
   const double round_off = 1e-12 * structure.length_scale();
@@ -309,6 +326,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
             touches.push_back({.wall = &wall,
                                .node = section.node,
                                .candidate = candidates.size(),
+                               .place = structure.position(section.node),
                                .normal = candidate.normal(rest),
                                .straight = obstacle->knots().empty()});
           candidates.push_back(std::move(candidate));
@@ -320,7 +338,8 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
                                deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth),
                    how_to_part(wall, deepest));
   }
-  join_opposite(touches, candidates, problems);
+  constexpr double near = 1e-6;  // of the structure's length
+  join_opposite(touches, known, near * structure.length_scale(), candidates, problems);
   return candidates;
 }
 

@@ -30,9 +30,15 @@ bool concerns(const deck::Wall& wall, const std::string& member);
 /// sections turn with the axis: between its nodes it is on that line, too.
 void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder);
 
+/// Where walls without clearance hold members at points that slide through.
+using PinchedPlaces = std::vector<SlidingContact::PinchedPlace>;
+PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& structure);
+
 /// Every node of a wall's members against the wall: on the face that looks at it, or on the axis. Adds a problem for
-/// each wall that a member penetrates at the start.
-std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
+/// each wall that a member penetrates at the start, and for walls without clearance on both sides of a node that it is
+/// not known how to hold; `known`: where it is known without nodes.
+std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
+                                          const PinchedPlaces& known, DeckProblems& problems);
 
 /// Whether the same walls concern two members.
 bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b);

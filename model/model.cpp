@@ -109,6 +109,11 @@ std::vector<Theory> theories_of(const deck::Deck& deck) {
 
 bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
 
+bool may_slide(const deck::Deck& deck, const StructureBuilder& builder) {
+  return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::sliding &&
+         deck.contact.method == ContactLaw::Method::rigid && !increments_of(deck) && builder.can_slide();
+}
+
 // Whether contact points slide, which springs, increments and members of other theories do not allow.
 bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
             DeckProblems& problems) {
@@ -127,8 +132,7 @@ bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::
                  "use \"nodes\", or leave a clearance");
     return false;
   }
-  const bool rigid = deck.contact.method == ContactLaw::Method::rigid;
-  if (rigid && !increments_of(deck) && builder.can_slide()) return true;
+  if (may_slide(deck, builder)) return true;
   problems.add({}, "contact.points",
                "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
                "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
@@ -210,9 +214,11 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   if (takes_increments(deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
   DeckProblems not_at_rest(deck_.source);  // where a stage begins the structure is no longer there
-  auto candidates = contact_candidates(deck_, *structure_, stage_ == 0 ? problems : not_at_rest);
+  if (may_slide(deck_, described.builder)) sliding_structure_ = sliding_structure(described.builder, false);
+  const PinchedPlaces pinched = sliding_structure_ ? pinched_places(deck_, *sliding_structure_) : PinchedPlaces{};
+  auto candidates = contact_candidates(deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
   const bool sliding = slides(deck_, described.builder, candidates, problems);
-  if (sliding) sliding_structure_ = sliding_structure(described.builder, false);
+  if (!sliding) sliding_structure_.reset();
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   for (const LooseHolds::Hold& hold : loose_holds_.holds) held_.push_back(described.places.joints.at(hold.point));
   if (sliding_ && stage_ == 0 && problems.empty()) check_between_nodes(deck_, *sliding_, problems);
@@ -281,7 +287,7 @@ std::unique_ptr<Structure> Model::held_structure(bool ramp) const {
 double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
   const auto held = held_structure(ramp);
   DeckProblems known(deck.source);
-  const MultiplierContact contact(*held, contact_candidates(deck, *held, known), contact_->scales());
+  const MultiplierContact contact(*held, contact_candidates(deck, *held, {}, known), contact_->scales());
   TraceOptions options = options_;
   options.lambda_scale.reset();
   const Piece open = contact.open_piece();
@@ -317,7 +323,7 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
     DeckProblems known(deck_.source);  // those of the structure itself
     if (ramp)
       ramp_contact_ = std::make_unique<MultiplierContact>(
-          *ramp_structure_, contact_candidates(with_walls_at_rest(deck_), *ramp_structure_, known), scales, law);
+          *ramp_structure_, contact_candidates(with_walls_at_rest(deck_), *ramp_structure_, {}, known), scales, law);
     if (sliding) make_sliding(builder, ramp, scales);
   }
 }
@@ -357,7 +363,7 @@ LoadIncrements Model::increments(State start) {
 std::optional<State> Model::start(std::string& reason) const {
   State state{.x = {}, .lambda = 0.0, .piece = contact_ ? contact_->open_piece() : Piece()};
   state.x = Vector::Zero(contact_ ? contact_->size(state.piece) : structure_->size({}));
-  if (sliding_) state = sliding_->rest();
+  if (sliding_) state = sliding_->start(deck_.path.step);
   if (!ramp_structure_) return state;
   // What is constant grows from nothing along a path of their own, contacts included.
   TraceOptions options;
@@ -374,7 +380,7 @@ std::optional<State> Model::start(std::string& reason) const {
   if (ramp_contact_) ramp = ramp_contact_.get();
   if (sliding_ramp_) {
     ramp = sliding_ramp_.get();
-    state = sliding_ramp_->rest();
+    state = sliding_ramp_->start(1.0);
   }
   Tracer tracer(*ramp, state, options);
   while (const auto arc = tracer.next()) {
@@ -389,7 +395,12 @@ std::optional<State> Model::start(std::string& reason) const {
              std::to_string(state.lambda) + " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
     return std::nullopt;
   }
+  if (sliding_) {
+    state.lambda = deck_.path.step;
+    reason = sliding_->why_not_lying(sliding_->adopted(state));
+  }
   state.lambda = 0.0;
+  if (!reason.empty()) return std::nullopt;
   return sliding_ ? sliding_->adopted(state) : state;
 }
 
@@ -421,6 +432,10 @@ const ContactQuery* Model::contacts() const {
   return contact_.get();
 }
 
-Index Model::closed_contacts(const State& state) const { return state.piece.closed_count(); }
+// A pinch is one contact of the piece and two of the user.
+Index Model::closed_contacts(const State& state) const {
+  const auto pinches = static_cast<Index>(sliding_ ? sliding_->pinches().size() : 0);
+  return state.piece.closed_count() + pinches;
+}
 
 }  // namespace arcwall

@@ -30,8 +30,7 @@ double WallForce::value(const State& state) const {
 Row WallForce::gradient(const State& state) const {
   constexpr double relative = 1e-6;
   Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
-  const bool touches = std::any_of(state.piece.begin(), state.piece.end(), [](auto closed) { return closed != 0; });
-  if (!touches) return row;
+  if (contacts_.closed_contacts(state).empty() && contacts_.pressed_nodes(state).empty()) return row;
   State moved = state;
   const auto slope = [&](double& of, double step) {
     const double here = of;

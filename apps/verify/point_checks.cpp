@@ -81,6 +81,8 @@ void check_contacts(const PointAtHand& at, Findings& findings) {
       findings.compare("no moment holds a contact", std::abs(tangency.moment), force * at.scales.length,
                        named(tangency.label));
   }
+  for (const Pinched& pinched : at.touches.pinched)
+    findings.compare("closed contacts touch", std::abs(pinched.along.value()), length, named(pinched.label));
 }
 
 namespace {
@@ -116,6 +118,8 @@ Balance balance(const PointAtHand& at) {
     if (touch.closed) add(touch.gap.unknowns, -wall_force(touch) * touch.gap.gradient());
   for (const Tangency& tangency : at.touches.tangencies)
     add(tangency.tilt.unknowns, -tangency.moment * tangency.tilt.gradient());
+  for (const Pinched& pinched : at.touches.pinched)
+    add(pinched.along.unknowns, -pinched.force * pinched.along.gradient());
   sum.allowed += differences * parts;
   return sum;
 }
@@ -232,16 +236,49 @@ void add_moved_supports(const PointAtHand& at, Matrix& K) {
   }
 }
 
+// The material coordinates at pinches as the last unknowns of K.
+void add_slides(const PointAtHand& at, Matrix& K) {
+  const std::vector<Pinched>& pinched = at.touches.pinched;
+  const auto slides = static_cast<Index>(pinched.size()), n = K.rows() - slides;
+  const double h = 1e-4 * at.scales.length;
+  const auto moved = [&](Index i, double by_i, Index j, double by_j) {
+    State state = at.point.state;
+    state.x[pinched[static_cast<std::size_t>(i)].coordinate] += by_i;
+    state.x[pinched[static_cast<std::size_t>(j)].coordinate] += by_j;
+    return potentials(at.model, state);
+  };
+  const auto energy = [&](Index i, double by_i, Index j, double by_j) {
+    double sum = 0.0;
+    for (const Potential& potential : moved(i, by_i, j, by_j)) sum += potential.energy(potential.at);
+    return sum;
+  };
+  const auto forces_at = [&](Index i, double by) {
+    Vector sum = Vector::Zero(n);
+    for (const Potential& potential : moved(i, by, i, 0.0))
+      add_to(sum, potential.unknowns, potential.gradient(potential.at));
+    return sum;
+  };
+  for (Index i = 0; i < slides; ++i) {
+    K.col(n + i).head(n) = (forces_at(i, h) - forces_at(i, -h)) / (2.0 * h);
+    K.row(n + i).head(n) = K.col(n + i).head(n).transpose();
+    for (Index j = 0; j < slides; ++j)
+      K(n + i, n + j) =
+          (energy(i, h, j, h) - energy(i, h, j, -h) - energy(i, -h, j, h) + energy(i, -h, j, -h)) / (4.0 * h * h);
+  }
+}
+
 enum class Supports { held, dead };  // those that λ moves, or their forces in their place
 
 // K of the elements, less p ∂²g of the contacts, plus their springs; on the motions that leave closed contacts closed.
 // What walls touch from opposite sides cannot move across them, with or without a force.
 // Lengths and angles are made comparable: D K D has a unit diagonal.
 CountRange range_of_counts(const PointAtHand& at, double zero, Supports supports) {
-  const Index n = structure_unknowns(at.model, at.point.state) + (supports == Supports::dead ? 1 : 0);
+  const auto slides = static_cast<Index>(at.touches.pinched.size());
+  const Index n = structure_unknowns(at.model, at.point.state) + (supports == Supports::dead ? 1 : 0) + slides;
   Matrix K = Matrix::Zero(n, n), idle_springs = Matrix::Zero(n, n), strong(0, n), all(0, n);
   for (std::size_t e = 0; e < at.potentials.size(); ++e) add_block(K, at.potentials[e].unknowns, at.stiffness[e]);
   if (supports == Supports::dead) add_moved_supports(at, K);
+  if (slides > 0) add_slides(at, K);
   for (const Touch& touch : at.touches.all) {
     if (!touch.closed && !touch.two_sided) continue;
     const Vector gradient = touch.gap.gradient();
@@ -266,6 +303,8 @@ CountRange range_of_counts(const PointAtHand& at, double zero, Supports supports
       add_row(strong, tangency.tilt.unknowns, gradient);
     }
   }
+  for (const Pinched& pinched : at.touches.pinched)
+    for (Matrix* held : {&all, &strong}) add_row(*held, pinched.along.unknowns, pinched.along.gradient());
   const Vector scale = (K + idle_springs).diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const auto scaled = [&](const Matrix& stiffness) {
     return Matrix(scale.asDiagonal() * stiffness * scale.asDiagonal());

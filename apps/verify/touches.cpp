@@ -259,6 +259,14 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
   };
   if (!point || at->on.lies_pressed(*point)) tangency.end_of_pressed = true;
   if (!point || at->on.lies_beside(*point)) return tangency;
+  if (at->on.points()[*point].is_pinched()) {  // its place is held besides, so that a couple alone holds its direction
+    const double angle = wall.slope_angle(face_towards(wall, half, at->place(node, tangency.tilt, tangency.tilt.at)));
+    tangency.tilt.of = [=, function = tangency.tilt](const Vector& u) {
+      return std::remainder(at->place(node, function, u).angle - angle, pi);
+    };
+    tangency.end_of_pressed = true;
+    return tangency;
+  }
   tangency.spring = touch.closed ? contact_spring(*at, wall, node, *point, touch.force) : 0.0;
   return tangency;
 }
@@ -284,6 +292,39 @@ std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& a
   return ends;
 }
 
+// The pinch of a wall that is nearest a place.
+SlidingContact::PinchedPlace pinch_of(const Sliding& at, const std::string& wall, const Vec2& place) {
+  const auto pinches = at.model.sliding()->pinches();
+  const auto distance = [&](const SlidingContact::PinchedPlace& pinch) {
+    return pinch.obstacle == wall ? (pinch.place - place).norm() : infinity;
+  };
+  return *std::min_element(pinches.begin(), pinches.end(),
+                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+}
+
+// What is at a pinch of the body, and the place that it has at rest.
+Pinched pinched_at(const std::shared_ptr<const Sliding>& at, const ContactLabel& label, const SlidingNode& node,
+                   std::size_t point, double force) {
+  Pinched pinched{.label = label, .along = at->unknowns(node), .force = force};
+  pinched.coordinate = at->state.x.size() - at->mesh.breakpoints() + static_cast<Index>(point);
+  const AxisPlace now = at->place(node, pinched.along, pinched.along.at);
+  const Vec2 place = pinch_of(*at, label.wall, now.position).place, axis = direction(now.angle);
+  pinched.along.of = [=, function = pinched.along](const Vector& u) {
+    return axis.dot(at->place(node, function, u).position - place);
+  };
+  return pinched;
+}
+
+// One unknown is the force of both walls of a pinch, of either sign.
+void part_pinching_force(Touch& first, Touch& other) {
+  const double force = first.force;
+  first.force = std::max(force, 0.0);
+  other.force = std::max(-force, 0.0);
+  first.against = other.force;
+  other.against = first.force;
+  first.two_sided = other.two_sided = other.closed = true;
+}
+
 Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
   const auto at = std::make_shared<const Sliding>(Sliding{.model = model, .state = state});
   Touches touches;
@@ -295,6 +336,7 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     return touches.all.back();
   };
   const auto& points = at->on.points();
+  const auto& pinched = at->on.pinched_points();
   const Index moments = state.x.size() - 2 * at->mesh.breakpoints();
   const auto& tips = at->on.pressed_tips();
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -304,6 +346,14 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     const Touch& touch = add(wall, node, state.piece[k] != 0);
     touches.tangencies.push_back(tangency(at, wall, touch, node, k));
     touches.tangencies.back().moment = state.x[moments + static_cast<Index>(k)];
+    if (!points[k].is_pinched()) continue;
+    const auto behind = std::find(pinched.begin(), pinched.end(), k);
+    const Index along = moments - static_cast<Index>(tips.size()) - (pinched.end() - behind);
+    touches.pinched.push_back(pinched_at(at, touches.tangencies.back().label, node, k, state.x[along]));
+    const Vec2 place = at->mesh.node(strand, position, at->now).position;
+    const PlainWall& other = wall_of(walls, pinch_of(*at, wall.deck().name, place).other);
+    touches.all.push_back(sliding_touch(at, other, node));
+    part_pinching_force(touches.all[touches.all.size() - 2], touches.all.back());
   }
   for (std::size_t i = 0; i < tips.size(); ++i) {
     const SlidingNode node{.strand = tips[i].strand, .position = tips[i].position};

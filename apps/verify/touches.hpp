@@ -50,9 +50,19 @@ struct Tangency {
       spring{};  ///< second variation of a contact that slides; empty: the tilt is held [force·length]
 };
 
+/// A place between two walls without clearance through which a member slides: what is there of it stays on the place
+/// along the axis, too, and the material coordinate there is one more unknown of the energy.
+struct Pinched {
+  ContactLabel label{};
+  NodeFunction along{};  ///< distance from the place [length]
+  double force = 0.0;    ///< along the axis, as stored [force]
+  Index coordinate = 0;  ///< of the material coordinate in State::x
+};
+
 struct Touches {
   std::vector<Touch> all{};
   std::vector<Tangency> tangencies{};
+  std::vector<Pinched> pinched{};
 };
 
 Touches touches(const Model& model, const std::vector<PlainWall>& walls, const State& state);

@@ -25,8 +25,6 @@ void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index)
   row.dlambda += factor * dlambda;
 }
 
-namespace {
-
 // ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve at the
 // face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
 CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
@@ -50,8 +48,6 @@ CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState
   out.dlambda += by_wall * wall.rate;
   return out;
 }
-
-}  // namespace
 
 CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   return gap_of_curvatures(setting, at, touch_of_contact(setting, at.layout, point), strain_of_free_side(at, point));
@@ -86,17 +82,41 @@ bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at,
   return is_straight(0.0) && (ahead == 0.0 || (is_straight(0.5) && is_straight(1.0)));
 }
 
-HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  const Touch touch = touch_of_contact(setting, at.layout, point);
+namespace {
+
+// What the body has on the free side of a point, or at the first end of a strand.
+AxisStrain strain_at(const SlidingState& at, Index strand, std::optional<Index> point) {
+  return point ? strain_of_free_side(at, static_cast<std::size_t>(*point)) : at.mesh.end_strain(strand, false, at.now);
+}
+
+HeldAxis held_axis_of(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                      std::optional<Index> point) {
   const AxisPlace axis = touch.axis(at);
   return {
       .touch = touch,
-      .s = at.s(static_cast<Index>(point)),
+      .point = point,
+      .s = point ? at.s(*point) : 0.0,
       .position = axis.position,
       .angle = axis.angle,
       .travel = travel(*setting.obstacles[touch.obstacle].surface, face(touch.offset, axis), axis.angle, at.now.lambda),
-      .stretch = strain_of_free_side(at, point).stretch,
+      .stretch = strain_at(at, touch.strand, point).stretch,
       .lambda = at.now.lambda};
+}
+
+}  // namespace
+
+HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  return held_axis_of(setting, at, touch_of_contact(setting, at.layout, point), static_cast<Index>(point));
+}
+
+HeldAxis held_axis_at_end(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle) {
+  const FreeEnd first{.strand = strand, .obstacle = obstacle};
+  return held_axis_of(setting, at, touch_of_end(setting, at.layout, first), std::nullopt);
+}
+
+HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const SlidingContactLayout::Segment& part) {
+  if (part.has_point()) return held_axis(setting, at, part.end_point());
+  return held_axis_at_end(setting, at, part.strand, at.layout.lies_on(part.strand).value());
 }
 
 // ∓ (EI κ₀″/Λ + q·n), q the load along the body.
@@ -148,8 +168,8 @@ double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& he
 }
 
 // The place stays, so that the point comes nearer to it as it moves on.
-Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
-  const HeldAxis held = held_axis(setting, at, point);
+Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held,
+                               double ahead) {
   const double length = setting.body.length(held.touch.strand);
   const auto by = [&](double scale, const auto& move) {
     const auto moved = [&](double d) {
@@ -166,13 +186,13 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
   const double by_s = by(length, [](HeldAxis& there, double d) { there.s += d; });
   const double by_lambda = by(1.0, [](HeldAxis& there, double d) { there.lambda += d; });
 
-  const AxisStrain strain = strain_of_free_side(at, point);
   const Touch& touch = held.touch;
+  const AxisStrain strain = strain_at(at, touch.strand, held.point);
   Row row = at.no_slope();
   row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds;
   add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), Eigen::Vector3d(by_x, by_z, by_angle), row.dx);
-  row.dx[at.index.coordinate(static_cast<Index>(point))] += by_s - straight_pressure_slope(setting, held, ahead);
+  if (held.point) row.dx[at.index.coordinate(*held.point)] += by_s - straight_pressure_slope(setting, held, ahead);
   row.dlambda = by_lambda + by_stretch * strain.stretch_dlambda;
   return row;
 }
@@ -193,7 +213,7 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
   Vector rates = Vector::Zero(at.index.points);
   for (Index k = 0; k < rates.size(); ++k) {
     const auto point = static_cast<std::size_t>(k);
-    if (at.layout.lies_beside(point)) continue;
+    if (at.layout.lies_beside(point) || at.layout.points()[point].is_pinched()) continue;
     const Touch touch = touch_of_contact(setting, at.layout, point);
     const AxisStrain strain = strain_of_free_side(at, point);
     const AxisPlace axis = touch.axis(at);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
@@ -16,6 +18,10 @@ struct CurvatureGap {
 };
 CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
+/// The same of any touch, by what the body has on one side of it.
+CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                               const AxisStrain& strain);
+
 /// The same at an end of a strand that touches the obstacle tangentially.
 CurvatureGap end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
@@ -25,17 +31,25 @@ double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at,
 /// Whether the obstacle is straight beside a tracked point and up to `ahead` of it along the body.
 bool obstacle_is_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead = 0.0);
 
-/// The axis at a tracked point, from where it is held straight along a straight obstacle.
+/// The axis at a tracked point or at the first end of a strand, from where it is held straight along a straight
+/// obstacle.
 struct HeldAxis {
   Touch touch;
-  double s;        ///< material coordinate of the point [length]
-  Vec2 position;   ///< of the point
-  double angle;    ///< of the axis [rad]
-  double travel;   ///< 1 where the axis runs with the obstacle's surface, −1 where it runs against it
-  double stretch;  ///< of the axis
+  std::optional<Index> point;  ///< empty: it is the first end
+  double s;                    ///< material coordinate of the place [length]
+  Vec2 position;               ///< of the place
+  double angle;                ///< of the axis [rad]
+  double travel;               ///< 1 where the axis runs with the obstacle's surface, −1 where it runs against it
+  double stretch;              ///< of the axis
   double lambda;
 };
 HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+
+/// The same at the first end of a strand that lies on a straight obstacle.
+HeldAxis held_axis_at_end(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle);
+
+/// The same of a part that is pressed on a straight obstacle: at a point at one of its ends, if it has one.
+HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const SlidingContactLayout::Segment& part);
 
 /// Force per length with which a straight obstacle holds the axis straight, `ahead` of the point along the body; > 0
 /// where it presses (8.7).
@@ -45,7 +59,8 @@ double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, do
 double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
 /// Its derivatives by all unknowns and by λ, at a place that stays the same of the body.
-Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held,
+                               double ahead);
 
 /// Force per length that would hold the body on the obstacle at a tracked point, or `ahead` of it along the body; > 0
 /// where the obstacle would press (8.7). Exact beside a straight obstacle.

@@ -20,11 +20,12 @@ using Change = Transition::Change;
 // The bounds of clamps that are reached together.
 using Clamps = std::vector<const ClampBound*>;
 
-// Whether an end of a strand is on an obstacle, and parallel to it.
-bool touches_tangentially(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+// Whether an end of a strand is on an obstacle: if it is clamped, parallel to it; if it may turn, a straight one.
+bool is_on(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   constexpr double touching = 1e-9;  // gap, scaled, and angle
   const Touch touch = touch_of_end(setting, at.layout, end);
   if (!(std::abs(face_gap(setting, touch, at)) <= touching * setting.scales.length)) return false;
+  if (setting.body.is_hinged(end.strand, end.last)) return setting.obstacles[end.obstacle].surface->knots().empty();
   return std::abs(touch_gap(setting, touch, at).tilt.value) <= touching;
 }
 
@@ -60,14 +61,35 @@ Transition with_parts(const SlidingSetting& setting, const SlidingState& at, con
 
 }  // namespace
 
+double parting(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  if (!setting.body.is_hinged(end.strand, end.last))
+    return end_curvature_gap(setting, at, end).value * setting.scales.length;
+  const double angle = touch_gap(setting, touch_of_end(setting, at.layout, end), at).angle;
+  return outward(setting.obstacles[end.obstacle].surface->side(), end.last) * std::sin(angle);
+}
+
+Row parting_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  Row row = at.no_slope();
+  if (!setting.body.is_hinged(end.strand, end.last)) {
+    end_curvature_gap(setting, at, end).add_to(row, setting.scales.length, at.index);
+    return row;
+  }
+  const Touch touch = touch_of_end(setting, at.layout, end);
+  const TouchGap gap = touch_gap(setting, touch, at);
+  const double by_tilt = outward(setting.obstacles[end.obstacle].surface->side(), end.last) * std::cos(gap.angle);
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_tilt * gap.tilt.gradient, row.dx);
+  row.dlambda = by_tilt * gap.tilt.rate;
+  return row;
+}
+
 std::optional<FreeEnd> touched_clamp(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last) {
   if (at.layout.span_at_end(strand, last) != Span::free) return std::nullopt;
   std::optional<FreeEnd> found;
   double least = infinity;
   for (std::size_t w = 0; w < setting.obstacles.size(); ++w) {
     const FreeEnd end{.strand = strand, .last = last, .obstacle = w};
-    if (!setting.obstacles[w].concerns(strand) || !touches_tangentially(setting, at, end)) continue;
-    const double gap = end_curvature_gap(setting, at, end).value;
+    if (!setting.obstacles[w].concerns(strand) || !is_on(setting, at, end)) continue;
+    const double gap = parting(setting, at, end);
     if (gap >= least) continue;
     least = gap;
     found = end;
@@ -81,8 +103,8 @@ std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const Sli
   std::vector<Transition> transitions;
   for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
     transitions.push_back(with_parts(setting, at, clamps, factor * length));
-  transitions.push_back(unsupported(
-      "a member bends as a wall does where it leaves its clamp on it, and no equilibrium was found that lies there"));
+  transitions.push_back(
+      unsupported("a member comes to lie on a wall from a held end on, and no equilibrium was found that lies there"));
   return transitions;
 }
 
@@ -104,7 +126,7 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
     if (!transition.quantity) transition.quantity = std::make_shared<BoundValue>(setting, i);
     transition.contacts.push_back(static_cast<Index>(transition.guess.piece.size() + i));
   }
-  return {transition, unsupported("a part on a wall gathers at a clamp, and no equilibrium was found without it")};
+  return {transition, unsupported("a part on a wall gathers at a held end, and no equilibrium was found without it")};
 }
 
 }  // namespace arcwall::sliding

@@ -9,9 +9,15 @@
 
 namespace arcwall::sliding {
 
-/// A clamped end of a strand with the obstacle that it touches tangentially; of several the one towards which the body
-/// bends most. Empty where none does, or where the body lies on one beside the clamp.
+/// A clamped end of a strand with the obstacle that it touches tangentially, or a hinged one with a straight obstacle
+/// that it is on; of several the one that the body is about to lie on first. Empty where none touches, or where the
+/// body lies on one beside the end.
 std::optional<FreeEnd> touched_clamp(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last);
+
+/// What keeps the body from lying on the obstacle beside such an end, scaled: at a clamp the curvature gap (8.5), at a
+/// hinge the sine of the angle by which the body leaves the obstacle.
+double parting(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+Row parting_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// What may lie behind a state where the body beside clamps comes to bend as the obstacles there do, at all that do so
 /// within `tolerance`: it lies on them from the clamps on.

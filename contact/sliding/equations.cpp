@@ -4,6 +4,7 @@
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/neutral_spans.hpp"
+#include "contact/sliding/pinches.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/algebra/assembly.hpp"
 
@@ -11,80 +12,96 @@ namespace arcwall::sliding {
 
 namespace {
 
-// visit(touch, index of its force) for all that carry force.
+using NeutralSpan = SlidingContactLayout::NeutralSpan;
+
+// visit(function of a node, the node's unknowns, index of the multiplier) for all constraints −f = 0 of nodes: gaps,
+// neutral spans' middles, places and directions at pinches, tangency.
 template <typename Visit>
-void for_each_force(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
-  Index force = at.index.nodes;
+void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
+  const auto unknowns_of = [&](const Touch& touch) { return at.mesh.node_unknowns(touch.strand, touch.position); };
+  const auto visit_gap = [&](const Touch& touch, Index force) {
+    visit([&] { return touch_gap(setting, touch, at).gap; }, unknowns_of(touch), force);
+  };
+  const auto visit_tilt = [&](const Touch& touch, Index moment) {
+    visit([&] { return touch_gap(setting, touch, at).tilt; }, unknowns_of(touch), moment);
+  };
+  const SlidingContactLayout& on = at.layout;
+  const auto is_pinched = [&](std::size_t j) { return j < on.points().size() && on.points()[j].is_pinched(); };
   for (std::size_t j = 0; j < at.contacts(); ++j)
-    if (at.is_closed(j)) visit(touch_of_contact(setting, at.layout, j), force++);
-  for (const SlidingContactLayout::PressedNode& node : at.layout.pressed_nodes())
-    visit(touch_of_node(setting, node), force++);
-}
-
-// visit(touch, index of its moment) for all pressed tips.
-template <typename Visit>
-void for_each_tip_moment(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
-  const auto& tips = at.layout.pressed_tips();
-  for (std::size_t i = 0; i < tips.size(); ++i) visit(touch_of_tip(setting, tips[i]), at.index.tip_moment(i));
-}
-
-// visit(span, unknowns of its middle, index of its force) for all neutral spans.
-template <typename Visit>
-void for_each_middle(const SlidingState& at, const Visit& visit) {
-  const auto& spans = at.layout.neutral_spans();
-  for (std::size_t i = 0; i < spans.size(); ++i)
-    visit(spans[i], at.mesh.node_unknowns(spans[i].strand, spans[i].middle), at.index.holding_force(i));
-}
-
-// visit(span) for all neutral spans that may be anywhere between the flat parts beside them.
-template <typename Visit>
-void for_each_loose(const SlidingState& at, const Visit& visit) {
-  for (const SlidingContactLayout::NeutralSpan& span : at.layout.neutral_spans())
-    if (at.layout.is_loose(span)) visit(span);
-}
-
-// Of the equation that lengths of flat parts keep their difference, which then is a moment as its neighbours are.
-double moment_of_length(const SlidingSetting& setting, const SlidingContactLayout::NeutralSpan& span) {
-  const double L = setting.body.length(span.strand);
-  return setting.body.bending_stiffness(span.strand) / (L * L);
-}
-
-NodeUnknowns unknowns_of(const SlidingState& at, const Touch& touch) {
-  return at.mesh.node_unknowns(touch.strand, touch.position);
-}
-
-// The forces of contact on the body, and the equations −g = 0, −t = 0 and m = 0 or EI (κ̂ − κ) = m. The moments m₁ and
-// m₂ at the ends of a loose span are equal by symmetry: m₁ + m₂ = 0 says all of them, and (8.6b) where the span is.
-void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
-  for_each_force(setting, at, [&](const Touch& touch, Index p) {
-    const TouchGap touching = touch_gap(setting, touch, at);
-    add_at_node(unknowns_of(at, touch), -at.state.x[p] * touching.gap.gradient, F);
-    F[p] = -touching.gap.value;
-  });
-  for_each_middle(at, [&](const SlidingContactLayout::NeutralSpan& span, const NodeUnknowns& unknowns, Index p) {
-    const NodeFunction off = off_halfway(setting, at, span);
-    add_at_node(unknowns, -at.state.x[p] * off.gradient, F);
-    F[p] = -off.value;
-  });
-  for_each_tip_moment(setting, at, [&](const Touch& touch, Index m) {
-    const TouchGap touching = touch_gap(setting, touch, at);
-    add_at_node(unknowns_of(at, touch), -at.state.x[m] * touching.tilt.gradient, F);
-    F[m] = -touching.tilt.value;
-  });
-  for (Index k = 0; k < at.index.points; ++k) {
-    const auto point = static_cast<std::size_t>(k);
-    const Touch touch = touch_of_contact(setting, at.layout, point);
-    const TouchGap touching = touch_gap(setting, touch, at);
-    add_at_node(unknowns_of(at, touch), -at.moment(k) * touching.tilt.gradient, F);
-    F[at.index.moment(k)] = -touching.tilt.value;
-    F[at.index.coordinate(k)] = at.layout.lies_pressed(point) ? setting.body.bending_stiffness(touch.strand) *
-                                                                    curvature_gap(setting, at, point).value
-                                                              : at.moment(k);
+    if (at.is_closed(j) && !is_pinched(j)) visit_gap(touch_of_contact(setting, on, j), *at.index.force(j));
+  for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i)
+    visit_gap(touch_of_node(setting, on.pressed_nodes()[i]), at.index.pressed_force(i));
+  for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) {
+    const NeutralSpan& span = on.neutral_spans()[i];
+    visit([&] { return off_halfway(setting, at, span); }, at.mesh.node_unknowns(span.strand, span.middle),
+          at.index.holding_force(i));
   }
-  for_each_loose(at, [&](const SlidingContactLayout::NeutralSpan& span) {
-    F[at.index.coordinate(span.first_point)] += at.moment(span.last_point);
-    F[at.index.coordinate(span.last_point)] = moment_of_length(setting, span) * grown_apart(at, span);
+  for (std::size_t i = 0; i < on.pinched_points().size(); ++i) {
+    const std::size_t k = on.pinched_points()[i];
+    const NodeUnknowns unknowns = unknowns_of(touch_of_contact(setting, on, k));
+    if (at.is_closed(k)) visit([&] { return off_pinch(setting, at, k).across; }, unknowns, *at.index.force(k));
+    visit([&] { return off_pinch(setting, at, k).along; }, unknowns, at.index.force_along(i));
+    visit([&] { return off_pinch(setting, at, k).turned; }, unknowns, at.index.moment(static_cast<Index>(k)));
+  }
+  for (std::size_t i = 0; i < on.pressed_tips().size(); ++i)
+    visit_tilt(touch_of_tip(setting, on.pressed_tips()[i]), at.index.tip_moment(i));
+  for (std::size_t k = 0; k < on.points().size(); ++k)
+    if (!is_pinched(k)) visit_tilt(touch_of_contact(setting, on, k), at.index.moment(static_cast<Index>(k)));
+}
+
+// The loose span at one of whose ends point k is, if it is.
+const NeutralSpan* loose_span_at(const SlidingState& at, Index k) {
+  const auto& spans = at.layout.neutral_spans();
+  const auto found = std::find_if(spans.begin(), spans.end(), [&](const NeutralSpan& span) {
+    return at.layout.is_loose(span) && (span.first_point == k || span.last_point == k);
   });
+  return found == spans.end() ? nullptr : &*found;
+}
+
+// The moments m₁ and m₂ at the ends of a loose span are equal by symmetry: m₁ + m₂ = 0 says all of them, and (8.6b),
+// written as a moment, where the span is.
+BorderEquation loose_equation(const SlidingSetting& setting, const SlidingState& at, const NeutralSpan& span, Index k) {
+  BorderEquation equation{.row = at.no_slope()};
+  if (k == span.first_point) {
+    equation.value = at.moment(span.first_point) + at.moment(span.last_point);
+    equation.row.dx[at.index.moment(span.first_point)] = 1.0;
+    equation.row.dx[at.index.moment(span.last_point)] = 1.0;
+  } else {
+    const double L = setting.body.length(span.strand);
+    const double moment = setting.body.bending_stiffness(span.strand) / (L * L);
+    equation.value = moment * grown_apart(at, span);
+    equation.row.dx = moment * grown_apart_gradient(at, span).dx;
+  }
+  return equation;
+}
+
+// What says where point k is along the body: m = 0, EI (κ̂ − κ) = 0, at a pinch that the energy is stationary, and what
+// loose spans have instead.
+BorderEquation border_equation(const SlidingSetting& setting, const SlidingState& at, Index k) {
+  const auto point = static_cast<std::size_t>(k);
+  if (at.layout.points()[point].is_pinched()) return energy_by_sliding(setting, at, point);
+  if (const NeutralSpan* loose = loose_span_at(at, k)) return loose_equation(setting, at, *loose, k);
+  BorderEquation equation{.row = at.no_slope()};
+  if (at.layout.lies_pressed(point)) {
+    const double EI = setting.body.bending_stiffness(at.mesh.breakpoint(k).first);
+    const CurvatureGap bend = curvature_gap(setting, at, point);
+    equation.value = EI * bend.value;
+    bend.add_to(equation.row, EI, at.index);
+  } else {
+    equation.value = at.moment(k);
+    equation.row.dx[at.index.moment(k)] = 1.0;
+  }
+  return equation;
+}
+
+// The forces of contact on the body, and the equations of constraints and border.
+void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
+  for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
+    const NodeFunction constraint = function();
+    add_at_node(unknowns, -at.state.x[multiplier] * constraint.gradient, F);
+    F[multiplier] = -constraint.value;
+  });
+  for (Index k = 0; k < at.index.points; ++k) F[at.index.coordinate(k)] = border_equation(setting, at, k).value;
 }
 
 // The row of a constraint, less its gradient by a node.
@@ -116,20 +133,15 @@ void add_constraint(const NodeFunction& constraint, const NodeUnknowns& unknowns
 // The pattern of K: that of the mesh with rows of forces and moments behind it.
 void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
   std::vector<RowEntry> entries;
-  const auto add_row = [&](const NodeUnknowns& unknowns, Index row) {
+  for_each_constraint(setting, at, [&](const auto&, const NodeUnknowns& unknowns, Index row) {
     for (const Index unknown : unknowns)
       if (unknown >= 0) entries.push_back({.row = row - at.index.nodes, .column = unknown});
-  };
-  const auto add = [&](const Touch& touch, Index row) { add_row(unknowns_of(at, touch), row); };
-  for_each_force(setting, at, add);
-  for_each_middle(at, [&](const SlidingContactLayout::NeutralSpan&, const NodeUnknowns& unknowns, Index row) {
-    add_row(unknowns, row);
   });
-  for_each_tip_moment(setting, at, add);
   out.holding.clear();
+  out.energetic.clear();
   for (Index k = 0; k < at.index.points; ++k) {
-    add(touch_of_contact(setting, at.layout, static_cast<std::size_t>(k)), at.index.moment(k));
     out.holding.push_back(at.index.moment(k));
+    out.energetic.push_back(at.layout.points()[static_cast<std::size_t>(k)].is_pinched());
   }
   out.K = with_rows_behind(out.inner->K, entries, at.index.multipliers());
   out.pattern_of = at.state.piece;
@@ -165,34 +177,15 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
   take_over(mesh, at, out);
   add_contact(setting, at, out.F);
   out.border_rates = border_rates(setting, at);
-  for_each_force(setting, at, [&](const Touch& touch, Index p) {
-    add_constraint(touch_gap(setting, touch, at).gap, unknowns_of(at, touch), p, at, out);
+  for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
+    add_constraint(function(), unknowns, multiplier, at, out);
   });
-  for_each_middle(at, [&](const SlidingContactLayout::NeutralSpan& span, const NodeUnknowns& unknowns, Index p) {
-    add_constraint(off_halfway(setting, at, span), unknowns, p, at, out);
-  });
-  for_each_tip_moment(setting, at, [&](const Touch& touch, Index m) {
-    add_constraint(touch_gap(setting, touch, at).tilt, unknowns_of(at, touch), m, at, out);
-  });
-  out.C.setZero(at.index.points, at.index.size());
+  out.C.resize(at.index.points, at.index.size());
   for (Index k = 0; k < at.index.points; ++k) {
-    const auto point = static_cast<std::size_t>(k);
-    const Touch touch = touch_of_contact(setting, at.layout, point);
-    add_constraint(touch_gap(setting, touch, at).tilt, unknowns_of(at, touch), at.index.moment(k), at, out);
-    if (at.layout.lies_pressed(point)) {
-      const double EI = setting.body.bending_stiffness(touch.strand);
-      const CurvatureGap bend = curvature_gap(setting, at, point);
-      out.C.row(k).head(at.index.nodes) = EI * bend.dx;
-      out.C.row(k).tail(at.index.points) = EI * bend.ds;
-      out.F_lambda[at.index.coordinate(k)] = EI * bend.dlambda;
-    } else {
-      out.C(k, at.index.moment(k)) = 1.0;
-    }
+    const BorderEquation equation = border_equation(setting, at, k);
+    out.C.row(k) = equation.row.dx.transpose();
+    out.F_lambda[at.index.coordinate(k)] = equation.row.dlambda;
   }
-  for_each_loose(at, [&](const SlidingContactLayout::NeutralSpan& span) {
-    out.C(span.first_point, at.index.moment(span.last_point)) = 1.0;
-    out.C.row(span.last_point) = moment_of_length(setting, span) * grown_apart_gradient(at, span).dx;
-  });
 }
 
 }  // namespace arcwall::sliding

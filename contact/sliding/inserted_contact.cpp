@@ -7,6 +7,7 @@
 #include "contact/sliding/bounds/room.hpp"
 #include "contact/sliding/bounds/tail.hpp"
 #include "contact/sliding/least_gaps.hpp"
+#include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 
@@ -18,7 +19,9 @@ namespace {
 bool is_followed(const SlidingSetting& setting, const SlidingState& at, const LeastGap& gap) {
   for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
     const auto point = static_cast<Index>(k);
-    if (at.layout.points()[k].obstacle == gap.obstacle && at.mesh.breakpoint(point).first == gap.at.strand &&
+    const std::vector<std::size_t> touched = obstacles_at(setting, at.layout, k);
+    const bool touches = std::find(touched.begin(), touched.end(), gap.obstacle) != touched.end();
+    if (touches && at.mesh.breakpoint(point).first == gap.at.strand &&
         std::abs(at.s(point) - gap.at.s) < shortest_span(setting.body, gap.at.strand))
       return true;
   }

@@ -7,8 +7,10 @@
 namespace arcwall {
 
 SlidingContactLayout::SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh,
-                                           std::vector<Point> points, const Vector& s)
-    : body_(&body), mesh_(std::move(mesh)), points_(std::move(points)), origin_(s) {
+                                           std::vector<Point> points, const Vector& s, Lying lying)
+    : body_(&body), mesh_(std::move(mesh)), points_(std::move(points)), lying_(std::move(lying)), origin_(s) {
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (points_[k].is_pinched()) pinched_points_.push_back(k);
   Index first_point = 0;
   for (Index strand = 0; strand < body.strands(); ++strand) first_point = add_segments(body, strand, first_point);
   bounds_ = sliding::validity_bounds(body, *this);
@@ -24,7 +26,10 @@ Index SlidingContactLayout::add_segments(const SlidingBody& body, Index strand, 
   if (std::count_if(segments.begin(), segments.end(), [](const MeshSegment& at) { return !at.ends_at_load(); }) > 1) {
     const Point& first = points_[static_cast<std::size_t>(next_point)];
     touching = {.obstacle = first.obstacle, .behind = first.before, .neutral_behind = first.neutral_before};
+  } else if (const auto obstacle = lies_on(strand)) {
+    touching = {.obstacle = *obstacle, .behind = Span::pressed};
   }
+  const auto may_turn = [&](bool last) { return body.is_tip(strand, last) || body.is_hinged(strand, last); };
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const auto [elements, load] = segments[i];
     const bool to_point = i + 1 < segments.size() && !segments[i].ends_at_load();
@@ -47,10 +52,10 @@ Index SlidingContactLayout::add_segments(const SlidingBody& body, Index strand, 
       for (Index node = position + 1; node < position + elements; ++node)
         pressed_nodes_.push_back(
             {.strand = strand, .position = node, .obstacle = touching.obstacle, .segment = segments_.size() - 1});
-    if (touching.behind == Span::pressed && i == 0 && body.is_tip(strand, false))
+    if (touching.behind == Span::pressed && i == 0 && may_turn(false))
       pressed_tips_.push_back({.strand = strand, .position = 0, .obstacle = touching.obstacle});
     position += elements;
-    if (touching.behind == Span::pressed && !to_point && i + 1 == segments.size() && body.is_tip(strand, true))
+    if (touching.behind == Span::pressed && !to_point && i + 1 == segments.size() && may_turn(true))
       pressed_tips_.push_back({.strand = strand, .position = position, .obstacle = touching.obstacle});
     if (to_point) touching = points_[static_cast<std::size_t>(point)];
     before = point;
@@ -79,9 +84,10 @@ bool SlidingContactLayout::is_loose(const NeutralSpan& span) const {
 }
 
 bool SlidingContactLayout::joins_one_obstacle(const Segment& segment) const {
-  return segment.first_point >= 0 && segment.last_point >= 0 &&
-         points_[static_cast<std::size_t>(segment.first_point)].obstacle ==
-             points_[static_cast<std::size_t>(segment.last_point)].obstacle;
+  if (segment.first_point < 0 || segment.last_point < 0) return false;
+  const Point& first = points_[static_cast<std::size_t>(segment.first_point)];
+  const Point& last = points_[static_cast<std::size_t>(segment.last_point)];
+  return first.obstacle == last.obstacle && !first.is_pinched() && !last.is_pinched();
 }
 
 SlidingContactLayout::Span SlidingContactLayout::span_before(std::size_t point) const {

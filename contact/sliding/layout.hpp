@@ -27,9 +27,12 @@ class SlidingContactLayout final : public SlidingLayout {
   struct Point {
     std::size_t obstacle = 0;
     Span behind = Span::free;
-    Span before = Span::free;     ///< of a strand's first point: up to it from the strand's beginning
-    bool neutral_behind = false;  ///< the free span behind it is a neutral one
-    bool neutral_before = false;  ///< of a strand's first point: the free span before it is
+    Span before = Span::free;            ///< of a strand's first point: up to it from the strand's beginning
+    bool neutral_behind = false;         ///< the free span behind it is a neutral one
+    bool neutral_before = false;         ///< of a strand's first point: the free span before it is
+    std::optional<std::size_t> pinch{};  ///< that it is at, by its number in the setting: it touches two obstacles
+
+    bool is_pinched() const { return pinch.has_value(); }
   };
 
   /// A node inside a pressed part, which is a segment.
@@ -38,7 +41,8 @@ class SlidingContactLayout final : public SlidingLayout {
     std::size_t obstacle, segment;
   };
 
-  /// A tip up to which the body is pressed: the wall holds its slope, as it does at the other end of the part.
+  /// A tip or a hinged end up to which the body is pressed: the wall holds its slope, as it does at the other end of
+  /// the part.
   struct PressedTip {
     Index strand, position;
     std::size_t obstacle;
@@ -65,14 +69,20 @@ class SlidingContactLayout final : public SlidingLayout {
     Span span;
     std::size_t place;  ///< among the strand's segments
 
+    bool has_point() const { return first_point >= 0 || last_point >= 0; }
+
     /// The tracked point at one of its ends, of which it has one: the first if both are.
     std::size_t end_point() const { return static_cast<std::size_t>(first_point >= 0 ? first_point : last_point); }
   };
 
+  /// Per strand the straight obstacle on which all of it is pressed, from end to end without a tracked point. May be
+  /// empty: no strand is.
+  using Lying = std::vector<std::optional<std::size_t>>;
+
   /// `s`: the material coordinates of the points where the layout begins. A mesh that is too fine already there is not
   /// made coarser.
   SlidingContactLayout(const SlidingBody& body, std::shared_ptr<const SlidingMesh> mesh, std::vector<Point> points,
-                       const Vector& s);
+                       const Vector& s, Lying lying = {});
   ~SlidingContactLayout() override;
 
   const SlidingMesh& mesh() const override { return *mesh_; }
@@ -84,7 +94,17 @@ class SlidingContactLayout final : public SlidingLayout {
   const std::vector<PressedNode>& pressed_nodes() const { return pressed_nodes_; }
   const std::vector<PressedTip>& pressed_tips() const { return pressed_tips_; }
   const std::vector<NeutralSpan>& neutral_spans() const { return neutral_spans_; }
+
+  /// The points at pinches, ascending.
+  const std::vector<std::size_t>& pinched_points() const { return pinched_points_; }
   const std::vector<Segment>& segments() const { return segments_; }
+
+  const Lying& lying() const { return lying_; }
+
+  /// The obstacle on which all of a strand is pressed.
+  std::optional<std::size_t> lies_on(Index strand) const {
+    return lying_.empty() ? std::nullopt : lying_[static_cast<std::size_t>(strand)];
+  }
 
   /// The bounds within which the layout is valid: guards behind those of the contacts.
   const std::vector<std::unique_ptr<const sliding::ValidityBound>>& bounds() const { return bounds_; }
@@ -96,7 +116,7 @@ class SlidingContactLayout final : public SlidingLayout {
   /// anywhere between them, and only the sum of their lengths is determined.
   bool is_loose(const NeutralSpan& span) const;
 
-  /// Whether two tracked points are the ends of a segment and touch one obstacle.
+  /// Whether two tracked points are the ends of a segment and touch one obstacle, and it alone.
   bool joins_one_obstacle(const Segment& segment) const;
 
   /// How the body runs up to a point.
@@ -104,6 +124,9 @@ class SlidingContactLayout final : public SlidingLayout {
 
   /// How the body runs between the end of a strand and the point nearest to it; free where the strand has none.
   Span span_at_end(Index strand, bool last) const { return segment_at_end(strand, last).span; }
+
+  /// The segment between an end of a strand and what is nearest to it.
+  const Segment& segment_at_end(Index strand, bool last) const;
 
   /// The point nearest an end of a strand; empty where the strand has none.
   std::optional<std::size_t> point_at_end(Index strand, bool last) const;
@@ -130,7 +153,6 @@ class SlidingContactLayout final : public SlidingLayout {
 
  private:
   Index add_segments(const SlidingBody& body, Index strand, Index next_point);
-  const Segment& segment_at_end(Index strand, bool last) const;
 
   const SlidingBody* body_;
   std::shared_ptr<const SlidingMesh> mesh_;
@@ -138,6 +160,8 @@ class SlidingContactLayout final : public SlidingLayout {
   std::vector<PressedNode> pressed_nodes_;
   std::vector<PressedTip> pressed_tips_;
   std::vector<NeutralSpan> neutral_spans_;
+  std::vector<std::size_t> pinched_points_;
+  Lying lying_;
   std::vector<Segment> segments_;
   Vector origin_;
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;

@@ -98,8 +98,14 @@ bool LayoutEdit::has_node(Index strand, Index load) const {
   return std::any_of(segments.begin(), segments.end(), [&](const MeshSegment& at) { return at.load == load; });
 }
 
+void LayoutEdit::set_lying(Index strand, std::optional<std::size_t> obstacle) {
+  lying.resize(static_cast<std::size_t>(body.strands()));
+  lying[static_cast<std::size_t>(strand)] = obstacle;
+}
+
 bool LayoutEdit::lies_on_wall(Index strand, double place) const {
   using Span = SlidingContactLayout::Span;
+  if (!lying.empty() && lying[static_cast<std::size_t>(strand)]) return true;
   Span span = Span::free;
   for (std::size_t k = points.size(); k-- > 0;)
     if (strands[k] == strand) span = points[k].before;  // of the strand's first point, in the end
@@ -150,8 +156,11 @@ void LayoutEdit::erase(std::size_t point, int of_both) {
 }
 
 LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
-  LayoutEdit edit{
-      .body = body, .elements = at.mesh.elements_per_segment(), .points = at.layout.points(), .s = at.now.s};
+  LayoutEdit edit{.body = body,
+                  .elements = at.mesh.elements_per_segment(),
+                  .points = at.layout.points(),
+                  .s = at.now.s,
+                  .lying = at.layout.lying()};
   for (std::size_t k = 0; k < edit.points.size(); ++k) {
     edit.strands.push_back(at.mesh.breakpoint(static_cast<Index>(k)).first);
     edit.closed.push_back(at.is_closed(k));
@@ -194,7 +203,8 @@ void give_middles(LayoutEdit& edit) {
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
   settle_loads(edit);
   give_middles(edit);
-  return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s);
+  return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s,
+                                                edit.lying);
 }
 
 }  // namespace arcwall::sliding

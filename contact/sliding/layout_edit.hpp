@@ -16,6 +16,7 @@ struct LayoutEdit {
   std::vector<std::uint8_t> closed{};  ///< of the points
   std::vector<double> forces{};        ///< of the points; those of open ones do not matter
   Vector s{};                          ///< of the points
+  SlidingContactLayout::Lying lying{};
 
   /// Of the free ends, in the order of SlidingSetting::free_ends.
   std::vector<std::uint8_t> ends_closed{};
@@ -54,6 +55,9 @@ struct LayoutEdit {
   void give_node(Index strand, Index load);
   void take_node(Index strand, Index load);
   bool has_node(Index strand, Index load) const;
+
+  /// Says on which obstacle a strand without points is pressed all along; empty: on none.
+  void set_lying(Index strand, std::optional<std::size_t> obstacle);
 
   /// Whether a place is inside a part that lies on a wall.
   bool lies_on_wall(Index strand, double s) const;

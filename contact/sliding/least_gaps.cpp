@@ -7,6 +7,7 @@
 
 #include "contact/passing.hpp"
 #include "contact/sliding/curved_surface.hpp"
+#include "contact/sliding/pinches.hpp"
 #include "contact/sliding/touch.hpp"
 #include "core/lanes.hpp"
 
@@ -91,12 +92,16 @@ struct Watched {
 };
 
 // Of the elements of a strand, by their first node.
-std::vector<Watched> watched_elements(const SlidingState& at, Index strand, std::size_t obstacle) {
+std::vector<Watched> watched_elements(const SlidingSetting& setting, const SlidingState& at, Index strand,
+                                      std::size_t obstacle) {
   std::vector<Watched> watched(static_cast<std::size_t>(at.mesh.nodes(strand)));
   const auto& points = at.layout.points();
+  if (at.layout.lies_on(strand) == obstacle)
+    for (Watched& element : watched) element.along = true;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [on, position] = at.mesh.breakpoint(static_cast<Index>(k));
-    if (on != strand || points[k].obstacle != obstacle) continue;
+    const std::vector<std::size_t> touched = obstacles_at(setting, at.layout, k);
+    if (on != strand || std::find(touched.begin(), touched.end(), obstacle) == touched.end()) continue;
     watched[static_cast<std::size_t>(position) - 1].at_last = true;
     watched[static_cast<std::size_t>(position)].at_first = true;
     if (points[k].before != Span::free)
@@ -161,7 +166,7 @@ void for_each_on_strand(const SlidingSetting& setting, const SlidingState& at, I
   const Obstacle& surface = *setting.obstacles[obstacle].surface;
   const bool curved = !surface.knots().empty();
   std::vector<Watched> watched(nodes.size());
-  if (which == Which::unwatched) watched = watched_elements(at, strand, obstacle);
+  if (which == Which::unwatched) watched = watched_elements(setting, at, strand, obstacle);
   Sample before = sampled(setting.obstacles[obstacle], offset, nodes[0], lambda);
   for (std::size_t e = 0; e + 1 < nodes.size(); ++e) {
     const Sample after = sampled(setting.obstacles[obstacle], offset, nodes[e + 1], lambda);
@@ -201,6 +206,12 @@ std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const S
     if (least.gap < margin * setting.scales.length && (!deepest || least.gap < deepest->gap)) deepest = least;
   });
   return deepest;
+}
+
+std::vector<LeastGap> least_gaps(const SlidingSetting& setting, const SlidingState& at) {
+  std::vector<LeastGap> found;
+  for_each_least_gap(setting, at, Which::all, [&](const LeastGap& least) { found.push_back(least); });
+  return found;
 }
 
 std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const SlidingState& at,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
@@ -17,6 +18,9 @@ struct LeastGap {
 /// The deepest of the least gaps below `margin` (in the scale of the guards) that no guard watches: beside contact
 /// points, and where the body lies on the obstacle, guards say all.
 std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const SlidingState& at, double margin);
+
+/// All of them, whether a guard watches them or not.
+std::vector<LeastGap> least_gaps(const SlidingSetting& setting, const SlidingState& at);
 
 /// Of all least gaps on the same strand and obstacle the one nearest another.
 std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const SlidingState& at, const LeastGap& other);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
@@ -52,19 +53,30 @@ Where lifts_off_at(const SlidingSetting& setting, const SlidingState& at, std::s
   return place - begin < near ? Where::first_end : end - place < near ? Where::last_end : Where::inside;
 }
 
+// From where a part is free that begins here and has been split before, or its end.
+double next_edge(const LayoutEdit& edit, Index strand, double begin, double end) {
+  double next = end;
+  for (std::size_t k = 0; k < edit.points.size(); ++k)
+    if (const double s = edit.s[static_cast<Index>(k)]; edit.strands[k] == strand && s > begin)
+      next = std::min(next, s);
+  return next;
+}
+
 // Splits the part of a pressed node by a free span where its pressure is least; tells the point behind which the span
 // begins. Empty where the part is too short for that. Nodes are split from the last to the first.
 std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingState& at, std::size_t node, double length,
                                  LayoutEdit& edit) {
   const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
   const SlidingContactLayout::Segment& part = at.layout.segments()[pressed.segment];
-  if (part.first_point < 0 || part.last_point < 0) return std::nullopt;  // it reaches the end of its member
+  const bool lies = !part.has_point();                                              // from end to end
+  if (!lies && (part.first_point < 0 || part.last_point < 0)) return std::nullopt;  // it reaches the end of its member
   const double place = least_pressure(setting, at, node).s;
-  const double begin = at.s(part.first_point), end = at.s(part.last_point);
+  const auto [begin, end] = at.layout.ends(setting.body, part, at.now.s);
   const Where where = lifts_off_at(setting, at, node, length);
   const bool at_first = where == Where::first_end, at_last = where == Where::last_end;
   const double left = at_first ? begin : at_last ? end - length : place - 0.5 * length;
-  const double next = edit.s[part.first_point + 1];  // up to where it has lifted before
+  const double next = next_edge(edit, pressed.strand, begin, end);
+  if (lies && where != Where::inside) return std::nullopt;
   const double least = where == Where::inside ? 8.0 * shortest_span(setting.body, pressed.strand) : 0.0;
   if (left < begin || left + length > next || length < least) return std::nullopt;
 
@@ -74,6 +86,10 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
   const int fewest = fewest_pressed(lies_on_straight(setting, at, node));
   const int across = elements(left, left + length, 2), behind = elements(left + length, next, fewest);
   LayoutEdit::Entry edge{.point = {.obstacle = pressed.obstacle}, .strand = pressed.strand, .s = left, .closed = true};
+  if (lies) {
+    edge.point.before = Span::pressed;
+    edit.set_lying(pressed.strand, std::nullopt);
+  }
   const std::size_t first = at_first ? static_cast<std::size_t>(part.first_point)
                                      : edit.insert(edge, elements(begin, left, fewest), at_last ? across : behind);
   edit.points[first].behind = Span::free;
@@ -82,6 +98,17 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
   edge.s = left + length;
   edit.insert(edge, across, behind);
   return first;
+}
+
+// The bounds of pressed nodes, by their numbers among the guards.
+std::vector<Index> bounds_of(const SlidingState& at, const Nodes& nodes) {
+  std::vector<Index> numbers;
+  for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
+    const auto* bound = dynamic_cast<const PressureBound*>(at.layout.bounds()[i].get());
+    if (bound != nullptr && std::find(nodes.begin(), nodes.end(), bound->node()) != nodes.end())
+      numbers.push_back(static_cast<Index>(at.contacts() + i));
+  }
+  return numbers;
 }
 
 // Parts with free spans of one length; empty where one of them is too short for its span.
@@ -96,18 +123,66 @@ std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingSta
   }
   Transition transition = up_to(length, std::make_shared<SpanLength>(first), Transition::Change::splits,
                                 mapped_onto(setting, at, edit, layout_of(edit)));
-  for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
-    const auto* bound = dynamic_cast<const PressureBound*>(at.layout.bounds()[i].get());
-    if (bound != nullptr && std::find(nodes.begin(), nodes.end(), bound->node()) != nodes.end())
-      transition.contacts.push_back(static_cast<Index>(at.contacts() + i));
-  }
+  transition.contacts = bounds_of(at, nodes);
   return transition;
+}
+
+// Whether nothing presses on a strand that lies on its obstacle from end to end.
+bool is_left(const SlidingSetting& setting, const SlidingState& at, Index strand, double tolerance) {
+  if (!at.layout.lies_on(strand)) return false;
+  const auto of_strand = [&](std::size_t node) { return at.layout.pressed_nodes()[node].strand == strand; };
+  const auto all = reached<PressureBound>(setting, at, tolerance);
+  const auto& pressed = at.layout.pressed_nodes();
+  return std::count_if(all.begin(), all.end(), [&](const PressureBound* bound) { return of_strand(bound->node()); }) ==
+         std::count_if(pressed.begin(), pressed.end(), [&](const auto& node) { return node.strand == strand; });
+}
+
+// What is told of a strand that has left its obstacle: its ends.
+void name_ends(const SlidingSetting& setting, const Piece& ahead, Index strand, std::size_t obstacle,
+               std::vector<Index>& contacts) {
+  const SlidingContactLayout& on = sliding_layout(ahead);
+  for (const bool last : {false, true}) {
+    for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
+      const FreeEnd& end = setting.free_ends[j];
+      if (end.strand == strand && end.last == last && end.obstacle == obstacle)
+        contacts.push_back(static_cast<Index>(on.points().size() + j));
+    }
+    for (std::size_t i = 0; i < on.bounds().size(); ++i) {
+      const auto* held = dynamic_cast<const ClampBound*>(on.bounds()[i].get());
+      if (held != nullptr && held->strand() == strand && held->last() == last)
+        contacts.push_back(static_cast<Index>(ahead.size() + i));
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+std::optional<Transition> strands_leave(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                                        double tolerance) {
+  std::vector<std::pair<Index, std::size_t>> leaving;
+  for (Index strand = 0; strand < setting.body.strands(); ++strand)
+    if (is_left(setting, at, strand, tolerance)) leaving.emplace_back(strand, at.layout.lies_on(strand).value());
+  if (leaving.empty()) return std::nullopt;
+  LayoutEdit edit = edit_of(setting.body, at);
+  for (const auto& [strand, obstacle] : leaving) {
+    edit.set_lying(strand, std::nullopt);
+    for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
+      if (setting.free_ends[j].strand == strand && setting.free_ends[j].obstacle == obstacle) edit.ends_closed[j] = 0;
+  }
+  Transition transition =
+      up_to(0.0, nullptr, Transition::Change::splits, mapped_onto(setting, at, edit, layout_of(edit)));
+  transition.forward.dx.head(at.index.nodes) = forward.dx.head(at.index.nodes);
+  transition.forward.dlambda = forward.dlambda;
+  for (const auto& [strand, obstacle] : leaving)
+    name_ends(setting, transition.guess.piece, strand, obstacle, transition.contacts);
+  return transition;
+}
+
+std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                                       double tolerance) {
   const Nodes nodes = lifting_nodes(setting, at, tolerance);
+  if (auto leave = strands_leave(setting, at, forward, tolerance))
+    return {std::move(*leave), unsupported("a member leaves its wall, and no equilibrium was found")};
   const SlidingContactLayout::Segment& part = part_of(at, nodes.front());
   const double shortest = shortest_span_on_straight(setting.body, part.strand);
   const bool at_ends_on_straight = std::all_of(nodes.begin(), nodes.end(), [&](std::size_t node) {
@@ -121,12 +196,15 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
     transitions.push_back(std::move(*transition));
   };
   if (at_ends_on_straight) {
-    const std::size_t point = part.end_point();
-    const double ahead = least_pressure(setting, at, nodes.front()).s - at.s(static_cast<Index>(point));
-    const double sure = shortest_sure_arch(setting, at, point, ahead);
+    const HeldAxis held = held_axis(setting, at, part);
+    const double sure = shortest_sure_arch(setting, held, least_pressure(setting, at, nodes.front()).s - held.s);
     for (const double factor : {2.0, 4.0, 8.0, 16.0, 1.0, 0.5})
       if (factor * sure > shortest) try_length(factor * sure, sure);
     try_length(2.0 * shortest, sure);
+  } else if (lies_on_straight(setting, at, nodes.front())) {
+    const double least = std::max(1.25 * shortest_gap_on_straight(setting.body, part.strand),
+                                  8.0 * shortest_span(setting.body, part.strand));
+    for (const double factor : {1.0, 2.0, 4.0}) try_length(factor * least, 0.0);
   } else {
     for (const double factor : {2.0, 4.0, 8.0, 16.0, 32.0})
       try_length(factor * shortest_span(setting.body, part.strand), 0.0);

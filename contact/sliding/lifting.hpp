@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "contact/sliding/setting.hpp"
@@ -10,7 +11,14 @@ namespace arcwall::sliding {
 
 /// What may lie behind a state where the pressure on pressed parts vanishes, the likeliest first: at each node within
 /// `tolerance` of that, of neighbours the one with the least pressure, the part becomes two with a free span between
-/// them; at its end, one and a point contact. Free spans are tried in several lengths.
-std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, double tolerance);
+/// them; at its end, one and a point contact. Free spans are tried in several lengths. A strand that lies on its
+/// obstacle from end to end leaves it where its pressure vanishes all along. `forward`: of the path.
+std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                                       double tolerance);
+
+/// Of strands that lie on obstacles from end to end those leave theirs on which nothing presses any more: the same
+/// state, without contact. Empty where there is none.
+std::optional<Transition> strands_leave(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                                        double tolerance);
 
 }  // namespace arcwall::sliding

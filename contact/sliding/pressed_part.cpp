@@ -126,13 +126,13 @@ struct AtFraction {
   double r, pressure;
 };
 
-// How far a fraction of a part lies ahead of the tracked point at its end.
+// How far a fraction of a part lies ahead of the tracked point at its end, or of the end itself.
 struct AheadOfPoint {
   double from, length;
 
   AheadOfPoint(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
     const Extent whole = extent(setting, at, part);
-    from = whole.from - at.s(static_cast<Index>(part.segment.end_point()));
+    from = part.segment.has_point() ? whole.from - at.s(static_cast<Index>(part.segment.end_point())) : 0.0;
     length = whole.length;
   }
   double operator()(double r) const { return from + r * length; }
@@ -144,7 +144,7 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
   const double h = 1.0 / part.segment.elements;
   const double from = part.node == 0 ? 0.0 : (double(part.node) + 0.5) * h;
   const double to = part.node == part.nodes - 1 ? 1.0 : (double(part.node) + 1.5) * h;
-  const HeldAxis held = held_axis(setting, at, part.segment.end_point());
+  const HeldAxis held = held_axis(setting, at, part.segment);
   const AheadOfPoint ahead(setting, at, part);
   const auto pressure = [&](double r) { return straight_pressure(setting, held, ahead(r)); };
   const auto at_fraction = [&](double r) { return AtFraction{.r = r, .pressure = pressure(r)}; };
@@ -160,14 +160,16 @@ AtFraction least_on_straight(const SlidingSetting& setting, const SlidingState& 
 Row gradient_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
   const SlidingContactLayout::Segment& ends = part.segment;
   const double r = least_on_straight(setting, at, part).r, ahead = AheadOfPoint(setting, at, part)(r);
-  const double slope = straight_pressure_slope(setting, held_axis(setting, at, ends.end_point()), ahead);
-  Row row = straight_pressure_gradient(setting, at, ends.end_point(), ahead);
+  const HeldAxis held = held_axis(setting, at, ends);
+  const double slope = straight_pressure_slope(setting, held, ahead);
+  Row row = straight_pressure_gradient(setting, at, held, ahead);
   if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] += (1.0 - r) * slope;
   if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] += r * slope;
   return row;
 }
 
 bool part_is_on_straight(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  if (!part.segment.has_point()) return true;
   const AheadOfPoint ahead(setting, at, part);
   const std::size_t point = part.segment.end_point();
   return obstacle_is_straight(setting, at, point, ahead(0.0)) && obstacle_is_straight(setting, at, point, ahead(1.0));

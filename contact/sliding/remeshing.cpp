@@ -88,7 +88,8 @@ Transition unsupported(std::string what) {
 
 std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting& setting,
                                                            const ElementsPerSegment& elements,
-                                                           std::vector<Point> points, const Vector& origin) {
+                                                           std::vector<Point> points, const Vector& origin,
+                                                           SlidingContactLayout::Lying lying) {
   const SlidingBody& body = setting.body;
   if (static_cast<Index>(elements.size()) != body.strands() || static_cast<Index>(points.size()) != origin.size())
     return nullptr;
@@ -111,9 +112,18 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
       before = end;
     }
   }
-  const auto unknown = [&](const Point& point) { return point.obstacle >= setting.obstacles.size(); };
+  const auto unknown = [&](const Point& point) {
+    return point.obstacle >= setting.obstacles.size() || (point.pinch && *point.pinch >= setting.pinches.size());
+  };
   if (k != origin.size() || std::any_of(points.begin(), points.end(), unknown)) return nullptr;
-  return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin);
+  if (!lying.empty() && static_cast<Index>(lying.size()) != body.strands()) return nullptr;
+  for (std::size_t strand = 0; strand < lying.size(); ++strand) {
+    if (!lying[strand]) continue;
+    const bool has_points = std::any_of(elements[strand].begin(), elements[strand].end() - 1,
+                                        [](const MeshSegment& segment) { return !segment.ends_at_load(); });
+    if (has_points || *lying[strand] >= setting.obstacles.size()) return nullptr;
+  }
+  return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin, std::move(lying));
 }
 
 Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on) {
@@ -133,8 +143,9 @@ Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at) {
     changed = true;
   }
   if (!changed) return at.state.piece;
-  return with_layout(at.state.piece, std::make_shared<SlidingContactLayout>(setting.body, at.layout.shared_mesh(),
-                                                                            std::move(points), at.now.s));
+  return with_layout(at.state.piece,
+                     std::make_shared<SlidingContactLayout>(setting.body, at.layout.shared_mesh(), std::move(points),
+                                                            at.now.s, at.layout.lying()));
 }
 
 }  // namespace arcwall::sliding

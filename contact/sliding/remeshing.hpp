@@ -38,7 +38,7 @@ Transition unsupported(std::string what);
 std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting& setting,
                                                            const ElementsPerSegment& elements,
                                                            std::vector<SlidingContactLayout::Point> points,
-                                                           const Vector& origin);
+                                                           const Vector& origin, SlidingContactLayout::Lying lying);
 
 /// The piece with another layout, whose contacts have the same status.
 Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on);

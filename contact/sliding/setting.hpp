@@ -36,6 +36,17 @@ struct FreeEnd {
   }
 };
 
+/// A place where two obstacles leave a strand no clearance, from one side each: the axis goes through it for good,
+/// along one line if the obstacles have a direction there. The strand may slide through.
+struct Pinch {
+  Index strand = 0;
+  double s = 0.0;                       ///< material coordinate of what is there at rest [length]
+  std::size_t obstacle = 0, other = 0;  ///< the one that pushes along `normal`, and the one against it
+  Vec2 place = Vec2::Zero();            ///< of the axis
+  double angle = 0.0;                   ///< of the axis there, continuous along the strand at rest [rad]
+  Vec2 normal = Vec2::Zero();           ///< across the axis
+};
+
 /// A body among obstacles: all that contact which slides depends on and that stays the same along a path. The contacts
 /// of a piece are the points that its layout tracks, then the free ends.
 struct SlidingSetting {
@@ -44,6 +55,7 @@ struct SlidingSetting {
   ContactScales scales{};
   std::vector<FreeEnd> free_ends{};
   ContinuumChoice continuum = ContinuumChoice::symmetric;
+  std::vector<Pinch> pinches{};  ///< along the strands, in their order
 
   /// How far the body's outside is from the axis where an obstacle touches it [length].
   double half_height_touched(std::size_t obstacle, Index strand) const {

@@ -78,8 +78,10 @@ Transition gathered(const SlidingSetting& setting, const SlidingState& at, const
 // Two pressed parts become one, or a pressed part and a point contact beside it.
 Transition joined(const SlidingSetting& setting, const SlidingState& at, const Points& gaps) {
   LayoutEdit edit = edit_of(setting.body, at);
-  const double place = edit.place(gaps.front());
+  const double place = 0.5 * (edit.place(gaps.front()) + edit.place(gaps.front() + 1));
   for (auto k = gaps.rbegin(); k != gaps.rend(); ++k) {
+    const Index strand = edit.strands[*k];
+    const std::size_t obstacle = edit.points[*k].obstacle;
     const bool before = at.layout.span_before(*k) == Span::pressed;
     const bool behind = at.layout.points()[*k + 1].behind == Span::pressed;
     if (behind) {
@@ -87,6 +89,10 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
       edit.erase(*k + 1, edit.elements_behind(*k + 1) + (before ? 0 : 1));
     }
     if (before) edit.erase(*k, edit.elements_before(*k) + (behind ? edit.elements_behind(*k) : 1));
+    if (std::find(edit.strands.begin(), edit.strands.end(), strand) != edit.strands.end()) continue;
+    if (!setting.obstacles[obstacle].surface->knots().empty())
+      return unsupported("a member comes to lie on a curved wall from end to end");
+    edit.set_lying(strand, obstacle);
   }
   return back_to<PressureBound>(setting, at, edit, place, Transition::Change::joins);
 }

@@ -13,15 +13,18 @@ int elements_asked(const SlidingBody& body, Index strand, double from, double to
   return std::max(fewest, static_cast<int>(std::lround(body.elements_between(strand, from, to))));
 }
 
+// EI g = p̄″ (¼ d² − S²)³/720 is 10⁻¹⁴ of L at this length where a hump of 10⁻³ L is pressed flat.
+double shortest_gap_on_straight(const SlidingBody& body, Index strand) { return 0.04 * body.length(strand); }
+
 double shortest_span_on_straight(const SlidingBody& body, Index strand) { return 1e-3 * body.length(strand); }
 
 // The nodes of the arch's two elements are known to some ε L, their forces to EI/(d/2)³ times that; a tenth of p̄′
 // d²/20.
-double shortest_sure_arch(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
+double shortest_sure_arch(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   constexpr double roundoff = 1e-12, longest = 0.02;
-  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
+  const Index strand = held.touch.strand;
   const double L = setting.body.length(strand);
-  const double slope = std::abs(straight_pressure_slope(setting, held_axis(setting, at, point), ahead));
+  const double slope = std::abs(straight_pressure_slope(setting, held, ahead));
   const double lost = std::pow(roundoff * setting.body.bending_stiffness(strand) * L / slope, 0.2);
   return std::clamp(lost, shortest_span_on_straight(setting.body, strand), longest * L);
 }
@@ -42,7 +45,10 @@ double shortest_span(const SlidingSetting& setting, const SlidingState& at, std:
   const bool before = on.span_before(point) == Span::pressed, behind = on.points()[point + 1].behind == Span::pressed;
   const Span span = on.points()[point].behind;
   const Index strand = on.mesh().breakpoint(static_cast<Index>(point)).first;
-  if (span == Span::free && before && behind) return 4.0 * shortest_span(setting.body, strand);
+  if (span == Span::free && before && behind)
+    return obstacle_is_straight(setting, at, point)
+               ? std::max(shortest_gap_on_straight(setting.body, strand), 4.0 * shortest_span(setting.body, strand))
+               : 4.0 * shortest_span(setting.body, strand);
   const bool is_pressed = span == Span::pressed || (span == Span::free && (before || behind));
   if (is_pressed && obstacle_is_straight(setting, at, point)) return shortest_span_on_straight(setting.body, strand);
   return shortest_span(setting.body, strand);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/sliding/bending.hpp"
 #include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
 
@@ -22,9 +23,13 @@ double shortest_span(const SlidingBody& body, Index strand);
 /// depend on the mesh.
 double shortest_span_on_straight(const SlidingBody& body, Index strand);
 
-/// The length of such an arch, `ahead` of a tracked point along the body, below which round-off hides what it does:
+/// The same of a free stretch between two parts that are pressed on a straight obstacle: round-off of places hides
+/// shorter ones.
+double shortest_gap_on_straight(const SlidingBody& body, Index strand);
+
+/// The length of such an arch, `ahead` of a place along the body, below which round-off hides what it does:
 /// where the part ends, the pressure grows at a rate p̄′, and the force there is p̄′ d²/20.
-double shortest_sure_arch(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+double shortest_sure_arch(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
 /// The same of a part between a contact and an end of the strand: the contact is at the end. Shorter at a tip, up to
 /// which the part bears nothing.

@@ -162,7 +162,7 @@ std::optional<HalfPressed> half_pressed(const SlidingSetting& setting, const Sli
   const double sign = free > pressed ? 1.0 : -1.0, s = at.s(static_cast<Index>(point));
   const double least_pressed =
       shortest_span_on_straight(setting.body, at.mesh.breakpoint(static_cast<Index>(point)).first);
-  const double least_arch = 2.0 * shortest_sure_arch(setting, at, point, edge);
+  const double least_arch = 2.0 * shortest_sure_arch(setting, held_axis(setting, at, point), edge);
   if (sign * (lift_off - pressed) < least_pressed || sign * (free - lift_off) < least_arch) return std::nullopt;
   return HalfPressed{
       .from = s - 0.5 * length, .lift_off = s + lift_off, .to = s + 0.5 * length, .pressed_first = free > pressed};

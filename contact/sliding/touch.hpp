@@ -27,6 +27,9 @@ Touch touch_of_tip(const SlidingSetting& setting, const SlidingContactLayout::Pr
 /// 1 where an axis of this angle runs with the surface that a place faces, −1 where it runs against it.
 double travel(const Obstacle& surface, const Vec2& place, double angle, double lambda);
 
+/// The sine of the angle between body and wall has this sign at an end where the gap grows from there on.
+constexpr double outward(Side side, bool last) { return (side == Side::below) == last ? -1.0 : 1.0; }
+
 /// The place of the face at an offset: the section's normal looks along the obstacle's, or against it where the body
 /// travels against x.
 Vec2 face(double offset, const AxisPlace& axis);

@@ -10,6 +10,7 @@ SlidingUnknowns::SlidingUnknowns(const Piece& piece) : piece_(&piece) {
   closed = piece.closed_count();
   pressed = static_cast<Index>(layout.pressed_nodes().size());
   neutral = static_cast<Index>(layout.neutral_spans().size());
+  pinched = static_cast<Index>(layout.pinched_points().size());
   tips = static_cast<Index>(layout.pressed_tips().size());
   points = static_cast<Index>(layout.points().size());
 }

@@ -13,6 +13,7 @@ namespace arcwall {
 ///     p   `closed`   forces of the closed contacts, in the piece's order      multipliers, with −g = 0
 ///     p   `pressed`  forces of the pressed nodes, in the layout's order       multipliers, with −g = 0
 ///     p   `neutral`  forces that hold the middles of neutral spans            multipliers, with −c = 0
+///     τ   `pinched`  forces along the axis at pinched points                  multipliers, with −c = 0
 ///     m   `tips`     moments that hold the tangency at pressed tips           multipliers, with −t = 0
 ///     m   `points`   moments that hold the tangency at the tracked points     multipliers, with −t = 0
 ///     s   `points`   material coordinates of the tracked points               the border
@@ -27,10 +28,11 @@ class SlidingUnknowns {
   Index closed = 0;   ///< forces of closed contacts
   Index pressed = 0;  ///< forces of pressed nodes
   Index neutral = 0;  ///< neutral spans
+  Index pinched = 0;  ///< pinched points
   Index tips = 0;     ///< pressed tips
   Index points = 0;   ///< tracked points
 
-  Index multipliers() const { return closed + pressed + neutral + tips + points; }
+  Index multipliers() const { return closed + pressed + neutral + pinched + tips + points; }
   Index of_K() const { return nodes + multipliers(); }
   Index size() const { return of_K() + points; }
 
@@ -39,8 +41,9 @@ class SlidingUnknowns {
 
   Index pressed_force(std::size_t node) const { return nodes + closed + static_cast<Index>(node); }
   Index holding_force(std::size_t span) const { return nodes + closed + pressed + static_cast<Index>(span); }
-  Index tip_moment(std::size_t tip) const { return nodes + closed + pressed + neutral + static_cast<Index>(tip); }
-  Index moment(Index point) const { return nodes + closed + pressed + neutral + tips + point; }
+  Index force_along(std::size_t pinched_point) const { return holding_force(0) + neutral + Index(pinched_point); }
+  Index tip_moment(std::size_t tip) const { return force_along(0) + pinched + static_cast<Index>(tip); }
+  Index moment(Index point) const { return tip_moment(0) + tips + point; }
   Index coordinate(Index point) const { return of_K() + point; }
 
  private:

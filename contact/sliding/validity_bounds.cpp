@@ -1,11 +1,14 @@
 #include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/element_size.hpp"
+#include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/bounds/flat_part.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
+#include "contact/sliding/bounds/holding_moment.hpp"
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/neutral.hpp"
+#include "contact/sliding/bounds/pinch.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/room.hpp"
 #include "contact/sliding/bounds/tail.hpp"
@@ -62,17 +65,26 @@ void add_of_inner_loads(const SlidingBody& body, const SlidingContactLayout& on,
 std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingBody& body,
                                                                   const SlidingContactLayout& on) {
   Bounds bounds;
-  for (std::size_t k = 0; k < on.points().size(); ++k) add_if<CurvatureBound>(!on.lies_beside(k), bounds, k);
+  for (std::size_t k = 0; k < on.points().size(); ++k)
+    add_if<CurvatureBound>(!on.lies_beside(k) && !on.points()[k].is_pinched(), bounds, k);
+  for (const std::size_t k : on.pinched_points())
+    for (const auto side : {SlidingMesh::At::before, SlidingMesh::At::behind})
+      for (const bool other : {false, true}) add_if<PinchBound>(true, bounds, k, side, other);
   for (std::size_t i = 0; i < on.segments().size(); ++i) add_of_segment(body, on, i, bounds);
   for (Index strand = 0; strand < body.strands(); ++strand) add_of_inner_loads(body, on, strand, bounds);
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i) add_if<PressureBound>(true, bounds, i);
+  for (std::size_t i = 0; i < on.pressed_tips().size(); ++i) {
+    const SlidingContactLayout::PressedTip& tip = on.pressed_tips()[i];
+    add_if<HoldingMomentBound>(body.is_hinged(tip.strand, tip.position > 0), bounds, i);
+  }
   for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) add_if<NeutralBound>(true, bounds, i);
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (const bool last : {false, true}) {
       const bool free = !body.end_is_held(strand, last);
       add_if<LiesDownBound>(free, bounds, strand, last);
       add_if<UprightBound>(free, bounds, strand, last);
-      add_if<ClampBound>(body.is_clamped(strand, last), bounds, strand, last);
+      add_if<EndStaysBound>(!free && on.lies_on(strand).has_value(), bounds, strand, last);
+      add_if<ClampBound>(body.is_clamped(strand, last) || body.is_hinged(strand, last), bounds, strand, last);
       add_if<TailBound>(has_tail(body, on, strand, last), bounds, strand, last,
                         on.point_at_end(strand, last).value_or(0));
     }

@@ -57,7 +57,8 @@ BranchEnd end_before(const std::vector<Transition>& transitions) {
 // Whether the first point on the piece ahead lies a little beyond the bound, with a new stretch of some length.
 bool begins_with_length(const Transition& transition) {
   const Transition::Change change = transition.change;
-  return change == Transition::Change::spreads || change == Transition::Change::splits ||
+  return change == Transition::Change::spreads ||
+         (change == Transition::Change::splits && transition.quantity != nullptr) ||
          (change == Transition::Change::passes && transition.value > 0.0);
 }
 

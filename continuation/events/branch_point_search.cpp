@@ -74,7 +74,7 @@ bool made_by_nodes(const TraceTools& tools, const State& state) {
   const System& system = tools.system;
   for (std::size_t j = 0; j < state.piece.size(); ++j) {
     const auto contact = static_cast<Index>(j);
-    if (state.piece[j] && !(system.is_two_sided(contact) && system.compliance(contact) > 0.0)) return true;
+    if (state.piece[j] && !(system.is_two_sided(state.piece, contact) && system.compliance(contact) > 0.0)) return true;
   }
   return false;
 }

@@ -43,22 +43,27 @@ Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
   return *pairs->vectors * axes.eigenvectors()(Eigen::all, critical);
 }
 
+// The eigenvalue of this order, counted from the least of all, of which so many are negative; `near`: those nearest
+// zero, by their magnitude. Of order 0: the greatest negative one. So one of several that come to zero nearly together
+// is not taken for another. Empty where it is not near.
+std::optional<double> eigenvalue_of_order(const Vector& near, Index negative, Index order) {
+  const bool below = negative >= order;
+  Index skipped = !below ? order - negative - 1 : order > 0 ? negative - order : 0;
+  for (const double value : near)
+    if ((value < 0.0) == below && skipped-- == 0) return value;
+  return std::nullopt;
+}
+
 // S of (1) at the sample reached last; `modes` are set if they are empty.
 std::optional<Matrix> test_matrix(const SegmentSamples& on, const PathSample& sample, Vanishing what, Index order,
                                   Matrix& modes) {
   if (what == Vanishing::turning) return Matrix::Constant(1, 1, sample.tangent.dlambda / on.metric.lambda_scale());
   if (on.corrector.factorized().equations().B.cols() > 0) {
-    // Of the eigenvalues nearest zero: the greatest negative one if `order` is negative already, else the least
-    // positive.
     constexpr Index nearest = 4;
     const auto eigen = on.corrector.near_null(sample.state, on.metric.weights(), nearest);
-    if (!eigen || !sample.negative) return std::nullopt;
-    const bool negative = *sample.negative >= order;
-    double value = 0.0;
-    for (const double candidate : eigen->values)
-      if ((candidate < 0.0) == negative && (value == 0.0 || std::abs(candidate) < std::abs(value))) value = candidate;
-    if (value == 0.0) return std::nullopt;
-    return Matrix::Constant(1, 1, value);
+    const auto value =
+        eigen && sample.negative ? eigenvalue_of_order(eigen->values, *sample.negative, order) : std::nullopt;
+    return value ? std::optional(Matrix(Matrix::Constant(1, 1, *value))) : std::nullopt;
   }
   if (modes.cols() == 0) modes = critical_modes(on, sample);
   if (modes.cols() == 0) return std::nullopt;

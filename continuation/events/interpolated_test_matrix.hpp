@@ -76,8 +76,8 @@ class InterpolatedTestMatrix {
   std::array<Matrix, nodes> values_;
 };
 
-/// S from four points around `centre`. Empty if one of them is not found. `order`: of a system with a border, the
-/// number of negative eigenvalues where the one looked for is negative, too.
+/// S from four points around `centre`. Empty if one of them is not found. `order`: of a system with a border, that of
+/// the eigenvalue looked for, the least of all being the first; 0: the greatest negative one.
 std::optional<InterpolatedTestMatrix> test_matrix_around(SegmentSamples& on, double centre, double spread,
                                                          Vanishing what, Index order);
 

@@ -141,7 +141,8 @@ std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segmen
   const auto bracket = bisect(on, before, after);
   // No point of the path between the ends: they may lie on different branches, which shorter steps will show.
   if (!bracket) return {};
-  const Index order = std::max(bracket->before, bracket->after);
+  const bool falls = bracket->after > bracket->before;  // below zero
+  const Index order = falls ? bracket->before + 1 : bracket->before;
   double t = bracket->middle(), half_width = 0.5 * (bracket->to - bracket->from);
   std::vector<SingularPlace> found;
   for (const double spread : {0.04, 0.01}) {

@@ -92,12 +92,15 @@ std::optional<Matrix> Corrector::responses(Matrix columns) const {
   return columns.allFinite() ? std::optional(std::move(columns)) : std::nullopt;
 }
 
-// With Cᵀ the unit columns of the y let go: K φ = −Cᵀ η.
+// With Cᵀ the unit columns of the y let go: K φ = −Cᵀ η. Where the energy is stationary in s, Cᵀ = B.
 Vector Corrector::left_null(const Vector& vector) const {
   const Linearization& now = here_.equations();
   Vector left(now.F.size());
   left.head(now.K.cols()) = vector;
   left.tail(now.B.cols()) = -(now.K.selfadjointView<Eigen::Lower>() * vector)(now.holding);
+  for (std::size_t k = 0; k < now.energetic.size(); ++k)
+    if (const auto s = static_cast<Index>(k); now.energetic[k])
+      left[now.K.cols() + s] = -now.B.col(s).dot(vector) / now.C(s, now.K.cols() + s);
   return left;
 }
 

@@ -9,7 +9,9 @@ State predicted(const System& system, PathMethod method, const StepOrigin& origi
   const PathPoint& here = origin.point();
   const std::optional<PathPoint>& before = origin.from.before;
   const bool controlled = method == PathMethod::load || method == PathMethod::displacement;
-  const bool guarded = system.guard_count(here.state.piece) > 0;
+  constexpr double in_reach = 1.0;  // of guards
+  const bool guarded =
+      system.guard_count(here.state.piece) > 0 && (here.guards.size() == 0 || here.guards.minCoeff() <= in_reach);
   if (before && !controlled && !guarded && before->state.piece == here.state.piece) {
     const Segment last(origin.metric, *before, here);
     if (s <= reach * last.length()) return last.at(1.0 + s / last.length());

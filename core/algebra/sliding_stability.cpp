@@ -7,20 +7,39 @@ namespace arcwall {
 
 std::optional<Index> SlidingResistance::negative() const {
   if (!T.allFinite()) return std::nullopt;
-  if (released.empty()) return 0;
+  if (T.cols() == 0) return 0;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(T, Eigen::EigenvaluesOnly);
   return (eigen.eigenvalues().array() < 0.0).count();
 }
 
+namespace {
+
+bool is_energetic(const Linearization& equations, Index k) {
+  return !equations.energetic.empty() && equations.energetic[static_cast<std::size_t>(k)];
+}
+
+}  // namespace
+
 // T = −(D_ff − D_fh D_hh⁻¹ D_hf) diag(1/w), f free to slide and h held, with D = C_x K⁻¹ B − C_s: singular where ∂F/∂x
-// is, since det ∂F/∂x = ± det K det D. The continuum's T is symmetric, a mesh's but for discretisation error.
+// is, since det ∂F/∂x = ± det K det D. The continuum's T is symmetric, a mesh's but for discretisation error. Where the
+// energy is stationary in s_k, w = 1.
 SlidingResistance sliding_resistance(const BorderedSolver& solver, const Linearization& equations) {
-  const Vector& rates = equations.border_rates;
-  std::vector<Index> sliding, held;
-  for (Index k = 0; k < rates.size(); ++k) (rates[k] != 0.0 ? sliding : held).push_back(k);
-  const Matrix& D = solver.reduced();
+  Vector rates = equations.border_rates;
   SlidingResistance resistance;
-  for (const Index k : sliding) resistance.released.push_back(equations.holding[static_cast<std::size_t>(k)]);
+  for (Index k = 0; k < rates.size(); ++k)
+    if (is_energetic(equations, k)) {
+      rates[k] = 1.0;
+      resistance.slides.push_back(k);
+    }
+  std::vector<Index> sliding, held;
+  for (Index k = 0; k < rates.size(); ++k) {
+    if (rates[k] == 0.0) held.push_back(k);
+    if (rates[k] == 0.0 || is_energetic(equations, k)) continue;
+    sliding.push_back(k);
+    resistance.released.push_back(equations.holding[static_cast<std::size_t>(k)]);
+  }
+  sliding.insert(sliding.end(), resistance.slides.begin(), resistance.slides.end());
+  const Matrix& D = solver.reduced();
   if (sliding.empty()) return resistance;
   Matrix T = D(sliding, sliding);
   if (!held.empty()) {
@@ -35,26 +54,38 @@ SlidingResistance sliding_resistance(const BorderedSolver& solver, const Lineari
 SlidingStabilityOperator::SlidingStabilityOperator(const BorderedSolver& solver, const Linearization& equations,
                                                    SlidingResistance resistance)
     : inner_(solver.inner()), K_(equations.K), released_(std::move(resistance.released)) {
-  if (released_.empty()) return;
-  moved_ = Matrix::Zero(K_.cols(), static_cast<Index>(released_.size()));
-  for (Index k = 0; k < moved_.cols(); ++k) moved_(released_[static_cast<std::size_t>(k)], k) = 1.0;
+  const auto let_go = static_cast<Index>(released_.size()), free = static_cast<Index>(resistance.slides.size());
+  slides_ = equations.B(Eigen::all, resistance.slides);
+  by_energy_.resize(free);
+  for (Index i = 0; i < free; ++i) {
+    const Index k = resistance.slides[static_cast<std::size_t>(i)];
+    by_energy_[i] = equations.C(k, K_.cols() + k);
+  }
+  if (let_go + free == 0) return;
+  moved_ = Matrix::Zero(K_.cols(), let_go + free);
+  for (Index k = 0; k < let_go; ++k) moved_(released_[static_cast<std::size_t>(k)], k) = 1.0;
+  moved_.rightCols(free) = slides_;
   inner_.solve(moved_);
   resistance_.compute(resistance.T);
 }
 
 bool SlidingStabilityOperator::is_finite() const {
-  return released_.empty() || (moved_.allFinite() && resistance_.matrixLU().allFinite());
+  return moved_.cols() == 0 || (moved_.allFinite() && resistance_.matrixLU().allFinite());
 }
 
-// K⁻¹ + K⁻¹ E T⁻¹ Eᵀ K⁻¹
+// K⁻¹ + K⁻¹ R T⁻¹ Rᵀ K⁻¹
 void SlidingStabilityOperator::solve(Eigen::Ref<Matrix> X) const {
   inner_.solve(X);
-  if (!released_.empty()) X += moved_ * resistance_.solve(Matrix(X(released_, Eigen::all)));
+  if (moved_.cols() == 0) return;
+  Matrix there(moved_.cols(), X.cols());
+  there << Matrix(X(released_, Eigen::all)), slides_.transpose() * X;
+  X += moved_ * resistance_.solve(there);
 }
 
-// Nothing is left of the moments at y.
+// Nothing is left of the moments at y, nor of what slides follow.
 Matrix SlidingStabilityOperator::product(const Matrix& X) const {
   Matrix Y = K_.selfadjointView<Eigen::Lower>() * X;
+  if (slides_.cols() > 0) Y -= slides_ * by_energy_.cwiseInverse().asDiagonal() * (slides_.transpose() * X);
   for (const Index y : released_) Y.row(y).setZero();
   return Y;
 }

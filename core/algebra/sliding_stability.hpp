@@ -6,10 +6,12 @@
 
 namespace arcwall {
 
-/// What a body resists motions by that the y_k of a border hold, where it may slide instead.
+/// What a body resists motions by that the y_k of a border hold, where it may slide instead; and the sliding itself
+/// where the energy is stationary in it.
 struct SlidingResistance {
   std::vector<Index> released{};  ///< the y_k that are let go
-  Matrix T{};                     ///< moments at them, less the forces' own, by the motions there; symmetric
+  std::vector<Index> slides{};    ///< the s_k, by their columns of B, in which the energy is stationary
+  Matrix T{};                     ///< moments at both, less the forces' own, by the motions there; symmetric
 
   /// How many more directions have negative energy than with all y_k holding; empty where T is not finite.
   std::optional<Index> negative() const;
@@ -43,7 +45,9 @@ class SlidingStabilityOperator {
   const Factorization& inner_;
   const SparseMatrix& K_;
   std::vector<Index> released_;
-  Matrix moved_;                            // K⁻¹ E, E the unit columns of what is let go
+  Matrix slides_;                           // the columns of B of the s_k that are free
+  Vector by_energy_;                        // the second derivatives of the energy by these
+  Matrix moved_;                            // K⁻¹ R, R the unit columns of what is let go, then slides_
   Eigen::PartialPivLU<Matrix> resistance_;  // of T
 };
 

@@ -14,8 +14,10 @@ bool ArchiveModel::owns(const Piece& piece) const {
   const Piece open = system->open_piece();
   if ((piece.layout() == nullptr) != (open.layout() == nullptr)) return false;
   const auto* layout = dynamic_cast<const SlidingContactLayout*>(piece.layout().get());
+  const auto* at_rest = dynamic_cast<const SlidingContactLayout*>(open.layout().get());
   const auto is_status = [](std::uint8_t closed) { return closed <= 1; };
-  return piece.size() == open.size() + (layout ? layout->points().size() : 0) &&
+  const auto points = [](const SlidingContactLayout* on) { return on ? on->points().size() : 0; };
+  return piece.size() + points(at_rest) == open.size() + points(layout) &&
          std::all_of(piece.begin(), piece.end(), is_status);
 }
 
@@ -73,8 +75,9 @@ Json ArchiveWriter::piece(const Piece& piece) {
   ElementsPerSegment cut = layout.mesh().elements_per_segment();
   std::vector<SlidingContactLayout::Point> points = layout.points();
   Vector origin = layout.origin();
+  SlidingContactLayout::Lying lying = layout.lying();
   ArchiveWriter inner(shared_);
-  inner(stage, cut, points, origin);
+  inner(stage, cut, points, origin, lying);
   json.push_back(std::move(inner.json_));
   return json;
 }
@@ -115,11 +118,12 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   ElementsPerSegment cut;
   std::vector<SlidingContactLayout::Point> points;
   Vector origin;
+  SlidingContactLayout::Lying lying;
   ArchiveReader inner(json, shared_);
-  inner(stage, cut, points, origin);
+  inner(stage, cut, points, origin, lying);
   require(inner.at_end() && stage < static_cast<Index>(model().sliding.size()));
   shared_->layouts.push_back(
-      model().sliding[static_cast<std::size_t>(stage)]->layout_of(cut, std::move(points), origin));
+      model().sliding[static_cast<std::size_t>(stage)]->layout_of(cut, std::move(points), origin, std::move(lying)));
   require(shared_->layouts.back() != nullptr);
   return shared_->layouts.back();
 }

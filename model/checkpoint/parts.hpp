@@ -18,7 +18,7 @@ constexpr std::int64_t greatest(SlidingContactLayout::Span) {
 
 template <typename Archive>
 void parts(Archive& archive, SlidingContactLayout::Point& point) {
-  archive(point.obstacle, point.behind, point.before, point.neutral_behind, point.neutral_before);
+  archive(point.obstacle, point.behind, point.before, point.neutral_behind, point.neutral_before, point.pinch);
 }
 
 template <typename Archive>

@@ -1,5 +1,7 @@
 #include "model/deck/deck.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <utility>
@@ -62,6 +64,17 @@ std::optional<LineProfile> line_of(const Wall& wall) {
   return std::nullopt;
 }
 
+// The diagonal of the box round the deck's points.
+double size_of(const Deck& deck) {
+  if (deck.points.empty()) return 0.0;
+  Vector low = deck.points.front().at, high = low;
+  for (const Point& point : deck.points) {
+    low = {std::min(low.x, point.at.x), std::min(low.z, point.at.z)};
+    high = {std::max(high.x, point.at.x), std::max(high.z, point.at.z)};
+  }
+  return std::hypot(high.x - low.x, high.z - low.z);
+}
+
 bool have_a_member_in_common(const Wall& a, const Wall& b) {
   return a.members.empty() || b.members.empty() ||
          std::any_of(a.members.begin(), a.members.end(), [&](const std::string& name) {
@@ -71,9 +84,13 @@ bool have_a_member_in_common(const Wall& a, const Wall& b) {
 
 }  // namespace
 
-std::optional<LineProfile> line_without_clearance(const Wall& a, const Wall& b) {
-  const auto line = line_of(a);
-  const bool meet = a.side != b.side && a.acts_on == ActsOn::axis && b.acts_on == ActsOn::axis && line == line_of(b);
+std::optional<LineProfile> line_without_clearance(const Deck& deck, const Wall& a, const Wall& b) {
+  constexpr double roundoff = 1e-12;  // of the structure's size, as where it touches at the start
+  const auto line = line_of(a), other = line_of(b);
+  if (!line || !other || a.side == b.side || a.acts_on != ActsOn::axis || b.acts_on != ActsOn::axis)
+    return std::nullopt;
+  const bool meet =
+      std::abs(line->z - other->z) <= roundoff * size_of(deck) && std::abs(line->slope - other->slope) <= roundoff;
   return meet ? line : std::nullopt;
 }
 
@@ -110,7 +127,7 @@ PointsOfContact points_of_contact(const Deck& deck) {
               .why = "member " + member.name + " is of theory " + text_of(theory_words, member.theory)};
   for (const Wall& a : deck.walls)
     for (const Wall& b : deck.walls)
-      if (line_without_clearance(a, b) && have_a_member_in_common(a, b))
+      if (line_without_clearance(deck, a, b) && have_a_member_in_common(a, b))
         return {.points = ContactPoints::nodes,
                 .why = "walls " + a.name + " and " + b.name + " leave no clearance between them"};
   return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};

@@ -575,8 +575,9 @@ struct PointsOfContact {
 };
 PointsOfContact points_of_contact(const Deck& deck);
 
-/// The line of two straight walls on both sides of an axis that leave nothing between them; empty for other walls.
-std::optional<LineProfile> line_without_clearance(const Wall& a, const Wall& b);
+/// The line of two straight walls on both sides of an axis that leave nothing between them but round-off of the size of
+/// the structure; empty for other walls.
+std::optional<LineProfile> line_without_clearance(const Deck& deck, const Wall& a, const Wall& b);
 
 /// Whether nothing but the default of max_points ends the path.
 bool is_unbounded(const Path& path);

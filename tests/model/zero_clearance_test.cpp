@@ -62,6 +62,12 @@ std::string problem_of(const std::vector<std::string>& assignments) {
   return {};
 }
 
+std::string clearance(double gap) {
+  const std::string wall = "acts_on = \"axis\", profile = { type = \"flat\", z = ";
+  return "wall = [{ name = \"under\", side = \"below\", " + wall + round_trip(-gap) +
+         " } }, { name = \"over\", side = \"above\", " + wall + round_trip(gap) + " } }]";
+}
+
 // The load at which m half waves are neutral on a foundation k on both sides: EI q² − s P q + s² k = 0 with
 // q = (mπ/L)² and the stretch s = 1 − P/EA.
 double load_on_foundation(double k, int m) {
@@ -185,6 +191,21 @@ TEST(ZeroClearance, SpringsOnBothSidesAreAFoundation) {
     }
 }
 
+// Walls that are nearer to each other than round-off, or overlap by it, leave no clearance either.
+TEST(ZeroClearance, RoundOffIsNoClearance) {
+  const double load = first_load_on_foundation(0.2);
+  for (const double gap : {1e-10, -1e-10})
+    for (const bool rigid : {true, false}) {
+      SCOPED_TRACE(round_trip(gap));
+      const Session run =
+          traced({clearance(gap), rigid ? "contact = {}" : "contact = { method = \"penalty\", penalty = 0.2 }",
+                  "path.branches = \"primary\"", "path.stop.lambda = [-10.0, " + round_trip(1.01 * load) + "]"});
+      const auto found = events(run, EventKind::branch_point);
+      ASSERT_EQ(found.empty(), rigid);
+      for (const RecordEvent& event : found) EXPECT_NEAR(event.lambda, load, 1e-3 * load);
+    }
+}
+
 // The way that leaves the straight one is followed.
 TEST(ZeroClearance, BucklesOnSpringsAndIsFollowed) {
   const Session run = traced({"contact = { method = \"penalty\", penalty = 0.2 }", "path.stop.off = [-5.0, 5.0]"});
@@ -194,12 +215,6 @@ TEST(ZeroClearance, BucklesOnSpringsAndIsFollowed) {
 }
 
 // --- nearly none ----------------------------------------------------------------------------------------------------
-
-std::string clearance(double gap) {
-  const std::string wall = "acts_on = \"axis\", profile = { type = \"flat\", z = ";
-  return "wall = [{ name = \"under\", side = \"below\", " + wall + round_trip(-gap) +
-         " } }, { name = \"over\", side = \"above\", " + wall + round_trip(gap) + " } }]";
-}
 
 // The straight column is neutral to m half waves at P (1 − P/EA) = m² EI π²/L².
 double euler_load(int m) { return 0.5 * EA * (1.0 - std::sqrt(1.0 - 4.0 * m * m * euler / EA)); }
@@ -284,7 +299,8 @@ TEST(ZeroClearance, IsRefusedWhereItIsNotModelled) {
   has(faces, "touches walls \"under\" and \"over\" from both sides at the start");
   has(faces, "put both walls at the axis, with acts_on = \"axis\", or leave a clearance");
   const std::string stops =
-      problem_of({"wall = [{ name = \"under\", side = \"below\", acts_on = \"axis\", profile = { type = \"circle\", "
+      problem_of({"contact.points = \"nodes\"",
+                  "wall = [{ name = \"under\", side = \"below\", acts_on = \"axis\", profile = { type = \"circle\", "
                   "centre = [500.0, "
                   "-20.0], radius = 20.0 } }, { name = \"over\", side = \"above\", acts_on = \"axis\", profile = { "
                   "type = \"circle\", "

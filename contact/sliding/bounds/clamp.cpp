@@ -7,20 +7,20 @@ namespace arcwall::sliding {
 
 namespace {
 
-constexpr double nothing_touches = 1.0;  // value of the bound of an end that no obstacle touches
+// Values of the bound of an end that no obstacle touches. A hinged one never comes to do so by itself.
+constexpr double nothing_touches = 1.0, nothing_will = 10.0;
 
 }  // namespace
 
 double ClampBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto end = touched_clamp(setting, at, strand_, last_);
-  return end ? end_curvature_gap(setting, at, *end).value * setting.scales.length : nothing_touches;
+  if (end) return parting(setting, at, *end);
+  return setting.body.is_hinged(strand_, last_) ? nothing_will : nothing_touches;
 }
 
 Row ClampBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  Row row = at.no_slope();
-  if (const auto end = touched_clamp(setting, at, strand_, last_))
-    end_curvature_gap(setting, at, *end).add_to(row, setting.scales.length, at.index);
-  return row;
+  const auto end = touched_clamp(setting, at, strand_, last_);
+  return end ? parting_gradient(setting, at, *end) : at.no_slope();
 }
 
 std::vector<Transition> ClampBound::transitions(const SlidingSetting& setting, const SlidingState& at,

@@ -4,8 +4,9 @@
 
 namespace arcwall::sliding {
 
-/// The curvature gap (8.5) of a clamped end that obstacles touch tangentially: behind the bound the body lies on the
-/// obstacle from the clamp on. Positive where none does, and where the body lies there already.
+/// What keeps the body from lying on an obstacle beside an end that supports hold on it: the curvature gap (8.5) of a
+/// clamped end, the slope of a hinged one. Behind the bound the body lies on the obstacle from the end on. Positive
+/// where none does, and where the body lies there already.
 class ClampBound final : public ValidityBound {
  public:
   ClampBound(Index strand, bool last) : strand_(strand), last_(last) {}

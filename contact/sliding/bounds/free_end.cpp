@@ -32,9 +32,6 @@ bool is_first(const SlidingSetting& setting, const FreeEnd& seen) {
   });
 }
 
-// The sine of the angle between body and wall has this sign at an end where the gap grows from there on.
-double outward(Side side, bool last) { return (side == Side::below) == last ? -1.0 : 1.0; }
-
 }  // namespace
 
 double sine_from_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {

@@ -1,0 +1,160 @@
+#include "contact/sliding/lying.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact/sliding/bending.hpp"
+#include "contact/sliding/layout_edit.hpp"
+#include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/span_length.hpp"
+#include "contact/sliding/spans.hpp"
+
+namespace arcwall::sliding {
+
+namespace {
+
+constexpr std::array<bool, 2> both_ends{false, true};
+
+TouchGap touch_at_end(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last,
+                      std::size_t obstacle) {
+  return touch_gap(setting, touch_of_end(setting, at.layout, {.strand = strand, .last = last, .obstacle = obstacle}),
+                   at);
+}
+
+bool is_straight(const SlidingSetting& setting, std::size_t obstacle) {
+  return setting.obstacles[obstacle].surface->knots().empty();
+}
+
+// Whether λ, going from 0 towards a value, moves the obstacle of a strand, turns a clamped end of it, or moves an end
+// into the obstacle.
+bool moves_with_lambda(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
+                       double toward) {
+  if (setting.obstacles[obstacle].surface->greatest_speed(setting.scales.length) > 0.0) return true;
+  return std::any_of(both_ends.begin(), both_ends.end(), [&](bool last) {
+    const TouchGap touch = touch_at_end(setting, at, strand, last, obstacle);
+    return touch.gap.rate * toward < 0.0 || (setting.body.is_clamped(strand, last) && touch.tilt.rate != 0.0);
+  });
+}
+
+// Whether a strand may be held on an obstacle from end to end at all.
+bool may_lie(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle, double toward) {
+  const SlidingBody& body = setting.body;
+  for (const bool last : both_ends)
+    if (!body.is_tip(strand, last) && !body.is_hinged(strand, last) && !body.is_clamped(strand, last)) return false;
+  return setting.obstacles[obstacle].concerns(strand) && is_straight(setting, obstacle) &&
+         body.point_loads(strand).empty() && !at.layout.point_at_end(strand, false) &&
+         !moves_with_lambda(setting, at, strand, obstacle, toward);
+}
+
+// Whether all nodes of a strand are on an obstacle and parallel to it.
+bool lies_along(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle) {
+  constexpr double touching = 1e-9;  // gap, scaled, and angle
+  for (Index position = 0; position < at.mesh.nodes(strand); ++position) {
+    const Touch touch{
+        .strand = strand, .position = position, .obstacle = obstacle, .offset = setting.face_offset(obstacle, strand)};
+    if (!(std::abs(face_gap(setting, touch, at)) <= touching * setting.scales.length)) return false;
+    if (!(std::abs(touch_gap(setting, touch, at).tilt.value) <= touching)) return false;
+  }
+  return true;
+}
+
+// Whether what acts along a strand presses it on an obstacle everywhere at this λ.
+bool is_pressed_at(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
+                   double lambda) {
+  constexpr int places = 64;
+  HeldAxis held = held_axis_at_end(setting, at, strand, obstacle);
+  held.lambda = lambda;
+  for (int i = 0; i <= places; ++i)
+    if (!(straight_pressure(setting, held, setting.body.length(strand) * i / places) > 0.0)) return false;
+  return true;
+}
+
+std::optional<std::size_t> pressed_along(const SlidingSetting& setting, const SlidingState& at, Index strand,
+                                         double toward) {
+  for (std::size_t w = 0; w < setting.obstacles.size(); ++w)
+    if (may_lie(setting, at, strand, w, toward) && lies_along(setting, at, strand, w) &&
+        is_pressed_at(setting, at, strand, w, toward))
+      return w;
+  return std::nullopt;
+}
+
+}  // namespace
+
+State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest, double toward) {
+  LayoutEdit edit = edit_of(setting.body, rest);
+  for (Index strand = 0; strand < setting.body.strands(); ++strand) {
+    const auto obstacle = pressed_along(setting, rest, strand, toward);
+    if (!obstacle) continue;
+    edit.set_lying(strand, obstacle);
+    for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
+      if (setting.free_ends[j].strand == strand && setting.free_ends[j].obstacle == *obstacle) edit.ends_closed[j] = 1;
+  }
+  return edit.lying.empty() ? rest.state : mapped_onto(setting, rest, edit, layout_of(edit));
+}
+
+std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at, double toward) {
+  for (Index strand = 0; strand < setting.body.strands(); ++strand) {
+    const auto obstacle = at.layout.lies_on(strand);
+    if (!obstacle || !moves_with_lambda(setting, at, strand, *obstacle, toward)) continue;
+    return "member \"" + setting.body.label({.strand = strand, .s = 0.0}).first + "\" lies on wall \"" +
+           setting.obstacles[*obstacle].name +
+           "\" from end to end, and λ moves the wall, turns a clamped end of the member or moves an end into the wall: "
+           "that "
+           "is not modelled; use contact.points = \"nodes\"";
+  }
+  return {};
+}
+
+std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last) {
+  using Span = SlidingContactLayout::Span;
+  const Transition none = unsupported(
+      "the end of a member is lifted off the wall that it lies on, and no equilibrium "
+      "was found in which it peels off");
+  const auto obstacle = at.layout.lies_on(strand);
+  if (!obstacle) return {none};
+  const double L = setting.body.length(strand);
+  std::vector<Transition> transitions;
+  for (const double factor : {2.0, 8.0, 32.0}) {
+    const double length = factor * shortest_span(setting.body, strand), s = last ? L - length : length;
+    if (length > 0.5 * L) break;
+    LayoutEdit edit = edit_of(setting.body, at);
+    edit.set_lying(strand, std::nullopt);
+    const int rest = edit.elements[static_cast<std::size_t>(strand)].front().elements;
+    const int free = elements_asked(setting.body, strand, std::min(s, s + length), std::max(s, s + length), 2);
+    edit.insert({.point = {.obstacle = *obstacle,
+                           .behind = last ? Span::free : Span::pressed,
+                           .before = last ? Span::pressed : Span::free},
+                 .strand = strand,
+                 .s = s,
+                 .closed = true},
+                last ? rest : free, last ? free : rest);
+    const auto on = layout_of(edit);
+    const std::size_t point = on->point_at_end(strand, last).value();
+    transitions.push_back(up_to(length, std::make_shared<TailLength>(point, last ? L : 0.0), Transition::Change::splits,
+                                mapped_onto(setting, at, edit, on)));
+  }
+  transitions.push_back(none);
+  return transitions;
+}
+
+HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& at, std::size_t tip) {
+  const SlidingContactLayout::PressedTip& end = at.layout.pressed_tips()[tip];
+  const bool last = end.position > 0;
+  const SlidingContactLayout::Segment& part = at.layout.segment_at_end(end.strand, last);
+  const HeldAxis held = held_axis(setting, at, part);
+  const double s = last ? setting.body.length(end.strand) : 0.0;
+  const Index element = last ? end.position - 1 : 0;
+  const double h =
+      at.mesh.coordinate(end.strand, element + 1, at.now.s) - at.mesh.coordinate(end.strand, element, at.now.s);
+  const double half = h * h / 24.0, sign = outward(setting.obstacles[end.obstacle].surface->side(), last) * held.travel;
+  HoldingMoment moment{
+      .value = sign * at.state.x[at.index.tip_moment(tip)] - half * straight_pressure(setting, held, s - held.s),
+      .row = straight_pressure_gradient(setting, at, held, s - held.s)};
+  moment.row.dx *= -half;
+  moment.row.dlambda *= -half;
+  moment.row.dx[at.index.tip_moment(tip)] += sign;
+  return moment;
+}
+
+}  // namespace arcwall::sliding

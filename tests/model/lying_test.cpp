@@ -1,0 +1,179 @@
+// Members that lie on a flat wall from end to end: from the start, or after contact has spread from their hinged ends.
+// The references are closed forms of the linear theory of beams, which flat members follow to the square of the slope.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/text.hpp"
+#include "model/session.hpp"
+
+namespace arcwall::lying_test {
+namespace {
+
+constexpr double EI = 2.0, EA = 1e5, length = 1.0, hump = 1e-3;
+
+// A beam on two supports, the right one a roller, at the height of a floor on which all of it lies.
+std::string beam(const std::string& rest) {
+  return R"toml(
+title = "A beam on a floor"
+units = { length = "m", force = "N" }
+material.m = { E = 1.0, nu = 0.3 }
+section.s = { shape = "general", A = 100000.0, I = 2.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z"], b = ["z"] }
+member.beam = { from = "a", to = "b", theory = "classic", material = "m", section = "s", elements = 40 }
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = 0.0 } }]
+monitor = [
+  { name = "mid", at = "beam:0.5", component = "z" },
+  { name = "floor", wall = "floor", component = "force-z" },
+  { name = "short", at = "b", component = "x", sign = -1 },
+]
+)toml" + rest +
+         "\n";
+}
+
+const std::string humped = "member.beam.imperfection = { shape = \"sine\", amplitude = 1e-3, waves = 1 }";
+
+Session traced(const std::string& deck, const std::vector<std::string>& assignments = {}) {
+  Session run({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
+  EXPECT_TRUE(run.begin()) << run.problem();
+  while (run.next() != nullptr) {
+  }
+  return run;
+}
+
+std::vector<double> loads_of(const Session& run, EventKind kind) {
+  std::vector<double> loads;
+  for (const RecordEvent& event : run.events())
+    if (event.kind == kind) loads.push_back(event.lambda);
+  return loads;
+}
+
+void expect_stop(const Session& run) {
+  EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop) << run.record().branches.back().end->detail;
+}
+
+const std::string load_down = "load = [{ on = \"beam\", distributed = [0.0, -1.0] }]\n";
+
+}  // namespace
+
+// The floor bears the load where it acts but for that of half an element at each support, and nothing bends.
+TEST(Lying, ABeamThatIsPressedOnItsFloorStaysThere) {
+  for (const std::string support : {"[\"z\"]", "[\"z\", \"rotation\"]"})
+    for (const std::string theory : {"classic", "elastica"}) {
+      SCOPED_TRACE(theory + " " + support);
+      const Session run = traced(beam(load_down + "path = { step = 0.1, stop = { lambda = [-1.0, 20.0] } }"),
+                                 {"support.b = " + support, "member.beam.theory = \"" + theory + "\""});
+      expect_stop(run);
+      EXPECT_EQ(run.events().size(), 2U);
+      for (const RecordPoint& point : run.points()) {
+        EXPECT_EQ(point.count.stability, Stability::stable);
+        EXPECT_NEAR(point.monitors[0], 0.0, 1e-12);
+        EXPECT_NEAR(point.monitors[1], point.lambda * (1.0 - 1.0 / 40.0), 1e-9);
+      }
+    }
+}
+
+// Where the weight is taken away the beam leaves the floor as a whole, and is one on two supports: 5 q L⁴/384 EI.
+TEST(Lying, ABeamLeavesItsFloorWhereNothingPressesAnyMore) {
+  const std::string weight =
+      "load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }, "
+      "{ on = \"beam\", distributed = [0.0, 1.0] }]\n";
+  const Session run =
+      traced(beam(weight + "path = { step = 0.1, land = { lambda = [1.1] }, stop = { lambda = [-1.0, 1.2] } }"));
+  expect_stop(run);
+  const auto opens = loads_of(run, EventKind::contact_opens);
+  ASSERT_EQ(opens.size(), 1U);
+  EXPECT_NEAR(opens[0], 1.0, 1e-9);
+  for (const RecordPoint& point : run.points()) {
+    const double up = std::max(point.lambda - 1.0, 0.0);
+    EXPECT_NEAR(point.monitors[0], 5.0 / 384.0 * up / EI, 1e-6 * up + 1e-15);
+  }
+}
+
+// A sine of amplitude A and wave number k above the floor, pressed down by q: between x = ±c from its middle it is free
+// and has no slope and curvature at the edges, q c³/3EI = A k (sin kc − kc cos kc). So contact begins at the hinged
+// ends where q = 24 EI A k⁴/π³, and the hump is gone at EI A k⁴.
+TEST(Lying, AHumpIsPressedFlatFromItsHingedEnds) {
+  const double k = pi / length, gone = EI * hump * std::pow(k, 4);
+  const double begins = 24.0 / std::pow(pi, 3) * gone;
+  const Session run = traced(
+      beam(load_down + "path = { step = 0.05, stop = { lambda = [-1.0, " + round_trip(1.5 * gone) + "] } }"), {humped});
+  expect_stop(run);
+  const auto spreads = loads_of(run, EventKind::contact_spreads), closes = loads_of(run, EventKind::contact_closes);
+  ASSERT_EQ(spreads.size(), 1U);
+  ASSERT_EQ(closes.size(), 1U);
+  const double squared_slope = hump * hump * k * k;  // 3/2 of it is what the curvature of a sine is off by
+  EXPECT_NEAR(spreads[0], begins, 4.0 * squared_slope * begins);
+  EXPECT_NEAR(closes[0], gone, 4.0 * squared_slope * gone);
+  EXPECT_TRUE(loads_of(run, EventKind::limit_point).empty());
+  EXPECT_NEAR(run.points().back().monitors[0], 0.0, 1e-12);
+}
+
+// A rail that its weight has pressed flat stays so under any thrust: its straight axis gets shorter by P/EA of its
+// stress-free length L (1 + (k A)²/4).
+TEST(Lying, ARailThatItsWeightPressesFlatBearsThrust) {
+  const std::string loads =
+      "load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }, "
+      "{ at = \"b\", force = [-1.0, 0.0] }]\n";
+  const Session run = traced(beam(loads + "path = { step = 10.0, stop = { short = [-0.1, 0.05] } }"), {humped});
+  expect_stop(run);
+  const double stress_free = length * (1.0 + 0.25 * pi * pi * hump * hump);
+  for (const RecordPoint& point : run.points()) {
+    EXPECT_EQ(point.count.stability, Stability::stable);
+    EXPECT_NEAR(point.monitors[0], 0.0, 1e-12);
+    EXPECT_NEAR(point.monitors[2], length - stress_free * (1.0 - point.lambda / EA), 1e-9);
+  }
+  EXPECT_EQ(run.events().size(), 2U);
+}
+
+// Lifted by h at an end, a beam of the weight q is free over a length a with EI w⁗ = −q, w = w′ = w″ = 0 at the edge
+// and no moment at the end: h = q a⁴/24 EI, with the force q a/2 at the end.
+TEST(Lying, ABeamPeelsOffFromAnEndThatIsLifted) {
+  const std::string lifted =
+      "load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }]\n"
+      "prescribed = [{ at = \"b\", z = 1e-4 }]\n";
+  const Session run = traced(
+      beam(lifted + "path = { step = 0.01, land = { lambda = [0.25, 1.0] }, stop = { lambda = [-1.0, 1.1] } }"),
+      {"monitor = [{ name = \"F\", at = \"b\", component = \"reaction-z\" }]", "support = { a = [\"x\", \"z\"] }"});
+  expect_stop(run);
+  ASSERT_EQ(loads_of(run, EventKind::contact_opens).size(), 1U);
+  EXPECT_NEAR(loads_of(run, EventKind::contact_opens)[0], 0.0, 1e-9);
+  for (const RecordPoint& point : run.points()) {
+    if (point.lambda != 0.25 && point.lambda != 1.0) continue;
+    const double a = std::pow(24.0 * EI * 1e-4 * point.lambda, 0.25);
+    EXPECT_NEAR(point.monitors[0], 0.5 * a, 1e-5 * a);
+  }
+}
+
+// By a moment M that turns the end, which stays where it is: M = q a²/4, and the end turns by q a³/24 EI.
+TEST(Lying, ABeamPeelsOffFromAnEndThatAMomentTurns) {
+  const std::string loads =
+      "load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }, "
+      "{ at = \"b\", moment = -0.01 }]\n";
+  const Session run =
+      traced(beam(loads + "path = { step = 0.2, land = { lambda = [1.0] }, stop = { lambda = [-1.0, 1.1] } }"),
+             {"monitor = [{ name = \"turn\", at = \"b\", component = \"rotation\" }]"});
+  expect_stop(run);
+  for (const RecordPoint& point : run.points()) {
+    if (point.lambda != 1.0) continue;
+    const double a = std::sqrt(4.0 * 0.01);
+    EXPECT_NEAR(point.monitors[0], -a * a * a / (24.0 * EI), 1e-3 * a * a * a);
+  }
+}
+
+// What is not modelled ends with a sentence.
+TEST(Lying, AClampThatTurnsIsRefused) {
+  const std::string turned =
+      "load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }]\n"
+      "prescribed = [{ at = \"b\", rotation = -1.0 }]\n";
+  Session run({.deck = "deck.toml",
+               .deck_text = beam(turned + "path = { step = 0.01, stop = { lambda = [-1.0, 1.0] } }"),
+               .assignments = {}});
+  EXPECT_FALSE(run.begin());
+  EXPECT_NE(run.problem().find("lies on wall \"floor\" from end to end"), std::string::npos) << run.problem();
+}
+
+}  // namespace arcwall::lying_test

@@ -1,0 +1,132 @@
+// Stops without clearance: two smooth ones that touch each other across a member hold the place of its axis and the
+// direction there, and let it slide through. The references are closed forms of the extensible elastica.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/derivative_check.hpp"
+#include "core/text.hpp"
+#include "model/deck/reader.hpp"
+#include "model/model.hpp"
+#include "model/session.hpp"
+
+namespace arcwall::pinches_test {
+namespace {
+
+constexpr double EA = 1e5, radius = 0.02;
+
+// A pinned column of EI = 1, EA = 1e5 and length 1, with two round pegs that touch each other on its axis.
+std::string column(double at, const std::string& path) {
+  const auto peg = [&](const std::string& name, double z) {
+    return "{ name = \"" + name + "\", acts_on = \"axis\", outline = { type = \"circle\", centre = [" + round_trip(at) +
+           ", " + round_trip(z) + "], radius = 0.02 } }";
+  };
+  return std::string(R"toml(
+title = "A column between pegs"
+units = { length = "m", force = "N" }
+material.m = { E = 1.0, nu = 0.3 }
+section.s = { shape = "general", A = 100000.0, I = 1.0 }
+point = { A = [0.0, 0.0], B = [1.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+member.column = { from = "A", to = "B", theory = "elastica", elements = 48, material = "m", section = "s" }
+load = [{ at = "B", force = [-1.0, 0.0] }]
+monitor = [
+  { name = "off", at = "column:0.6875", component = "z" },
+  { name = "short", at = "B", component = "x", sign = -1 },
+  { name = "above", wall = "over", component = "force-z" },
+  { name = "below", wall = "under", component = "force-z" },
+]
+)toml") + "wall = [" +
+         peg("over", radius) + ", " + peg("under", -radius) + "]\n" + path + "\n";
+}
+
+Session traced(const std::string& deck, const std::vector<std::string>& assignments = {}) {
+  Session run({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
+  EXPECT_TRUE(run.begin()) << run.problem();
+  while (run.next() != nullptr) {
+  }
+  return run;
+}
+
+// The load at which a column, pinned at its ends and clamped at the fraction `at` of its span where it slides through,
+// is neutral first: its longer part has tan z = z, z² = P (1 − P/EA) l²/EI with the part's stress-free length
+// l = span/(1 − P/EA), the span of the part at the held end that of rest; that of the other is shortened.
+double first_load(double at) {
+  const double z = 4.493409457909064;
+  const double held = z * z / (at * at);  // P/(1 − P/EA)
+  const double of_held = held / (1.0 + held / EA);
+  const double l = 1.0 - at;  // stress-free: (1 − at) is the span at rest, and what slides in is at P/(EA − P)
+  const auto unbalanced = [&](double P) {
+    const double rest = l - at * P / (EA - P);
+    return P * (1.0 - P / EA) * rest * rest - z * z;
+  };
+  double low = 0.0, high = 0.01 * EA;
+  for (int i = 0; i < 200; ++i) (unbalanced(0.5 * (low + high)) > 0.0 ? high : low) = 0.5 * (low + high);
+  return std::min(of_held, low);
+}
+
+const RecordEvent* first_branch_point(const Session& run) {
+  for (const RecordEvent& event : run.events())
+    if (event.kind == EventKind::branch_point) return &event;
+  return nullptr;
+}
+
+}  // namespace
+
+// Pegs hold the slope, too: 4 z² EI/L² with z = tan z where they stand in the middle, less what the column shortens.
+TEST(Pinches, PegsHoldTheSlope) {
+  for (const std::string theory : {"classic", "elastica"})
+    for (const double at : {0.5, 0.4}) {
+      SCOPED_TRACE(theory + " " + round_trip(at));
+      const double load = first_load(at);
+      const Session run = traced(column(at, "path = { step = 5.0, branches = \"primary\", stop = { lambda = [-1.0, " +
+                                                round_trip(1.01 * load) + "] } }"),
+                                 {"member.column.theory = \"" + theory + "\""});
+      EXPECT_EQ(run.record().branches[0].end->reason, EndReason::stop);
+      const RecordEvent* leaves = first_branch_point(run);
+      ASSERT_NE(leaves, nullptr);
+      EXPECT_NEAR(leaves->lambda, load, (theory == "classic" ? 1e-5 : 1e-8) * load);
+      EXPECT_FALSE(leaves->discretisation);
+      EXPECT_EQ(leaves->unstable_before, Index{0});
+      EXPECT_EQ(leaves->unstable_after, Index{1});
+      for (const RecordPoint& point : run.points()) EXPECT_EQ(point.contacts, 2);
+    }
+}
+
+// Of the equations with a pinch, in a bent state.
+TEST(Pinches, DerivativesAreConsistent) {
+  const Model model(
+      deck::read_deck_text(column(0.4, "path = { step = 5.0, stop = { lambda = [-1.0, 1.0] } }"), "deck.toml", {}));
+  std::string reason;
+  State state = *model.start(reason);
+  EXPECT_TRUE(model.system().is_two_sided(state.piece, 0));
+  EXPECT_EQ(state.piece.closed_count(), 1);
+  for (Index i = 0; i + 1 < state.x.size(); ++i) state.x[i] += 1e-3 * std::sin(1.0 + 7.0 * double(i));
+  state.lambda = 3.0;
+  EXPECT_LE(check_derivatives(model.system(), state).worst(), 1e-6);
+}
+
+// Off the straight way the moments on both sides differ, and with them the thrusts, as nothing but the energy says what
+// slides through: λ is its rate by the way of the load. By the trapezoidal rule.
+TEST(Pinches, TheEnergyGrowsByTheWorkOfTheLoadAlone) {
+  const Session run = traced(column(0.4, "path = { step = 5.0, max_step = 0.02, stop = { off = [-0.05, 0.05] } }"));
+  ASSERT_EQ(run.record().branches.size(), 2U);
+  EXPECT_EQ(run.record().branches[1].end->reason, EndReason::stop);
+  double work = 0.0, energy = 0.0;
+  const RecordPoint* before = nullptr;
+  for (const RecordPoint& point : run.points()) {
+    if (point.branch != 1) continue;
+    if (before != nullptr) work += 0.5 * (point.lambda + before->lambda) * (point.monitors[1] - before->monitors[1]);
+    // The record's energy is the total potential: the load's work is taken back.
+    const double stored = point.energy + point.lambda * point.monitors[1];
+    if (before == nullptr) energy = stored;
+    if (&point == &run.points().back()) energy = stored - energy;
+    before = &point;
+  }
+  EXPECT_GT(work, 0.1);
+  EXPECT_NEAR(energy, work, 1e-5 * work);
+}
+
+}  // namespace arcwall::pinches_test
