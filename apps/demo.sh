@@ -1,15 +1,23 @@
 #!/usr/bin/env bash
-# Builds trace-path and traces the channel example: bash apps/demo.sh [DIR]
+# Builds trace-path and traces the channel example: bash apps/demo.sh [--python] [DIR]
 #
-# The results go into out/channel of the source folder, or into DIR.
+# The results go into out/channel of the source folder, or into DIR. --python: builds the Python package as well, and traces
+# with that.
 set -euo pipefail
 export PATH  # bash has one where the environment has none; CMake finds its own files by it
 
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out=out/channel
+python=OFF
+groups=(build)
+if [[ ${1:-} == --python ]]; then
+  shift
+  python=ON
+  groups=(build python)
+fi
 if [[ $# -gt 1 || ${1:-} == -* ]]; then
-  echo "usage: bash apps/demo.sh [DIR]" >&2
+  echo "usage: bash apps/demo.sh [--python] [DIR]" >&2
   exit 2
 fi
 if [[ $# == 1 ]]; then
@@ -19,16 +27,28 @@ if [[ $# == 1 ]]; then
   esac
 fi
 
-bash cmake/install_debian_packages.sh build
+bash cmake/install_debian_packages.sh "${groups[@]}"
 # Without a home ccache needs another place for its files.
 if [[ -z ${HOME:-} ]]; then export CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache}; fi
 
-cmake --preset release --log-level=WARNING >&2
+cmake --preset release --log-level=WARNING -DARCWALL_PYTHON=$python >&2
 cmake --build build/release >&2
 
 mkdir -p "$(dirname "$out")"
 status=0
-build/release/apps/trace-path run examples/channel.toml --out "$out" --force || status=$?
+if [[ $python == ON ]]; then
+  export PYTHONPATH=$PWD/build/release/python/package
+  interpreter=$(sed -n 's/^Python_EXECUTABLE:.*=//p' build/release/CMakeCache.txt)
+  "${interpreter:-python3}" - "$out" <<'END' || status=$?
+import sys
+import arcwall
+path = arcwall.Deck.load("examples/channel.toml").trace()
+path.save(sys.argv[1], force=True)
+print(path.events)
+END
+else
+  build/release/apps/trace-path run examples/channel.toml --out "$out" --force || status=$?
+fi
 
 # 3 and 6: what was traced is written all the same.
 if [[ $status == 0 || $status == 3 || $status == 6 ]]; then
@@ -41,6 +61,14 @@ The results are in $out:
   events.json  the same events for programs
   deck.toml    the deck with every default written out
 Try another:   build/release/apps/trace-path examples
+END
+fi
+if [[ $python == ON ]]; then
+  cat <<END
+
+The same in Python, where numpy, pandas and matplotlib are (docs/python.md; notebooks in python/notebooks):
+  export PYTHONPATH=$PYTHONPATH
+  ${interpreter:-python3} -c 'import arcwall; print(arcwall.Deck.load("examples/channel.toml").trace().table)'
 END
 fi
 exit "$status"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Installs those Debian 12 packages of the named groups that are missing:
 #
-#   bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark] [peers]
+#   bash cmake/install_debian_packages.sh build [test] [python] [sanitize] [report] [format] [benchmark] [peers]
 #
 # report: a browser for the tests of report.html, and Node.js with npm if these commands are missing; npm also fetches
-# plotly.js for the page. peers: other programs that benchmarks/run.sh can measure beside this one.
+# plotly.js for the page. python: what the Python module is built with, used with and tested by. peers: other programs that benchmarks/run.sh can measure beside this one.
 # Needs root or sudo only if something is missing. Works without HOME, USER and TERM.
 set -euo pipefail
 
@@ -15,6 +15,10 @@ packages_of() {
         libboost-program-options-dev libboost-math-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev
       ;;
     test) echo libgtest-dev librapidcheck-dev python3 python3-meshio parallel groff-base dpkg-dev ;;
+    python)
+      echo python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib python3-scipy python3-pytest \
+        python3-nbclient python3-ipykernel
+      ;;
     report)
       echo chromium
       command -v node >/dev/null || echo nodejs
@@ -25,7 +29,7 @@ packages_of() {
     benchmark) echo libbenchmark-dev python3 ;;
     peers) echo auto-07p octave python3-scipy python3-getfem ;;
     *)
-      echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, sanitize, report," \
+      echo "install_debian_packages.sh: no group of packages is called \"$1\"; there are build, test, python, sanitize, report," \
         "format, benchmark and peers" >&2
       return 2
       ;;
@@ -47,7 +51,7 @@ as_root() {
 }
 
 if [[ $# == 0 ]]; then
-  echo "usage: bash cmake/install_debian_packages.sh build [test] [sanitize] [report] [format] [benchmark] [peers]" >&2
+  echo "usage: bash cmake/install_debian_packages.sh build [test] [python] [sanitize] [report] [format] [benchmark] [peers]" >&2
   exit 2
 fi
 

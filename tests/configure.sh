@@ -13,7 +13,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 preset=tests
-groups=(build test report benchmark)
+groups=(build test python report benchmark)
 if [[ ${1:-} == --sanitize ]]; then
   preset=sanitize
   groups=(build test report sanitize)

@@ -1,0 +1,224 @@
+"""Located points of a path, its branches and its points, as values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, overload
+
+import numpy as np
+
+__all__ = ["Branch", "Contact", "End", "Event", "Events", "Point"]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A place of the structure on a wall."""
+
+    wall: str
+    member: str
+    fraction: float  #: of the member's length; nan where it is unknown
+    x: float  #: present place [length]
+    force: float | None = None  #: of the wall, along its normal [force]; None where a contact changes
+    pressure: float | None = None  #: [force/length]; None for a point force
+
+
+@dataclass(frozen=True)
+class End:
+    """Why a branch ended."""
+
+    reason: str  #: ``stop``, ``closed_loop``, ``max_points``, ``min_step``, …
+    detail: str  #: which bound it was; what to try
+    partner: int | None = None  #: the branch that it joined or that goes on
+
+
+@dataclass(frozen=True)
+class Event:
+    """A located point of a path at which something happens, as in ``events.json``."""
+
+    id: int  #: counts from 0 over all branches
+    kind: str  #: ``limit-point``, ``branch-point``, ``contact-closes``, …
+    branch: int
+    step: int  #: of the point it lies on
+    point: int  #: the same, as a row of ``path.table``
+    arc: float  #: arc length [path metric]
+    lam: float  #: λ
+    monitors: Mapping[str, float]
+    unstable_before: int | None
+    unstable_after: int | None
+    residual: float  #: relative
+    localised: float  #: half-width in λ of what is left uncertain
+    contacts: tuple[Contact, ...] = ()  #: that change
+    #: dλ/dn by numbers of the deck that were asked for; None where there is none, see ``no_sensitivity``
+    sensitivity: Mapping[str, float | None] = field(default_factory=dict)
+    no_sensitivity: Mapping[str, str] = field(default_factory=dict)  #: why
+    monitor: str | None = None  #: which one turns; the label of an event function
+    type: str | None = None  #: of a branch point: ``symmetric``, ``asymmetric``, ``one-sided``, ``undetermined``
+    multiplicity: int | None = None  #: of a branch point: critical modes
+    suspected: bool = False  #: zero is touched without a change of sign, as nearly as can be told
+    discretisation: bool = False  #: a branch point that only contact at nodes makes
+    branches: tuple[int, ...] = ()  #: that leave a branch point
+    #: of a branch point: rates of the monitors along the critical mode; of a system of one's own the mode itself
+    mode: Any = None
+    end: End | None = None  #: of an end
+    stage: str | None = None
+    unstable_dead: int | None = None
+
+
+@dataclass(frozen=True)
+class Branch:
+    """Arcs joined end to end."""
+
+    id: int
+    parent: int | None  #: the branch it leaves
+    origin: int | None  #: the event at which it does
+    mirrored: bool  #: its mirror image leaves there too and is not traced
+    points: int
+    lam: tuple[float, float]  #: least and greatest λ of its points
+    end: End | None  #: None while it goes on
+    stage: str | None = None
+
+
+@dataclass(frozen=True)
+class Point:
+    """A converged point of a path: a row of ``path.csv``, with its contacts."""
+
+    index: int  #: row of ``path.table``
+    branch: int
+    step: int
+    arc: float
+    lam: float
+    monitors: Mapping[str, float]
+    unstable: int | None
+    stability: str  #: ``stable``, ``unstable`` or ``undecided``
+    contacts: tuple[Contact, ...]  #: closed ones, of which each carries a force
+    energy: float | None
+    iterations: int
+    residual: float
+    event: str | None
+    stage: str | None = None
+    unstable_dead: int | None = None
+
+
+class Events(Sequence[Event]):
+    """Events in their order. ``events[0]`` is one, ``events["limit-point"]`` those of a kind, ``events[2:4]`` a part."""
+
+    def __init__(self, events: Sequence[Event]):
+        self._events = tuple(events)
+
+    @overload
+    def __getitem__(self, which: int) -> Event: ...
+    @overload
+    def __getitem__(self, which: str | slice) -> Events: ...
+    def __getitem__(self, which: int | str | slice) -> Event | Events:
+        if isinstance(which, str):
+            if which not in KINDS:
+                raise KeyError(f"{which!r} is no kind of event; there are {', '.join(KINDS)}")
+            return Events([event for event in self._events if event.kind == which])
+        if isinstance(which, slice):
+            return Events(self._events[which])
+        return self._events[which]
+
+    def __len__(self) -> int:
+        return len(self._events)
+
+    def __iter__(self) -> Iterator[Event]:
+        return iter(self._events)
+
+    def __eq__(self, other: object) -> bool:
+        return self._events == other._events if isinstance(other, Events) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        lines = [f"{event.id:3d}  {event.kind:<20} λ = {event.lam:.10g}" for event in self._events]
+        return "<arcwall.Events\n" + "\n".join(lines) + ">" if lines else "<arcwall.Events, none>"
+
+
+KINDS = (
+    "start",
+    "end",
+    "contact-closes",
+    "contact-opens",
+    "contact-spreads",
+    "contact-gathers",
+    "contact-passes",
+    "limit-point",
+    "contact-limit-point",
+    "displacement-limit",
+    "branch-point",
+    "user",
+)
+
+
+def _float(value: float | None) -> float:
+    return float("nan") if value is None else value
+
+
+def end_of(json: Mapping[str, Any] | None) -> End | None:
+    return None if json is None else End(json["reason"], json["detail"], json.get("partner"))
+
+
+def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None) -> Event:
+    """An event as in events.json, on that point of its path."""
+    monitors = {name: _float(value) for name, value in json["monitors"].items()}
+    return Event(
+        id=json["id"],
+        kind=json["kind"],
+        branch=json["branch"],
+        step=json["step"],
+        point=point,
+        arc=_float(json["arc"]),
+        lam=_float(json["lambda"]),
+        monitors=monitors,
+        unstable_before=json["unstable_before"],
+        unstable_after=json["unstable_after"],
+        residual=_float(json["residual"]),
+        localised=_float(json["localised"]),
+        contacts=tuple(Contact(c["wall"], c["member"], _float(c["fraction"]), _float(c["x"])) for c in json.get("contact", ())),
+        sensitivity=json.get("sensitivity", {}),
+        no_sensitivity=json.get("no_sensitivity", {}),
+        monitor=json.get("monitor"),
+        type=json.get("type"),
+        multiplicity=json.get("multiplicity"),
+        suspected=json.get("suspected", False),
+        discretisation=json.get("discretisation", False),
+        branches=tuple(json.get("branches", ())),
+        mode=json.get("mode") if mode is None else mode,
+        end=end_of(json) if "reason" in json else None,
+        stage=json.get("stage"),
+        unstable_dead=json.get("unstable_dead"),
+    )
+
+
+def branch_of(json: Mapping[str, Any]) -> Branch:
+    return Branch(
+        id=json["id"],
+        parent=json["parent"],
+        origin=json["origin"],
+        mirrored=json["mirrored"],
+        points=json["points"],
+        lam=(_float(json["lambda"][0]), _float(json["lambda"][1])),
+        end=end_of(json["end"]),
+        stage=json.get("stage"),
+    )
+
+
+def point_of(json: Mapping[str, Any], index: int) -> Point:
+    return Point(
+        index=index,
+        branch=json["branch"],
+        step=json["step"],
+        arc=_float(json["arc"]),
+        lam=_float(json["lambda"]),
+        monitors={name: _float(value) for name, value in json["monitors"].items()},
+        unstable=json["unstable"],
+        stability=json["stability"],
+        contacts=tuple(Contact(*label, x, force, pressure) for label, x, force, pressure in json["forces"]),
+        energy=json["energy"],
+        iterations=json["iterations"],
+        residual=json["residual"],
+        event=json["event"],
+        stage=json.get("stage"),
+        unstable_dead=json.get("unstable_dead"),
+    )

@@ -1,0 +1,248 @@
+"""Paths of decks: what a run has traced."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _engine
+from .curves import Curve
+from .deck import Deck
+from .events import Contact, Point, point_of
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+
+__all__ = ["ContactMark", "MemberShape", "Path", "Shape", "State", "Tracing", "WallShape", "load"]
+
+_MOST = 2**62  # points
+
+
+@dataclass(frozen=True)
+class State:
+    """All that varies along a path at a point."""
+
+    x: np.ndarray  #: unknowns, as the engine has them (docs/theory.md, sections 1 and 8.1); shape (unknowns,)
+    lam: float
+    closed: np.ndarray  #: which contacts are closed; bool, shape (contacts,)
+
+
+@dataclass(frozen=True)
+class MemberShape:
+    """A member's axis from end to end, at fixed fractions, at nodes and where contacts are; arrays of one shape (n,).
+
+    Where forces jump (a load, a contact, a support) a point is there twice, before and behind.
+    """
+
+    fraction: np.ndarray  #: of the member's stress-free length
+    x: np.ndarray  #: present place [length]
+    z: np.ndarray
+    ux: np.ndarray  #: displacement from the stress-free shape [length]
+    uz: np.ndarray
+    angle: np.ndarray  #: of the section's normal [rad]
+    rotation: np.ndarray  #: of the section, from the stress-free shape [rad]
+    axial_force: np.ndarray  #: tension is positive [force]
+    moment: np.ndarray  #: positive where it adds to the curvature [force·length]
+
+
+@dataclass(frozen=True)
+class ContactMark:
+    """A closed contact as a picture has it."""
+
+    wall: str
+    member: str
+    fraction: float
+    x: float  #: of the point that touches [length]
+    z: float
+    force: tuple[float, float]  #: of the wall on the structure, along x and z [force]
+    pressure: float | None  #: [force/length]; None for a point force
+
+
+@dataclass(frozen=True)
+class WallShape:
+    """The surface of a wall where the structure may come, at the point's λ."""
+
+    x: np.ndarray  #: [length]
+    z: np.ndarray
+    side: str  #: ``above`` or ``below`` the structure
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a structure looks like at a point, and what it carries."""
+
+    members: dict[str, MemberShape]
+    contacts: tuple[ContactMark, ...]
+    walls: dict[str, WallShape]
+    lam: float
+
+
+class _Points(Sequence[Point]):
+    """The points of a path, made as they are asked for."""
+
+    def __init__(self, run: Any):
+        self._run = run
+
+    def __len__(self) -> int:
+        return self._run.size()
+
+    def __getitem__(self, which: Any) -> Any:
+        if isinstance(which, slice):
+            return [self[i] for i in range(*which.indices(len(self)))]
+        index = _index(which, len(self))
+        return point_of(self._run.point(index), index)
+
+
+def _index(point: Any, size: int) -> int:
+    index = point.__index__()
+    if not -size <= index < size:
+        raise IndexError(f"there is no point {index}; the path has {size}")
+    return index % size
+
+
+class Path(Curve):
+    """What was traced of a deck: points, events and branches. It owns all that it needs, the deck may go.
+
+    Made by ``deck.trace()``, ``deck.tracing().path`` and ``arcwall.load(folder)``. It can be pickled and copied, with all that is
+    needed to go on.
+    """
+
+    @property
+    def deck(self) -> Deck:
+        """The deck that was traced."""
+        name, text, assignments = self._run.description()
+        deck = Deck.parse(text, name=name)
+        deck._set(text, name, assignments)
+        return deck
+
+    @property
+    def warnings(self) -> list[str]:
+        """What one should know of the deck though it is no error."""
+        return self._run.warnings()
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The deck's units of length, force and energy; empty texts where it names none."""
+        return dict(zip(("length", "force", "energy"), self._run.units()))
+
+    @property
+    def points(self) -> Sequence[Point]:
+        """The points as objects, with their contacts and forces."""
+        return _Points(self._run)
+
+    def resume(self, *, max_points: int | None = None, max_seconds: float | None = None) -> Path:
+        """Goes on where the path is, to the last bit as if it had never stopped; returns the path itself.
+
+        ``max_points`` counts those of this call. Nothing happens where every branch has ended.
+        """
+        self._run.advance(_limit(max_points), math.inf if max_seconds is None else float(max_seconds))
+        return self
+
+    def tracing(self) -> Tracing:
+        """Goes on a point at a time."""
+        return Tracing(self)
+
+    def state(self, point: int) -> State:
+        """The state at a point: a copy."""
+        x, lam, closed = self._run.state(_index(point, len(self)))
+        return State(x, lam, np.asarray(closed, dtype=bool))
+
+    def shape(self, point: int) -> Shape:
+        """The deformed structure at a point of the path: its row in ``table``, or −1 for the last."""
+        index = _index(point, len(self))
+        members, contacts, walls = self._run.shape(index)
+        return Shape(
+            members={name: MemberShape(*np.ascontiguousarray(table.T)) for name, table in members.items()},
+            contacts=tuple(ContactMark(*label, x, z, (fx, fz), p) for label, x, z, fx, fz, p in contacts),
+            walls={name: WallShape(*np.ascontiguousarray(line.T), side) for name, (line, side) in walls.items()},
+            lam=float(self["lambda"][index]),
+        )
+
+    def report(self) -> str:
+        """``report.html`` as a text: one page that needs no other file and no network."""
+        return self._run.report()
+
+    def save(self, folder: str | os.PathLike[str], *, force: bool = False, pictures: bool = True) -> None:
+        """Writes a run folder, file by file what ``trace-path run`` writes; ``arcwall.load`` and ``trace-path resume`` read it.
+
+        ``force``: also into a folder that something else filled. ``pictures``: ``report.html`` and the shapes for ParaView.
+        FileError where it cannot be written; ValueError for a path without points.
+        """
+        if not len(self):
+            raise ValueError("a path without points cannot be saved: trace one")
+        self._run.save(os.fspath(folder), force, pictures)
+
+    # --- pictures -------------------------------------------------------------------------------------------------------
+
+    def plot_shape(self, point: int = -1, *, ax: Axes | None = None) -> Axes:
+        """Draws the walls, the structure at a point and, in grey, at the first one; returns the axes. Needs matplotlib."""
+        from .pictures import plot_shape
+
+        return plot_shape(self, point, ax)
+
+    def animate(self, *, every: int = 1, interval: int = 50) -> FuncAnimation:
+        """The shapes along the path as an animation of matplotlib, of every n-th point, ``interval`` milliseconds each."""
+        from .pictures import animate
+
+        return animate(self, every, interval)
+
+    # --- copies ---------------------------------------------------------------------------------------------------------
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        name, text, assignments = self._run.description()
+        if not len(self):
+            return _begun, (name, text, assignments)
+        return _restored, (self._run.checkpoint(),)
+
+    def __copy__(self) -> Path:
+        return self.__deepcopy__({})
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Path:
+        make, arguments = self.__reduce__()
+        return make(*arguments)
+
+
+def _limit(points: int | None) -> int:
+    if points is None:
+        return _MOST
+    count = points.__index__()
+    if count < 0:
+        raise ValueError(f"max_points = {count} is negative")
+    return min(count, _MOST)
+
+
+def _begun(name: str, text: bytes, assignments: list[str]) -> Path:
+    return Path(_engine.Run(name, text, assignments))
+
+
+def _restored(checkpoint: bytes) -> Path:
+    return Path(_engine.Run.of_checkpoint(checkpoint, "a pickled path"))
+
+
+class Tracing(Iterator[Point]):
+    """Traces a path while it is iterated. Between two points anything may be done with ``path``; Ctrl-C stops it there."""
+
+    def __init__(self, path: Path):
+        self.path = path  #: what was traced so far
+
+    def __iter__(self) -> Tracing:
+        return self
+
+    def __next__(self) -> Point:
+        if self.path._run.advance(1, math.inf) == 0:
+            raise StopIteration
+        return self.path.points[-1]
+
+
+def load(folder: str | os.PathLike[str]) -> Path:
+    """The path in a run folder, from its ``checkpoint``; one that was stopped from outside can go on.
+
+    FileError where there is none, or one of another version. Nothing in the folder is changed.
+    """
+    return Path(_engine.Run.of_folder(os.fspath(folder)))
