@@ -17,7 +17,7 @@ packages_of() {
     test) echo libgtest-dev librapidcheck-dev python3 python3-meshio parallel groff-base dpkg-dev ;;
     python)
       echo python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib python3-scipy python3-pytest \
-        python3-nbclient python3-ipykernel
+        python3-nbclient python3-ipykernel mypy
       ;;
     report)
       echo chromium

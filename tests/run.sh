@@ -4,7 +4,7 @@
 #   bash tests/run.sh [--sanitize] [arguments of ctest …]
 #
 # --sanitize builds with clang and the address and undefined-behaviour sanitizers, in a folder of its own.
-# Examples: bash tests/run.sh -R Tracer; bash tests/run.sh --sanitize -LE slow
+# Examples: bash tests/run.sh -R Tracer; bash tests/run.sh -L python; bash tests/run.sh --sanitize -LE slow
 set -euo pipefail
 export PATH  # bash has one where the environment has none; CMake finds its own files by it
 

@@ -24,7 +24,7 @@ class Curve:
     def __init__(self, run: Any):
         self._run = run
         self._cache: dict[Any, Any] = {}
-        self._cached_size = -1
+        self._cached_size: Any = None
 
     # What was read off the record serves until there are more points.
     def _cached(self, what: Any, make: Any) -> Any:

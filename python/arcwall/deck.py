@@ -115,7 +115,9 @@ class Deck:
 
     def __eq__(self, other: object) -> bool:
         """Whether two decks, which are right, say the same."""
-        return str(self) == str(other) if isinstance(other, Deck) else NotImplemented
+        if not isinstance(other, Deck):
+            return NotImplemented
+        return str(self) == str(other)
 
     __hash__ = None  # type: ignore[assignment]
 

@@ -126,7 +126,9 @@ class Events(Sequence[Event]):
         return iter(self._events)
 
     def __eq__(self, other: object) -> bool:
-        return self._events == other._events if isinstance(other, Events) else NotImplemented
+        if not isinstance(other, Events):
+            return NotImplemented
+        return self._events == other._events
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -214,7 +216,7 @@ def point_of(json: Mapping[str, Any], index: int) -> Point:
         monitors={name: _float(value) for name, value in json["monitors"].items()},
         unstable=json["unstable"],
         stability=json["stability"],
-        contacts=tuple(Contact(*label, x, force, pressure) for label, x, force, pressure in json["forces"]),
+        contacts=tuple(Contact(wall, member, at, x, force, p) for (wall, member, at), x, force, p in json["forces"]),
         energy=json["energy"],
         iterations=json["iterations"],
         residual=json["residual"],

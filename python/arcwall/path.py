@@ -159,8 +159,10 @@ class Path(Curve):
         members, contacts, walls = self._run.shape(index)
         return Shape(
             members={name: MemberShape(*np.ascontiguousarray(table.T)) for name, table in members.items()},
-            contacts=tuple(ContactMark(*label, x, z, (fx, fz), p) for label, x, z, fx, fz, p in contacts),
-            walls={name: WallShape(*np.ascontiguousarray(line.T), side) for name, (line, side) in walls.items()},
+            contacts=tuple(
+                ContactMark(wall, member, at, x, z, (fx, fz), p) for (wall, member, at), x, z, fx, fz, p in contacts
+            ),
+            walls={name: WallShape(line[:, 0].copy(), line[:, 1].copy(), side) for name, (line, side) in walls.items()},
             lam=float(self["lambda"][index]),
         )
 

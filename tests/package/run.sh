@@ -11,6 +11,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
+# The Python module has a package of its own where it was built.
+packages=(arcwall libarcwall-dev)
+if grep -q '^ARCWALL_PYTHON:BOOL=ON' "$build/CMakeCache.txt"; then packages+=(python3-arcwall); fi
+
 fail() {
   echo "error: $1" >&2
   exit 1
@@ -29,12 +33,13 @@ depends() {
 make_packages() {
   # Only the place of the libraries depends on the prefix; nothing is compiled again.
   cmake -S ../.. -B "$build" --log-level=WARNING -DCMAKE_INSTALL_PREFIX=/usr
-  cmake --build "$build" --parallel 2 --target trace-path shell_files arcwall_core arcwall_continuation \
-    arcwall_elements arcwall_contact arcwall_model >/dev/null
+  local targets=(trace-path shell_files arcwall_core arcwall_continuation arcwall_elements arcwall_contact arcwall_model)
+  if [[ " ${packages[*]} " == *" python3-arcwall "* ]]; then targets+=(arcwall_python); fi
+  cmake --build "$build" --parallel 2 --target "${targets[@]}" >/dev/null
   rm -rf "$build/packages"
   cpack --config "$build/CPackConfig.cmake" >/dev/null
   local name
-  for name in arcwall libarcwall-dev; do
+  for name in "${packages[@]}"; do
     cp "$build/packages/${name}"_*.deb "$scratch/$name.deb" || fail "there is no package $name"
     dpkg-deb --extract "$scratch/$name.deb" "$scratch/root"
     has "/usr/share/doc/$name/copyright"
@@ -52,7 +57,7 @@ look_at_packages() {
     has "$file"
   done
   # All below /usr, owned by root, folders and programs 755, other files 644.
-  for name in arcwall libarcwall-dev; do
+  for name in "${packages[@]}"; do
     dpkg-deb --contents "$scratch/$name.deb" | awk '
       $2 != "root/root" || ($1 != "drwxr-xr-x" && $1 != "-rw-r--r--" && !($1 == "-rwxr-xr-x" && $6 ~ "^./usr/bin/")) ||
       $6 !~ "^./usr/" || $6 ~ "^./usr/local" { print; wrong = 1 } END { exit wrong }' || fail "wrong owner, mode or place"
@@ -65,6 +70,11 @@ look_at_packages() {
   depends libarcwall-dev libeigen3-dev
   depends libarcwall-dev zlib1g-dev
   "$scratch/root/usr/bin/trace-path" --version
+  [[ " ${packages[*]} " == *" python3-arcwall "* ]] || return 0
+  depends python3-arcwall python3-numpy
+  depends python3-arcwall libcholmod3
+  (cd / && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$scratch/root/usr/lib/python3/dist-packages /usr/bin/python3 -c \
+    'import arcwall; print("arcwall for Python", arcwall.__version__)')
 }
 
 if command -v dpkg-deb >/dev/null; then

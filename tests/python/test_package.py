@@ -2,6 +2,8 @@
 
 import ast
 import inspect
+import subprocess
+import sys
 
 from conftest import SOURCE
 
@@ -47,6 +49,13 @@ def test_each_name_of_the_package_is_there_and_says_what_it_is():
             if (name, method) in {("Curve", "title"), ("SystemPath", "monitors")} or hasattr(of, "_fields"):
                 continue
             assert inspect.getdoc(getattr(thing, method)) or inspect.getdoc(of), (name, method)
+
+
+# Annotations and the stub fit together, and so do their uses inside the package.
+def test_the_types_hold():
+    checker = [sys.executable, "-m", "mypy", "--cache-dir=/dev/null", "--ignore-missing-imports", "--follow-imports=skip"]
+    outcome = subprocess.run([*checker, SOURCE / "python" / "arcwall"], capture_output=True, text=True)
+    assert outcome.returncode == 0, outcome.stdout + outcome.stderr
 
 
 def test_the_version_is_that_of_the_program(program):

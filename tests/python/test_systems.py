@@ -60,7 +60,8 @@ class Bratu:
 # The fold of the differences with 49 inner points, computed with 20 digits from the extended system of Seydel (1979).
 @pytest.mark.parametrize("sparse", [True, False])
 def test_the_fold_of_bratus_problem_is_found_exactly(sparse):
-    path = arcwall.trace(Bratu(49, sparse), np.zeros(49), stop={24: (-1.0, 3.0)}, step=0.2, monitors={"top": lambda u, lam: u.max()})
+    monitors = {"top": lambda u, lam: u.max()}
+    path = arcwall.trace(Bratu(49, sparse), np.zeros(49), stop={24: (-1.0, 3.0)}, step=0.2, monitors=monitors)
     (limit,) = path.events["limit-point"]
     assert limit.lam == pytest.approx(3.5130993908836101689, abs=1e-11)
     assert (limit.unstable_before, limit.unstable_after) == (0, 1)
@@ -125,7 +126,11 @@ def test_a_chain_of_pendulums_is_critical_where_its_eigenvalues_say():
 
 
 def test_event_functions_are_located():
-    events = {"half": lambda x, lam: x[0] - 0.5, "down": Detector(lambda x, lam: x[0] + 0.5, -1), "up": Detector(lambda x, lam: x[0], 1)}
+    events = {
+        "half": lambda x, lam: x[0] - 0.5,
+        "down": Detector(lambda x, lam: x[0] + 0.5, -1),
+        "up": Detector(lambda x, lam: x[0], 1),
+    }
     path = arcwall.trace(fold(), [1.0], -1.0, stop={"lambda": (-1.5, 1.0)}, events=events)
     found = {event.monitor: event for event in path.events["user"]}
     assert set(found) == {"half", "down"}
@@ -299,12 +304,12 @@ def test_a_path_that_an_exception_ended_keeps_its_points_and_says_so():
 
 def test_residuals_that_are_no_numbers_shorten_the_step():
     # √ of what becomes negative: the step is cut until it is not; the path ends before the bound with a reason.
-    path = arcwall.trace(
-        Function(lambda x, lam: x - math.sqrt(1 - lam) if lam <= 1 else math.nan, lambda x, lam: 1.0, lambda x, lam: 0.5 / math.sqrt(1 - lam) if lam < 1 else math.nan),
-        [1.0],
-        stop={"lambda": (-1, 2)},
-        max_points=300,
+    root = Function(
+        lambda x, lam: x - math.sqrt(1 - lam) if lam <= 1 else math.nan,
+        lambda x, lam: 1.0,
+        lambda x, lam: 0.5 / math.sqrt(1 - lam) if lam < 1 else math.nan,
     )
+    path = arcwall.trace(root, [1.0], stop={"lambda": (-1, 2)}, max_points=300)
     assert path.ended and path["lambda"].max() <= 1.0 and path.events[-1].end.reason in ("min_step", "not_finite", "singular")
     with pytest.raises(NoStart, match="no equilibrium at the start"):
         trace(broken(residual=lambda x, lam: [math.nan]))
