@@ -15,7 +15,7 @@ std::string in_hexadecimal(std::uint32_t value, int digits) {
 std::string escape(std::uint32_t code) {
   if (code == '\n') return "\\n";
   if (code == '\t') return "\\t";
-  return code <= 0xFFFFu ? "\\u" + in_hexadecimal(code, 4) : "\\U" + in_hexadecimal(code, 8);
+  return "\\u" + in_hexadecimal(code, 4);
 }
 
 }  // namespace
@@ -40,9 +40,7 @@ bool is_printable(std::uint32_t code) {
   const bool line = code == 0x2028u || code == 0x2029u;
   const bool direction = code == 0x061Cu || code == 0x200Eu || code == 0x200Fu ||
                          (code >= 0x202Au && code <= 0x202Eu) || (code >= 0x2066u && code <= 0x2069u);
-  const bool mark_of_order = code == 0xFEFFu;
-  const bool tag = code >= 0xE0000u && code <= 0xE007Fu;
-  return !control && !line && !direction && !mark_of_order && !tag;
+  return !control && !line && !direction;
 }
 
 std::string printable(std::string_view text, LineBreaks breaks) {

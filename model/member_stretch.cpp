@@ -68,7 +68,9 @@ ShapePoint MemberStretch::at(double fraction) const {
   ShapePoint point{.fraction = fraction, .position = now.position(xi), .angle = angle};
   point.displacement = point.position - rest.position(xi);
   point.rotation = angle - (rest.angle(xi) - rest_shear);
-  point.axial_force = ((1.0 - xi) * first.force + xi * second.force).dot(direction(angle));
+  const Vec2 force = (1.0 - xi) * first.force + xi * second.force, along = direction(angle);
+  point.axial_force = force.dot(along);
+  point.shear_force = force.dot(Vec2(-along.y(), along.x()));
   point.moment = balanced_moment(xi) + xi * (second.moment - balanced_moment(1.0));
   return point;
 }

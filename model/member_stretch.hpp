@@ -15,6 +15,8 @@ struct ShapePoint {
   double angle = 0.0;                ///< of the section's normal, the direction of travel where nothing shears [rad]
   double rotation = 0.0;             ///< of the section, from the stress-free shape [rad]
   double axial_force = 0.0;          ///< tension is positive [force]
+  double shear_force =
+      0.0;  ///< part across the section, to the left, of the far part's force on the near one: −dM/ds [force]
   double moment = 0.0;  ///< positive where it adds to the curvature, travel along the member [force·length]
 };
 

@@ -1,23 +1,65 @@
+#include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include "apps/cli/commands.hpp"
 #include "apps/output/files.hpp"
+#include "apps/output/overlay.hpp"
 #include "apps/output/report_html.hpp"
+#include "core/error.hpp"
+#include "model/regular_file.hpp"
 #include "model/session.hpp"
 
 namespace arcwall {
 
+namespace fs = std::filesystem;
+
 namespace {
 
+constexpr std::size_t most_runs = 20;
+
+// Of the further runs and of measured points.
+std::vector<Overlay> overlays(const Options& options, const Record& record) {
+  std::vector<Overlay> all;
+  const std::vector<std::string>& folders = options.words();
+  for (auto folder = folders.begin() + 1; folder != folders.end(); ++folder)
+    all.push_back(overlay_of(stored_session(*folder, Session::Resume::as_ended).record(), *folder));
+  for (const std::string& file : options.texts("measured"))
+    all.push_back(measured_points(bytes_of_regular_file(file, 1u << 28), file, record.columns));
+  return all;
+}
+
+// What is drawn over what has the names of the first run's columns.
+void require_common_columns(const std::vector<Overlay>& overlays, const Record& record) {
+  for (const Overlay& overlay : overlays) {
+    const auto is_there = [&](const RecordColumn& column) { return overlay.values.contains(column.name); };
+    if (std::none_of(record.columns.begin(), record.columns.end(), is_there))
+      throw InputError(overlay.name +
+                       " has no monitor of the first run; give monitors that are compared the same names");
+  }
+}
+
+// The page of a run alone goes into its folder, one of several where it is wanted.
+fs::path page_of(const Options& options) {
+  const auto wanted = options.text("out");
+  if (wanted) return *wanted;
+  if (options.words().size() > 1 || !options.texts("measured").empty())
+    throw InputError("--out is missing; name the file for a page of several runs or of measured points");
+  return fs::path(options.words().front()) / "report.html";
+}
+
 ExitStatus write_report(const Options& options) {
-  const std::filesystem::path folder = options.words().front();
+  const fs::path folder = options.words().front();
+  const fs::path file = page_of(options);
   std::error_code ignored;
   std::optional<FolderLock> lock;
-  if (std::filesystem::is_directory(folder, ignored)) lock.emplace(folder);
+  if (!options.has("out") && fs::is_directory(folder, ignored)) lock.emplace(folder);
   const Session run = stored_session(folder, Session::Resume::as_ended);
-  const std::filesystem::path file = folder / "report.html";
-  const DrawnScenes drawn = scenes_to_draw(run.model(), run.record());
-  write_whole(file, ReportPage(run.record(), report_content(run.model(), run.record(), drawn)).pieces());
+  const Record& record = run.record();
+  ReportContent content = report_content(run.model(), record, scenes_to_draw(run.model(), record));
+  content.overlays = overlays(options, record);
+  require_common_columns(content.overlays, record);
+  write_whole(file, ReportPage(record, content).pieces());
   std::cerr << "wrote " << file.string() << "\n";
   return ExitStatus::success;
 }
@@ -25,13 +67,20 @@ ExitStatus write_report(const Options& options) {
 }  // namespace
 
 Command report_command() {
-  return {.description = {.name = "report",
-                          .example = "trace-path report results",
-                          .usage = "DIR",
-                          .summary = "writes report.html of a run again",
-                          .least_words = 1,
-                          .most_words = 1},
-          .run = write_report};
+  return {
+      .description = {.name = "report",
+                      .example = "trace-path report coarse fine --measured test.csv --out both.html",
+                      .usage = "DIR [DIR …] [options]",
+                      .summary = "writes report.html of a run again, or a page of one with others drawn into it",
+                      .options = {{.name = "measured",
+                                   .value = "FILE.csv",
+                                   .help = "draw points of a table: its first line names lambda and monitors; may be "
+                                           "repeated",
+                                   .repeatable = true},
+                                  {"out", "FILE", "page to write (default: report.html in the folder of the run)"}},
+                      .least_words = 1,
+                      .most_words = most_runs},
+      .run = write_report};
 }
 
 }  // namespace arcwall

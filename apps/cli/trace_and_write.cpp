@@ -16,6 +16,7 @@
 #include "apps/output/path_csv.hpp"
 #include "apps/output/report_html.hpp"
 #include "apps/output/result_json.hpp"
+#include "apps/output/run_warnings.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "model/deck/writer.hpp"
@@ -77,6 +78,11 @@ std::optional<BranchEnd> limit_met(const CallOptions& options, int points, const
   return std::nullopt;
 }
 
+void warn_of_start(const Session& run) {
+  if (const std::string warning = warning_of_start(run.model(), run.record()); !warning.empty())
+    std::cerr << "warning: " << warning << "\n";
+}
+
 // Until all has ended or a limit is met. The last checkpoint knows nothing of ends that came from outside.
 std::optional<BranchEnd> trace(Session& run, CheckpointKeeper& checkpoints, const CallOptions& options,
                                const InterruptGuard& interrupts) {
@@ -86,6 +92,7 @@ std::optional<BranchEnd> trace(Session& run, CheckpointKeeper& checkpoints, cons
   JsonLines lines(run.record());
   std::optional<BranchEnd> stopped;
   for (int points = 1; run.next() != nullptr; ++points) {
+    if (run.record().points.size() == 1) warn_of_start(run);
     progress.show(run.record(), lambda_is);
     if (options.report == Report::json_lines) lines.print_new(run.record());
     stopped = limit_met(options, points, watch, interrupts);

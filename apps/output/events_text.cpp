@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "apps/output/roundoff.hpp"
 #include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/text_table.hpp"
@@ -41,6 +42,7 @@ std::string table(const Record& record) {
     columns.push_back({column.unit.empty() ? column.name : column.name + " [" + column.unit + "]", Side::right});
   columns.push_back({"unstable"});
 
+  const std::vector<double> zero = roundoff(record);
   std::vector<std::vector<std::string>> rows;
   for (const RecordEvent& event : record.events) {
     std::vector<std::string>& row = rows.emplace_back();
@@ -51,7 +53,8 @@ std::string table(const Record& record) {
     row.push_back(shown_lambda(event, 10));
     row.emplace_back(to_text(event.kind));
     row.push_back(event_detail(event));
-    for (const double value : event.monitors) row.push_back(shown_number(value, 6));
+    for (std::size_t i = 0; i < event.monitors.size(); ++i)
+      row.push_back(shown_number(without_roundoff(event.monitors[i], zero[i]), 6));
     row.push_back(unstable_change(event));
   }
   return text_table(columns, rows);

@@ -12,6 +12,7 @@
 #include "apps/output/events_text.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
+#include "apps/output/roundoff.hpp"
 #include "apps/output/shown_number.hpp"
 #include "model/event_names.hpp"
 
@@ -36,20 +37,37 @@ OrderedJson of_points(const Record& record, Value value) {
   return list;
 }
 
+// Below which size a quantity is round-off: far below its greatest.
+template <class Value>
+double roundoff_of(const Record& record, Value value) {
+  constexpr double part = 1e-12;
+  double greatest = 0.0;
+  for (const RecordPoint& point : record.points)
+    if (std::isfinite(value(point))) greatest = std::max(greatest, std::abs(value(point)));
+  return part * greatest;
+}
+
 OrderedJson points_json(const Record& record) {
+  const auto energy = [](const RecordPoint& point) { return point.energy; };
+  const auto lambda = [](const RecordPoint& point) { return point.lambda; };
+  const double no_energy = roundoff_of(record, energy), no_load = roundoff_of(record, lambda);
   const std::vector<double> zero = roundoff(record);
   OrderedJson monitors = OrderedJson::array();
   for (std::size_t i = 0; i < record.columns.size(); ++i)
     monitors.push_back(of_points(
         record, [&, i](const RecordPoint& point) { return number(without_roundoff(point.monitors[i], zero[i])); }));
-  return {{"branch", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.branch); })},
-          {"step", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.step); })},
-          {"arc", of_points(record, [](const RecordPoint& point) { return number(point.arc); })},
-          {"lambda", of_points(record, [](const RecordPoint& point) { return number(point.lambda); })},
-          {"monitors", std::move(monitors)},
-          {"unstable", of_points(record, [](const RecordPoint& point) { return count(point.count.unstable); })},
-          {"stability", of_points(record, [](const RecordPoint& point) { return to_text(point.count.stability); })},
-          {"energy", of_points(record, [](const RecordPoint& point) { return number(point.energy); })}};
+  return {
+      {"branch", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.branch); })},
+      {"step", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.step); })},
+      {"arc", of_points(record, [](const RecordPoint& point) { return number(point.arc); })},
+      {"lambda",
+       of_points(record, [&](const RecordPoint& point) { return number(without_roundoff(point.lambda, no_load)); })},
+      {"monitors", std::move(monitors)},
+      {"unstable", of_points(record, [](const RecordPoint& point) { return count(point.count.unstable); })},
+      {"stability", of_points(record, [](const RecordPoint& point) { return to_text(point.count.stability); })},
+      {"contacts", of_points(record, [](const RecordPoint& point) { return OrderedJson(point.contacts); })},
+      {"energy",
+       of_points(record, [&](const RecordPoint& point) { return number(without_roundoff(point.energy, no_energy)); })}};
 }
 
 OrderedJson columns_json(const Record& record) {
@@ -104,18 +122,73 @@ OrderedJson uncertain_json(const Record& record) {
   return list;
 }
 
-OrderedJson contact_json(const ContactMark& contact) {
+// `greatest`: of the forces of all shapes.
+OrderedJson contact_json(const ContactMark& contact, double greatest) {
   return OrderedJson::array({shown_name(contact.label.wall), shown_name(contact.label.member),
-                             number(contact.label.fraction, 6), number(contact.force.norm(), 6),
+                             number(contact.label.fraction, 6),
+                             number(without_roundoff(contact.force.norm(), 1e-12 * greatest), 6),
                              contact.pressure ? number(*contact.pressure, 6) : OrderedJson(nullptr)});
 }
 
+struct GreatestForces {
+  double force = 0.0, moment = 0.0;
+};
+
+GreatestForces greatest_forces(const ShapePictures& shapes) {
+  GreatestForces greatest;
+  for (const ShapePicture& picture : shapes.pictures)
+    for (const auto& member : picture.forces)
+      for (const ForceSample& sample : member) {
+        greatest.force = std::max({greatest.force, std::abs(sample.axial_force), std::abs(sample.shear_force)});
+        greatest.moment = std::max(greatest.moment, std::abs(sample.moment));
+      }
+  return greatest;
+}
+
+// Of each member a list of [point of the path, fraction, N, Q, M].
+OrderedJson forces_json(const std::vector<std::vector<ForceSample>>& forces, const GreatestForces& greatest) {
+  constexpr int digits = 6;
+  constexpr double part = 1e-10;  // forces of elements are differences of large numbers
+  OrderedJson members = OrderedJson::array();
+  for (const auto& member : forces) {
+    OrderedJson& samples = members.emplace_back(OrderedJson::array());
+    for (const ForceSample& sample : member)
+      samples.push_back({sample.at, number(sample.fraction, digits),
+                         number(without_roundoff(sample.axial_force, part * greatest.force), digits),
+                         number(without_roundoff(sample.shear_force, part * greatest.force), digits),
+                         number(without_roundoff(sample.moment, part * greatest.moment), digits)});
+  }
+  return members;
+}
+
+OrderedJson members_json(const ShapePictures& shapes) {
+  OrderedJson list = OrderedJson::array();
+  for (const DrawnMember& member : shapes.members)
+    list.push_back({{"name", shown_name(member.name)},
+                    {"A", member.A},
+                    {"I", member.I},
+                    {"EI", member.EI},
+                    {"half", member.half_height}});
+  return list;
+}
+
+OrderedJson walls_json(const ShapePictures& shapes) {
+  OrderedJson list = OrderedJson::array();
+  for (const std::string& wall : shapes.walls) list.push_back(shown_name(wall));
+  return list;
+}
+
 OrderedJson shapes_json(const ShapePictures& shapes) {
+  const GreatestForces greatest = greatest_forces(shapes);
   OrderedJson list = OrderedJson::array();
   for (const ShapePicture& picture : shapes.pictures) {
     OrderedJson contacts = OrderedJson::array();
-    for (const ContactMark& contact : picture.contacts) contacts.push_back(contact_json(contact));
-    list.push_back({{"point", picture.point}, {"paths", picture.paths}, {"contacts", std::move(contacts)}});
+    for (const ContactMark& contact : picture.contacts)
+      contacts.push_back(contact_json(contact, shapes.greatest_force));
+    list.push_back({{"point", picture.point},
+                    {"paths", picture.paths},
+                    {"contacts", std::move(contacts)},
+                    {"forces", forces_json(picture.forces, greatest)}});
   }
   return list;
 }
@@ -128,6 +201,28 @@ std::string branch_colour(Index branch) {
   return colours[static_cast<std::size_t>(branch) % colours.size()];
 }
 
+std::string overlay_colour(std::size_t number) {
+  constexpr std::array<const char*, 6> colours{"#8C6BB1", "#B15928", "#7F8C3A", "#C2477F", "#4E79A7", "#999999"};
+  return colours[number % colours.size()];
+}
+
+OrderedJson overlays_json(const std::vector<Overlay>& overlays) {
+  OrderedJson list = OrderedJson::array();
+  for (std::size_t i = 0; i < overlays.size(); ++i) {
+    OrderedJson values = OrderedJson::object();
+    for (const auto& [name, column] : overlays[i].values) {
+      OrderedJson& numbers = values[name] = OrderedJson::array();
+      for (const double value : column) numbers.push_back(number(value));
+    }
+    list.push_back({{"name", shown_name(overlays[i].name)},
+                    {"measured", overlays[i].measured},
+                    {"colour", overlay_colour(i)},
+                    {"firsts", overlays[i].firsts},
+                    {"values", std::move(values)}});
+  }
+  return list;
+}
+
 std::string shown_name(const std::string& name) {
   constexpr std::size_t most = 40;
   return plain(name, most);
@@ -136,25 +231,6 @@ std::string shown_name(const std::string& name) {
 std::string shown_title(const RecordColumn& column) {
   return shown_name(column.name) + (column.unit.empty() ? "" : " [" + shown_name(column.unit) + "]");
 }
-
-// Of a column of round-off alone only its unit tells the size. A rotation of 1 is a large one.
-std::vector<double> roundoff(const Record& record) {
-  constexpr double part = 1e-12;
-  std::vector<double> own;
-  std::map<std::string, double> of_unit{{"rad", 1.0}};
-  for (std::size_t i = 0; i < record.columns.size(); ++i) {
-    double& greatest = own.emplace_back(0.0);
-    for (const RecordPoint& point : record.points)
-      if (std::isfinite(point.monitors[i])) greatest = std::max(greatest, std::abs(point.monitors[i]));
-    double& common = of_unit[record.columns[i].unit];
-    common = std::max(common, greatest);
-  }
-  for (std::size_t i = 0; i < own.size(); ++i)
-    own[i] = part * (record.columns[i].unit.empty() ? own[i] : of_unit[record.columns[i].unit]);
-  return own;
-}
-
-double without_roundoff(double value, double roundoff) { return std::abs(value) <= roundoff ? 0.0 : value; }
 
 OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
   return {{"columns", columns_json(record)},
@@ -165,6 +241,8 @@ OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
           {"lines", lines_json(record)},
           {"events", events_json(record)},
           {"uncertain", uncertain_json(record)},
+          {"members", members_json(shapes)},
+          {"walls", walls_json(shapes)},
           {"shapes", shapes_json(shapes)}};
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/output/overlay.hpp"
 #include "apps/output/shape_pictures.hpp"
 #include "model/record.hpp"
 
@@ -18,13 +19,12 @@ std::string shown_name(const std::string& name);
 /// `mid [cm]`.
 std::string shown_title(const RecordColumn& column);
 
+/// The colour of one of the runs and measured points that are drawn into another run's curves.
+std::string overlay_colour(std::size_t number);
+
+nlohmann::ordered_json overlays_json(const std::vector<Overlay>& overlays);
+
 /// What the script of report.html knows of a run: the curves, the events and the shapes.
 nlohmann::ordered_json report_data(const Record& record, const ShapePictures& shapes);
-
-/// Of each monitor, below which size a value is round-off: far below the greatest of all monitors with its unit.
-std::vector<double> roundoff(const Record& record);
-
-/// 0 in place of round-off.
-double without_roundoff(double value, double roundoff);
 
 }  // namespace arcwall

@@ -13,11 +13,14 @@
 
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
+#include "apps/output/exit_status.hpp"
 #include "apps/output/library_versions.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
 #include "apps/output/report_data.hpp"
 #include "apps/output/report_parts.hpp"
+#include "apps/output/roundoff.hpp"
+#include "apps/output/run_warnings.hpp"
 #include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
@@ -83,6 +86,27 @@ std::string outcome(const Record& record) {
   return text;
 }
 
+// What the reader has to know first: which branches did not end where the deck says, why, and what can be done.
+std::string early_ends(const Record& record, const std::string& warning) {
+  constexpr std::size_t most = 8;
+  std::string text = warning.empty() ? "" : "<p class=\"early\">Beware: " + escaped(warning) + ".</p>";
+  std::size_t count = 0;
+  for (const RecordBranch& branch : record.branches) {
+    if (!branch.end || exit_status(branch.end->reason) == ExitStatus::success || ++count > most) continue;
+    std::string where;
+    for (const RecordEvent& event : record.events)
+      if (event.branch == branch.id && event.branch_end) where = " at λ = " + shown_lambda(event, 8);
+    const std::string_view advice = what_to_try(branch.end->reason);
+    text += fmt::format("<p class=\"early\"><b>Branch {} ended early{}</b>: {}.{}</p>", branch.id, escaped(where),
+                        escaped(plain(how_it_ended(*branch.end), 400)),
+                        advice.empty() ? "" : fmt::format(" To go on: {}.", escaped(plain(advice, 400))));
+  }
+  if (count > most)
+    text += fmt::format("<p class=\"early\">{} further branches ended early; the tree of the branches says why.</p>",
+                        count - most);
+  return text;
+}
+
 // --- load over monitors ---------------------------------------------------------------------------------------------
 
 std::string event_text(const Record& record, const RecordEvent& event, const std::vector<double>& zero) {
@@ -95,11 +119,35 @@ std::string event_text(const Record& record, const RecordEvent& event, const std
   return text;
 }
 
+// With what λ multiplies, where that is one thing: then the axis has a unit.
+std::string load_title(const ReportContent& content) {
+  if (content.loads.size() != 1) return "load factor λ";
+  const LoadText& one = content.loads.front();
+  return shown_name(one.name) + " λ" + (one.size.empty() ? "" : ", times " + shown_name(one.size));
+}
+
+// Other runs, each line of which is a branch, and measured points.
+void add_overlays(const ReportContent& content, const std::string& across, Chart& chart) {
+  for (std::size_t i = 0; i < content.overlays.size(); ++i) {
+    const auto& [name, measured, values, firsts] = content.overlays[i];
+    const auto x = values.find(across), y = values.find("lambda");
+    if (x == values.end() || y == values.end()) continue;
+    for (std::size_t k = 0; k < x->second.size(); ++k) {
+      if (measured || std::find(firsts.begin(), firsts.end(), k) != firsts.end())
+        chart.lines.push_back({.colour = overlay_colour(i)});
+      const Vec2 at(x->second[k], y->second[k]);
+      std::vector<Vec2>& points = chart.lines.back().points;
+      points.push_back(at);
+      if (measured) points.push_back(at);  // a line of no length, which its round ends make a dot
+    }
+  }
+}
+
 // Load over one monitor; without monitors over the arc length.
-Chart chart(const Record& record, const std::string& up, std::optional<std::size_t> monitor) {
+Chart chart(const Record& record, const ReportContent& content, std::optional<std::size_t> monitor) {
   const auto across = [&](const RecordPoint& point) { return monitor ? point.monitors[*monitor] : point.arc; };
   const std::string axis = monitor ? shown_title(record.columns[*monitor]) : "arc length";
-  Chart result{.name = "Load factor over " + axis, .across = axis, .up = up};
+  Chart result{.name = "Load factor over " + axis, .across = axis, .up = load_title(content)};
   for (const PathLine& line : path_lines(record)) {
     ChartLine& added = result.lines.emplace_back();
     added.colour = branch_colour(line.branch);
@@ -107,6 +155,7 @@ Chart chart(const Record& record, const std::string& up, std::optional<std::size
     for (std::size_t i = line.first; i <= line.last; ++i)
       added.points.emplace_back(across(record.points[i]), record.points[i].lambda);
   }
+  if (monitor) add_overlays(content, record.columns[*monitor].name, result);
   const std::vector<std::size_t> first = first_points(record);
   const std::vector<double> zero = roundoff(record);
   for (const RecordEvent& event : record.events) {
@@ -119,12 +168,12 @@ Chart chart(const Record& record, const std::string& up, std::optional<std::size
   return result;
 }
 
-std::string charts(const Record& record, const std::string& up) {
+std::string charts(const Record& record, const ReportContent& content) {
   if (record.columns.empty())
-    return "<figure class=\"load\">" + svg_chart(chart(record, up, std::nullopt)) + "</figure>";
+    return "<figure class=\"load\">" + svg_chart(chart(record, content, std::nullopt)) + "</figure>";
   std::string text;
   for (std::size_t i = 0; i < record.columns.size(); ++i)
-    text += "<figure class=\"load\">" + svg_chart(chart(record, up, i)) + "</figure>";
+    text += "<figure class=\"load\">" + svg_chart(chart(record, content, i)) + "</figure>";
   return text;
 }
 
@@ -136,7 +185,7 @@ std::string monitor_choices(const Record& record) {
   return text;
 }
 
-std::string legend(const Record& record) {
+std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
   std::string text = "<ul class=\"legend\">";
   std::set<Stability> met;
   for (const PathLine& line : path_lines(record)) met.insert(line.stability);
@@ -149,6 +198,9 @@ std::string legend(const Record& record) {
   for (const Stability stability : met)
     text += fmt::format("<li>{}{}</li>", svg_line(record.branches.size() > 1 ? "#555" : branch_colour(0), stability),
                         to_text(stability));
+  for (std::size_t i = 0; i < overlays.size(); ++i)
+    text += fmt::format("<li>{}{}{}</li>", svg_line(overlay_colour(i), Stability::stable),
+                        overlays[i].measured ? "measured: " : "", escaped(shown_name(overlays[i].name)));
   text += "</ul><ul class=\"legend\">";
   std::set<EventKind> kinds;
   for (const RecordEvent& event : record.events) kinds.insert(event.kind);
@@ -194,7 +246,7 @@ std::string stage(const ShapePictures& shapes) {
   if (shapes.pictures.empty()) return "";
   return fmt::format(
       "<svg id=\"stage\" class=\"shape\" viewBox=\"{}\" role=\"img\" aria-label=\"Deformed shape\">{}<g>{}</g>"
-      "<g id=\"shown\">{}</g></svg>",
+      "<g id=\"drawn-forces\"></g><g id=\"shown\">{}</g></svg>",
       view_box(shapes), walls(shapes), first_members(shapes), shape_paths(shapes, shapes.pictures.front()));
 }
 
@@ -264,12 +316,14 @@ std::string event_rows(const Record& record) {
   std::string text;
   for (const RecordEvent& event : record.events) {
     text += fmt::format("<tr data-point=\"{}\">", point_of(event, first)) + figure_cell(std::to_string(event.id));
-    text += figure_cell(std::to_string(event.branch)) + figure_cell(std::to_string(event.step));
+    for (const Index beside : {event.branch, event.step})
+      text += fmt::format("<td class=\"beside figure\">{}</td>", beside);
     text += figure_cell(shown_lambda(event, 10));
     text += fmt::format("<td class=\"kind\">{}{}</td>", svg_mark(event.kind), words(event.kind));
     text += "<td class=\"what\">" + escaped(plain(event_detail(event), 400)) + "</td>";
     for (std::size_t i = 0; i < zero.size(); ++i)
-      text += figure_cell(shown_number(without_roundoff(event.monitors[i], zero[i]), 6));
+      text += fmt::format("<td class=\"beside figure\">{}</td>",
+                          shown_number(without_roundoff(event.monitors[i], zero[i]), 6));
     text += cell(unstable_change(event)) + "</tr>\n";
   }
   return text;
@@ -277,11 +331,11 @@ std::string event_rows(const Record& record) {
 
 std::string event_titles(const Record& record) {
   std::string text = "<tr>";
-  for (const char* number : {"id", "branch", "step", "λ"}) text += fmt::format("<th class=\"figure\">{}</th>", number);
-  text += "<th>kind</th><th>what</th>";
+  text += "<th class=\"figure\">id</th><th class=\"beside figure\">branch</th><th class=\"beside figure\">step</th>";
+  text += "<th class=\"figure\">λ</th><th>kind</th><th>what</th>";
   for (const RecordColumn& column : record.columns)
-    text += fmt::format("<th class=\"figure\">{}</th>", escaped(shown_title(column)));
-  return text + "<th>unstable</th></tr>";
+    text += fmt::format("<th class=\"beside figure\">{}</th>", escaped(shown_title(column)));
+  return text + "<th title=\"unstable directions; ? where they cannot be counted\">unstable</th></tr>";
 }
 
 std::string event_note(const Record& record) {
@@ -342,6 +396,7 @@ std::string facts(const ReportContent& content) {
 
 ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn) {
   ReportContent content{.description = model.deck().description,
+                        .warning = warning_of_start(model, record),
                         .loads = driven_by_lambda(model.whole_deck()),
                         .deck_text = deck::to_toml(model.whole_deck()),
                         .shapes = draw(drawn, setting_of(model))};
@@ -360,13 +415,6 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
 
 namespace {
 
-// With what λ multiplies, where that is one thing: then the axis has a unit.
-std::string load_title(const std::vector<LoadText>& loads) {
-  if (loads.size() != 1) return "load factor λ";
-  const LoadText& one = loads.front();
-  return shown_name(one.name) + " λ" + (one.size.empty() ? "" : ", times " + shown_name(one.size));
-}
-
 std::string load_note(const ReportContent& content) {
   constexpr std::size_t most = 4;
   std::string text;
@@ -378,7 +426,8 @@ std::string load_note(const ReportContent& content) {
 
 nlohmann::ordered_json data_of(const Record& record, const ReportContent& content) {
   nlohmann::ordered_json data = report_data(record, content.shapes);
-  data["load_title"] = load_title(content.loads);
+  data["load_title"] = load_title(content);
+  data["overlays"] = overlays_json(content.overlays);
   return data;
 }
 
@@ -393,10 +442,11 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
               {"source", escaped(fmt::format("{}, trace-path {}", plain(record.deck, 200), program_version()))},
               {"description", description(content)},
               {"outcome", escaped(outcome(record))},
+              {"early", early_ends(record, content.warning)},
               {"monitors", monitor_choices(record)},
-              {"charts", charts(record, load_title(content.loads))},
+              {"charts", charts(record, content)},
               {"load_note", load_note(content)},
-              {"legend", legend(record)},
+              {"legend", legend(record, content.overlays)},
               {"stage", stage(content.shapes)},
               {"stretch_note", stretch_note(content.shapes)},
               {"shape_notes", shape_notes(record, content.shapes)},
@@ -433,8 +483,9 @@ std::string curve_html(const Record& record, const std::vector<LoadText>& loads,
       "18px;font-size:13px}"
       ".arcwall .legend li{display:flex;align-items:center;gap:6px}.arcwall .key{width:16px;height:16px}"
       ".arcwall .key.wide{width:40px}</style>";
-  return fmt::format("<div class=\"arcwall\">{}{}{}</div>", style, svg_chart(chart(record, load_title(loads), monitor)),
-                     legend(record));
+  const ReportContent content{.loads = loads};
+  return fmt::format("<div class=\"arcwall\">{}{}{}</div>", style, svg_chart(chart(record, content, monitor)),
+                     legend(record, content.overlays));
 }
 
 }  // namespace arcwall

@@ -9,6 +9,7 @@
 
 #include "apps/output/files.hpp"
 #include "apps/output/load_text.hpp"
+#include "apps/output/overlay.hpp"
 #include "apps/output/shape_pictures.hpp"
 #include "model/model.hpp"
 #include "model/record.hpp"
@@ -18,10 +19,12 @@ namespace arcwall {
 /// What stands on the page beside the record.
 struct ReportContent {
   std::string description{};                                 ///< the deck's
+  std::string warning{};                                     ///< of the start; may be empty
   std::vector<LoadText> loads{};                             ///< those that λ multiplies
   std::string deck_text{};                                   ///< with every default written out
   std::vector<std::pair<std::string, std::string>> facts{};  ///< name and value: counts, versions
   ShapePictures shapes{};
+  std::vector<Overlay> overlays{};
 };
 
 ReportContent report_content(const Model& model, const Record& record, const DrawnScenes& drawn);

@@ -5,6 +5,7 @@
 
 #include "apps/output/events_json.hpp"
 #include "apps/output/library_versions.hpp"
+#include "apps/output/run_warnings.hpp"
 #include "model/version.hpp"
 
 namespace arcwall {
@@ -57,6 +58,7 @@ OrderedJson result_json(const Model& model, std::string_view deck_text, const Re
   json["counts"] = counts(record);
   json["seconds"] = {{"total", seconds.total}, {"tracing", seconds.tracing}};
   json["status"] = status;
+  json["warnings"] = run_warnings(model, record);
   json["branches"] = std::move(branches);
   return json;
 }

@@ -276,6 +276,27 @@ std::vector<Vec2> wall_band_of(const Frame& frame, const WallShape& wall) {
 }
 
 // The paths in the order of classes_of().
+// At most so many samples of each member, of equal parts; where a force jumps both sides of the jump are kept.
+std::vector<std::vector<ForceSample>> sampled_forces(const Shape& shape, std::size_t most) {
+  std::vector<std::vector<ForceSample>> forces;
+  for (const MemberShape& member : shape.members) {
+    std::vector<ForceSample>& samples = forces.emplace_back();
+    const auto& points = member.points;
+    const std::size_t every = std::max<std::size_t>((points.size() + most - 1) / most, 1);
+    const auto same_place = [&](std::size_t i, std::size_t j) { return points[i].fraction == points[j].fraction; };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool jumps = (i > 0 && same_place(i, i - 1)) || (i + 1 < points.size() && same_place(i, i + 1));
+      if (i % every != 0 && i + 1 != points.size() && !jumps) continue;
+      samples.push_back({.at = i,
+                         .fraction = points[i].fraction,
+                         .axial_force = points[i].axial_force,
+                         .shear_force = points[i].shear_force,
+                         .moment = points[i].moment});
+    }
+  }
+  return forces;
+}
+
 ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
   std::string moving, springs, supports, loads, forces, touches;
   for (const WallShape& wall : scene.walls) moving += path_data(wall_band_of(frame, wall));
@@ -432,6 +453,23 @@ std::vector<double> section_heights(const deck::Deck& deck) {
   return heights;
 }
 
+std::vector<DrawnMember> drawn_members(const deck::Deck& deck) {
+  std::vector<DrawnMember> members;
+  for (const deck::Member& member : deck.members) {
+    DrawnMember& drawn = members.emplace_back(DrawnMember{.name = member.name});
+    const deck::Section* section = find(deck.sections, member.section);
+    const deck::Material* material = find(deck.materials, member.material);
+    if (section == nullptr || material == nullptr) continue;
+    const deck::SectionProperties of = properties(*section);
+    drawn.A = of.A;
+    if (member.theory == Theory::truss) continue;
+    drawn.I = of.I;
+    drawn.EI = material->E * of.I;
+    drawn.half_height = 0.5 * of.height.value_or(0.0);
+  }
+  return members;
+}
+
 }  // namespace
 
 std::vector<std::size_t> points_to_draw(const Record& record, std::size_t most) {
@@ -500,7 +538,7 @@ DrawnScenes scenes_to_draw(const Model& model, const Record& record) {
 Setting setting_of(const Model& model) {
   std::vector<WallShape> walls = wall_shapes(model);
   std::erase_if(walls, [](const WallShape& wall) { return wall.moves; });
-  return {.walls = std::move(walls), .heights = section_heights(model.deck())};
+  return {.walls = std::move(walls), .heights = section_heights(model.deck()), .members = drawn_members(model.deck())};
 }
 
 ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
@@ -517,8 +555,15 @@ ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
   result.thickness.resize(result.classes.size(), 0.0);
   for (std::size_t m = 0; m < setting.heights.size(); ++m) result.thickness[m] = frame.thickness(setting.heights[m]);
   for (const WallShape& wall : setting.walls) draw_wall(frame, wall, result);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    result.pictures.push_back(picture_of(frame, greatest, points[i], scenes[i]));
+  constexpr std::size_t finest = 41, coarsest = 9, most_samples = 80'000;  // about 3 MB
+  const std::size_t lines = std::max<std::size_t>(scenes.size() * scenes.front().shape.members.size(), 1);
+  const std::size_t samples = std::min(finest, most_samples / lines);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ShapePicture& added = result.pictures.emplace_back(picture_of(frame, greatest, points[i], scenes[i]));
+    if (samples >= coarsest) added.forces = sampled_forces(scenes[i].shape, samples);
+  }
+  result.members = setting.members;
+  for (const WallShape& wall : setting.walls) result.walls.push_back(wall.name);
   return result;
 }
 

@@ -53,19 +53,35 @@ struct DrawnScenes {
 /// All points of a run, or fewer where all would need more than some megabytes.
 DrawnScenes scenes_to_draw(const Model& model, const Record& record);
 
+/// What stresses and curvatures follow from.
+struct DrawnMember {
+  std::string name{};
+  double A = 0.0, I = 0.0, EI = 0.0;  ///< EI and I of bars are 0
+  double half_height = 0.0;           ///< 0 if unknown [length]
+};
+
 /// What is the same in all scenes.
 struct Setting {
   std::vector<WallShape> walls{};  ///< those that stand still
   std::vector<double> heights{};   ///< of the members' sections; 0 if unknown [length]
+  std::vector<DrawnMember> members{};
 };
 
 Setting setting_of(const Model& model);
 
+/// What a member carries at some of the points of its path.
+struct ForceSample {
+  std::size_t at = 0;     ///< which point of the path
+  double fraction = 0.0;  ///< of the member's length
+  double axial_force = 0.0, shear_force = 0.0, moment = 0.0;
+};
+
 /// A scene as the data of SVG paths.
 struct ShapePicture {
-  std::size_t point = 0;                ///< of the record
-  std::vector<std::string> paths{};     ///< as many as the pictures have classes
-  std::vector<ContactMark> contacts{};  ///< closed
+  std::size_t point = 0;                           ///< of the record
+  std::vector<std::string> paths{};                ///< as many as the pictures have classes
+  std::vector<ContactMark> contacts{};             ///< closed
+  std::vector<std::vector<ForceSample>> forces{};  ///< of each member; empty where they would be too much for a page
 };
 
 /// All pictures of a record, to one scale. Lengths are in parts of 10⁻⁵ of the longer side, y points down.
@@ -79,6 +95,8 @@ struct ShapePictures {
   std::vector<std::string> classes{};   ///< of a picture's paths: `member` for each, `moving`, `springs`, `supports`,
                                         ///< `loads`, `forces`, `touches`
   std::vector<ShapePicture> pictures{};
+  std::vector<DrawnMember> members{};
+  std::vector<std::string> walls{};  ///< names, of those whose surfaces are there
 };
 
 /// Points of a record that get a picture: all if they are at most `most`, else every n-th of a branch with its ends,

@@ -41,9 +41,10 @@ Continuum continuum_of(const SlidingState& at, Index lines) {
 
 Transition end_before(const Continuum& common) {
   return {.change = Transition::Change::continuum,
-          .detail = counted(common.parts, "contact") +
-                    " become lines together: only the sum of their lengths is determined, " +
-                    round_trip(common.length) + " here; all such equilibria have the energy " +
+          .detail = "at this load " + counted(common.parts, "contact") +
+                    " would grow from points into lines at the same time. Equilibrium determines only the sum of their "
+                    "lengths, " +
+                    round_trip(common.length) + " here, not each of them; all these equilibria have the same energy, " +
                     round_trip(common.energy),
           .continuum = common};
 }

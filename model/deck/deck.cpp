@@ -124,7 +124,8 @@ PointsOfContact points_of_contact(const Deck& deck) {
   for (const Member& member : deck.members)
     if (member.theory != Theory::classic && member.theory != Theory::elastica)
       return {.points = ContactPoints::nodes,
-              .why = "member " + member.name + " is of theory " + text_of(theory_words, member.theory)};
+              .why = "contact slides along members of theory classic or elastica, and member " + member.name +
+                     " is of theory " + text_of(theory_words, member.theory)};
   for (const Wall& a : deck.walls)
     for (const Wall& b : deck.walls)
       if (line_without_clearance(deck, a, b) && have_a_member_in_common(a, b))

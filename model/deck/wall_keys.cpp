@@ -98,9 +98,10 @@ void wall_keys(Keys& keys, Wall& wall, const Deck& deck) {
     keys.word("side", wall.side, side_words,
               "of a profile. `\"above\"`: the structure stays below it; `\"below\"`: the structure stays above it");
   keys.word(optional("acts_on"), wall.acts_on, acts_on_words,
-            "`\"face\"`: of the two faces of the section that which, stress-free, looks at the profile (both where the "
-            "section stands upright); of an outline what is half the section's height off the axis towards it; "
-            "`\"axis\"`: the centreline. Trusses have no faces that turn");
+            "What of a member touches the wall. `\"face\"`: the face of its section that looks at the profile in the "
+            "stress-free shape, or both faces where the section stands upright; beside an outline the points that are "
+            "half the section's height off the axis, towards the outline. `\"axis\"`: the centreline, which is what "
+            "trusses need, whose faces do not turn");
   keys.names(optional("members", "all"), wall.members, Named::member, EmptyList::refused, "names");
   if (keys.applies(!has_outline, "profile", "does not go with an outline", "keep one of them"))
     keys.table(

@@ -156,6 +156,151 @@ for (const [kind, file_of] of [['as it is', () => channel], ['without plotly', w
   });
 }
 
+test('any column over any other', async () => {
+  const { page, finish } = await open(channel);
+  if (await has_plotly(page)) {
+    await page.locator('#up').selectOption({ label: 'shortening [cm]' });
+    await page.locator('#monitor').selectOption({ label: 'closed contacts' });
+    assert.equal(await page.textContent('#plot .xtitle'), 'closed contacts');
+    assert.equal(await page.textContent('#plot .ytitle'), 'shortening [cm]');
+    await page.locator('#up').selectOption({ index: 0 });
+    assert.match(await page.textContent('#plot .ytitle'), /λ/);
+  }
+  await finish();
+});
+
+test('section forces along a member and on the shape', async () => {
+  const { page, finish } = await open(channel, {}, '#point=20');
+  const curve = () => page.$eval('#diagram .line', (path) => path.getAttribute('d'));
+  const of_moment = await curve();
+  assert.match(await page.textContent('#diagram-note'), /greatest .* kN·cm at .*least/);
+  await page.locator('#slider').fill('30');
+  assert.notEqual(await curve(), of_moment, 'they go with the point');
+  for (const force of ['axial force', 'shear force', 'curvature', 'left face', 'right face']) {
+    const label = await page.$$eval('#force option', (options, part) => options.map((one) => one.textContent).find((text) => text.includes(part)), force);
+    await page.locator('#force').selectOption({ label });
+    assert.ok((await curve()).length > 100, force);
+  }
+  assert.equal(await page.locator('#drawn-forces path').count(), 0);
+  await page.locator('#on-shape').check();
+  assert.equal(await page.locator('#drawn-forces path').count(), 1);
+  await finish();
+});
+
+test('the shape comes nearer, moves, and is saved with the curve and the points', async () => {
+  const { page, finish } = await open(channel);
+  const box = () => page.$eval('#stage', (stage) => stage.getAttribute('viewBox').split(' ').map(Number));
+  const whole = await box();
+  await page.click('#nearer');
+  const near = await box();
+  assert.ok(near[2] < whole[2]);
+  const { x, y, width, height } = await page.locator('#stage').boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + width / 2 + 40, y + height / 2);
+  await page.mouse.up();
+  assert.ok((await box())[0] < near[0], 'dragged to the right');
+  await page.click('#whole');
+  assert.deepEqual(await box(), whole);
+  const names = await page.$$eval('#stage title', (titles) => titles.map((title) => title.textContent));
+  assert.ok(names.includes('member column') && names.includes('wall upper'), names.join());
+  const saved = async (button) => {
+    const download = page.waitForEvent('download');
+    await page.click(button);
+    const file = await download;
+    return [file.suggestedFilename(), readFileSync(await file.path())];
+  };
+  const [svg_name, picture] = await saved('#shape-svg');
+  assert.equal(svg_name, 'shape.svg');
+  assert.match(picture.toString(), /^<svg[^]*<path[^]*stroke="rgb\(0, 114, 178\)"/);
+  const [png_name, pixels] = await saved('#shape-png');
+  assert.equal(png_name, 'shape.png');
+  assert.equal(pixels.subarray(1, 4).toString(), 'PNG');
+  const [csv_name, table] = await saved('#table-csv');
+  assert.equal(csv_name, 'points.csv');
+  const lines = table.toString().trim().split('\n');
+  assert.match(lines[0], /^branch,step,lambda,mid \[cm\],/);
+  assert.equal(lines.length - 1, await page.evaluate(() => JSON.parse(document.getElementById('data').textContent).points.lambda.length));
+  if (await has_plotly(page)) assert.equal((await saved('#curve-svg'))[0], 'curve.svg');
+  await finish();
+});
+
+// A tail of a thousand times the way to the last event: without care that would be a line at the left edge.
+test('the view opens on the events, and a double click shows all', async () => {
+  const text = readFileSync(channel, 'utf8');
+  const begin = text.indexOf('id="data">') + 'id="data">'.length, end = text.indexOf('</script>', begin);
+  const data = JSON.parse(text.slice(begin, end)), last = data.points.lambda.length - 1;
+  data.points.lambda[last] *= 1000;
+  data.points.monitors[0][last] *= 1000;
+  const file = join(folder, 'tail.html');
+  writeFileSync(file, text.slice(0, begin) + JSON.stringify(data).replaceAll('<', '\\u003c') + text.slice(end));
+  const { page, finish } = await open(file);
+  if (await has_plotly(page)) {
+    const high = () => page.evaluate(() => document.getElementById('plot')._fullLayout.yaxis.range[1]);
+    const opened = await high();
+    assert.ok(opened < 0.01 * data.points.lambda[last], `${opened}`);
+    assert.match(await page.textContent('#plot-note'), /goes on beyond this view/);
+    await page.locator('#plot .nsewdrag').dblclick();
+    await page.waitForFunction((least) => document.getElementById('plot')._fullLayout.yaxis.range[1] > least, 0.9 * data.points.lambda[last]);
+  }
+  await finish();
+});
+
+test('marks of many contacts thin out, and come back where the curve is enlarged', async () => {
+  const text = readFileSync(channel, 'utf8');
+  const begin = text.indexOf('id="data">') + 'id="data">'.length, end = text.indexOf('</script>', begin);
+  const data = JSON.parse(text.slice(begin, end)), contact = data.events.find(({ kind }) => kind === 'contact-closes');
+  for (let i = 0; i < 400; ++i) data.events.push({ ...contact, point: 5 + i % 30 });
+  const file = join(folder, 'many.html');
+  writeFileSync(file, text.slice(0, begin) + JSON.stringify(data).replaceAll('<', '\\u003c') + text.slice(end));
+  const { page, finish } = await open(file);
+  if (await has_plotly(page)) {
+    const marks = () => page.evaluate(() => { const { data } = document.getElementById('plot'); return data[data.length - 2].x.length; });
+    assert.ok(await marks() < 50, `${await marks()}`);
+    assert.match(await page.textContent('#plot-note'), /\d+ of 407 events are marked/);
+  }
+  await finish();
+});
+
+test('several runs and measured points in one page', async () => {
+  const coarse = report_of(join(examples, 'channel.toml'), 'coarse', ['--set', 'member.column.elements=10']);
+  const measured = join(folder, 'test.csv'), both = join(folder, 'both.html');
+  writeFileSync(measured, 'mid [cm],lambda\n0.01,0.5\n0.02,0.6\n');
+  execFileSync(trace_path, ['report', join(folder, 'channel'), join(coarse, '..'), '--measured', measured, '--out', both], { stdio: 'ignore' });
+  const { page, finish } = await open(both);
+  assert.match(await page.textContent('.legend'), /coarse.*measured: test\.csv/s);
+  if (await has_plotly(page)) {
+    const modes = await page.evaluate(() => document.getElementById('plot').data.slice(-4, -2).map(({ mode, x }) => [mode, x.length]));
+    assert.equal(modes[0][0], 'lines');
+    assert.deepEqual(modes[1], ['markers', 2]);
+  }
+  await finish();
+});
+
+for (const [name, viewport] of [['desktop', desktop], ['phone', { width: 390, height: 800 }]])
+  test(`dark colours on a ${name}: what is written can be read`, async () => {
+    const { page, finish } = await open(channel, { viewport, colorScheme: 'dark' });
+    const light = (colour) => colour.match(/\d+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0) / 765;
+    const colours = await page.evaluate(() => ['body', 'section', 'h1', '#events td', 'button', 'select'].map((name) => {
+      const style = getComputedStyle(document.querySelector(name));
+      return [name, style.color, style.backgroundColor];
+    }));
+    for (const [name, ink] of colours) assert.ok(light(ink) > 0.6, `${name} ${ink}`);
+    for (const [name, , ground] of colours.slice(0, 2)) assert.ok(light(ground) < 0.2, `${name} ${ground}`);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= viewport.width);
+    await finish();
+  });
+
+test('a phone shows the kind and the place of each event without a sideways scroll', async () => {
+  const { page, finish } = await open(channel, { viewport: { width: 390, height: 800 }, isMobile: true, hasTouch: true });
+  const row = page.locator('#events tbody tr').nth(1);
+  for (const cell of ['.kind', '.what']) {
+    const box = await row.locator(cell).boundingBox();
+    assert.ok(box.x >= 0 && box.x + box.width <= 390, cell);
+  }
+  await finish();
+});
+
 // Looks at once: how long a picture takes depends on what else the machine does.
 const press_play = (page) => page.evaluate(async () => {
   const play = document.getElementById('play');

@@ -19,8 +19,8 @@ TEST(EventsText, IsATableForPeople) {
 
 id  step     λ  kind                 what                                                                        mid [cm]  turn [rad]  unstable
  0     0     0  start                                                                                                   0           0  0
- 1     1   0.1  contact-closes       upper at column:0.25, upper at column:0.5, upper at column:0.75 and 1 more  0.333333      1e-300  0 → ?
- 2     1   0.1  contact-limit-point                                                                              0.333333      1e-300  0 → 1
+ 1     1   0.1  contact-closes       upper at column:0.25, upper at column:0.5, upper at column:0.75 and 1 more  0.333333           0  0 → ?
+ 2     1   0.1  contact-limit-point                                                                              0.333333           0  0 → 1
  3     2  0.05  end                  stop                                                                             0.2         inf  1
 
 branch 0: 3 points, ended: mid = 0.2 (stop)

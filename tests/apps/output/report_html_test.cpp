@@ -140,6 +140,92 @@ TEST(ReportHtml, NothingButAnEndIsAPageToo) {
   EXPECT_NE(page.find("the equations are singular (singular)"), std::string::npos);
 }
 
+TEST(ReportHtml, EveryBranchThatEndedEarlySaysSoAtTheTop) {
+  Record record = sample_record();
+  EXPECT_EQ(own_part(page_of(record, {})).find("class=\"early\""), std::string::npos);
+  record.branches.push_back({.id = 1, .end = BranchEnd{EndReason::min_step, "no step above 1e-8 succeeds"}});
+  record.branches.push_back({.id = 2, .end = BranchEnd{EndReason::max_points, "2000 points"}});
+  const std::string page = own_part(page_of(record, {}));
+  const std::string top = page.substr(0, page.find("<main>"));
+  EXPECT_EQ(count(top, "class=\"early\""), 2u);
+  EXPECT_EQ(count(top, "<b>Branch 1 ended early</b>: no step above 1e-8 succeeds (min_step). To go on: "), 1u) << top;
+  EXPECT_EQ(count(top, "<b>Branch 2 ended early</b>"), 1u);
+  for (Index id = 3; id < 20; ++id) record.branches.push_back({.id = id, .end = BranchEnd{EndReason::min_step, ""}});
+  EXPECT_EQ(count(own_part(page_of(record, {})), "11 further branches ended early"), 1u);
+}
+
+// Loads, energies and forces of contact, too: far below their greatest is what round-off leaves of zero.
+TEST(ReportData, RoundoffOfLoadsAndEnergiesIsShownAsZero) {
+  Record record = sample_record();
+  record.points[0].lambda = 1e-16;
+  record.points[0].energy = -1e-14;
+  const Json points = report_data(record, {})["points"];
+  EXPECT_EQ(points["lambda"].dump(), "[0.0,0.1,0.05]");
+  EXPECT_EQ(points["energy"].dump(), "[0.0,-2.5,-3.0]");
+  EXPECT_EQ(points["contacts"].dump(), "[0,3,3]");
+}
+
+TEST(ReportHtml, OtherRunsAndMeasuredPointsAreDrawnOverTheSameMonitors) {
+  const Record record = sample_record();
+  Overlay other = overlay_of(record, "fine <1>");
+  const Overlay measured{
+      .name = "test.csv", .measured = true, .values = {{"lambda", {0.02, 0.04}}, {"mid", {0.1, 0.2}}}, .firsts = {0}};
+  const std::string page = own_part(page_of(record, {.overlays = {other, measured}}));
+  EXPECT_EQ(count(page, "fine &lt;1&gt;</li>"), 1u);
+  EXPECT_EQ(count(page, "measured: test.csv</li>"), 1u);
+  const Json data = data_of(page)["overlays"];
+  ASSERT_EQ(data.size(), 2u);
+  EXPECT_EQ(data[0]["values"]["mid"].dump(), "[0.0,0.3333333333,0.2]");
+  EXPECT_EQ(data[1]["values"]["lambda"].dump(), "[0.02,0.04]");
+  const std::size_t first_chart = page.find("<svg class=\"chart\""),
+                    second_chart = page.find("<svg class=\"chart\"", first_chart + 1);
+  const std::string of_mid = page.substr(first_chart, second_chart - first_chart);
+  EXPECT_EQ(count(of_mid, overlay_colour(0)), 1u);
+  EXPECT_EQ(count(of_mid, overlay_colour(1)), 2u) << "a mark a point";
+}
+
+// M and Q of a cantilever under a force F at its tip, in the limit of small loads: M = F (L − s), Q = −dM/ds = F, of
+// one sign along the member; at the face σ = M h/2I.
+TEST(ReportData, SectionForcesOfACantileverAreThoseOfStatics) {
+  const test::TracedDeck run(R"(
+title = "A cantilever"
+units = { length = "cm", force = "kN" }
+material.steel = { E = 2.1e4 }
+section.square = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { wall = [0.0, 0.0], tip = [2.0, 0.0] }
+support = { wall = ["x", "z", "rotation"] }
+[member.beam]
+from = "wall"
+to = "tip"
+theory = "elastica"
+material = "steel"
+section = "square"
+elements = 8
+[[load]]
+at = "tip"
+force = [0.0, 1.0]
+[path]
+step = 1e-6
+stop = { lambda = [-1.0, 1e-6] }
+)");
+  const Record& record = run.record();
+  const ReportContent content = report_content(run.model(), record, scenes_to_draw(run.model(), record));
+  const Json data = report_data(record, content.shapes);
+  const double F = record.points.back().lambda;
+  ASSERT_GT(F, 0.0);
+  const Json& samples = data["shapes"].back()["forces"][0];
+  ASSERT_GE(samples.size(), 30u);
+  for (const Json& sample : samples) {
+    const double s = 2.0 * sample[1].get<double>();
+    EXPECT_NEAR(sample[2].get<double>(), 0.0, 1e-4 * F);
+    EXPECT_NEAR(sample[3].get<double>(), F, 1e-4 * F);
+    EXPECT_NEAR(sample[4].get<double>(), F * (2.0 - s), 1e-4 * F);
+  }
+  EXPECT_EQ(data["members"][0]["name"], "beam");
+  EXPECT_NEAR(data["members"][0]["EI"].get<double>(), 2.1e4 * 1e-4 / 12.0, 1e-12);
+  EXPECT_EQ(data["members"][0]["half"], 0.05);
+}
+
 // A column that buckles: the tree has its branches, and every point has a shape.
 TEST(ReportHtml, ARunHasShapesAndBranches) {
   const test::TracedDeck run(R"(

@@ -1,0 +1,64 @@
+#include "apps/output/run_warnings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "apps/output/result_json.hpp"
+#include "tests/apps/cli/program_fixture.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall::run_warnings_test {
+namespace {
+
+// A pinned column under a constant thrust along its axis, and a growing force across it. Euler's load is
+// π² EI/L² = π² · 2.1e4 · 0.1⁴/12 / 2² = 0.43181 kN.
+std::string column(double thrust) {
+  return R"(
+title = "A column"
+units = { length = "cm", force = "kN" }
+material.steel = { E = 2.1e4 }
+section.square = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { left = [0.0, 0.0], right = [2.0, 0.0] }
+support = { left = ["x", "z"], right = ["z"] }
+[member.column]
+from = "left"
+to = "right"
+theory = "classic"
+material = "steel"
+section = "square"
+elements = 8
+[[load]]
+at = "right"
+force = [-)" +
+         std::to_string(thrust) + R"(, 0.0]
+constant = true
+[[load]]
+at = "column:0.5"
+force = [0.0, -0.001]
+[path]
+step = 0.01
+stop = { lambda = [-1.0, 0.02] }
+)";
+}
+
+TEST(RunWarnings, AnUnstableStartUnderConstantLoadsIsTold) {
+  const test::TracedDeck below(column(0.4)), above(column(0.5)), far_above(column(2.0));  // 4 · 0.43 = 1.73
+  EXPECT_EQ(warning_of_start(below.model(), below.record()), "");
+  EXPECT_NE(warning_of_start(above.model(), above.record()).find("a state with 1 unstable direction:"),
+            std::string::npos);
+  EXPECT_NE(warning_of_start(far_above.model(), far_above.record()).find("2 unstable directions:"), std::string::npos);
+  const auto result = result_json(above.model(), "", above.record(), {}, 0);
+  EXPECT_EQ(result["warnings"].back(), warning_of_start(above.model(), above.record()));
+}
+
+class RunWarningsTest : public ProgramTest {};
+
+TEST_F(RunWarningsTest, RunPrintsItOnce) {
+  put(work() / "column.toml", column(0.5));
+  const Outcome outcome = run("run column.toml --quiet");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  expect_in("warning: the constant loads and movements lead to a state with 1 unstable direction:", outcome.err);
+  EXPECT_EQ(outcome.err.find("warning:", outcome.err.find("warning:") + 1), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace arcwall::run_warnings_test
