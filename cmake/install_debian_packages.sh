@@ -4,7 +4,8 @@
 #   bash cmake/install_debian_packages.sh build [test] [python] [sanitize] [report] [format] [benchmark] [peers]
 #
 # report: a browser for the tests of report.html, and Node.js with npm if these commands are missing; npm also fetches
-# plotly.js for the page. python: what the Python module is built with, used with and tested by. peers: other programs that benchmarks/run.sh can measure beside this one.
+# plotly.js for the page. python: what the Python module is built with, used with and tested by. peers: other programs that
+# benchmarks/run.sh can measure beside this one.
 # Needs root or sudo only if something is missing. Works without HOME, USER and TERM.
 set -euo pipefail
 

@@ -89,7 +89,7 @@ void Recorder::add(const Arc& arc) {
                             .monitors = values(model_, to.state),
                             .count = to.count,
                             .unstable_dead = model_ == nullptr ? std::nullopt : model_->unstable_under_dead_load(to),
-                            .contacts = to.state.piece.closed_count(),
+                            .contacts = model_ == nullptr ? 0 : model_->closed_contacts(to.state),
                             .energy = system_.energy(to.state),
                             .iterations = to.iterations,
                             .residual = to.residual,

@@ -21,7 +21,10 @@ fi
 
 bash cmake/install_debian_packages.sh "${groups[@]}"
 if [[ -f build/$preset/CMakeCache.txt ]]; then
-  cmake --log-level=WARNING "build/$preset"
+  # One that is older than the Python module was told nothing of it.
+  python=()
+  if [[ $preset == tests ]] && ! grep -q '^ARCWALL_PYTHON:' build/tests/CMakeCache.txt; then python=(-DARCWALL_PYTHON=ON); fi
+  cmake --log-level=WARNING "${python[@]}" "build/$preset"
 else
   cmake --preset "$preset" --log-level=WARNING
 fi

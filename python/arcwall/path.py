@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
+    from .studies import Convergence
+
 __all__ = ["ContactMark", "MemberShape", "Path", "Shape", "State", "Tracing", "WallShape", "load"]
 
 _MOST = 2**62  # points
@@ -165,6 +167,10 @@ class Path(Curve):
             walls={name: WallShape(line[:, 0].copy(), line[:, 1].copy(), side) for name, (line, side) in walls.items()},
             lam=float(self["lambda"][index]),
         )
+
+    def converge(self, *, levels: int = 3, factor: int = 2) -> Convergence:
+        """How sure the events are: the deck on several meshes, as ``deck.converge()``."""
+        return self.deck.converge(levels=levels, factor=factor)
 
     def report(self) -> str:
         """``report.html`` as a text: one page that needs no other file and no network."""

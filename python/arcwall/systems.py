@@ -145,7 +145,13 @@ def trace(
     metric = np.full(x.size, 1.0 / x.size) if weights is None else np.asarray(weights, dtype=float)
     if metric.shape != x.shape or not (metric >= 0.0).all() or not metric.any():
         raise ValueError(f"weights have shape {metric.shape}; {x.shape} is wanted, not negative and not all zero")
-    path = SystemPath(_engine.SystemRun(system, x, float(lam0), metric, wishes), monitors or {})
+    run = _engine.SystemRun(system, x, float(lam0), metric, wishes)
+    for name, function in (monitors or {}).items():
+        if name in run.column_names() or not isinstance(name, str):
+            raise ValueError(f"{name!r} is the name of another column, or none; choose another for this monitor")
+        if not callable(function):
+            raise TypeError(f"monitor {name!r} is no function of (x, lam)")
+    path = SystemPath(run, monitors or {})
     return path.resume(max_seconds=max_seconds)
 
 

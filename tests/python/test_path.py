@@ -177,6 +177,19 @@ def test_sensitivities_are_slopes_of_decks_that_are_run_again(truss):
     assert slope == pytest.approx((at[-2] - 8 * at[-1] + 8 * at[1] - at[2]) / (12e-3 * E), rel=1e-8)
 
 
+def test_meshes_are_compared(channel, program, tmp_path):
+    deck = channel.copy({"member.column.elements": 20})
+    study = deck.trace(max_points=1).converge()
+    program("converge", EXAMPLES / "channel.toml", "--set", "member.column.elements=20", "--quiet", "--out", tmp_path)
+    stored = json.loads((tmp_path / "convergence.json").read_text())
+    assert study.json == stored and str(study) == (tmp_path / "convergence.txt").read_text()
+    limit = next(event for event in study.events if event.kind == "limit-point")
+    assert limit.lam == tuple(stored["events"][2]["lambda"]) and limit.error > 0.0
+    assert list(study.table["kind"]) == [event["kind"] for event in stored["events"]]
+    with pytest.raises(ValueError, match="levels = 1"):
+        deck.converge(levels=1)
+
+
 def test_paths_are_pickled_and_copied_with_what_is_needed_to_go_on(channel):
     whole = channel.trace()
     part = channel.trace(max_points=20)

@@ -358,6 +358,14 @@ def test_event_functions_that_are_none_are_refused():
             trace(fold(), events={"e": of})
 
 
+def test_monitors_that_are_none_are_refused():
+    for name in ("lambda", "energy", 3):
+        with pytest.raises(ValueError, match="choose another"):
+            trace(fold(), monitors={name: lambda x, lam: 0.0})
+    with pytest.raises(TypeError, match="monitor 'm'"):
+        trace(fold(), monitors={"m": 3})
+
+
 def test_states_that_are_handed_out_cannot_be_written():
     def residual(x, lam):
         x[0] = 5.0
