@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
 
 #include "contact/profile.hpp"
 #include "core/text.hpp"
@@ -289,7 +290,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   const double round_off = 1e-12 * structure.length_scale();
   const State rest{.x = Vector::Zero(structure.size({}))};
   for (const deck::Wall& wall : deck.walls) {
-    std::vector<std::tuple<Index, Vec2, double>> taken;  // node, place and distance: members that meet share a point
+    std::unordered_multimap<Index, std::pair<Vec2, double>> taken;  // of a node: members that meet share its point
     Penetration deepest;
     for (const MemberMesh& mesh : structure.members()) {
       if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, problems)) continue;
@@ -305,12 +306,12 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           auto point = std::make_unique<MemberPoint>(structure, section, offset);
           const Vec2 place = point->position(rest);
           const auto same = [&](const auto& other) {
-            const auto& [node, there, distance] = other;
-            return node == section.node && distance == off &&
-                   (there - place).norm() <= 1e-12 * structure.length_scale();
+            const auto& [there, distance] = other.second;
+            return distance == off && (there - place).norm() <= 1e-12 * structure.length_scale();
           };
-          if (std::any_of(taken.begin(), taken.end(), same)) continue;
-          taken.emplace_back(section.node, place, off);
+          const auto [first, last] = taken.equal_range(section.node);
+          if (std::any_of(first, last, same)) continue;
+          taken.emplace(section.node, std::pair(place, off));
           const bool movable = !point->unknowns().empty();
           Candidate candidate(
               std::move(point), obstacle,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 #include "elements/mechanism.hpp"
 
@@ -104,17 +106,14 @@ void check_curvature(const deck::Member& member, const MemberDescription& descri
 
 // Stiffnesses of an element, over their units, and its length against the coordinates and the height of its section,
 // which are only so fine.
-void check_magnitudes(const deck::Deck& deck, const deck::Member& member, const MemberDescription& description,
+void check_magnitudes(const deck::Member& member, const MemberDescription& description, const Places& places,
                       DeckProblems& problems) {
   const double h = description.axis->length() / member.elements;
   const double EA = description.section.EA();
   const double EI = member.theory == Theory::truss ? EA * h * h : description.section.EI();
   const bool shears = member.theory == Theory::exact || member.theory == Theory::essenburg;
   const double GA = shears ? description.section.GA() : EA;
-  const auto far = [&](const std::string& name) {
-    const deck::Vector& at = deck::find(deck.points, name)->at;
-    return std::max(std::abs(at.x), std::abs(at.z));
-  };
+  const auto far = [&](const std::string& name) { return places.ends.at(name).cwiseAbs().maxCoeff(); };
   const double height = description.section.height.value_or(0.0);
   const bool is_long_enough = h > 1e-12 * std::max({far(member.from), far(member.to), height});
   const auto is_usable = [](double value) { return value > 1e-100 && value < 1e100; };
@@ -157,8 +156,7 @@ MemberDescription description_of(const deck::Deck& deck, const deck::Member& mem
                                 .elements = coarse ? fewest_elements(deck, member) : member.elements,
                                 .hinge_from = member.hinge_from,
                                 .hinge_to = member.hinge_to};
-  description.axis =
-      make_axis(member, vec(deck::find(deck.points, member.from)->at), vec(deck::find(deck.points, member.to)->at));
+  description.axis = make_axis(member, out.places.ends.at(member.from), out.places.ends.at(member.to));
   // A classic element moves without strain where one of the elastica does, and takes any bend of its axis; an exact
   // one where one of Essenburg's does, whose thickness has a stiffness of its own.
   if (coarse && theory == Theory::elastica) description.theory = Theory::classic;
@@ -175,7 +173,7 @@ void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, St
   std::vector<MemberDescription> descriptions;
   for (const deck::Member& member : deck.members) {
     descriptions.push_back(description_of(deck, member, coarse, out));
-    if (!coarse) check_magnitudes(deck, member, descriptions.back(), problems);
+    if (!coarse) check_magnitudes(member, descriptions.back(), out.places, problems);
   }
   problems.raise();
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
@@ -469,10 +467,13 @@ StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problem
   const bool coarse = mesh == Mesh::coarsest;
   StructureOfDeck out;
   // Points that no member joins stay out: they would be nodes without stiffness.
+  std::unordered_map<std::string_view, Vec2> points;
+  for (const deck::Point& point : deck.points) points.emplace(point.name, vec(point.at));
   for (const deck::Member& member : deck.members)
-    for (const std::string& name : {member.from, member.to})
-      if (!out.places.joints.contains(name))
-        out.places.joints[name] = out.builder.add_joint(vec(deck::find(deck.points, name)->at));
+    for (const std::string& name : {member.from, member.to}) {
+      if (!out.places.ends.emplace(name, points.at(name)).second) continue;
+      out.places.joints[name] = out.builder.add_joint(points.at(name));
+    }
   add_members(deck, coarse, problems, out);
   const auto joined = [&](const std::string& name, const deck::Position& position, const std::string& key) {
     if (out.places.joints.contains(name)) return true;

@@ -34,6 +34,7 @@ class DeckProblems {
 class Places {
  public:
   std::map<std::string, Index> joints{}, members{};
+  std::map<std::string, Vec2> ends{};  ///< where the joints stand, stress-free [length]
 
   /// A node of a member's mesh, or a joint.
   struct Node {

@@ -16,6 +16,7 @@
 #include "apps/sweep/sweep_report.hpp"
 #include "core/error.hpp"
 #include "model/deck/cursor.hpp"
+#include "model/event_names.hpp"
 
 namespace arcwall {
 
@@ -60,7 +61,27 @@ void check_passed_on(const std::vector<std::string>& words) {
     if (options.has(name)) throw InputError(fmt::format("--{} cannot be passed on to the cases", name));
 }
 
-std::vector<sweep::Case> chosen(const std::vector<sweep::Case>& cases, const std::optional<int>& number) {
+// `I/N`: of N equal shares the one with number I, counted from 0.
+std::vector<sweep::Case> share(const std::vector<sweep::Case>& cases, const std::string& part) {
+  const std::size_t slash = part.find('/');
+  const auto number = [&](const std::string& text) {
+    const bool digits = !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+    return digits ? std::stoul(text) : std::string::npos;
+  };
+  const std::size_t first = number(part.substr(0, slash)),
+                    parts = slash == std::string::npos ? std::string::npos : number(part.substr(slash + 1));
+  if (first == std::string::npos || parts == std::string::npos || first >= parts)
+    throw InputError(fmt::format("--part is {}; write I/N with I from 0 to N − 1, as in 0/4", part));
+  std::vector<sweep::Case> result;
+  for (std::size_t i = first; i < cases.size(); i += parts) result.push_back(cases[i]);
+  return result;
+}
+
+std::vector<sweep::Case> chosen(const std::vector<sweep::Case>& cases, const Options& options) {
+  const std::optional<int> number = options.number("case");
+  const std::optional<std::string> part = options.text("part");
+  if (number && part) throw InputError("--case and --part are given; keep one of them");
+  if (part) return share(cases, *part);
   if (!number) return cases;
   if (static_cast<std::size_t>(*number) >= cases.size())
     throw InputError(fmt::format("--case is {}; the sweep has the cases 0 to {}", *number, cases.size() - 1));
@@ -69,8 +90,15 @@ std::vector<sweep::Case> chosen(const std::vector<sweep::Case>& cases, const std
 
 void forget_results(const Options& options, const fs::path& folder, const std::vector<sweep::Case>& cases) {
   for (const sweep::Case& one : cases) {
-    const bool failed = options.has("failed") && sweep::read_result(folder, one.number).failed();
-    if (options.has("force") || failed) sweep::forget(folder, one.number);
+    if (options.has("force")) {
+      sweep::forget(folder, one.number);
+    } else if (options.has("failed")) {
+      const sweep::CaseResult result = sweep::read_result(folder, one.number);
+      if (result.there && result.reason == to_text(EndReason::max_time) && result.status)
+        sweep::reopen(folder, one.number);
+      else if (result.failed())
+        sweep::forget(folder, one.number);
+    }
   }
 }
 
@@ -89,7 +117,7 @@ ExitStatus run_sweep(const Options& options) {
                             .options = options.passed_on(),
                             .most_seconds = options.seconds("max-time")};
   check_passed_on(request.options);
-  const auto cases = chosen(sweep::read_cases(request.folder), options.number("case"));
+  const auto cases = chosen(sweep::read_cases(request.folder), options);
   forget_results(options, request.folder, cases);
   sweep::RunCounts counts;
   {
@@ -101,7 +129,35 @@ ExitStatus run_sweep(const Options& options) {
     std::cerr << "note: interrupted; the same command goes on\n";
     return ExitStatus::interrupted;
   }
-  return counts.failed > 0 ? ExitStatus::ended_early : ExitStatus::success;
+  return counts.failed > 0 && !options.has("tolerant") ? ExitStatus::ended_early : ExitStatus::success;
+}
+
+// --- status
+
+void print_failures(const sweep::Collection& collection) {
+  std::vector<std::vector<std::string>> rows;
+  for (const sweep::Failure& failure : sweep::failures(collection))
+    rows.push_back({failure.reason, std::to_string(failure.cases.size()), sweep::listed(failure.cases)});
+  if (!rows.empty())
+    std::cout << "\n" << text_table({{"reason"}, {"cases", TableColumn::Side::right}, {"which"}}, rows);
+}
+
+ExitStatus show_status(const Options& options) {
+  const fs::path folder = options.words().front();
+  sweep::Collection collection{.cases = sweep::read_cases(folder)};
+  int ran = 0, failed = 0, begun = 0;
+  for (const sweep::Case& one : collection.cases) {
+    const sweep::CaseResult& result = collection.results.emplace_back(sweep::read_result(folder, one.number));
+    ran += result.there ? 1 : 0;
+    failed += result.there && result.failed() ? 1 : 0;
+    begun += !result.there && sweep::is_begun(folder, one.number) ? 1 : 0;
+  }
+  std::cout << fmt::format("{} of {} cases have results, {} of them as their deck says\n", ran, collection.cases.size(),
+                           ran - failed);
+  std::cout << fmt::format("{} more are being run or were begun, {} were not\n", begun,
+                           static_cast<int>(collection.cases.size()) - ran - begun);
+  print_failures(collection);
+  return ExitStatus::success;
 }
 
 // --- emit
@@ -109,7 +165,17 @@ ExitStatus run_sweep(const Options& options) {
 constexpr deck::Words<sweep::Engine, 2> engine_words{
     {{"parallel", sweep::Engine::parallel}, {"slurm", sweep::Engine::slurm}}};
 
+// The value of an option that becomes a line of the script.
+std::string directive(const Options& options, const std::string& name) {
+  const std::string value = options.text(name).value_or("");
+  const auto ends_the_word = [](char c) { return c == ' ' || (c >= 0 && c < ' ') || c == '\x7f'; };
+  if (std::any_of(value.begin(), value.end(), ends_the_word))
+    throw InputError(fmt::format("--{} is \"{}\"; a line of Slurm takes a word without blanks", name, value));
+  return value;
+}
+
 ExitStatus emit(const Options& options) {
+  check_passed_on(options.passed_on());
   const std::vector<std::string> engines = deck::texts(engine_words);
   const auto name = options.text("engine");
   if (!name) throw InputError(fmt::format("--engine is missing; it is {}", fmt::join(engines, " or ")));
@@ -121,7 +187,13 @@ ExitStatus emit(const Options& options) {
   std::cout << sweep::script(*engine, {.program = fs::read_symlink(this_program),
                                        .folder = fs::absolute(folder),
                                        .cases = static_cast<int>(sweep::read_cases(folder).size()),
-                                       .jobs = options.count("jobs")});
+                                       .jobs = options.count("jobs"),
+                                       .tasks = options.count("tasks"),
+                                       .time = directive(options, "time"),
+                                       .memory = directive(options, "memory"),
+                                       .partition = directive(options, "partition"),
+                                       .log = directive(options, "log"),
+                                       .options = options.passed_on()});
   return ExitStatus::success;
 }
 
@@ -139,14 +211,6 @@ std::vector<std::string> map_keys(const sweep::Sweep& sweep, const std::vector<s
   if (!wanted.empty()) return wanted;
   names.resize(std::min(names.size(), most));
   return names;
-}
-
-void print_failures(const sweep::Collection& collection) {
-  std::vector<std::vector<std::string>> rows;
-  for (const sweep::Failure& failure : sweep::failures(collection))
-    rows.push_back({failure.reason, std::to_string(failure.cases.size()), sweep::listed(failure.cases)});
-  if (!rows.empty())
-    std::cout << "\n" << text_table({{"reason"}, {"cases", TableColumn::Side::right}, {"which"}}, rows);
 }
 
 ExitStatus collect(const Options& options) {
@@ -168,49 +232,65 @@ ExitStatus collect(const Options& options) {
 }  // namespace
 
 std::vector<Command> sweep_commands() {
-  return {{.description = {.name = "sweep plan",
-                           .example = "trace-path sweep plan sweep.toml --out study",
-                           .usage = "SWEEP [options]",
-                           .summary = "reads a sweep, checks every case, and writes a folder that stands alone",
-                           .options = {{"out", "DIR",
-                                        "folder to write into (default: the sweep's name without its ending)"}},
-                           .least_words = 1,
-                           .most_words = 1},
-           .run = plan},
-          {.description = {.name = "sweep run",
-                           .example = "trace-path sweep run study --jobs 4 -- --max-points 2000",
-                           .usage = "DIR [options] [-- options of run]",
-                           .summary = "runs the cases that have no results yet; may be stopped and goes on",
-                           .options = {{"case", "K", "this case alone; cases count from 0"},
-                                       {"jobs", "N", "processes at a time (default: 1)"},
-                                       {"max-time", "SECONDS", "end a case after that time; it counts as failed"},
-                                       {"failed", "", "run the cases that failed again"},
-                                       {"force", "", "run all cases again"},
-                                       {"quiet", "", "no progress and no counts"}},
-                           .least_words = 1,
-                           .most_words = 1,
-                           .passes_on = true},
-           .run = run_sweep},
-          {.description = {.name = "sweep emit",
-                           .example = "trace-path sweep emit study --engine parallel --jobs 8 >study.sh",
-                           .usage = "DIR --engine parallel|slurm [options]",
-                           .summary = "prints a script that runs the cases by GNU parallel or Slurm",
-                           .options = {{"engine", "parallel|slurm", "what runs the cases"},
-                                       {"jobs", "N", "cases at a time (default: what the engine takes)"}},
-                           .least_words = 1,
-                           .most_words = 1},
-           .run = emit},
-          {.description = {.name = "sweep collect",
-                           .example = "trace-path sweep collect study",
-                           .usage = "DIR [options]",
-                           .summary = "writes cases.csv, sweep.csv and report.html with maps of the loads",
-                           .options = {{.name = "over",
-                                        .value = "KEY",
-                                        .help = "varied key that the maps go over, one or two (default: the first two)",
-                                        .repeatable = true}},
-                           .least_words = 1,
-                           .most_words = 1},
-           .run = collect}};
+  return {
+      {.description = {.name = "sweep plan",
+                       .example = "trace-path sweep plan sweep.toml --out study",
+                       .usage = "SWEEP [options]",
+                       .summary = "reads a sweep, checks every case, and writes a folder that stands alone",
+                       .options = {{"out", "DIR",
+                                    "folder to write into (default: the sweep's name without its ending)"}},
+                       .least_words = 1,
+                       .most_words = 1},
+       .run = plan},
+      {.description = {.name = "sweep run",
+                       .example = "trace-path sweep run study --jobs 4 -- --max-points 2000",
+                       .usage = "DIR [options] [-- options of run]",
+                       .summary = "runs the cases that have no results yet; may be stopped and goes on",
+                       .options = {{"case", "K", "this case alone; cases count from 0"},
+                                   {"part", "I/N", "of N equal shares of the cases the one with number I, from 0"},
+                                   {"jobs", "N", "processes at a time (default: 1)"},
+                                   {"max-time", "SECONDS", "end a case after that time; it counts as failed"},
+                                   {"failed", "", "run the cases that failed again"},
+                                   {"force", "", "run all cases again"},
+                                   {"tolerant", "", "status 0 though cases failed: what they came to is a result"},
+                                   {"quiet", "", "no progress and no counts"}},
+                       .least_words = 1,
+                       .most_words = 1,
+                       .passes_on = true},
+       .run = run_sweep},
+      {.description = {.name = "sweep status",
+                       .example = "trace-path sweep status study",
+                       .usage = "DIR",
+                       .summary = "says how many cases have results, were begun, or failed, and why",
+                       .least_words = 1,
+                       .most_words = 1},
+       .run = show_status},
+      {.description = {.name = "sweep emit",
+                       .example = "trace-path sweep emit study --engine slurm --time 0:30:00 --memory 2G >study.sh",
+                       .usage = "DIR --engine parallel|slurm [options] [-- options of run]",
+                       .summary = "prints a script that runs the cases by GNU parallel or Slurm",
+                       .options = {{"engine", "parallel|slurm", "what runs the cases"},
+                                   {"jobs", "N", "tasks at a time (default: what the engine takes)"},
+                                   {"tasks", "N", "share the cases among N tasks (default: one each, at most 1000)"},
+                                   {"time", "LIMIT", "of a task of Slurm, as in 0:30:00"},
+                                   {"memory", "SIZE", "of a task of Slurm, as in 2G"},
+                                   {"partition", "NAME", "of Slurm"},
+                                   {"log", "FILE", "what tasks of Slurm print, as in logs/%A_%a.txt"}},
+                       .least_words = 1,
+                       .most_words = 1,
+                       .passes_on = true},
+       .run = emit},
+      {.description = {.name = "sweep collect",
+                       .example = "trace-path sweep collect study",
+                       .usage = "DIR [options]",
+                       .summary = "writes cases.csv, sweep.csv and report.html with maps of the loads",
+                       .options = {{.name = "over",
+                                    .value = "KEY",
+                                    .help = "varied key that the maps go over, one or two (default: the first two)",
+                                    .repeatable = true}},
+                       .least_words = 1,
+                       .most_words = 1},
+       .run = collect}};
 }
 
 }  // namespace arcwall

@@ -111,6 +111,13 @@ std::string uncertainty_note(const Record& record) {
          "do so.";
 }
 
+std::string count_note(const Record& record) {
+  const auto is_unknown = [](const RecordEvent& event) { return !event.unstable_before || !event.unstable_after; };
+  if (std::none_of(record.events.begin(), record.events.end(), is_unknown)) return "";
+  return "unstable: the number of directions in which the structure gives way; ? where it cannot be told, because the "
+         "stiffness is singular there or contacts without a force decide.";
+}
+
 std::string unstable_change(const RecordEvent& event) {
   const auto text = [](const std::optional<Index>& count) { return count ? std::to_string(*count) : "?"; };
   if (event.unstable_before == event.unstable_after) return text(event.unstable_after);
@@ -130,7 +137,8 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
   }
   text += "\n";
   text += table(record) + "\n";
-  if (const std::string note = uncertainty_note(record); !note.empty()) text += note + "\n\n";
+  for (const std::string& note : {uncertainty_note(record), count_note(record)})
+    if (!note.empty()) text += note + "\n\n";
   text += tree(record, std::nullopt, 0);
   if (const auto rows = sensitivity_rows(record); !rows.empty())
     text +=

@@ -24,6 +24,9 @@ std::string shown_lambda(const RecordEvent& event, int digits);
 /// What the ± behind a load factor means; empty where no event has one.
 std::string uncertainty_note(const Record& record);
 
+/// What a `?` in place of a count means; empty where there is none.
+std::string count_note(const Record& record);
+
 /// `w = 1.2 (stop)`: what is known of an end, and its reason.
 std::string how_it_ended(const BranchEnd& end);
 

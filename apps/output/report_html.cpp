@@ -339,8 +339,10 @@ std::string event_titles(const Record& record) {
 }
 
 std::string event_note(const Record& record) {
-  const std::string note = uncertainty_note(record);
-  return note.empty() ? "" : "<p class=\"note\">" + escaped(note) + "</p>";
+  std::string text;
+  for (const std::string& note : {uncertainty_note(record), count_note(record)})
+    if (!note.empty()) text += "<p class=\"note\">" + escaped(note) + "</p>";
+  return text;
 }
 
 // What λ of the events depends on; a section of its own where the deck asks for it.

@@ -45,12 +45,8 @@ bool lock(int descriptor) {
   return true;
 }
 
-void clear(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    fs::remove_all(entry.path(), error);
-    if (error) fail(entry.path(), "cannot be removed", error.message());
-  }
+fs::path draft_folder(const fs::path& sweep_folder, int number) {
+  return sweep_folder / "cases" / ("." + folder_name(number));
 }
 
 }  // namespace
@@ -74,9 +70,22 @@ void forget(const fs::path& sweep_folder, int number) {
   if (error) fail(target, "cannot be removed", error.message());
 }
 
+void reopen(const fs::path& sweep_folder, int number) {
+  std::error_code error;
+  const fs::path draft = draft_folder(sweep_folder, number);
+  fs::remove_all(draft, error);
+  fs::rename(case_folder(sweep_folder, number), draft, error);
+  if (error) fail(draft, "cannot be made", error.message());
+}
+
+bool is_begun(const fs::path& sweep_folder, int number) {
+  std::error_code ignored;
+  return fs::exists(draft_folder(sweep_folder, number), ignored);
+}
+
 std::optional<CaseDraft> CaseDraft::claim(const fs::path& sweep_folder, int number) {
   const fs::path target = case_folder(sweep_folder, number);
-  const fs::path path = target.parent_path() / ("." + folder_name(number));
+  const fs::path path = draft_folder(sweep_folder, number);
   std::error_code error;
   fs::create_directories(path, error);
   if (error) fail(path, "cannot be made", error.message());
@@ -90,7 +99,6 @@ std::optional<CaseDraft> CaseDraft::claim(const fs::path& sweep_folder, int numb
     return std::nullopt;
   }
   if (is_complete(sweep_folder, number)) return std::nullopt;
-  clear(path);
   return draft;
 }
 
@@ -103,6 +111,14 @@ CaseDraft::~CaseDraft() {
   std::error_code ignored;
   if (!path_.empty()) fs::remove_all(path_, ignored);
   if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void CaseDraft::clear() const {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(path_, error)) {
+    fs::remove_all(entry.path(), error);
+    if (error) fail(entry.path(), "cannot be removed", error.message());
+  }
 }
 
 void CaseDraft::publish() {

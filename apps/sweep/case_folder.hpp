@@ -14,12 +14,19 @@ bool is_complete(const std::filesystem::path& sweep_folder, int number);
 /// Takes the results of a case away, if there are any. Throws OutputError.
 void forget(const std::filesystem::path& sweep_folder, int number);
 
-/// The folder of a case that is being run: hidden, empty at first, held by this process alone, and gone in the end
-/// unless it was published.
+/// Makes of the results of a case a draft again, from which the next process that claims the case can go on. Throws
+/// OutputError.
+void reopen(const std::filesystem::path& sweep_folder, int number);
+
+/// Whether a draft of the case is there: it is being run, or was begun and can go on.
+bool is_begun(const std::filesystem::path& sweep_folder, int number);
+
+/// The folder of a case that is being run: hidden, held by this process alone, and gone in the end unless it was
+/// published or left for another process to go on with.
 class CaseDraft {
  public:
-  /// Empty if another process holds the case, or has published it meanwhile. What a process left that was killed is
-  /// cleared away. Throws OutputError.
+  /// Empty if another process holds the case, or has published it meanwhile. What a process left that was stopped is in
+  /// it. Throws OutputError.
   static std::optional<CaseDraft> claim(const std::filesystem::path& sweep_folder, int number);
 
   CaseDraft(CaseDraft&& other) noexcept;
@@ -33,8 +40,14 @@ class CaseDraft {
   /// is free once that has ended, too, and nothing of it can appear in the folder of the next.
   int lock_descriptor() const { return descriptor_; }
 
+  /// Takes away what is in it. Throws OutputError.
+  void clear() const;
+
   /// Gives the folder its name, in one step.
   void publish();
+
+  /// The folder stays as it is, for whoever claims the case next.
+  void leave() { path_.clear(); }
 
  private:
   CaseDraft(std::filesystem::path path, std::filesystem::path target, int descriptor)

@@ -1,5 +1,6 @@
 #include "apps/sweep/case_result.hpp"
 
+#include <csignal>
 #include <cstring>
 
 #include "apps/output/exit_status.hpp"
@@ -122,6 +123,15 @@ CaseResult read_result(const fs::path& sweep_folder, int number) {
   } catch (const Json::exception&) {
     fail_as_damaged(folder);
   }
+}
+
+bool was_hindered(const fs::path& sweep_folder, int number) {
+  const Json record = Json::parse(content(case_folder(sweep_folder, number) / case_file_name), nullptr, false);
+  if (!record.is_object()) return false;  // told where it is collected
+  const Json status = record.value("status", Json());
+  if (status.is_number_integer())
+    return status == static_cast<int>(ExitStatus::file_error) || status == static_cast<int>(ExitStatus::out_of_memory);
+  return record.value("signal", Json()) == SIGKILL && !record.value("overdue", false);
 }
 
 std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds) {

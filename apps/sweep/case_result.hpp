@@ -25,6 +25,10 @@ struct CaseResult {
 /// Reads a case's results. OutputError if they are there but damaged.
 CaseResult read_result(const std::filesystem::path& sweep_folder, int number);
 
+/// Whether something outside hindered a case that has results: a full disk, too little memory, or somebody who killed
+/// it. It may succeed another time.
+bool was_hindered(const std::filesystem::path& sweep_folder, int number);
+
 /// λ of the first event of one of these kinds.
 std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds);
 

@@ -9,42 +9,61 @@ namespace arcwall::sweep {
 
 namespace {
 
-// The command itself names no file: GNU parallel would see its own signs in a name, and shells theirs.
-constexpr const char* one_case = R"("$TRACE_PATH" sweep run "$SWEEP" --case)";
+// A task has a share of the cases. The command itself names no file: GNU parallel would see its own signs in a name,
+// and shells theirs. The options stand behind `set --`, for which any text is a word.
+constexpr const char* one_task = R"("$TRACE_PATH" sweep run "$SWEEP" --quiet --tolerant --part)";
+
+// Clusters limit the size of an array, mostly to 1001 tasks.
+int tasks_of(const JobScript& job) {
+  constexpr int most_tasks = 1000;
+  return std::min(job.cases, job.tasks.value_or(most_tasks));
+}
 
 std::string names(const JobScript& job) {
   return fmt::format("[ -n \"${{TRACE_PATH:-}}\" ] || TRACE_PATH={}\nSWEEP={}\nexport TRACE_PATH SWEEP\n",
                      shell_word(job.program.string()), shell_word(job.folder.string()));
 }
 
+std::string options(const JobScript& job) {
+  std::string words;
+  for (const std::string& option : job.options) words += " " + shell_word(option);
+  return words;
+}
+
+// Options are passed by a file of their own words: the shell that parallel starts takes its command apart once more.
 std::string parallel(const JobScript& job) {
+  const int tasks = tasks_of(job);
+  const std::string words = options(job);
   return fmt::format(
       "#!/bin/sh\n"
       "# Runs the cases of a sweep with GNU parallel. Cases that have results are not run again.\n"
-      "set -eu\n{}PARALLEL_SHELL=/bin/sh\nexport PARALLEL_SHELL\n"
-      "seq 0 {} | parallel{} '{} {{}}'\n",
-      names(job), job.cases - 1, job.jobs ? fmt::format(" --jobs {}", *job.jobs) : "", one_case);
+      "set -eu\n{}PARALLEL_SHELL=/bin/sh\nOPTIONS={}\nexport PARALLEL_SHELL OPTIONS\n"
+      "seq 0 {} | parallel{} 'eval \"set --$OPTIONS\"; {} {{}}/{} -- \"$@\"'\n",
+      names(job), shell_word(words), tasks - 1, job.jobs ? fmt::format(" --jobs {}", *job.jobs) : "", one_task, tasks);
 }
 
-// Clusters limit the size of an array, mostly to 1001 tasks, so that a task of a large sweep runs several cases.
+std::string directive(const char* name, const std::string& value) {
+  return value.empty() ? "" : fmt::format("#SBATCH --{}={}\n", name, value);
+}
+
+// Half a minute before its time is over a task is told, so that the case that it runs keeps a checkpoint; the next
+// submission goes on from there.
 std::string slurm(const JobScript& job) {
-  constexpr int most_tasks = 1000;
-  const int tasks = std::min(job.cases, most_tasks);
+  const int tasks = tasks_of(job);
   return fmt::format(
-      "#!/bin/sh\n"
-      "#SBATCH --job-name=sweep\n"
-      "#SBATCH --array=0-{}{}\n"
-      "#SBATCH --ntasks=1\n"
-      "# Runs the cases of a sweep as an array of Slurm. Cases that have results are not run again.\n"
-      "set -u\n{}"
-      "status=0\n"
-      "case=$SLURM_ARRAY_TASK_ID\n"
-      "while [ \"$case\" -lt {} ]; do\n"
-      "  {} \"$case\" || status=$?\n"
-      "  case=$((case + {}))\n"
-      "done\n"
-      "exit \"$status\"\n",
-      tasks - 1, job.jobs ? fmt::format("%{}", *job.jobs) : "", names(job), job.cases, one_case, tasks);
+             "#!/bin/sh\n"
+             "#SBATCH --job-name=sweep\n"
+             "#SBATCH --array=0-{}{}\n"
+             "#SBATCH --ntasks=1\n"
+             "#SBATCH --signal=B:TERM@30\n",
+             tasks - 1, job.jobs ? fmt::format("%{}", *job.jobs) : "") +
+         directive("time", job.time) + directive("mem", job.memory) + directive("partition", job.partition) +
+         directive("output", job.log) +
+         fmt::format(
+             "# Runs the cases of a sweep as an array of Slurm. Cases that have results are not run again.\n"
+             "set -u\n{}set --{}\n"
+             "exec {} \"$SLURM_ARRAY_TASK_ID/{}\" -- \"$@\"\n",
+             names(job), options(job), one_task, tasks);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace arcwall::sweep {
 
@@ -13,7 +14,10 @@ struct JobScript {
   std::filesystem::path program{};  ///< absolute
   std::filesystem::path folder{};   ///< of the sweep, absolute
   int cases = 1;
-  std::optional<int> jobs{};  ///< at a time; empty: what the engine takes by itself
+  std::optional<int> jobs{};   ///< at a time; empty: what the engine takes by itself
+  std::optional<int> tasks{};  ///< among which the cases are shared; empty: as many as cases, at most 1000
+  std::string time{}, memory{}, partition{}, log{};  ///< of a task, as Slurm takes them; empty: what it takes by itself
+  std::vector<std::string> options{};                ///< of `trace-path run`
 };
 
 /// Text as one word of a POSIX shell, whatever its characters.

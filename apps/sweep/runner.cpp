@@ -10,9 +10,11 @@
 #include "apps/output/exit_status.hpp"
 #include "apps/output/files.hpp"
 #include "apps/sweep/case_folder.hpp"
+#include "apps/sweep/case_result.hpp"
 #include "apps/sweep/child.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/regular_file.hpp"
 
 namespace arcwall::sweep {
 
@@ -21,6 +23,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Of a draft: with which words its run was begun.
+constexpr const char* begun_file_name = "begun.json";
 
 struct RunningCase {
   const Case* one = nullptr;
@@ -68,8 +73,11 @@ class Pool {
  private:
   void begin(const Case& one) {
     if (is_complete(request_.folder, one.number)) {
-      ++counts_.complete;
-      return;
+      if (!was_hindered(request_.folder, one.number)) {
+        ++counts_.complete;
+        return;
+      }
+      forget(request_.folder, one.number);
     }
     auto draft = CaseDraft::claim(request_.folder, one.number);
     if (!draft) {
@@ -77,7 +85,14 @@ class Pool {
       return;
     }
     RunningCase& added = running_.emplace_back(RunningCase{.one = &one, .draft = std::move(*draft)});
-    added.child = start(command(one, added.draft));
+    const ChildCommand anew = command(one, added.draft);
+    const std::string text = Json(anew.arguments).dump(-1, ' ', false, Json::error_handler_t::replace);
+    const bool goes_on = can_go_on(added.draft.path(), text);
+    if (!goes_on) {
+      added.draft.clear();
+      write_whole(added.draft.path() / begun_file_name, text);
+    }
+    added.child = start(with_limits(goes_on ? resuming(anew, added.draft) : anew));
     if (request_.most_seconds) added.deadline = after(*request_.most_seconds + request_.patience);
   }
 
@@ -92,10 +107,35 @@ class Pool {
                         .messages = fs::absolute(draft / messages_file_name),
                         .kept_open = claimed.lock_descriptor()};
     std::vector<std::string>& words = result.arguments;
-    if (request_.most_seconds) words.insert(words.end(), {"--max-time", round_trip(*request_.most_seconds)});
     words.insert(words.end(), request_.options.begin(), request_.options.end());
     for (const std::string& assignment : assignments(one)) words.insert(words.end(), {"--set", assignment});
     return result;
+  }
+
+  // The limit of time is of one process, not of the case.
+  ChildCommand with_limits(ChildCommand command) const {
+    if (request_.most_seconds)
+      command.arguments.insert(command.arguments.end(), {"--max-time", round_trip(*request_.most_seconds)});
+    return command;
+  }
+
+  // The same case with the same options was begun here, and has a checkpoint. A limit on points counts for each call,
+  // so that such a case would not be what it is without the interruption.
+  bool can_go_on(const fs::path& draft, const std::string& text) const {
+    std::error_code ignored;
+    const fs::path begun = draft / begun_file_name;
+    const auto limits_points = [](const std::string& word) { return word.starts_with("--max-points"); };
+    return fs::is_regular_file(begun, ignored) && fs::is_regular_file(draft / "checkpoint", ignored) &&
+           std::none_of(request_.options.begin(), request_.options.end(), limits_points) &&
+           bytes_of_regular_file(begun) == text;
+  }
+
+  ChildCommand resuming(const ChildCommand& anew, const CaseDraft& claimed) const {
+    const fs::path& draft = claimed.path();
+    ChildCommand command = anew;
+    command.arguments = {"resume", fs::path(draft.parent_path().filename() / draft.filename()).string(), "--quiet",
+                         "--no-pictures"};
+    return command;
   }
 
   void wait() {
@@ -147,8 +187,12 @@ class Pool {
     if (how.status == not_started) throw OutputError(request_.program.string() + ": cannot be started");
     if (was_stopped(how, counts_.interrupted)) {
       counts_.interrupted = true;
+      std::error_code ignored;
+      if (fs::exists(one.draft.path() / "checkpoint", ignored)) one.draft.leave();
       return;
     }
+    const bool may_go_on = how.signal == 0 && how.status == static_cast<int>(ExitStatus::limit_met);
+    if (!may_go_on) fs::remove(one.draft.path() / begun_file_name);
     write_whole(one.draft.path() / case_file_name, case_json(one, how));
     const fs::path messages = one.draft.path() / messages_file_name;
     if (fs::is_empty(messages)) fs::remove(messages);

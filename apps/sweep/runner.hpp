@@ -30,8 +30,9 @@ struct RunCounts {
 };
 
 /// Runs the cases that have no results yet, each in a process of its own, so that a crash costs one case. SIGINT and
-/// SIGTERM end it: what is being run is given up and will be run again. `progress` is called when something has
-/// changed. Throws OutputError.
+/// SIGTERM end it: what is being run stops with a checkpoint, and goes on from there in the next call with the same
+/// options. Cases that a full disk, too little memory or a kill has hindered are run again. `progress` is called when
+/// something has changed. Throws OutputError.
 RunCounts run_cases(const RunRequest& request, const std::vector<Case>& cases,
                     const std::function<void(const RunCounts&)>& progress);
 

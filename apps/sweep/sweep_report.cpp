@@ -124,8 +124,8 @@ std::string maps_html(const std::vector<LoadMap>& maps) {
   }
   return "<h2>Maps</h2>\n<p hidden><label for=\"choice\">Event: </label><select id=\"choice\">\n" + options +
          "</select></p>\n" + figures +
-         "<p>Hollow: the case has no such event. Crossed: it failed. A case says its numbers when the pointer rests on "
-         "it.</p>\n<script>" +
+         "<p>Hollow: the case has no such event. Crossed: the case failed. Rest the pointer on a case to read its "
+         "numbers.</p>\n<script>" +
          script_text + "</script>\n";
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/verify/differences.hpp"
+#include "apps/verify/moved_unknowns.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::verify {
@@ -124,9 +125,16 @@ std::vector<Potential> fixed_potentials(const Structure& structure, const State&
 
 // --- nodes that slide -----------------------------------------------------------------------------------------------
 
-Potential sliding_potential(const State& state, Index strand, Index position) {
-  const SlidingMesh& mesh = sliding_mesh(state);
-  const Vector s = coordinates(state);
+// What all elements of a state share.
+struct SlidingElements {
+  const SlidingMesh& mesh;
+  Vector s{};  // of the breakpoints
+  double lambda = 0.0;
+  MovedUnknowns x;
+};
+
+Potential sliding_potential(const std::shared_ptr<const SlidingElements>& of, Index strand, Index position) {
+  const auto& [mesh, s, lambda, x] = *of;
   const NodeUnknowns first = mesh.node_unknowns(strand, position), second = mesh.node_unknowns(strand, position + 1);
   const double length = mesh.coordinate(strand, position + 1, s) - mesh.coordinate(strand, position, s);
   Potential potential{.at = Vector::Zero(6), .steps = Vector(6)};
@@ -134,22 +142,17 @@ Potential sliding_potential(const State& state, Index strand, Index position) {
     for (const Index unknown : node) potential.unknowns.push_back(unknown);
   for (std::size_t i = 0; i < 6; ++i) {
     const Index unknown = potential.unknowns[i];
-    if (unknown >= 0) potential.at[static_cast<Index>(i)] = state.x[unknown];
+    if (unknown >= 0) potential.at[static_cast<Index>(i)] = x.value(unknown);
     potential.steps[static_cast<Index>(i)] = step_of(kind_of(i, 3), length);
   }
-  const auto x = std::make_shared<Vector>(state.x.head(mesh.unknowns()));
-  const auto with = [x, unknowns = potential.unknowns](const Vector& u, const auto& visit) {
-    Vector moved = *x;
-    for (std::size_t i = 0; i < 6; ++i)
-      if (unknowns[i] >= 0) moved[unknowns[i]] = u[static_cast<Index>(i)];
-    return visit(moved);
+  potential.energy = [of, strand, position, unknowns = potential.unknowns](const Vector& u) {
+    return of->x.with(unknowns, u, [&](const Vector& moved) {
+      return of->mesh.element_energy(strand, position, {moved, of->s, of->lambda});
+    });
   };
-  potential.energy = [=, &mesh, lambda = state.lambda](const Vector& u) {
-    return with(u, [&](const Vector& moved) { return mesh.element_energy(strand, position, {moved, s, lambda}); });
-  };
-  potential.gradient = [=, &mesh, lambda = state.lambda](const Vector& u) {
-    return with(u, [&](const Vector& moved) {
-      const SlidingMesh::EndForces ends = mesh.end_forces(strand, position, {moved, s, lambda});
+  potential.gradient = [of, strand, position, unknowns = potential.unknowns](const Vector& u) {
+    return of->x.with(unknowns, u, [&](const Vector& moved) {
+      const SlidingMesh::EndForces ends = of->mesh.end_forces(strand, position, {moved, of->s, of->lambda});
       Vector gradient(6);
       gradient << ends[0], ends[1];
       return gradient;
@@ -160,9 +163,15 @@ Potential sliding_potential(const State& state, Index strand, Index position) {
 
 std::vector<Potential> sliding_potentials(const Model& model, const State& state) {
   std::vector<Potential> all;
+  const SlidingMesh& mesh = sliding_mesh(state);
+  const auto shared = std::make_shared<const SlidingElements>(
+      SlidingElements{.mesh = mesh,
+                      .s = coordinates(state),
+                      .lambda = state.lambda,
+                      .x = MovedUnknowns(Vector(state.x.head(mesh.unknowns())))});
   for (Index strand = 0; strand < model.sliding_structure()->strands(); ++strand)
-    for (Index position = 0; position + 1 < sliding_mesh(state).nodes(strand); ++position)
-      all.push_back(sliding_potential(state, strand, position));
+    for (Index position = 0; position + 1 < mesh.nodes(strand); ++position)
+      all.push_back(sliding_potential(shared, strand, position));
   return all;
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
 #include "apps/verify/differences.hpp"
+#include "apps/verify/moved_unknowns.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::verify {
@@ -54,21 +56,41 @@ struct SectionPoint {
   }
 };
 
-// The section that a label means.
-MemberSection section_of(const Structure& structure, const ContactLabel& label) {
-  const auto& members = structure.members();
-  const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == label.member; });
-  const std::vector<MemberSection> sections = mesh->contact_sections();
-  return *std::min_element(sections.begin(), sections.end(), [&](const MemberSection& a, const MemberSection& b) {
-    return std::abs(a.fraction - label.fraction) < std::abs(b.fraction - label.fraction);
-  });
-}
+// The sections at which members may touch, looked up by the labels of contacts: one list for all of a state's.
+class ContactSections {
+ public:
+  explicit ContactSections(const Structure& structure) {
+    for (const MemberMesh& mesh : structure.members()) {
+      OfMember& member = members_[mesh.name];
+      member.half_height = 0.5 * mesh.height.value_or(0.0);
+      member.sections = mesh.contact_sections();
+      std::stable_sort(member.sections.begin(), member.sections.end(), is_before);
+    }
+  }
 
-double half_height_of(const Structure& structure, const std::string& member) {
-  const auto& members = structure.members();
-  const auto mesh = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == member; });
-  return 0.5 * mesh->height.value_or(0.0);
-}
+  /// The one that a label means.
+  const MemberSection& at(const ContactLabel& label) const {
+    const std::vector<MemberSection>& sections = members_.at(label.member).sections;
+    const auto behind =
+        std::lower_bound(sections.begin(), sections.end(), MemberSection{.fraction = label.fraction}, is_before);
+    if (behind == sections.begin()) return *behind;
+    const auto before = behind - 1;
+    if (behind == sections.end()) return *before;
+    return behind->fraction - label.fraction < label.fraction - before->fraction ? *behind : *before;
+  }
+
+  double half_height(const std::string& member) const { return members_.at(member).half_height; }
+
+ private:
+  struct OfMember {
+    double half_height = 0.0;
+    std::vector<MemberSection> sections{};
+  };
+
+  static bool is_before(const MemberSection& a, const MemberSection& b) { return a.fraction < b.fraction; }
+
+  std::unordered_map<std::string, OfMember> members_;
+};
 
 NodeFunction node_unknowns(const Structure& structure, const MemberSection& section, const State& state) {
   std::vector<Index> freedoms{structure.freedom(section.node, Freedom::x), structure.freedom(section.node, Freedom::z)};
@@ -86,11 +108,10 @@ NodeFunction node_unknowns(const Structure& structure, const MemberSection& sect
 }
 
 // Which face touches is a choice of the model's: where both could, the one that its candidate has.
-double offset_of(const Model& model, const PlainWall& wall, Index j, SectionPoint point) {
+double offset_of(const Model& model, const PlainWall& wall, Index j, SectionPoint point, double half,
+                 const State& rest) {
   if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return 0.0;
-  const Candidate& candidate = model.contact()->candidate(j);
-  const Vec2 meant = candidate.point().position({.x = Vector::Zero(model.structure().size({}))});
-  const double half = half_height_of(model.structure(), candidate.label().member);
+  const Vec2 meant = model.contact()->candidate(j).point().position(rest);
   const auto distance = [&](double offset) {
     point.offset = offset;
     return (point.at(Vector::Zero(2)) - meant).norm();
@@ -98,18 +119,28 @@ double offset_of(const Model& model, const PlainWall& wall, Index j, SectionPoin
   return distance(half) < distance(-half) ? half : -half;
 }
 
-Touch node_touch(const Model& model, const std::vector<PlainWall>& walls, const State& state, Index j) {
+// What is the same for all contacts of a state.
+struct NodeContacts {
+  const Model& model;
+  const std::vector<PlainWall>& walls;
+  const State& state;
+  ContactSections sections{model.structure()};
+  State rest{.x = Vector::Zero(model.structure().size({}))};
+};
+
+Touch node_touch(const NodeContacts& all, Index j) {
+  const auto& [model, walls, state, sections, rest] = all;
   const Structure& structure = model.structure();
   const ContactLabel& label = model.contact()->candidate(j).label();
   const PlainWall& wall = wall_of(walls, label.wall);
-  const MemberSection section = section_of(structure, label);
+  const MemberSection& section = sections.at(label);
+  const double half = sections.half_height(label.member);
   SectionPoint point{.node = structure.position(section.node),
                      .shape_angle = section.shape.angle,
                      .axis_angle = section.axis.angle,
                      .along_director = section.quadratic == QuadraticTerm::director};
-  point.offset = offset_of(model, wall, j, point);
+  point.offset = offset_of(model, wall, j, point, half, rest);
   Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
-  const double half = half_height_of(structure, label.member);
   touch.gap.of = [point, half, &wall](const Vector& u) { return gap_of(wall, point.at(u), half); };
   if (wall.has_outline()) touch.gap.by_place = [point, &wall](const Vector& u) { return normal_of(wall, point.at(u)); };
   touch.place = touching_place(wall, point.at(touch.gap.at), half);
@@ -155,8 +186,9 @@ void find_opposite(double length, std::vector<Touch>& touches) {
 
 Touches node_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
   Touches touches;
+  const NodeContacts contacts{.model = model, .walls = walls, .state = state};
   for (std::size_t j = 0; j < state.piece.size(); ++j)
-    touches.all.push_back(node_touch(model, walls, state, static_cast<Index>(j)));
+    touches.all.push_back(node_touch(contacts, static_cast<Index>(j)));
   read_forces(model, state, touches);
   find_opposite(model.structure().length_scale(), touches.all);
   return touches;
@@ -176,13 +208,13 @@ struct Sliding {
   const SlidingContactLayout& on = sliding_layout(state.piece);
   const SlidingMesh& mesh = on.mesh();
   MeshState now = mesh_state_of(state);
+  MovedUnknowns x{Vector(now.x)};
 
   // Where the node's unknowns are held its place is still known.
   AxisPlace place(const SlidingNode& node, const NodeFunction& function, const Vector& u) const {
-    Vector moved = now.x;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (function.unknowns[i] >= 0) moved[function.unknowns[i]] = u[static_cast<Index>(i)];
-    return mesh.node(node.strand, node.position, {moved, now.s, now.lambda});
+    return x.with(function.unknowns, u, [&](const Vector& moved) {
+      return mesh.node(node.strand, node.position, {moved, now.s, now.lambda});
+    });
   }
 
   NodeFunction unknowns(const SlidingNode& node) const {

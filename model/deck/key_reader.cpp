@@ -44,7 +44,7 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 // The names that may stand where one of a kind is wanted, and what is said of others.
 struct Candidates {
-  const std::vector<std::string>& names;
+  const NameList& names;
   const char* otherwise;
 };
 
@@ -71,15 +71,15 @@ Candidates candidates(const Names& names, Named of) {
 }  // namespace
 
 Names names_in(const Value& root) {
-  Names names{.materials = keys_of(root, "material"),
-              .sections = keys_of(root, "section"),
-              .points = keys_of(root, "point"),
-              .members = keys_of(root, "member")};
-  names.walls = names_of(root, "wall");
-  names.monitors = names_of(root, "monitor");
-  names.columns = names.monitors;
-  names.columns.emplace_back("lambda");
-  return names;
+  std::vector<std::string> columns = names_of(root, "monitor");
+  columns.emplace_back("lambda");
+  return {.materials = NameList(keys_of(root, "material")),
+          .sections = NameList(keys_of(root, "section")),
+          .points = NameList(keys_of(root, "point")),
+          .members = NameList(keys_of(root, "member")),
+          .walls = NameList(names_of(root, "wall")),
+          .monitors = NameList(names_of(root, "monitor")),
+          .columns = NameList(std::move(columns))};
 }
 
 bool ends_a_member(const Deck& deck, const std::string& point) {
@@ -141,13 +141,13 @@ bool KeyReader::list(const Key& key, const Declared& declared, std::vector<std::
 
 bool KeyReader::is_one_of(const Reference& found, const std::string& path, Named of) {
   const auto [names, otherwise] = candidates(names_, of);
-  const bool known = contains(names, found.text);
+  const bool known = names.contains(found.text);
   const std::string member = found.text.substr(0, found.text.find(':'));
-  if (!known && of == Named::point && member.size() < found.text.size() && contains(names_.members, member)) {
+  if (!known && of == Named::point && member.size() < found.text.size() && names_.members.contains(member)) {
     table_.findings().add(found.position, path, in_quotes(found.text, 60) + " " + otherwise + ", but inside a member",
                           "divide member " + member + " there: add a point, at which one member ends and one begins");
   } else if (!known) {
-    table_.report_unknown(found, path, otherwise, names);
+    table_.report_unknown(found, path, otherwise, names.all());
   }
   return known;
 }
@@ -185,9 +185,9 @@ bool KeyReader::place(const Key& key, Place& value) {
 }
 
 bool KeyReader::point(std::string_view key, const Reference& found, Place& value) {
-  if (!contains(names_.points, found.text)) {
-    std::vector<std::string> places = names_.points;
-    for (const std::string& member : names_.members) places.push_back(member + ":0.5");
+  if (!names_.points.contains(found.text)) {
+    std::vector<std::string> places = names_.points.all();
+    for (const std::string& member : names_.members.all()) places.push_back(member + ":0.5");
     table_.report_unknown(found, table_.path_of(key), "is neither a point nor member:fraction", places);
     return false;
   }

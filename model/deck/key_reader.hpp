@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "model/deck/cursor.hpp"
@@ -8,10 +10,24 @@
 
 namespace arcwall::deck {
 
+/// Names in the deck's order.
+class NameList {
+ public:
+  NameList() = default;
+  explicit NameList(std::vector<std::string> names) : names_(std::move(names)), set_(names_.begin(), names_.end()) {}
+
+  bool contains(const std::string& name) const { return set_.contains(name); }
+  const std::vector<std::string>& all() const { return names_; }
+
+ private:
+  std::vector<std::string> names_{};
+  std::unordered_set<std::string> set_{};
+};
+
 /// Every name the deck declares, also on tables with errors of their own, so that one error is not reported as two.
 struct Names {
-  std::vector<std::string> materials{}, sections{}, points{}, members{}, walls{}, monitors{};
-  std::vector<std::string> columns{};  ///< the monitors and lambda
+  NameList materials{}, sections{}, points{}, members{}, walls{}, monitors{};
+  NameList columns{};  ///< the monitors and lambda
 };
 
 Names names_in(const Value& root);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/text.hpp"
@@ -25,8 +27,11 @@ std::string point_text(const Vector& at) { return "[" + round_trip(at.x) + ", " 
 
 bool is_shear_flexible(Theory theory) { return theory == Theory::essenburg || theory == Theory::exact; }
 
+// Of a deck with many members each would else look through all of its points.
+using PointsByName = std::unordered_map<std::string_view, const Point*>;
+
 // The ends' coordinates if both are known and apart.
-std::optional<Ends> end_keys(Keys& keys, const Deck& deck, Member& member) {
+std::optional<Ends> end_keys(Keys& keys, const PointsByName& points, Member& member) {
   const bool from = keys.name("from", member.from, Named::point, "a point");
   const bool to = keys.name("to", member.to, Named::point, "a point at another place");
   if (!from || !to) return std::nullopt;
@@ -34,9 +39,9 @@ std::optional<Ends> end_keys(Keys& keys, const Deck& deck, Member& member) {
     keys.report("to", in_quotes(member.to) + " is also the point it comes from", "name another point");
     return std::nullopt;
   }
-  const Point* a = find(deck.points, member.from);
-  const Point* b = find(deck.points, member.to);
-  if (a == nullptr || b == nullptr) return std::nullopt;  // reported where the points are read
+  const auto first = points.find(member.from), second = points.find(member.to);
+  if (first == points.end() || second == points.end()) return std::nullopt;  // reported where the points are read
+  const Point *a = first->second, *b = second->second;
   if (!(distance(a->at, b->at) > 0.0)) {
     keys.report("to", "points " + a->name + " and " + b->name + " are both at " + point_text(a->at),
                 "move one of them: a member needs a length");
@@ -205,9 +210,9 @@ void hinge_key(Keys& keys, Member& member) {
   member.hinge_to = std::find(ends.begin(), ends.end(), End::to) != ends.end();
 }
 
-void member_keys(Keys& keys, Member& member, const Deck& deck) {
+void member_keys(Keys& keys, Member& member, const Deck& deck, const PointsByName& points) {
   if (keys.reads()) member.elements = 0;  // until they are read: no place is a node of the mesh before
-  const std::optional<Ends> ends = end_keys(keys, deck, member);
+  const std::optional<Ends> ends = end_keys(keys, points, member);
   theory_keys(keys, member);
   material_and_section_keys(keys, deck, member);
   keys.integer("elements", member.elements, {.low = 1, .high = most_elements},
@@ -244,7 +249,9 @@ const Member* member_without_faces(const Deck& deck, const std::vector<const Mem
 }
 
 void declare_members(Keys& root, Deck& deck) {
-  const auto keys_of_member = [&](Keys& keys, Member& member) { member_keys(keys, member, deck); };
+  PointsByName points;
+  for (const Point& point : deck.points) points.emplace(point.name, &point);
+  const auto keys_of_member = [&](Keys& keys, Member& member) { member_keys(keys, member, deck, points); };
   const bool all_right = root.named_tables(optional("member"), deck.members, keys_of_member, "");
   if (all_right && deck.members.empty()) root.report("member", "there is no member", "add a table [member.NAME]");
 }

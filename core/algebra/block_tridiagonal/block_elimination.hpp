@@ -17,6 +17,10 @@
 #define ARCWALL_UNROLLED_FOR(index, from, to) for (Index index = (from); index < (to); ++index)
 #endif
 
+// Behind the parameters of a lambda that has to be a part of what calls it. Both compilers take the attribute there,
+// and the standard one in front of them is of C++23.
+#define ARCWALL_INLINE_LAMBDA __attribute__((always_inline))
+
 namespace arcwall {
 
 /// Place of entry (row, column) in a packed lower triangle.
@@ -125,7 +129,7 @@ struct BlockElimination {
     const bool is_grounded = T > 0 && !all_zero(ground);
     if (is_grounded) forward_own<T>(D.data(), ground);
     Rows<B> Y;
-    const auto condense = [&] [[gnu::always_inline]] (Real * coupling, Real * neighbour) {
+    const auto condense = [&](Real* coupling, Real* neighbour) ARCWALL_INLINE_LAMBDA {
       scale(D, Y, coupling);
       ARCWALL_UNROLLED_FOR(row, T, B)
       ARCWALL_UNROLLED_FOR(column, T, row + 1)

@@ -83,9 +83,9 @@ PivotScan<double> eliminate_all(BlockChain& chain) {
   using InLanes = BlockElimination<B, T, Lanes>;
   std::fill_n(chain.block(chain.length), InLanes::triangle + 1, Lanes(0.0));
   PivotScan<Lanes> pivots;
-  in_vectors([&] [[gnu::always_inline]] () {
+  in_vectors([&]() ARCWALL_INLINE_LAMBDA {
     PivotScan<Lanes> seen;
-    for_each_elimination(chain.length, [&] [[gnu::always_inline]] (const EliminationStep& j) {
+    for_each_elimination(chain.length, [&](const EliminationStep& j) ARCWALL_INLINE_LAMBDA {
       InLanes::eliminate(j, chain.numbers.data(), seen);
     });
     pivots = seen;
@@ -122,14 +122,13 @@ void solve_all(const BlockChain& chain, Lanes* x) {
   const Lanes* const numbers = chain.numbers.data();
   Lanes* const end = x + chain.length * B * C;
   std::fill_n(end, B * C, Lanes(0.0));
-  in_vectors([&] [[gnu::always_inline]] () {
-    for_each_elimination(chain.length, [&] [[gnu::always_inline]] (const EliminationStep& j) {
-      InLanes::template forward<C>(j, numbers, x);
-    });
+  in_vectors([&]() ARCWALL_INLINE_LAMBDA {
+    for_each_elimination(chain.length, [&](const EliminationStep& j)
+                                           ARCWALL_INLINE_LAMBDA { InLanes::template forward<C>(j, numbers, x); });
   });
   solve_first_blocks<B, C>(chain, x, end);
-  in_vectors([&] [[gnu::always_inline]] () {
-    for_each_elimination_reversed(chain.length, [&] [[gnu::always_inline]] (const EliminationStep& j) {
+  in_vectors([&]() ARCWALL_INLINE_LAMBDA {
+    for_each_elimination_reversed(chain.length, [&](const EliminationStep& j) ARCWALL_INLINE_LAMBDA {
       InLanes::template backward<C>(j, numbers, x);
     });
   });

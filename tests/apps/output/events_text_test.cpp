@@ -23,8 +23,14 @@ id  step     λ  kind                 what                                      
  2     1   0.1  contact-limit-point                                                                              0.333333           0  0 → 1
  3     2  0.05  end                  stop                                                                             0.2         inf  1
 
+)" + count_note(sample_record()) +
+                R"(
+
 branch 0: 3 points, ended: mid = 0.2 (stop)
 )");
+  Record known = sample_record();
+  known.events[1].unstable_after = 0;
+  EXPECT_EQ(count_note(known), "");
 }
 
 // A branch point that is located to 4 % only, and a branch that leaves it.
@@ -34,6 +40,7 @@ TEST(EventsText, ShowsNoDigitThatIsNotSureAndSaysSo) {
   for (RecordEvent& event : record.events) event.monitors.clear();
   record.branches.push_back({.id = 1, .parent = 0, .origin = 2, .points = 1});
   record.events[1].lambda = 0.123456789012;
+  record.events[1].unstable_after = 0;
   record.events[2].lambda = 1.0120114646;
   record.events[2].localised = 0.038;
   record.events[3].lambda = 0.123456789012;
@@ -45,7 +52,7 @@ TEST(EventsText, ShowsNoDigitThatIsNotSureAndSaysSo) {
 
 id  branch  step            λ  kind                 what                                                                        unstable
  0       0     0            0  start                                                                                            0
- 1       0     1  0.123456789  contact-closes       upper at column:0.25, upper at column:0.5, upper at column:0.75 and 1 more  0 → ?
+ 1       0     1  0.123456789  contact-closes       upper at column:0.25, upper at column:0.5, upper at column:0.75 and 1 more  0
  2       0     1  1.01 ± 0.05  contact-limit-point                                                                              0 → 1
  3       0     2   0.12345679  end                  stop                                                                        1
 

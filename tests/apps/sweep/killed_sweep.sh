@@ -105,13 +105,9 @@ echo "resident memory of the parent: $early kB at a twentieth, $late kB at two f
 
 if command -v parallel >/dev/null; then
   "$program" sweep plan "$sweep" --out by-parallel >/dev/null
-  # The options of `run` go through the program that the script calls.
-  printf '#!/bin/sh\nexec "%s" "$@" --quiet --' "$program" >wrapped
-  for option in "${options[@]}"; do printf ' "%s"' "$option" >>wrapped; done
-  chmod +x wrapped
-  "$program" sweep emit by-parallel --engine parallel --jobs 2 >by-parallel.sh
+  "$program" sweep emit by-parallel --engine parallel --jobs 2 -- "${options[@]}" >by-parallel.sh
   # parallel tells how many of its jobs failed.
-  TRACE_PATH=$PWD/wrapped sh by-parallel.sh 2>parallel.txt || true
+  sh by-parallel.sh 2>parallel.txt || true
   compare by-parallel "run by GNU parallel"
   echo "by GNU parallel: the same to the byte"
 else

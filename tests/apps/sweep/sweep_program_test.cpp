@@ -176,8 +176,64 @@ TEST_F(SweepProgramTest, AnInterruptStopsCleanlyAndTheNextCallGoesOn) {
       "\"$PROGRAM\" sweep run study --jobs 2 -- --set path.max_step=1e-8 --set path.min_step=1e-12 "
       "--set path.max_points=100000000 & child=$!; sleep 0.5; kill -INT $child; wait $child");
   EXPECT_EQ(outcome.status, 130);
-  EXPECT_EQ(names_in(study() / "cases"), std::set<std::string>{});
+  for (const std::string& name : names_in(study() / "cases")) EXPECT_EQ(name[0], '.') << "no case has results";
+  // With other options they begin anew.
   expect_in("2 of 2 cases have results, 2 of them new", run("sweep run study").out);
+  EXPECT_EQ(names_in(study() / "cases"), (std::set<std::string>{"00000", "00001"}));
+}
+
+// As when the time of a task on a cluster is over again and again: each began every case from its start, for ever.
+TEST_F(SweepProgramTest, ACaseThatWasCutOffGoesOnFromItsCheckpoint) {
+  plan("title = \"t\"\ndeck = \"truss.toml\"\n[[list]]\npath.max_step = 0.0002\n");
+  const std::string command =
+      "\"$PROGRAM\" sweep run study --quiet -- --checkpoint-pause 0 --set path.max_points=1000000";
+  const Outcome cut = shell(command +
+                            " & child=$!; until [ -e study/cases/.00000/checkpoint ]; do sleep 0.01; done; "
+                            "kill -TERM $child; wait $child");
+  ASSERT_EQ(cut.status, 130) << "the case is too short to be cut off";
+  expect_in("0 of 1 cases have results, 0 of them as their deck says\n1 more are being run or were begun, 0 were not\n",
+            run("sweep status study").out);
+  const std::string begun = content(study() / "cases" / ".00000" / "path.csv");
+  ASSERT_GT(begun.size(), 100u);
+  ASSERT_EQ(shell(command).status, 0);
+  const std::string whole = content(study() / "cases" / "00000" / "path.csv");
+  EXPECT_TRUE(content(study() / "cases" / "00000" / "messages.txt").find("traced anew") == std::string::npos);
+  ASSERT_EQ(run("run study/truss.toml --out alone --quiet --set path.max_points=1000000 --set path.max_step=0.0002 "
+                "--no-pictures")
+                .status,
+            0);
+  EXPECT_EQ(whole, content(work() / "alone" / "path.csv"));
+  expect_in("1 of 1 cases have results, 1 of them as their deck says\n", run("sweep status study").out);
+}
+
+TEST_F(SweepProgramTest, ACaseThatTheTimeOfItsProcessCutGoesOnWithFailed) {
+  plan("title = \"t\"\ndeck = \"truss.toml\"\n[[list]]\npath.max_step = 0.0002\n");
+  const std::string options = " -- --set path.max_points=1000000";
+  ASSERT_EQ(run("sweep run study --quiet --max-time 0.0001" + options).status, 3);
+  const std::size_t before = table(content(study() / "cases" / "00000" / "path.csv")).size();
+  ASSERT_EQ(run("sweep run study --quiet --failed" + options).status, 0);
+  EXPECT_GT(table(content(study() / "cases" / "00000" / "path.csv")).size(), before);
+  EXPECT_EQ(names_in(study() / "cases" / "00000").count("begun.json"), 0u);
+}
+
+TEST_F(SweepProgramTest, CasesThatWereHinderedAreRunAgain) {
+  plan(stiffness_sweep);
+  EXPECT_EQ(
+      run_by("case $* in *E=1e+05*) exit 5;; *E=2e+05*) kill -KILL $$;; esac; exec '" TRACE_PATH_PROGRAM "' \"$@\"")
+          .failed,
+      2);
+  expect_in("file_error      1  1", run("sweep status study").out);
+  expect_in("3 of 3 cases have results, 2 of them new", run("sweep run study").out);
+}
+
+TEST_F(SweepProgramTest, SharesOfTheCasesAreDisjointAndTogetherAll) {
+  plan(stiffness_sweep);
+  expect_in("2 of 2 cases have results, 2 of them new", run("sweep run study --part 0/2").out);
+  EXPECT_EQ(names_in(study() / "cases"), (std::set<std::string>{"00000", "00002"}));
+  expect_in("1 of 1 cases have results, 1 of them new", run("sweep run study --part 1/2").out);
+  for (const char* wrong : {"2/2", "1", "a/b", "-1/2", "0/0", "1/"})
+    EXPECT_EQ(run("sweep run study --part " + std::string(wrong)).status, 2) << wrong;
+  EXPECT_EQ(run("sweep run study --tolerant --force -- --max-points 3").status, 0);
 }
 
 TEST_F(SweepProgramTest, ACaseThatAnotherProcessRunsIsLeftToIt) {
@@ -238,6 +294,17 @@ TEST_F(SweepProgramTest, ScriptsForEnginesQuoteAnyName) {
   expect_in("#SBATCH --array=0-2%2\n", slurm.out);
   EXPECT_EQ(names_in(work() / name / "cases").size(), 3u);
   EXPECT_EQ(shell("\"$PROGRAM\" sweep emit *study* --engine parallel --jobs 2 >job.sh && sh -n job.sh").status, 0);
+  const Outcome packed = shell(
+      "rm -rf *study*/cases; \"$PROGRAM\" sweep emit *study* --engine slurm --tasks 2 --time 0:30:00 --memory 2G "
+      "--partition short --log logs/%a.txt -- --set 'path.land={lambda=[1.5]}' >job.sh && "
+      "for i in 0 1; do SLURM_ARRAY_TASK_ID=$i sh job.sh || exit 1; done; cat job.sh");
+  EXPECT_EQ(packed.status, 0) << packed.err;
+  expect_in("#SBATCH --array=0-1\n", packed.out);
+  expect_in("#SBATCH --time=0:30:00\n#SBATCH --mem=2G\n#SBATCH --partition=short\n#SBATCH --output=logs/%a.txt\n",
+            packed.out);
+  EXPECT_EQ(names_in(work() / name / "cases").size(), 3u);
+  expect_in(",1.5,", content(work() / name / "cases" / "00002" / "path.csv"));
+  EXPECT_EQ(run("sweep emit *study* --engine slurm --time '1 h'").status, 2);
 }
 
 TEST_F(SweepProgramTest, WrongCommandLinesAreErrorsThatProposeTheNearest) {
