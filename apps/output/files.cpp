@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <climits>
 #include <fstream>
@@ -36,10 +37,11 @@ std::string bytes_of(const fs::path& file) {
 // cannot be told.
 std::string filled_by(const fs::path& folder) {
   std::error_code ignored;
-  const bool has_result = fs::exists(folder / "result.json", ignored);
-  if (!has_result && !fs::exists(folder / "convergence.json", ignored))
-    return deck_of_checkpoint(bytes_of(folder / "checkpoint"));
-  const std::string text = bytes_of(folder / (has_result ? "result.json" : "convergence.json"));
+  const std::array<const char*, 3> files{"result.json", "convergence.json", "curve.json"};
+  const auto first =
+      std::find_if(files.begin(), files.end(), [&](const char* name) { return fs::exists(folder / name, ignored); });
+  if (first == files.end()) return deck_of_checkpoint(bytes_of(folder / "checkpoint"));
+  const std::string text = bytes_of(folder / *first);
   const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
   const auto file = nlohmann::json::json_pointer("/deck/file");
   if (!result.is_object() || !result.contains(file) || !result.at(file).is_string()) return {};
@@ -50,7 +52,7 @@ std::string filled_by(const fs::path& folder) {
 bool is_leftover(const fs::path& file) {
   static const std::regex hidden(
       R"(\.(path\.csv|contacts\.csv|events\.json|events\.txt|deck\.toml|result\.json|report\.html|shapes\.pvd|)"
-      R"(steps\.jsonl|checkpoint|probe|convergence\.(json|txt)|([0-9]+|walls)\.vtu)\.[0-9]+)");
+      R"(steps\.jsonl|checkpoint|probe|convergence\.(json|txt)|curve\.(json|csv)|([0-9]+|walls)\.vtu)\.[0-9]+)");
   std::error_code ignored;
   return std::regex_match(file.filename().string(), hidden) && fs::is_regular_file(file, ignored);
 }

@@ -308,6 +308,7 @@ void declare_keys(Keys& root, Deck& deck) {
   declare_springs(root, deck);
   const bool walls_are_right = declare_walls(root, deck);
   declare_path(root, deck);
+  declare_curve(root, deck);
   if (loads_are_right && walls_are_right) check_driven(root, deck);
   if (loads_are_right) check_movements(root, deck);
 }
