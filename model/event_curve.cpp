@@ -352,17 +352,6 @@ EventCurve described(const deck::Deck& deck, const Model& model, const deck::Dec
   return curve;
 }
 
-// The curve begins there.
-void check_own_value(const deck::Deck& deck, double value) {
-  const std::vector<double>& range = deck.curve->range;
-  if (value >= range[0] && value <= range[1]) return;
-  DeckProblems problems(deck.source);
-  problems.add(deck.curve->position, "curve.range",
-               fmt::format("the deck's own value of {}, {}, is outside", deck.curve->over, value),
-               "give a range that holds it");
-  problems.raise();
-}
-
 }  // namespace
 
 void check_curve(const deck::Deck& deck, DeckProblems& problems) {
@@ -379,6 +368,14 @@ void check_curve(const deck::Deck& deck, DeckProblems& problems) {
     if (const auto* const none = std::get_if<deck::NoNumber>(&found))
       add(at, deck::in_quotes(key, 100) + " " + none->message, none->cure);
   }
+}
+
+void require_curve(const deck::Deck& deck) {
+  DeckProblems problems(deck.source);
+  const deck::EventToFollow& curve = *deck.curve;
+  const auto add = [&](const char* key, std::string message, std::string cure) {
+    problems.add(curve.position, key, std::move(message), std::move(cure));
+  };
   if (!deck.stages.empty())
     add("curve", "events of decks with stages are not followed", "leave out [curve], or the stages");
   if (deck.path.method == deck::PathMethod::incremental)
@@ -387,12 +384,18 @@ void check_curve(const deck::Deck& deck, DeckProblems& problems) {
     add("curve", "events that are not located are not followed", "write events = \"locate\"");
   if (curve.event == EventKind::displacement_limit && deck.path.watch.empty())
     add("curve.event", "no monitor is watched, so that none turns", "add watch = [\"MONITOR\"] to [path]");
+  const auto number = deck::number_of(deck, curve.over);
+  if (const auto* const found = std::get_if<deck::DeckNumber>(&number); found != nullptr && !curve.over.empty())
+    if (found->value < curve.range[0] || found->value > curve.range[1])
+      add("curve.range", fmt::format("the deck's own value of {}, {}, is outside", curve.over, found->value),
+          "give a range that holds it");
+  problems.raise();
 }
 
 EventCurve trace_event_curve(const deck::Deck& deck, const std::function<bool()>& stopped) {
   const Model checked(deck);  // reports all that is wrong
+  require_curve(deck);
   const auto number = std::get<deck::DeckNumber>(deck::number_of(deck, deck.curve->over));
-  check_own_value(deck, number.value);
   DeckFamily family(deck, number);
   EventCurve curve = described(deck, family.own(), number);
   const auto found = find_event(family.own(), *deck.curve, stopped, curve.problem);

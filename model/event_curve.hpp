@@ -55,8 +55,12 @@ struct EventCurve {
   std::string problem{};                 ///< why there is no curve; empty otherwise
 };
 
-/// Whether `curve.over` and `curve.worst` name numbers, and the rest of the deck allows a curve, as problems of it.
+/// Whether `curve.over` and `curve.worst` name numbers, as problems of the deck.
 void check_curve(const deck::Deck& deck, DeckProblems& problems);
+
+/// Throws InputError where the event of `[curve]` cannot be followed for what the rest of the deck says; runs of it do
+/// not mind.
+void require_curve(const deck::Deck& deck);
 
 /// Traces a deck's path up to the event that its `[curve]` names, and then the event in two parameters
 /// (docs/theory.md, section 14). `stopped` is asked at each point; true ends the curve. Throws InputError where the

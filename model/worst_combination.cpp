@@ -7,6 +7,7 @@
 
 #include "continuation/explorer.hpp"
 #include "model/deck/numbers.hpp"
+#include "model/event_curve.hpp"
 #include "model/event_names.hpp"
 #include "model/model.hpp"
 #include "model/sensitivities.hpp"
@@ -65,6 +66,7 @@ std::vector<double> list_of(const Vector& vector) { return {vector.begin(), vect
 // does not lower λ the way to it is halved.
 WorstCombination worst_combination(const deck::Deck& deck, const std::function<bool()>& stopped) {
   const Model checked(deck);  // reports all that is wrong
+  require_curve(deck);
   WorstCombination worst{.keys = deck.curve->worst};
   std::vector<deck::DeckNumber> numbers;
   for (const std::string& key : worst.keys) numbers.push_back(std::get<deck::DeckNumber>(deck::number_of(deck, key)));
