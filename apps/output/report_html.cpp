@@ -14,6 +14,7 @@
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/library_versions.hpp"
+#include "apps/output/landing_rows.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
 #include "apps/output/report_data.hpp"
@@ -107,6 +108,11 @@ Chart chart(const Record& record, const std::string& up, std::optional<std::size
     for (std::size_t i = line.first; i <= line.last; ++i)
       added.points.emplace_back(across(record.points[i]), record.points[i].lambda);
   }
+  if (monitor)
+    for (const Jump& jump : jumps(record))
+      result.lines.push_back({.points = {{jump.from[*monitor], jump.lambda}, {jump.to[*monitor], jump.lambda}},
+                              .colour = "#d55e00",
+                              .stability = Stability::undecided});
   const std::vector<std::size_t> first = first_points(record);
   const std::vector<double> zero = roundoff(record);
   for (const RecordEvent& event : record.events) {

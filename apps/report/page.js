@@ -93,7 +93,10 @@
         margin: { l: 10, r: 12, t: narrow ? 34 : 28, b: 10 }, showlegend: false, hovermode: 'closest', dragmode: narrow ? false : 'zoom',
         hoverlabel: { align: 'left', bgcolor: '#fff', bordercolor: '#aeb5bd', font: { color: ink, size: 13 } },
         font: { family: 'system-ui, "Segoe UI", Roboto, Arial, sans-serif', size: 13, color: ink },
-        paper_bgcolor: '#fff', plot_bgcolor: '#fff' };
+        paper_bgcolor: '#fff', plot_bgcolor: '#fff',
+        annotations: columns.length === 0 ? [] : data.jumps.map((jump) => ({ x: jump.to[monitor], y: jump.lambda,
+          ax: jump.from[monitor], ay: jump.lambda, xref: 'x', yref: 'y', axref: 'x', ayref: 'y', text: '',
+          showarrow: true, arrowhead: 2, arrowwidth: 2, arrowcolor: '#d55e00' })) };
       const config = { responsive: true, displaylogo: false, doubleClick: 'reset',
         modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', 'resetScale2d']],
         toImageButtonOptions: { filename: 'load', scale: 2 } };

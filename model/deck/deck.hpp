@@ -509,6 +509,7 @@ struct Path {
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
   EventSearch events = EventSearch::locate;
   ContinuumChoice continuum = ContinuumChoice::symmetric;
+  bool landing = false;                    ///< where the structure falls to behind events is looked for
   std::vector<std::string> sensitivity{};  ///< keys of numbers, as in `--set`, by which events have derivatives
   Stop stop{};
 
