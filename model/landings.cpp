@@ -208,7 +208,7 @@ class Falls {
     landing->lambda = event.lambda;
     bool left = false;
     for (const double push : pushes) {
-      const auto start = pushed(point, onwards, push);
+      const auto start = pushed(event, point, onwards, push);
       if (!start) break;
       const Descent descent = descend(mesh_.system(), mesh_.state(at.state, event.lambda), *start);
       if (descent.end == DescentEnd::falls_away) {
@@ -216,13 +216,14 @@ class Falls {
         landing->why = "nothing holds the structure at this load";
         return landing;
       }
+      // Near a branch point from which a stable branch leaves it creeps back.
+      if (mesh_.distance(descent.state.x.head(mesh_.size()), event_x) <= is_elsewhere) continue;
       if (descent.end == DescentEnd::not_found) {
         landing->reason = "not_found";
         landing->why = "the descent came to no rest";
         left = true;
         continue;
       }
-      if (mesh_.distance(descent.state.x.head(mesh_.size()), event_x) <= is_elsewhere) continue;
       rest = descent.state;
       settle(event, point, rest, *landing);
       if (landing->reason.empty() && depth > 0) add_way_back(event, point, depth, *landing);
@@ -232,13 +233,15 @@ class Falls {
   }
 
  private:
-  // The deck's unknowns of a point of the path at least so far from the event.
-  std::optional<Vector> pushed(std::size_t point, int onwards, double least) const {
+  // The deck's unknowns at least so far from the event, towards the next point of the path or of a branch that leaves
+  // it there.
+  std::optional<Vector> pushed(const RecordEvent& event, std::size_t point, int onwards, double least) const {
     const Vector event_x = mesh_.unknowns(record_.points[point].state);
     for (auto i = static_cast<std::ptrdiff_t>(point) + onwards;
          i >= 0 && i < static_cast<std::ptrdiff_t>(record_.points.size()); i += onwards) {
       const RecordPoint& next = record_.points[static_cast<std::size_t>(i)];
-      if (next.branch != record_.points[point].branch) break;
+      const auto& leaving = event.branches;
+      if (next.branch != event.branch && std::find(leaving.begin(), leaving.end(), next.branch) == leaving.end()) break;
       const Vector x = mesh_.unknowns(next.state);
       const double far = mesh_.distance(x, event_x);
       if (far > 1e-6) return event_x + std::max(1.0, least / far) * (x - event_x);

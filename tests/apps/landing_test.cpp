@@ -207,6 +207,25 @@ TEST(Landing, OfAColumnInAChannelIsThatOfShooting) {
   EXPECT_NEAR(snap.landing->loop.value(), 0.564429600789, 1e-6);
 }
 
+// A steep truss of rise 5 and half-span 1 sways at z = √23 above its feet, and that branch is unstable. With
+// P L³ = z (25 − z²) at z = √23 it falls to the other root of z³ − 25 z + 2 √23 = 0 below, z = −(√23 + √31)/2.
+TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
+  std::string deck = truss("-4.5");
+  const auto put = [&](const std::string& from, const std::string& to) {
+    deck.replace(deck.find(from), from.size(), to);
+  };
+  put("left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0]",
+      "left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0]");
+  put("E = 1e4", "E = 1.0");
+  put("step = 0.3", "step = 0.005");
+  put("branches = \"primary\"", "branches = \"follow\"");
+  const TracedDeck traced(deck);
+  const RecordEvent& sway = first(traced, EventKind::branch_point);
+  ASSERT_TRUE(sway.landing);
+  EXPECT_EQ(sway.landing->reason, "");
+  EXPECT_NEAR(sway.landing->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
+}
+
 // A column that buckles into the post-buckling branch, which is stable, does not fall.
 TEST(Landing, IsNoneWhereTheBranchBehindIsStable) {
   const TracedDeck traced(R"toml(
