@@ -76,9 +76,9 @@ struct RecordLanding {
   double energy = 0.0;                    ///< total potential [force·length]
   double released = 0.0;                  ///< energy before less energy behind [force·length]
   std::optional<Index> unstable{};
-  std::optional<Index> on_branch{};  ///< the branch that passes through the state, if one does
-  double arc = 0.0;                  ///< along it
-  std::size_t point = 0;             ///< the last point of the record before it
+  std::optional<Index> on_branch{};             ///< the branch that passes through the state, if one does
+  double arc = 0.0;                             ///< along it
+  std::size_t point = 0;                        ///< the last point of the record before it
   std::shared_ptr<const RecordWayBack> back{};  ///< λ taken back from there; null: no loss of stability is known
   std::optional<double> loop{};                 ///< energy lost in a closed loop [force·length]
 };
@@ -113,7 +113,7 @@ struct RecordEvent {
   bool discretisation = false;              ///< of a branch point that only contact at nodes makes
   std::vector<Index> branches{};            ///< that leave a branch point
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
-  std::vector<RecordSensitivity> sensitivity{};  ///< by the deck's numbers of `path.sensitivity`, in their order
+  std::vector<RecordSensitivity> sensitivity{};    ///< by the deck's numbers of `path.sensitivity`, in their order
   std::shared_ptr<const RecordLanding> landing{};  ///< null: the structure does not fall, or that was not asked for
 };
 

@@ -8,10 +8,10 @@
 #include "model/checkpoint/checkpoint_file.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
+#include "model/landings.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
 #include "model/session_content.hpp"
-#include "model/landings.hpp"
 #include "model/tracing.hpp"
 #include "model/version.hpp"
 

@@ -48,7 +48,8 @@ inline void write_whole(const std::filesystem::path& file, std::string_view text
 enum class Foreign { refuse, overwrite };
 
 /// Throws OutputError if `folder` is no folder, or is foreign and to be refused: it is not empty and its result.json,
-/// or without one its convergence.json or curve.json, does not name `deck`, a file name without folder. Changes nothing.
+/// or without one its convergence.json or curve.json, does not name `deck`, a file name without folder. Changes
+/// nothing.
 void require_usable(const std::filesystem::path& folder, const std::string& deck, Foreign foreign);
 
 /// The folder that a run writes its files into.

@@ -13,8 +13,8 @@
 
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
-#include "apps/output/library_versions.hpp"
 #include "apps/output/landing_rows.hpp"
+#include "apps/output/library_versions.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
 #include "apps/output/report_data.hpp"
