@@ -10,6 +10,7 @@ namespace arcwall {
 // n₋ = n₋(K) + n₋(T) with what a border holds (Haynsworth 1968).
 std::optional<Index> negative_eigenvalues(const Equations& system, const State& state, const BorderedSolver& solver,
                                           const Linearization& now, const NearNull& nearest) {
+  if (!system.has_stability()) return std::nullopt;
   const Index multipliers = system.multiplier_count(state.piece);
   if (now.B.cols() == 0) {
     const Vector weights = system.weights(state.piece);
@@ -53,6 +54,7 @@ StabilityCount StabilityCounter::count(const State& state, std::optional<Index> 
 }
 
 std::optional<Index> StabilityCounter::negative_on(const State& state) {
+  if (!system_.has_stability()) return std::nullopt;
   if (last_ != state) remember(state, counted_on(state));
   return last_negative_;
 }

@@ -42,6 +42,11 @@ class Equations {
   /// How many unknowns at the end of those of K are multipliers: forces and moments that enforce constraints, in whose
   /// rows K has no diagonal, or a negative one. Each takes a negative eigenvalue of K, which stability does not count.
   virtual Index multiplier_count(const Piece&) const { return 0; }
+
+  /// Whether eigenvalues of K tell how many directions are unstable. Not of equations that no structure is in
+  /// equilibrium by, as those of an event that is followed: then nothing is counted, and branch points are not looked
+  /// for.
+  virtual bool has_stability() const { return true; }
 };
 
 }  // namespace arcwall

@@ -9,6 +9,7 @@
 #include "model/build_contact.hpp"
 #include "model/build_path.hpp"
 #include "model/build_structure.hpp"
+#include "model/event_curve.hpp"
 #include "model/sensitivities.hpp"
 
 namespace arcwall {
@@ -234,6 +235,7 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
       [&](Index freedom, double rate) { moved_.push_back({.rate = rate, .reaction = body_->reaction(freedom)}); });
   options_ = trace_options(deck_, read_off, monitors_, problems);
   if (stage_ == 0) check_sensitivity(whole_deck_, problems);
+  if (stage_ == 0) check_curve(whole_deck_, problems);
   problems.raise();
   if (!loose_holds_.empty()) {
     options_.lambda_scale = lambda_scale_if_held(deck_, false);

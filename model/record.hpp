@@ -57,6 +57,40 @@ struct RecordSensitivity {
   std::string why_none{};         ///< then
 };
 
+/// A contact of a landing, or a stretch of contact.
+struct RecordStretch {
+  ContactLabel label{};  ///< of its first point
+  bool is_line = false;
+  double force = 0.0;  ///< in sum [force]
+};
+
+struct RecordWayBack;
+
+/// Where a structure falls to behind an event, at the same λ.
+struct RecordLanding {
+  std::string reason{}, why{};  ///< `falls_away` or `not_found`, and in words why; empty where it comes to rest
+  double lambda = 0.0;
+  std::vector<double> monitors{};
+  std::vector<RecordStretch> contacts{};  ///< along the members
+  std::string word{};                     ///< the walls of these, `upper lower upper`; `upper=` of a stretch
+  double energy = 0.0;                    ///< total potential [force·length]
+  double released = 0.0;                  ///< energy before less energy behind [force·length]
+  std::optional<Index> unstable{};
+  std::optional<Index> on_branch{};             ///< the branch that passes through the state, if one does
+  double arc = 0.0;                             ///< along it
+  std::size_t point = 0;                        ///< the last point of the record before it
+  std::shared_ptr<const RecordWayBack> back{};  ///< λ taken back from there; null: no loss of stability is known
+  std::optional<double> loop{};                 ///< energy lost in a closed loop [force·length]
+};
+
+/// Where the state that was fallen to loses its stability as λ goes back.
+struct RecordWayBack {
+  double lambda = 0.0;
+  EventKind kind = EventKind::limit_point;
+  std::vector<double> monitors{};
+  std::shared_ptr<const RecordLanding> landing{};
+};
+
 struct RecordEvent {
   Index id = 0;  ///< counts from 0 over all branches
   EventKind kind = EventKind::start;
@@ -79,7 +113,8 @@ struct RecordEvent {
   bool discretisation = false;              ///< of a branch point that only contact at nodes makes
   std::vector<Index> branches{};            ///< that leave a branch point
   std::vector<double> mode{};  ///< rates of the monitors along the critical mode of a branch point; may be empty
-  std::vector<RecordSensitivity> sensitivity{};  ///< by the deck's numbers of `path.sensitivity`, in their order
+  std::vector<RecordSensitivity> sensitivity{};    ///< by the deck's numbers of `path.sensitivity`, in their order
+  std::shared_ptr<const RecordLanding> landing{};  ///< null: the structure does not fall, or that was not asked for
 };
 
 struct RecordBranch {

@@ -9,21 +9,11 @@
 #include "core/error.hpp"
 #include "model/build_structure.hpp"
 #include "model/deck/value.hpp"
+#include "model/deck_family.hpp"
 
 namespace arcwall {
 
 namespace {
-
-// The step by which a number is varied: a part of its value, greater where it is measured in forces, in which equations
-// are linear, and no less than a part of what it is measured in, so that round-off does not hide what a small
-// imperfection does.
-double natural_step(const deck::DeckNumber& number, const Structure& structure) {
-  constexpr double of_force = 3e-2, of_value = 1e-3, of_unit = 1e-5;
-  const double unit = std::pow(structure.length_scale(), number.unit.length) *
-                      std::pow(std::max(structure.force_scale(), 1e-300), number.unit.force);
-  if (number.unit.force != 0) return number.value != 0.0 ? of_force * std::abs(number.value) : of_unit * unit;
-  return std::max(of_value * std::abs(number.value), of_unit * unit);
-}
 
 const deck::StopBounds* bounds_of_lambda(const deck::Deck& deck, std::size_t stage) {
   const auto& own = deck.stages[stage].stop;
@@ -43,15 +33,6 @@ std::optional<double> end_of_stage(const deck::Deck& deck, const deck::Deck& var
   return std::nullopt;
 }
 
-// The event's state in the unknowns of another model.
-std::optional<State> state_on(const Model& model, const State& state) {
-  if (model.sliding() != nullptr) return model.sliding()->taken_over(state);
-  const System& system = model.system();
-  if (system.open_piece().size() != state.piece.size() || system.size(state.piece) != state.x.size())
-    return std::nullopt;
-  return state;
-}
-
 // The monitor that turns at a displacement limit; null at other events.
 std::shared_ptr<const Observable> turning_of(const Model& model, const Event& event) {
   for (const Watch& watch : model.watched())
@@ -63,12 +44,15 @@ bool has_sensitivity(EventKind kind) {
   return kind != EventKind::start && kind != EventKind::end && kind != EventKind::user;
 }
 
-std::string first_message(const InputError& error) {
-  const Diagnostic& first = error.diagnostics().front();
-  return (first.key.empty() ? "" : first.key + ": ") + first.message;
-}
-
 }  // namespace
+
+double natural_step(const deck::DeckNumber& number, const Structure& structure) {
+  constexpr double of_force = 3e-2, of_value = 1e-3, of_unit = 1e-5;
+  const double unit = std::pow(structure.length_scale(), number.unit.length) *
+                      std::pow(std::max(structure.force_scale(), 1e-300), number.unit.force);
+  if (number.unit.force != 0) return number.value != 0.0 ? of_force * std::abs(number.value) : of_unit * unit;
+  return std::max(of_value * std::abs(number.value), of_unit * unit);
+}
 
 // The models of decks with values beside a number's own, or why there are none.
 struct Sensitivities::Beside {

@@ -6,6 +6,7 @@
 #include "model/checkpoint/checkpoint_file.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
+#include "model/landings.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
 #include "model/regular_file.hpp"
@@ -79,7 +80,9 @@ bool Session::begin() {
 
 const RecordPoint* Session::next() {
   if (!problem_.empty() || !begin()) return nullptr;
-  return tracing_->advance() ? &record_->points.back() : nullptr;
+  if (tracing_->advance()) return &record_->points.back();
+  add_landings(*model_, *record_);
+  return nullptr;
 }
 
 bool Session::has_ended() const { return tracing_ && tracing_->has_ended(); }
@@ -135,6 +138,8 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     if (stopped && how == Session::Resume::as_ended) {
       session.stop(*stopped);
       session.next();
+    } else if (session.has_ended()) {
+      add_landings(*session.model_, *session.record_);
     }
     return session;
   } catch (const BadArchive& problem) {

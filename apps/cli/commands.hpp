@@ -19,6 +19,7 @@ Command resume_command();
 Command report_command();
 Command verify_command();
 Command converge_command();
+Command curve_command();
 Command check_command();
 Command examples_command();
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "apps/output/landing_rows.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
 
@@ -101,6 +102,7 @@ OrderedJson event_json(const Record& record, const RecordEvent& event) {
   }
   if (!event.mode.empty()) json["mode"] = monitors(record, event.mode);
   add_sensitivity(event.sensitivity, json);
+  if (event.landing) json["landing"] = landing_json(record, *event.landing);
   if (event.branch_end) json.update(end_json(*event.branch_end));
   return json;
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "apps/output/landing_rows.hpp"
 #include "apps/output/roundoff.hpp"
 #include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
@@ -145,6 +146,9 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
         "\nWhat λ of the events depends on: its derivative by a number n of the deck, and by how many per cent it "
         "changes where n grows by one\n\n" +
         text_table(sensitivity_columns(), rows);
+  if (const auto rows = landing_rows(record); !rows.empty())
+    text += "\nWhere the structure falls to, λ held: energy released, and λ back at which it falls again\n\n" +
+            text_table(landing_columns(record), rows);
   return printable(text, LineBreaks::kept);
 }
 

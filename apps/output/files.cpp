@@ -37,10 +37,11 @@ std::string bytes_if_any(const fs::path& file) {
 // cannot be told.
 std::string filled_by(const fs::path& folder) {
   std::error_code ignored;
-  const bool has_result = fs::exists(folder / "result.json", ignored);
-  if (!has_result && !fs::exists(folder / "convergence.json", ignored))
-    return deck_of_checkpoint(bytes_if_any(folder / "checkpoint"));
-  const std::string text = bytes_if_any(folder / (has_result ? "result.json" : "convergence.json"));
+  const std::array<const char*, 3> files{"result.json", "convergence.json", "curve.json"};
+  const auto first =
+      std::find_if(files.begin(), files.end(), [&](const char* name) { return fs::exists(folder / name, ignored); });
+  if (first == files.end()) return deck_of_checkpoint(bytes_if_any(folder / "checkpoint"));
+  const std::string text = bytes_if_any(folder / *first);
   const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
   const auto file = nlohmann::json::json_pointer("/deck/file");
   if (!result.is_object() || !result.contains(file) || !result.at(file).is_string()) return {};
@@ -48,9 +49,9 @@ std::string filled_by(const fs::path& folder) {
 }
 
 // What is written into the folder of a run or of a study of meshes, besides shapes.
-constexpr std::array output_names{"path.csv",    "contacts.csv",     "events.json",    "events.txt",  "deck.toml",
-                                  "result.json", "report.html",      "shapes.pvd",     "steps.jsonl", "checkpoint",
-                                  "probe",       "convergence.json", "convergence.txt"};
+constexpr std::array output_names{"path.csv",    "contacts.csv",     "events.json",     "events.txt",  "deck.toml",
+                                  "result.json", "report.html",      "shapes.pvd",      "steps.jsonl", "checkpoint",
+                                  "probe",       "convergence.json", "convergence.txt", "curve.json",  "curve.csv"};
 
 // Whether a file is one that a killed process was writing, see StagedFile, or its lock.
 bool is_leftover(const fs::path& file) {

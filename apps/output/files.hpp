@@ -57,7 +57,8 @@ void require_other_than_input(const std::filesystem::path& folder, const std::fi
 enum class Foreign { refuse, overwrite };
 
 /// Throws OutputError if `folder` is no folder, or is foreign and to be refused: it is not empty and its result.json,
-/// or without one its convergence.json, does not name `deck`, a file name without folder. Changes nothing.
+/// or without one its convergence.json or curve.json, does not name `deck`, a file name without folder. Changes
+/// nothing.
 void require_usable(const std::filesystem::path& folder, const std::string& deck, Foreign foreign);
 
 /// The folder that a run writes its files into, and no other process meanwhile.

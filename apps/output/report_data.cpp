@@ -10,6 +10,7 @@
 
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
+#include "apps/output/landing_rows.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
 #include "apps/output/roundoff.hpp"
@@ -193,6 +194,18 @@ OrderedJson shapes_json(const ShapePictures& shapes) {
   return list;
 }
 
+OrderedJson jumps_json(const Record& record) {
+  const auto list = [](const std::vector<double>& values) {
+    OrderedJson json = OrderedJson::array();
+    for (const double value : values) json.push_back(number(value));
+    return json;
+  };
+  OrderedJson json = OrderedJson::array();
+  for (const Jump& jump : jumps(record))
+    json.push_back({{"lambda", number(jump.lambda)}, {"from", list(jump.from)}, {"to", list(jump.to)}});
+  return json;
+}
+
 }  // namespace
 
 std::string branch_colour(Index branch) {
@@ -240,6 +253,7 @@ OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
           {"points", points_json(record)},
           {"lines", lines_json(record)},
           {"events", events_json(record)},
+          {"jumps", jumps_json(record)},
           {"uncertain", uncertain_json(record)},
           {"members", members_json(shapes)},
           {"walls", walls_json(shapes)},

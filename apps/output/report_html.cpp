@@ -14,6 +14,7 @@
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/exit_status.hpp"
+#include "apps/output/landing_rows.hpp"
 #include "apps/output/library_versions.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/path_lines.hpp"
@@ -156,6 +157,11 @@ Chart chart(const Record& record, const ReportContent& content, std::optional<st
       added.points.emplace_back(across(record.points[i]), record.points[i].lambda);
   }
   if (monitor) add_overlays(content, record.columns[*monitor].name, result);
+  if (monitor)
+    for (const Jump& jump : jumps(record))
+      result.lines.push_back({.points = {{jump.from[*monitor], jump.lambda}, {jump.to[*monitor], jump.lambda}},
+                              .colour = "#d55e00",
+                              .stability = Stability::undecided});
   const std::vector<std::size_t> first = first_points(record);
   const std::vector<double> zero = roundoff(record);
   for (const RecordEvent& event : record.events) {

@@ -78,6 +78,15 @@
     return [...traces.values()];
   };
 
+  // Where the structure falls to from a loss of stability, λ held: over monitors alone, of which landings tell.
+  const fall_arrows = ({ across, up }) => {
+    const monitor = columns.findIndex(({ name }) => name === across.key);
+    if (up !== load || monitor < 0) return [];
+    return data.jumps.map((jump) => ({ x: jump.to[monitor], y: jump.lambda, ax: jump.from[monitor], ay: jump.lambda,
+      xref: 'x', yref: 'y', axref: 'x', ayref: 'y', text: '', showarrow: true, arrowhead: 2, arrowwidth: 2,
+      arrowcolor: colour('force') }));
+  };
+
   // Where the events are, if the rest of the curve would leave them a small part of the picture; else null. It goes from
   // the start to the last event of each branch that has one.
   const view_of_events = ({ across, up }) => {
@@ -187,7 +196,8 @@
         hoverlabel: { align: 'left', bgcolor: colour('paper'), bordercolor: colour('edge'), font: { color: colour('ink'), size: 13 } },
         font: { family: 'system-ui, "Segoe UI", Roboto, Arial, sans-serif', size: 13, color: colour('ink') },
         modebar: { bgcolor: 'rgba(0,0,0,0)', color: colour('soft'), activecolor: colour('accent') },
-        paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper') };
+        paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper'),
+        annotations: fall_arrows(shown) };
       const config = { responsive: true, displaylogo: false, doubleClick: 'reset+autosize',
         modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', 'resetScale2d']],
         toImageButtonOptions: { filename: 'load', scale: 2 } };

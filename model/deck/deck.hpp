@@ -509,10 +509,27 @@ struct Path {
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
   EventSearch events = EventSearch::locate;
   ContinuumChoice continuum = ContinuumChoice::symmetric;
+  bool landing = false;                    ///< where the structure falls to behind events is looked for
   std::vector<std::string> sensitivity{};  ///< keys of numbers, as in `--set`, by which events have derivatives
   Stop stop{};
 
   bool operator==(const Path&) const = default;
+};
+
+/// An event that is followed while a number of the deck varies, or what combination of numbers makes worst.
+struct EventToFollow {
+  Position position{};
+  EventKind event = EventKind::limit_point;
+  int number = 1;                    ///< among the events of its kind, from 1
+  std::string over{};                ///< key of the number, as in `--set`; empty: `worst` is asked for
+  std::vector<double> range{};       ///< its least and greatest value, in this order
+  std::optional<double> step{};      ///< of the number, for the first predictor
+  int max_points = 500;              ///< on each side of the deck's own value
+  std::vector<double> land{};        ///< values of the number to land on
+  std::vector<std::string> worst{};  ///< keys of the numbers that are combined
+  std::optional<double> radius{};    ///< the norm of their change
+
+  bool operator==(const EventToFollow&) const = default;
 };
 
 /// A part of the run in which λ drives some things, from where the stage before has left all. λ begins at 0 again.
@@ -547,6 +564,7 @@ struct Deck {
   Path path{};
   std::vector<Stage> stages{};  ///< empty: one that drives all that is not constant
   std::vector<Monitor> monitors{};
+  std::optional<EventToFollow> curve{};
 
   bool operator==(const Deck&) const = default;
 };

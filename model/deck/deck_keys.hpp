@@ -20,6 +20,8 @@ void declare_springs(Keys& root, Deck& deck);
 bool declare_walls(Keys& root, Deck& deck);  ///< and the treatment of contact; true if all walls are right
 void declare_path(Keys& root, Deck& deck);   ///< and the monitors
 
+void declare_curve(Keys& root, Deck& deck);  ///< the event that is followed
+
 /// Reports a deck in which λ drives nothing. What a wrong load would have been cannot be told: only where all are
 /// right.
 void check_driven(Keys& root, const Deck& deck);

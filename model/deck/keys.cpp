@@ -36,7 +36,10 @@ struct TomlText {
   Text operator()(const bool* value) const { return *value ? "true" : "false"; }
   Text operator()(const std::string* value) const { return in_quotes(*value); }
   Text operator()(const Vector* value) const { return "[" + float_text(value->x) + ", " + float_text(value->z) + "]"; }
-  Text operator()(const std::vector<double>* values) const { return array_text(*values, float_text); }
+  // An array that is there has a number.
+  Text operator()(const std::vector<double>* values) const {
+    return values->empty() ? Text() : Text(array_text(*values, float_text));
+  }
   Text operator()(const Place* value) const { return in_quotes(to_text(*value)); }
   Text operator()(const std::optional<std::string>* word) const { return *word ? Text(in_quotes(**word)) : Text(); }
   Text operator()(const std::vector<std::string>* texts) const {

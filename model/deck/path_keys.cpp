@@ -148,12 +148,9 @@ void path_keys(Keys& keys, Path& path) {
       "of contact that slides, where equilibria form a continuum, since only the sum of the lengths of several flat "
       "parts is determined: `\"symmetric\"` goes on with the one in which neighbouring parts keep the difference of "
       "their lengths, `\"stop\"` ends the branch with the reason `family`");
-  bool landing = false;
-  if (keys.flag(optional("landing"), landing,
-                "`true` is refused: where a structure falls to behind an event is not looked for") &&
-      landing)
-    keys.report("landing", "where a structure falls to behind an event is not looked for",
-                "leave landing out, and land on the load with land = { lambda = [...] }");
+  keys.flag(optional("landing"), path.landing,
+            "where the structure falls to at the same λ, behind each event at which it loses its stability: see "
+            "[answers.md](answers.md)");
   keys.any_texts(optional("sensitivity", "none"), path.sensitivity,
                  "numbers of the deck, as in `--set`, by which each located event has a derivative: "
                  "`[\"wall.upper.profile.z\", \"material.m.E\"]`, see [answers.md](answers.md)");
@@ -308,6 +305,7 @@ void declare_keys(Keys& root, Deck& deck) {
   declare_springs(root, deck);
   const bool walls_are_right = declare_walls(root, deck);
   declare_path(root, deck);
+  declare_curve(root, deck);
   if (loads_are_right && walls_are_right) check_driven(root, deck);
   if (loads_are_right) check_movements(root, deck);
 }

@@ -112,4 +112,12 @@ inline constexpr Words<EventKind, 9> stop_event_words{{{"contact-closes", EventK
                                                        {"displacement-limit", EventKind::displacement_limit},
                                                        {"branch-point", EventKind::branch_point}}};
 
+inline constexpr Words<EventKind, 7> curve_event_words{{{"limit-point", EventKind::limit_point},
+                                                        {"branch-point", EventKind::branch_point},
+                                                        {"contact-closes", EventKind::contact_closes},
+                                                        {"contact-spreads", EventKind::contact_spreads},
+                                                        {"contact-gathers", EventKind::contact_gathers},
+                                                        {"contact-limit-point", EventKind::contact_limit_point},
+                                                        {"displacement-limit", EventKind::displacement_limit}}};
+
 }  // namespace arcwall::deck

@@ -260,7 +260,7 @@ TEST_F(ProgramTest, WrongCommandLinesAreErrors) {
 }
 
 TEST_F(ProgramTest, HelpBeginsWithAnExample) {
-  for (const char* command : {"", "run", "resume", "report", "verify", "converge", "check", "examples"}) {
+  for (const char* command : {"", "run", "resume", "report", "verify", "converge", "curve", "check", "examples"}) {
     const Outcome outcome = run(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.out.find("  trace-path " + std::string(command)), 0u) << outcome.out;

@@ -60,7 +60,7 @@ expect 'material.' trace-path run channel.toml --set mat
 expect 'channel' trace-path examples chan
 expect 'sweep-channel' trace-path examples sw
 expect 'channel.toml,my decks,notes.txt,study' trace-path examples channel --out ''
-expect 'collect,emit,plan,run' trace-path sweep ''
+expect 'collect,emit,plan,run,status' trace-path sweep ''
 expect 'plan' trace-path sweep pl
 expect '--help' trace-path sweep --he
 expect 'my decks,study' trace-path sweep run ''

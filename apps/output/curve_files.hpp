@@ -1,0 +1,35 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "apps/output/exit_status.hpp"
+#include "model/event_curve.hpp"
+#include "model/run_description.hpp"
+#include "model/worst_combination.hpp"
+
+namespace arcwall {
+
+/// curve.csv: a row a point, from one end of the curve to the other.
+std::string curve_csv(const EventCurve& curve, UnitLabels labels);
+
+/// curve.json: what was followed, and the special points. `deck_text`: the bytes of the deck's file.
+nlohmann::ordered_json curve_json(const EventCurve& curve, std::string_view deck_text,
+                                  const std::vector<std::string>& assignments);
+
+/// What the command shows: the special points as a table.
+std::string curve_text(const EventCurve& curve);
+
+/// report.html of a curve: λ and the monitors over the number, and the shape at some points.
+std::string curve_html(const EventCurve& curve);
+
+/// curve.json of the worst combination of numbers, and what the command shows of it.
+nlohmann::ordered_json worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,
+                                  const std::vector<std::string>& assignments);
+std::string worst_text(const deck::Deck& deck, const WorstCombination& worst);
+
+/// The status of a curve by the reasons of its ends.
+ExitStatus curve_status(const EventCurve& curve);
+
+}  // namespace arcwall

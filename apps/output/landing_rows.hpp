@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/output/text_table.hpp"
+#include "model/record.hpp"
+
+namespace arcwall {
+
+/// Where structures fall to, as a table: a row an event that has a landing. Empty where none has.
+std::vector<TableColumn> landing_columns(const Record& record);
+std::vector<std::vector<std::string>> landing_rows(const Record& record);
+
+/// A landing as it stands in events.json.
+nlohmann::ordered_json landing_json(const Record& record, const RecordLanding& landing);
+
+/// A fall at one λ: from a point of the curve to another.
+struct Jump {
+  double lambda = 0.0;
+  std::vector<double> from{}, to{};  ///< monitors
+};
+
+/// All falls of a record, those of the ways back among them.
+std::vector<Jump> jumps(const Record& record);
+
+}  // namespace arcwall

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "core/algebra/factorization.hpp"
+#include "core/unilateral_system.hpp"
+
+namespace arcwall {
+
+/// How a descent ended.
+enum class DescentEnd {
+  at_rest,     ///< at a minimum of the potential
+  falls_away,  ///< farther than structures go: nothing holds it
+  not_found,   ///< it came to no rest
+};
+
+struct Descent {
+  DescentEnd end = DescentEnd::not_found;
+  State state{};  ///< where it ended; at rest an equilibrium
+  int steps = 0;
+};
+
+/// Overdamped motion of a structure at fixed λ among its obstacles, from a state that need be no equilibrium and whose
+/// gaps are not negative (docs/theory.md, section 15):
+///
+///     μ W ẋ = −∂Π/∂x,    g_j ≥ 0
+///
+/// by implicit Euler, each step of which is a minimum of Π + ½ μ |x − xₙ|²_W among the obstacles, found by Newton's
+/// method with an active set. μ, the inverse of the time step, is so large that each of these is convex and no step is
+/// long. So Π falls from step to step. The unknowns mean the same all along: contacts are those of nodes.
+Descent descend(const UnilateralSystem& system, const State& start, const MakeFactorization& make);
+
+}  // namespace arcwall

@@ -1,0 +1,279 @@
+#include "continuation/answers/event_condition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "continuation/step/corrector.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double null_vectors_beside =
+    1e-7;  // of λ₀: where K is singular to the last digit null vectors come from beside
+
+// [J F_λ]ᵀ w
+Row transposed_product(const Linearization& equations, const Vector& w) {
+  const Index n = equations.K.cols(), m = equations.B.cols();
+  Row row{.dx = Vector(n + m), .dlambda = equations.F_lambda.dot(w)};
+  row.dx.head(n).noalias() = equations.K.selfadjointView<Eigen::Lower>() * w.head(n);
+  if (m > 0) {
+    row.dx.head(n).noalias() += equations.C.leftCols(n).transpose() * w.tail(m);
+    row.dx.tail(m) = equations.B.transpose() * w.head(n) + equations.C.rightCols(m).transpose() * w.tail(m);
+  }
+  return row;
+}
+
+// J d_x + F_λ d_λ
+Vector applied(const Linearization& equations, const Direction& d) {
+  return product(equations, d.dx).col(0) + d.dlambda * equations.F_lambda;
+}
+
+Row& add(Row& sum, double factor, const Row& row) {
+  sum.dx += factor * row.dx;
+  sum.dlambda += factor * row.dlambda;
+  return sum;
+}
+
+// How good derivatives of an event's equation are: good enough for Newton's method, or such that the tangent of the
+// curve is, which those of a crossing make alone.
+enum class Differences { simple, fine };
+
+struct Place {
+  double offset, weight;  // in steps
+};
+constexpr Place simple_places[] = {{1.0, 0.5}, {-1.0, -0.5}};
+constexpr Place fine_places[] = {{1.0, 2.0 / 3.0}, {-1.0, -2.0 / 3.0}, {2.0, -1.0 / 12.0}, {-2.0, 1.0 / 12.0}};
+
+// The derivative along d of a function that gives rows.
+template <typename Function>
+Row rows_differenced_along(const Metric& metric, const State& state, const Direction& d, Differences how,
+                           const Function& f) {
+  constexpr double simple_step = 1e-4, fine_step = 1e-3;  // [path metric]
+  const double length = metric.norm(d), greatest = d.dx.size() > 0 ? d.dx.cwiseAbs().maxCoeff() : 0.0;
+  Row sum{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  if (length == 0.0 && greatest == 0.0) return sum;
+  const bool fine = how == Differences::fine;
+  // Forces alone have no length, and equations are linear in them.
+  const double h = length > 0.0 ? (fine ? fine_step : simple_step) / length : 1.0 / greatest;
+  for (const Place& place : fine ? std::span<const Place>(fine_places) : std::span<const Place>(simple_places))
+    add(sum, place.weight / h, f(moved(state, d, place.offset * h)));
+  return sum;
+}
+
+// The matrix A with a factorization of K, and its transpose, for which the border of the equations changes places.
+class BorderedMatrix {
+ public:
+  BorderedMatrix(const SystemFamily::Member& at, Linearization& equations, Vector f, Row r,
+                 const MakeFactorization& make)
+      : equations_(equations), f_(std::move(f)), r_(std::move(r)), solver_(make), transposed_solver_(make) {
+    const Index multipliers = at.system->multiplier_count(at.state.piece);
+    solver_.factorize(equations_, multipliers);
+    const Index n = equations.K.cols(), m = equations.B.cols();
+    if (m == 0) return;
+    transposed_.K = equations.K;
+    transposed_.F = equations.F;
+    transposed_.B = equations.C.leftCols(n).transpose();
+    transposed_.C.resize(m, n + m);
+    transposed_.C << equations.B.transpose(), equations.C.rightCols(m).transpose();
+    transposed_.holding = equations.holding;
+    transposed_.border_rates = equations.border_rates;
+    transposed_.translation_free = equations.translation_free;
+    transposed_.ground = equations.ground;
+    transposed_.F_lambda = r_.dx;
+    transposed_solver_.factorize(transposed_, multipliers);
+  }
+
+  // A X = (top, last)
+  std::optional<Direction> solve(const Vector& top, double last) {
+    return with_column(f_, [&] { return solver_.solve(r_, top, last); });
+  }
+
+  // Aᵀ P = (top, last)
+  std::optional<Direction> solve_transposed(const Vector& top, double last) {
+    const Row row{.dx = f_, .dlambda = r_.dlambda};
+    if (transposed_.B.cols() > 0) return transposed_solver_.solve(row, top, last);
+    return with_column(r_.dx, [&] { return solver_.solve(row, top, last); });
+  }
+
+ private:
+  template <typename Solve>
+  std::optional<Direction> with_column(const Vector& column, const Solve& solve) {
+    Vector F_lambda = std::exchange(equations_.F_lambda, column);
+    std::optional<Direction> solution = solve();
+    equations_.F_lambda = std::move(F_lambda);
+    if (solution && !(solution->dx.allFinite() && std::isfinite(solution->dlambda))) solution.reset();
+    return solution;
+  }
+
+  Linearization& equations_;
+  Vector f_;
+  Row r_;
+  BorderedSolver solver_;
+  Linearization transposed_;
+  BorderedSolver transposed_solver_;
+};
+
+BorderedMatrix matrix_of(Criterion criterion, const SystemFamily::Member& at, const EventBorder& border,
+                         Linearization& equations, const MakeFactorization& make) {
+  return {at, equations, criterion == Criterion::crossing ? border.column : equations.F_lambda, border.row, make};
+}
+
+// A scalar σ of A with  dσ = −wᵀ (dJ d_x + dF_λ d_λ).
+struct BorderedScalar {
+  double value = 0.0;
+  Vector w{};
+  Direction d{};
+};
+
+// The derivative of F in two directions is symmetric in them: −∂σ/∂z is the derivative of [J F_λ]ᵀ w along d.
+EventEquation equation_of(const BorderedScalar& scalar, const SystemFamily::Member& at,
+                          const std::vector<WeightedMember>& samples, const Metric& metric, Differences how) {
+  Linearization workspace;
+  EventEquation equation{.value = scalar.value};
+  equation.row = rows_differenced_along(metric, at.state, scalar.d, how, [&](const State& state) {
+    at.system->linearize(state, workspace);
+    return transposed_product(workspace, scalar.w);
+  });
+  equation.row.dx = -equation.row.dx;
+  equation.row.dlambda = -equation.row.dlambda;
+  for (const WeightedMember& sample : samples) {
+    const double weight = how == Differences::fine ? sample.weight : sample.few;
+    if (weight == 0.0) continue;
+    Linearization of_sample;
+    sample.member.system->linearize(sample.member.state, of_sample);
+    equation.by_kappa -= weight * scalar.w.dot(applied(of_sample, scalar.d));
+  }
+  return equation;
+}
+
+// What turns: m′ = ∇m · t with A t = (0, 1), Aᵀ P = ∇m; λ itself has ∇m = (0, 1).
+std::optional<std::vector<EventEquation>> turning_equation(const SystemFamily::Member& at, const EventBorder& border,
+                                                           BorderedMatrix& A,
+                                                           const std::vector<WeightedMember>& samples,
+                                                           const Metric& metric) {
+  Row gradient{.dx = Vector::Zero(at.state.x.size()), .dlambda = 1.0};
+  if (at.turning) gradient = at.turning->gradient(at.state);
+  auto t = A.solve(Vector::Zero(at.state.x.size()), 1.0);
+  const auto P = A.solve_transposed(border.scale * gradient.dx, border.scale * gradient.dlambda);
+  if (!t || !P) return std::nullopt;
+  EventEquation equation = equation_of({.value = border.scale * apply(gradient, *t), .w = P->dx, .d = *t}, at, samples,
+                                       metric, Differences::simple);
+  if (at.turning) {
+    add(equation.row, border.scale,
+        rows_differenced_along(metric, at.state, *t, Differences::simple,
+                               [&](const State& state) { return at.turning->gradient(state); }));
+    for (const WeightedMember& sample : samples)
+      equation.by_kappa +=
+          border.scale * sample.weight * apply(sample.member.turning->gradient(sample.member.state), *t);
+  }
+  return std::vector{std::move(equation)};
+}
+
+// A crossing: both σ₁ and σ₂ vanish in A (v₁, σ₁) = (0, 1) and A (v₂, σ₂) = (−F_λ, 0); Aᵀ (w, σ₁) = (0, 1).
+std::optional<std::vector<EventEquation>> crossing_equations(const SystemFamily::Member& at, BorderedMatrix& A,
+                                                             const Vector& F_lambda,
+                                                             const std::vector<WeightedMember>& samples,
+                                                             const Metric& metric) {
+  const Vector zero = Vector::Zero(at.state.x.size());
+  const auto first = A.solve(zero, 1.0), second = A.solve(-F_lambda, 0.0), left = A.solve_transposed(zero, 1.0);
+  if (!first || !second || !left) return std::nullopt;
+  const auto of = [&](const Direction& solution, double dlambda) {
+    return equation_of({.value = solution.dlambda, .w = left->dx, .d = {.dx = solution.dx, .dlambda = dlambda}}, at,
+                       samples, metric, Differences::fine);
+  };
+  return std::vector{of(*first, 0.0), of(*second, 1.0)};
+}
+
+// The null vector of K nearest zero and what goes with it; the corrector is at the state beside.
+std::optional<NearNull> critical_pair(Corrector& corrector, const SystemFamily::Member& at, const Metric& metric) {
+  const Direction across{.dx = Vector::Zero(at.state.x.size()), .dlambda = 1.0};
+  for (const double beside : {0.0, null_vectors_beside, -null_vectors_beside}) {
+    const State here = moved(at.state, across, beside * metric.lambda_scale());
+    corrector.inspect(here, metric, across);
+    auto pairs = corrector.near_null(here, metric.weights(), 1);
+    if (pairs && pairs->vectors->cols() > 0) return pairs;
+  }
+  return std::nullopt;
+}
+
+Direction in_x(Vector dx) { return {.dx = std::move(dx), .dlambda = 0.0}; }
+
+std::optional<EventBorder> crossing_border(const SystemFamily::Member& at, const Metric& metric, Corrector& corrector,
+                                           const Vector& mode) {
+  const Vector left = corrector.left_null(mode);
+  auto right = corrector.right_null(left);
+  if (!right) return std::nullopt;
+  const Direction phi = in_x(std::move(*right)), psi = in_x(left);
+  const Linearization& equations = corrector.factorized().equations();
+  const double load = metric.dual_norm(equations.F_lambda) * metric.lambda_scale();
+  EventBorder border{.row = metric.row(unit(metric, phi))};
+  border.column = load / metric.norm(psi) * metric.weights().cwiseProduct(psi.dx);
+  if (!(metric.norm(phi) > 0.0) || !border.column.allFinite() || at.state.x.size() != border.column.size())
+    return std::nullopt;
+  return border;
+}
+
+}  // namespace
+
+std::optional<EventBorder> event_border(Criterion criterion, const SystemFamily::Member& at, const Metric& metric,
+                                        const MakeFactorization& make, const Direction* before) {
+  Corrector corrector(*at.system, {}, metric.lambda_scale(), make);
+  // At a limit point the path goes along K's null vector, where a monitor turns or a contact changes K is regular.
+  Direction along{.dx = Vector::Zero(at.state.x.size()), .dlambda = 1.0};
+  const bool singular = criterion == Criterion::crossing || (criterion == Criterion::turning && !at.turning);
+  if (before != nullptr && criterion != Criterion::crossing) {
+    along = *before;
+  } else if (singular) {
+    const auto pair = critical_pair(corrector, at, metric);
+    if (!pair) return std::nullopt;
+    if (criterion == Criterion::crossing) return crossing_border(at, metric, corrector, pair->vectors->col(0));
+    along = in_x(Vector::Zero(at.state.x.size()));
+    along.dx.head(pair->vectors->rows()) = pair->vectors->col(0);
+  }
+  const CorrectorResult here = corrector.inspect(at.state, metric, along);
+  if (!here.converged()) return std::nullopt;
+  EventBorder border{.row = metric.row(here.tangent), .scale = 1.0 / metric.lambda_scale()};
+  if (at.turning) border.scale = 1.0 / std::max(metric.dual_norm(at.turning->gradient(at.state)), 1e-300);
+  return border;
+}
+
+std::optional<std::vector<EventEquation>> singular_equations(Criterion criterion, const SystemFamily::Member& at,
+                                                             const EventBorder& border, Linearization& equations,
+                                                             const std::vector<WeightedMember>& samples,
+                                                             const Metric& metric, const MakeFactorization& make) {
+  BorderedMatrix A = matrix_of(criterion, at, border, equations, make);
+  if (criterion == Criterion::turning) return turning_equation(at, border, A, samples, metric);
+  return crossing_equations(at, A, equations.F_lambda, samples, metric);
+}
+
+std::optional<Direction> path_direction(Criterion criterion, const SystemFamily::Member& at, const EventBorder& border,
+                                        const Metric& metric, const MakeFactorization& make) {
+  Linearization equations;
+  at.system->linearize(at.state, equations);
+  BorderedMatrix A = matrix_of(criterion, at, border, equations, make);
+  const bool crosses = criterion == Criterion::crossing;
+  auto t = crosses ? A.solve(-equations.F_lambda, 0.0) : A.solve(Vector::Zero(at.state.x.size()), 1.0);
+  if (!t) return std::nullopt;
+  if (crosses) t->dlambda = 1.0;
+  return unit(metric, std::move(*t));
+}
+
+double border_fits(Criterion criterion, const SystemFamily::Member& at, const EventBorder& border, const Metric& metric,
+                   const MakeFactorization& make) {
+  Linearization equations;
+  at.system->linearize(at.state, equations);
+  BorderedMatrix A = matrix_of(criterion, at, border, equations, make);
+  const Vector zero = Vector::Zero(at.state.x.size());
+  const auto right = A.solve(zero, 1.0);
+  if (!right) return 0.0;
+  if (criterion != Criterion::crossing) return 1.0 / metric.norm(*right);
+  const auto left = A.solve_transposed(zero, 1.0);
+  if (!left) return 0.0;
+  const double column = metric.dual_norm(border.column);  // wᵀ f = 1 where A is regular
+  return std::min(1.0 / metric.norm(in_x(right->dx)), 1.0 / (metric.norm(in_x(left->dx)) * column));
+}
+
+}  // namespace arcwall

@@ -1,0 +1,369 @@
+#include "continuation/answers/event_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace arcwall {
+
+namespace {
+
+constexpr double least_fit = 0.5;    // cosine between the border and what is singular, below which another one is due
+constexpr double still_zero = 1e-6;  // of the followed guard on another mesh
+
+// Weights of values at whole numbers from `first` on in the derivative at t of the polynomial through them (Lagrange).
+std::vector<double> weights_of_derivative(int first, int count, double t) {
+  std::vector<double> weights;
+  const int last = first + count - 1;
+  for (int k = first; k <= last; ++k) {
+    double sum = 0.0;
+    for (int m = first; m <= last; ++m) {
+      if (m == k) continue;
+      double part = 1.0 / double(k - m);
+      for (int l = first; l <= last; ++l)
+        if (l != k && l != m) part *= (t - double(l)) / double(k - l);
+      sum += part;
+    }
+    weights.push_back(sum);
+  }
+  return weights;
+}
+
+Direction base_direction(const Direction& direction, Index n) {
+  return {.dx = direction.dx.head(n), .dlambda = direction.dx[n]};
+}
+
+}  // namespace
+
+// The event's piece in the family's terms, and the border.
+class EventSystem::EventLayout final : public Layout {
+ public:
+  EventLayout(Piece of, Index size, Vector of_weights, Index of_multipliers, Index of_guards, EventBorder with)
+      : piece(std::move(of)),
+        base_size(size),
+        base_weights(std::move(of_weights)),
+        multipliers(of_multipliers),
+        guards(of_guards),
+        border(std::move(with)) {}
+
+  Piece piece;
+  Index base_size;
+  Vector base_weights;
+  Index multipliers;
+  Index guards;
+  EventBorder border;
+};
+
+EventSystem::EventSystem(const SystemFamily& family, FollowedEvent event, double lambda_scale, MakeFactorization make)
+    : family_(family), event_(std::move(event)), lambda_scale_(lambda_scale), make_(std::move(make)) {}
+
+const EventSystem::EventLayout& EventSystem::layout_of(const Piece& piece) {
+  return static_cast<const EventLayout&>(*piece.layout());
+}
+
+Metric EventSystem::metric_of(const SystemFamily::Member& member) const {
+  return {member.system->weights(member.state.piece), lambda_scale_};
+}
+
+State EventSystem::in_common_terms(const State& state) const {
+  const EventLayout& layout = layout_of(state.piece);
+  return {.x = state.x.head(layout.base_size), .lambda = state.x[layout.base_size], .piece = layout.piece};
+}
+
+std::optional<SystemFamily::Member> EventSystem::at(const State& state) const {
+  return family_.at(state.lambda, in_common_terms(state));
+}
+
+std::optional<Direction> EventSystem::along_path(const State& state, const SystemFamily::Member& member) const {
+  return path_direction(event_.criterion, member, layout_of(state.piece).border, metric_of(member), make_);
+}
+
+double EventSystem::lambda_of(const State& state) { return state.x[layout_of(state.piece).base_size]; }
+
+double EventSystem::lambda_rate(const State& state, const Direction& direction) {
+  return direction.dx[layout_of(state.piece).base_size];
+}
+
+// `event` in the family's terms.
+State EventSystem::extended(const State& event, double kappa, EventBorder border, const State* like) const {
+  const auto member = family_.at(kappa, event);
+  const System& system = *member->system;
+  const Piece& piece = member->state.piece;
+  auto layout =
+      std::make_shared<EventLayout>(event.piece, event.x.size(), system.weights(piece), system.multiplier_count(piece),
+                                    system.guard_count(piece), std::move(border));
+  State state{.x = Vector::Zero(event.x.size() + extra()), .lambda = kappa, .piece = Piece(0, 0, std::move(layout))};
+  state.x.head(event.x.size()) = event.x;
+  state.x[event.x.size()] = event.lambda;
+  if (like != nullptr && extra() == 2) state.x[event.x.size() + 1] = like->x[like->x.size() - 1];
+  return state;
+}
+
+std::optional<State> EventSystem::of_event(const State& event, double kappa) const {
+  const auto member = family_.at(kappa, event);
+  if (!member) return std::nullopt;
+  auto border = event_border(event_.criterion, *member, metric_of(*member), make_);
+  if (!border) return std::nullopt;
+  return extended(event, kappa, std::move(*border));
+}
+
+Index EventSystem::size(const Piece& piece) const { return layout_of(piece).base_size + extra(); }
+
+double EventSystem::energy(const State& state) const {
+  const auto member = at(state);
+  return member ? member->system->energy(member->state) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Vector EventSystem::weights(const Piece& piece) const {
+  const EventLayout& layout = layout_of(piece);
+  Vector weights = Vector::Ones(layout.base_size + extra());
+  weights.head(layout.base_size) = layout.base_weights;
+  weights[layout.base_size] = 1.0 / (lambda_scale_ * lambda_scale_);
+  return weights;
+}
+
+Index EventSystem::multiplier_count(const Piece& piece) const { return layout_of(piece).multipliers; }
+
+// --- equations ------------------------------------------------------------------------------------------------------
+
+// Where there is no deck on one side of κ, a little above a stiffness of zero, say, all are on the other one. Empty
+// where that does not do.
+std::vector<WeightedMember> EventSystem::samples(const State& event, double kappa) const {
+  constexpr int count = 5, few = 3;
+  const double h = family_.spacing(), middle = std::round(kappa / h), t = kappa / h - middle;
+  for (const int shift : {0, 1, -1, 2, -2, 3, -3}) {
+    const int first = shift - count / 2, nearest = std::clamp(-few / 2, first, first + count - few);
+    const std::vector<double> weights = weights_of_derivative(first, count, t);
+    const std::vector<double> of_few = weights_of_derivative(nearest, few, t);
+    std::vector<WeightedMember> samples;
+    for (int i = 0; i < count; ++i) {
+      auto member = family_.at((middle + double(first + i)) * h, event);
+      if (!member) break;
+      WeightedMember& sample = samples.emplace_back(
+          WeightedMember{.member = std::move(*member), .weight = weights[static_cast<std::size_t>(i)] / h});
+      const int among_few = first + i - nearest;
+      if (among_few >= 0 && among_few < few) sample.few = of_few[static_cast<std::size_t>(among_few)] / h;
+    }
+    if (samples.size() == count) return samples;
+  }
+  return {};
+}
+
+std::optional<std::vector<EventEquation>> EventSystem::equations(const SystemFamily::Member& at,
+                                                                 const EventBorder& border, Linearization& here,
+                                                                 const std::vector<WeightedMember>& samples) const {
+  if (event_.criterion != Criterion::guard)
+    return singular_equations(event_.criterion, at, border, here, samples, metric_of(at), make_);
+  const Index j = event_.guards.front();
+  EventEquation equation{.value = at.system->guard(at.state, j), .row = at.system->guard_gradient(at.state, j)};
+  for (const WeightedMember& sample : samples)
+    equation.by_kappa += sample.weight * sample.member.system->guard(sample.member.state, j);
+  return std::vector{std::move(equation)};
+}
+
+void EventSystem::residual(const State& state, Eigen::Ref<Vector> F) const {
+  const EventLayout& layout = layout_of(state.piece);
+  F.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto member = at(state);
+  if (!member) return;
+  Linearization here;
+  member->system->linearize(member->state, here);
+  const auto found = equations(*member, layout.border, here, {});
+  if (!found) return;
+  F.head(layout.base_size) = here.F;
+  if (extra() == 2) F.head(layout.base_size) += state.x[layout.base_size + 1] * layout.border.column;
+  for (std::size_t k = 0; k < found->size(); ++k) F[layout.base_size + static_cast<Index>(k)] = (*found)[k].value;
+}
+
+namespace {
+
+// ∂F/∂x of the extended equations: the border grows by λ and μ, which stand behind its unknowns, and by the event's
+// equations.
+//
+//   [ K    B    F_λ  f ]        [ F_κ ]
+//   [ C_x  C_s  F_λ  f ],       [ F_κ ]
+//   [ σ_x       σ_λ  0 ]        [ σ_κ ]
+void extend(const Linearization& here, const std::vector<EventEquation>& equations, const Vector& column,
+            Linearization& out) {
+  const Index k = here.K.cols(), m = here.B.cols(), n = k + m, e = static_cast<Index>(equations.size());
+  out.K = here.K;
+  out.translation_free = here.translation_free;
+  out.ground = here.ground;
+  out.holding = here.holding;
+  out.holding.resize(static_cast<std::size_t>(m + e), 0);
+  out.border_rates = Vector::Zero(m + e);
+  out.B = Matrix::Zero(k, m + e);
+  out.C = LongRows::Zero(m + e, n + e);
+  if (m > 0) {
+    out.border_rates.head(m) = here.border_rates;
+    out.B.leftCols(m) = here.B;
+    out.C.topLeftCorner(m, n) = here.C;
+  }
+  const auto put_column = [&](Index j, const Vector& of) {
+    out.B.col(m + j) = of.head(k);
+    out.C.col(n + j).head(m) = of.tail(m);
+  };
+  put_column(0, here.F_lambda);
+  if (e == 2) put_column(1, column);
+  for (Index j = 0; j < e; ++j) {
+    const EventEquation& equation = equations[static_cast<std::size_t>(j)];
+    out.F[n + j] = equation.value;
+    out.C.row(m + j).head(n) = equation.row.dx;
+    out.C(m + j, n) = equation.row.dlambda;
+    out.F_lambda[n + j] = equation.by_kappa;
+  }
+}
+
+}  // namespace
+
+void EventSystem::linearize(const State& state, Linearization& out) const {
+  const EventLayout& layout = layout_of(state.piece);
+  const Index n = layout.base_size, e = extra();
+  out.F = Vector::Constant(n + e, std::numeric_limits<double>::quiet_NaN());
+  const State event = in_common_terms(state);
+  const auto member = family_.at(state.lambda, event);
+  if (!member) return;
+  const std::vector<WeightedMember> beside = samples(event, state.lambda);
+  if (beside.empty()) return;
+  if (!out.inner) out.inner = std::make_unique<Linearization>();
+  Linearization& here = *out.inner;
+  member->system->linearize(member->state, here);
+  const auto found = equations(*member, layout.border, here, beside);
+  if (!found) return;
+  out.F.head(n) = here.F;
+  if (e == 2) out.F.head(n) += state.x[n + 1] * layout.border.column;
+  out.F_lambda = Vector::Zero(n + e);
+  Vector F(n);
+  for (const WeightedMember& sample : beside) {
+    sample.member.system->residual(sample.member.state, F);
+    out.F_lambda.head(n) += sample.weight * F;
+  }
+  extend(here, *found, layout.border.column, out);
+  out.pattern_of = state.piece;
+}
+
+// --- guards ---------------------------------------------------------------------------------------------------------
+
+bool EventSystem::vanishes(Index guard) const {
+  return std::find(event_.guards.begin(), event_.guards.end(), guard) != event_.guards.end();
+}
+
+Index EventSystem::guard_count(const Piece& piece) const { return layout_of(piece).guards; }
+
+Vector EventSystem::guards(const State& state) const {
+  const auto member = at(state);
+  if (!member) return Vector::Ones(guard_count(state.piece));
+  Vector guards = member->system->guards(member->state);
+  for (const Index j : event_.guards) guards[j] = 1.0;
+  return guards;
+}
+
+Row EventSystem::guard_gradient(const State& state, Index j) const {
+  const Index n = layout_of(state.piece).base_size;
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  const auto member = at(state);
+  if (vanishes(j) || !member) return row;
+  const Row base = member->system->guard_gradient(member->state, j);
+  row.dx.head(n) = base.dx;
+  row.dx[n] = base.dlambda;
+  for (const WeightedMember& sample : samples(in_common_terms(state), state.lambda))
+    row.dlambda += sample.weight * sample.member.system->guard(sample.member.state, j);
+  return row;
+}
+
+Vector EventSystem::guard_rates(const State& state, const Direction& direction) const {
+  Vector rates = Vector::Zero(guard_count(state.piece));
+  const auto member = at(state);
+  if (!member || rates.size() == 0) return rates;
+  rates = member->system->guard_rates(member->state, base_direction(direction, layout_of(state.piece).base_size));
+  if (direction.dlambda != 0.0)
+    for (const WeightedMember& sample : samples(in_common_terms(state), state.lambda))
+      rates += direction.dlambda * sample.weight * sample.member.system->guards(sample.member.state);
+  for (const Index j : event_.guards) rates[j] = 0.0;
+  return rates;
+}
+
+std::optional<std::string> EventSystem::invalid_reason(const State& state) const {
+  const auto member = at(state);
+  return member ? member->system->invalid_reason(member->state) : std::nullopt;
+}
+
+// --- other meshes ---------------------------------------------------------------------------------------------------
+
+// What a transition of the system for κ, `at`, makes of a point of the curve; empty if the event is not on the new
+// mesh.
+std::optional<Transition> EventSystem::remeshed(const State& from, const SystemFamily::Member& at,
+                                                const Transition& transition, const Direction& forward) const {
+  if (transition.change != Transition::Change::remeshed || transition.quantity) return std::nullopt;
+  const auto event = family_.in_common_terms(transition.guess);
+  if (!event) return std::nullopt;
+  const SystemFamily::Member ahead{.system = at.system, .state = transition.guess, .turning = at.turning};
+  const Index count = ahead.system->guard_count(ahead.state.piece);
+  for (const Index j : event_.guards)
+    if (j >= count || std::abs(ahead.system->guard(ahead.state, j)) > still_zero) return std::nullopt;
+  auto border = event_border(event_.criterion, ahead, metric_of(ahead), make_);
+  if (!border) return std::nullopt;
+  Transition found{.change = Transition::Change::remeshed};
+  found.guess = extended(*event, from.lambda, std::move(*border), &from);
+  const Index n = event->x.size();
+  found.forward = {.dx = Vector::Zero(found.guess.x.size()), .dlambda = forward.dlambda};
+  found.forward.dx.head(n) = transition.forward.dx;
+  found.forward.dx[n] = transition.forward.dlambda;
+  return found;
+}
+
+std::vector<Transition> EventSystem::transitions(const State& state, const Direction& forward, Index bound,
+                                                 double tolerance) const {
+  const auto member = at(state);
+  if (!member) return {};
+  const auto contacts = static_cast<Index>(member->state.piece.size());
+  if (bound >= contacts) {
+    const auto ahead = member->system->transitions(
+        member->state, base_direction(forward, layout_of(state.piece).base_size), bound, tolerance);
+    if (!ahead.empty())
+      if (auto same_event = remeshed(state, *member, ahead.front(), forward)) return {std::move(*same_event)};
+  }
+  Transition end{.change = Transition::Change::unsupported};
+  end.detail = bound < contacts
+                   ? (member->state.piece[static_cast<std::size_t>(bound)] != 0 ? "a contact of the event opens there"
+                                                                                : "another contact closes there")
+                   : "a contact of the event changes its kind there";
+  return {std::move(end)};
+}
+
+bool EventSystem::admissible(const State& state, double margin) const {
+  const auto member = at(state);
+  if (!member || !member->system->admissible(member->state, margin)) return false;
+  return border_fits(event_.criterion, *member, layout_of(state.piece).border, metric_of(*member), make_) >= least_fit;
+}
+
+std::optional<Transition> EventSystem::with_inserted_contact(const State& from, const Direction& forward,
+                                                             const State& to, double margin) const {
+  const Index n = layout_of(from.piece).base_size;
+  const State start = in_common_terms(from);
+  const auto end = at(to), begin = family_.at(to.lambda, start);
+  if (!end || !begin) return std::nullopt;
+  if (!end->system->admissible(end->state, margin)) {
+    const auto inserted =
+        end->system->with_inserted_contact(begin->state, base_direction(forward, n), end->state, margin);
+    return inserted ? remeshed(from, *begin, *inserted, forward) : std::nullopt;
+  }
+  // The border alone is due: the same unknowns.
+  const auto here = family_.at(from.lambda, start);
+  if (!here) return std::nullopt;
+  const auto before = along_path(from, *here);
+  auto border = event_border(event_.criterion, *here, metric_of(*here), make_, before ? &*before : nullptr);
+  if (!border) return std::nullopt;
+  Transition same{.change = Transition::Change::remeshed};
+  same.guess = extended(start, from.lambda, std::move(*border), &from);
+  same.forward = forward;
+  return same;
+}
+
+bool EventSystem::passes_through(const State& from, const State& to) const {
+  const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
+  return begin && end && end->system->passes_through(begin->state, end->state);
+}
+
+}  // namespace arcwall

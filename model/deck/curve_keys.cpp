@@ -1,0 +1,75 @@
+// The event that `trace-path curve` follows.
+#include <algorithm>
+#include <string>
+
+#include "core/text.hpp"
+#include "model/deck/deck_keys.hpp"
+#include "model/deck/value.hpp"
+
+namespace arcwall::deck {
+
+namespace {
+
+void event_keys(Keys& keys, EventToFollow& curve) {
+  keys.word("kind", curve.event, curve_event_words,
+            "`\"limit-point\"`, `\"branch-point\"`, `\"contact-closes\"`, `\"contact-spreads\"`, "
+            "`\"contact-gathers\"`, `\"contact-limit-point\"` or `\"displacement-limit\"`");
+  keys.integer(optional("number"), curve.number, {.low = 1},
+               "which of that kind, counted from 1 in the order of `events.txt`");
+}
+
+void check_range(Keys& keys, const EventToFollow& curve) {
+  if (curve.range.size() != 2 || !(curve.range[0] < curve.range[1]))
+    return keys.report("range", "is no interval", "give [low, high] with low less than high");
+  const auto outside = [&](double value) { return value < curve.range[0] || value > curve.range[1]; };
+  const auto found = std::find_if(curve.land.begin(), curve.land.end(), outside);
+  if (found != curve.land.end())
+    keys.report("land", round_trip(*found) + " is outside range", "give values between those of range");
+}
+
+// A curve over one number, or the worst of several.
+void check_what_varies(Keys& keys, const EventToFollow& curve) {
+  if (curve.over.empty() == curve.worst.empty())
+    return keys.report(curve.over.empty() ? "over" : "worst",
+                       curve.over.empty() ? "nothing varies: there is neither over nor worst"
+                                          : "over and worst are two different questions",
+                       "give over with range for a curve, or worst with radius for the worst combination");
+  if (!curve.over.empty()) {
+    if (!keys.has("range")) return keys.report("range", "is missing: over needs it", "add range = [low, high]");
+    return check_range(keys, curve);
+  }
+  if (!curve.radius)
+    keys.report("radius", "is missing: worst needs it", "add radius, the norm of what changes the numbers");
+}
+
+void keys_of_curve(Keys& keys, EventToFollow& curve) {
+  curve.position = keys.position();
+  keys.table(
+      "event", Form::in_line, [&](Keys& event) { event_keys(event, curve); },
+      "the event of the traced path that is followed: `{ kind = \"limit-point\", number = 1 }`");
+  keys.text(optional("over", "none"), curve.over,
+            "the number of the deck that varies, as in `--set`: `\"wall.upper.profile.z\"`");
+  keys.numbers(optional("range", "none"), curve.range, unit::none,
+               "of `over`: `[low, high]`, with the deck's own value inside");
+  keys.number(optional("step", "1/100 of range"), curve.step, unit::none, positive,
+              "increment of the number of the first predictor");
+  keys.integer(optional("max_points"), curve.max_points, {.low = 1}, "on each side of the deck's own value");
+  keys.numbers(optional("land", "none"), curve.land, unit::none, "values of the number each of which is a point");
+  keys.any_texts(
+      optional("worst", "none"), curve.worst,
+      "instead of `over`: numbers of the deck, the combination of which is sought that lowers the event most");
+  keys.number(optional("radius", "none"), curve.radius, unit::none, positive,
+              "of `worst`: root of the sum of squares of what changes the numbers");
+  if (keys.reads()) check_what_varies(keys, curve);
+}
+
+}  // namespace
+
+void declare_curve(Keys& root, Deck& deck) {
+  root.part("curve", deck.curve, [&](EventToFollow& curve) {
+    root.table(
+        optional("curve", "none"), Form::header, [&](Keys& keys) { keys_of_curve(keys, curve); }, "");
+  });
+}
+
+}  // namespace arcwall::deck

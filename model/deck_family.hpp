@@ -1,0 +1,59 @@
+#pragma once
+
+#include <list>
+#include <memory>
+#include <string>
+
+#include "continuation/answers/system_family.hpp"
+#include "core/error.hpp"
+#include "model/deck/numbers.hpp"
+#include "model/model.hpp"
+
+namespace arcwall {
+
+/// The models of a deck with other values of one of its numbers. They are built when they are asked for, from the deck
+/// with the value in place, and the last ones are kept.
+class DeckFamily final : public SystemFamily {
+ public:
+  /// `deck`: without stages. `turning`: the watched monitor of a displacement limit, else empty. `spacing`: see
+  /// SystemFamily. Throws InputError where the deck itself is wrong.
+  DeckFamily(deck::Deck deck, deck::DeckNumber number, std::string turning = {});
+  ~DeckFamily() override;
+
+  /// The model of the deck's own value, in whose terms states are common.
+  const Model& own() const { return *own_; }
+  const deck::DeckNumber& number() const { return number_; }
+
+  /// The model for a value; null where there is no such deck: problem() then says why.
+  std::shared_ptr<const Model> model(double value) const;
+
+  /// What was wrong with the last deck that could not be built; empty if all could.
+  const std::string& problem() const { return problem_; }
+
+  void set_turning(std::string monitor) { turning_ = std::move(monitor); }
+
+  std::optional<Member> at(double kappa, const State& state) const override;
+  std::optional<State> in_common_terms(const State& state) const override;
+  double spacing() const override { return spacing_; }
+
+ private:
+  struct Kept;
+
+  Kept& kept(double value) const;
+
+  deck::Deck deck_;
+  deck::DeckNumber number_;
+  std::string turning_;
+  std::shared_ptr<const Model> own_;
+  double spacing_ = 0.0;
+  mutable std::list<Kept> kept_;  // the last one asked for first
+  mutable std::string problem_;
+};
+
+/// A state in the unknowns of another model of a family; empty where its mesh is another one.
+std::optional<State> state_on(const Model& model, const State& state);
+
+/// The first thing that is wrong, with its key.
+std::string first_message(const InputError& error);
+
+}  // namespace arcwall

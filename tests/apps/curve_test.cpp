@@ -1,0 +1,373 @@
+// Curves of events in two parameters, against closed forms and against decks that are run again.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/output/curve_files.hpp"
+#include "core/error.hpp"
+#include "model/deck/reader.hpp"
+#include "model/deck/writer.hpp"
+#include "model/event_curve.hpp"
+#include "model/event_names.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall::curve_test {
+namespace {
+
+using test::TracedDeck;
+
+EventCurve curve_of(const std::string& deck, const std::vector<std::string>& assignments = {}) {
+  EventCurve curve = trace_event_curve(deck::read_deck_text(deck, "deck.toml", assignments), {});
+  EXPECT_EQ(curve.problem, "");
+  return curve;
+}
+
+const CurvePoint& at(const EventCurve& curve, double key) {
+  for (const CurvePoint& point : curve.points)
+    if (point.key == key) return point;
+  throw std::runtime_error(fmt::format("no point at {}", key));
+}
+
+std::vector<CurvePoint> specials(const EventCurve& curve, CurveSpecialKind kind) {
+  std::vector<CurvePoint> points;
+  for (const CurveSpecial& special : curve.specials)
+    if (special.kind == kind) points.push_back(curve.points[special.point]);
+  return points;
+}
+
+double event_of_run(const std::string& deck, const std::string& assignment, EventKind kind, int number = 1) {
+  const TracedDeck traced(deck, {assignment});
+  for (const RecordEvent& event : traced.record().events)
+    if (event.kind == kind && --number == 0) return event.lambda;
+  throw std::runtime_error("there is no such event");
+}
+
+// λ of the curve at `places` of its points against runs of the deck with the key's value there.
+void expect_runs(const std::string& deck, const EventCurve& curve, std::size_t places, double tolerance) {
+  for (std::size_t i = 0; i < places; ++i) {
+    const CurvePoint& point = curve.points[i * (curve.points.size() - 1) / (places - 1)];
+    SCOPED_TRACE(fmt::format("{} = {}", curve.key, point.key));
+    const double run = event_of_run(deck, fmt::format("{}={:.17g}", curve.key, point.key), curve.event, curve.number);
+    EXPECT_NEAR(point.lambda, run, tolerance * std::abs(run));
+  }
+}
+
+// Two bars of half-span 10 and rise 1, Green strain, EA = 1e4; a vertical spring at the top.
+std::string truss(const std::string& curve) {
+  return R"toml(
+title = "Two bars and a spring"
+material.m = { E = 1e4 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "top", force = [0.0, -1.0] }]
+spring = [{ at = "top", stiffness = { z = 1.0 } }]
+path = { step = 0.3, branches = "primary", stop = { w = [-2.5, 0.5] } }
+monitor = [{ name = "w", at = "top", component = "z" }]
+[member.a]
+from = "left"
+to = "top"
+theory = "truss"
+strain = "green"
+elements = 1
+material = "m"
+section = "s"
+[member.b]
+from = "top"
+to = "right"
+theory = "truss"
+strain = "green"
+elements = 1
+material = "m"
+section = "s"
+[curve]
+)toml" + curve;
+}
+
+}  // namespace
+
+// P = EA w (w − h)(w − 2h)/L³ + k w in the depth w: limit points where P′ = 0. They end at a cusp where P′ and P″
+// vanish at w = h, k = EA h²/L³ = 9.851853368415734 = P.
+TEST(EventCurve, OfATrussOnASpringHasTheCuspOfTheClosedForm) {
+  const EventCurve curve = curve_of(truss(
+      "event = { kind = \"limit-point\" }\nover = \"spring.0.stiffness.z\"\nrange = [0.5, 12.0]\nland = [4.0]\n"));
+  const double L3 = std::pow(101.0, 1.5), cusp = 1e4 / L3;
+  for (const CurvePoint& point : curve.points) {
+    const double w = -point.monitors.at(0);
+    EXPECT_NEAR(1e4 * (3.0 * w * w - 6.0 * w + 2.0) / L3 + point.key, 0.0, 1e-8);
+    EXPECT_NEAR(point.lambda, 1e4 * w * (w - 1.0) * (w - 2.0) / L3 + point.key * w, 1e-9 * cusp);
+    EXPECT_NEAR(point.slope.value_or(w), w, 1e-7);  // dP/dk at fixed w
+  }
+  const auto cusps = specials(curve, CurveSpecialKind::cusp);
+  ASSERT_EQ(cusps.size(), 1U);
+  EXPECT_NEAR(cusps[0].key, cusp, 1e-10 * cusp);
+  EXPECT_NEAR(cusps[0].lambda, cusp, 1e-7 * cusp);
+  EXPECT_NO_THROW(at(curve, 4.0));
+  EXPECT_EQ(at(curve, 4.0).unstable_before, 0);
+  EXPECT_EQ(at(curve, 4.0).unstable_after, 1);
+}
+
+// A steep truss sways, and a side load H lowers its limit load from the perfect one's by 0.60678 H^(2/3), a value found
+// by continuation of the closed form.
+TEST(EventCurve, OfAnImperfectionFollowsTheTwoThirdsLaw) {
+  const std::string deck = R"toml(
+title = "A steep truss with a side load"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "top", force = [0.0, -1.0] }, { at = "top", force = [1e-4, 0.0], constant = true }]
+path = { step = 0.005, stop = { event = "limit-point" } }
+monitor = [{ name = "w", at = "top", component = "z" }]
+[member.a]
+from = "left"
+to = "top"
+theory = "truss"
+strain = "green"
+elements = 1
+material = "m"
+section = "s"
+[member.b]
+from = "top"
+to = "right"
+theory = "truss"
+strain = "green"
+elements = 1
+material = "m"
+section = "s"
+[curve]
+event = { kind = "limit-point" }
+over = "load.1.force.0"
+range = [1e-9, 1e-4]
+land = [1e-8, 2e-8, 1e-7, 1e-6, 1e-5]
+)toml";
+  const EventCurve curve = curve_of(deck);
+  // Closed form of the perfect truss: at height z the sway begins where x² + z² = h² − 2b² has x = 0.
+  const double h = 5.0, b = 1.0, z = std::sqrt(h * h - 2.0 * b * b), L = std::sqrt(h * h + b * b);
+  const double perfect = z * (h * h - z * z) / (L * L * L);
+  const auto fall = [&](double H) { return perfect - at(curve, H).lambda; };
+  const double exponent = std::log(fall(1e-6) / fall(1e-8)) / std::log(1e2);
+  EXPECT_NEAR(exponent, 2.0 / 3.0, 1e-3);
+  EXPECT_NEAR(fall(1e-8) / std::pow(1e-8, 2.0 / 3.0), 0.60678, 1e-3);
+}
+
+// A straight column between pins: P (1 − P/EA) = π² EI/L², a pitchfork for each L.
+TEST(EventCurve, OfThePitchforkOfAColumnIsEulers) {
+  const std::string deck = R"toml(
+title = "A straight column"
+material.m = { E = 21000.0 }
+section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+load = [{ at = "B", force = [-1.0, 0.0] }]
+path = { step = 0.05, stop = { event = "branch-point" } }
+member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
+[curve]
+event = { kind = "branch-point" }
+over = "point.B.0"
+range = [1.5, 3.0]
+)toml";
+  const EventCurve curve = curve_of(deck);
+  ASSERT_GT(curve.points.size(), 10U);
+  const double EI = 21000.0 * 8.333333333333333e-6, EA = 210.0;
+  const double of_mesh = at(curve, 2.0).lambda * (1.0 - at(curve, 2.0).lambda / EA) * 4.0 / (pi * pi * EI);
+  EXPECT_NEAR(of_mesh, 1.0, 1e-8);
+  for (const CurvePoint& point : curve.points) {
+    const double P = point.lambda, L = point.key;
+    EXPECT_NEAR(P * (1.0 - P / EA), pi * pi * EI / (L * L), 2e-8 * P);
+    EXPECT_NEAR(*point.slope, -2.0 * pi * pi * EI / (L * L * L) / (1.0 - 2.0 * P / EA), 1e-6 * std::abs(*point.slope));
+    EXPECT_EQ(point.unstable_before, 0);
+    EXPECT_EQ(point.unstable_after, 1);
+  }
+}
+
+namespace {
+
+// A column in a channel, whose imperfection has a third harmonic.
+std::string channel(const std::string& curve) {
+  return R"toml(
+title = "A column in a channel"
+material.m = { E = 21000.0, nu = 0.29 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+load = [{ at = "B", force = [-1.0, 0.0] }]
+path = { step = 0.05, stop = { lambda = [-1.0, 10.0], event = "limit-point" } }
+monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
+[[wall]]
+name = "upper"
+side = "above"
+profile = { type = "flat", z = 0.2 }
+[[wall]]
+name = "lower"
+side = "below"
+profile = { type = "flat", z = -0.2 }
+[member.column]
+from = "A"
+to = "B"
+theory = "elastica"
+elements = 20
+imperfection = [{ shape = "sine", amplitude = 0.00176, waves = 1 }, { shape = "sine", amplitude = 0.0001, waves = 3 }]
+material = "m"
+section = "s"
+[curve]
+)toml" + curve;
+}
+
+}  // namespace
+
+// Touch, spreading and snap over the gap are those of other runs.
+TEST(EventCurve, OfEachEventOfAColumnInAChannelIsThatOfOtherRuns) {
+  for (const char* kind : {"contact-closes", "contact-spreads", "limit-point"}) {
+    SCOPED_TRACE(kind);
+    const std::string deck = channel(fmt::format(
+        "event = {{ kind = \"{}\" }}\nover = \"wall.upper.profile.z\"\nrange = [0.17, 0.25]\nland = [0.175]\n", kind));
+    const EventCurve curve = curve_of(deck);
+    ASSERT_GT(curve.points.size(), 5U);
+    EXPECT_NO_THROW(at(curve, 0.175));
+    expect_runs(deck, curve, 4, 1e-9);
+  }
+}
+
+// Without a half sine the third harmonic e₃ lowers the limit load by 16.31306 √e₃, a value of the elastica by shooting:
+// of e₃, 4 e₃ and 16 e₃ the second fall is twice the first.
+TEST(EventCurve, OfAThirdHarmonicFollowsTheSquareRootLawSlow) {
+  const EventCurve curve =
+      curve_of(channel("event = { kind = \"limit-point\" }\nover = \"member.column.imperfection.1.amplitude\"\n"
+                       "range = [1e-8, 1.1e-4]\nland = [4e-8, 1.6e-7]\n"),
+               {"member.column.imperfection.0.amplitude=0.0"});
+  const double a = at(curve, 1e-8).lambda, b = at(curve, 4e-8).lambda, c = at(curve, 1.6e-7).lambda;
+  EXPECT_NEAR(std::log((b - c) / (a - b)) / std::log(4.0), 0.5, 1e-3);
+  EXPECT_NEAR((a - b) / 1e-4, 16.31306, 2e-2);
+}
+
+// λ is the end shortening, and the reaction turns before it does.
+TEST(EventCurve, OfAMonitorThatTurnsIsThatOfOtherRuns) {
+  std::string deck =
+      channel("event = { kind = \"displacement-limit\" }\nover = \"wall.upper.profile.z\"\nrange = [0.18, 0.22]\n");
+  const auto put = [&](const std::string& from, const std::string& to) {
+    deck.replace(deck.find(from), from.size(), to);
+  };
+  put("load = [{ at = \"B\", force = [-1.0, 0.0] }]", "prescribed = [{ at = \"B\", x = -1.0 }]");
+  put("step = 0.05, stop = { lambda = [-1.0, 10.0], event = \"limit-point\" }",
+      "step = 0.004, watch = [\"P\"], stop = { event = \"limit-point\" }");
+  put("component = \"z\" }]", "component = \"z\" }, { name = \"P\", at = \"B\", component = \"reaction-x\" }]");
+  const EventCurve curve = curve_of(deck);
+  ASSERT_GT(curve.points.size(), 3U);
+  expect_runs(deck, curve, 3, 1e-9);
+}
+
+// Limit points of a pinned sine arch appear at a cusp, and the branch point overtakes them. Rise and load by shooting:
+// 0.057825384052 and 0.061386356, 0.138553363544 and 0.371987159883; at rise 0.12 the limit load is 0.262293877613.
+TEST(EventCurve, OfAPinnedArchHasItsCuspAndItsCrossingSlow) {
+  const std::string deck = R"toml(
+title = "Sine arch, central load"
+material.m = { E = 21000.0 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { l = [0.0, 0.0], r = [2.0, 0.0] }
+support = { l = ["x", "z"], r = ["x", "z"] }
+load = [{ at = "arch:0.5", force = [0.0, -1.0] }]
+path = { step = 0.01, branches = "primary", stop = { crown = [-0.19, 0.01] } }
+monitor = [{ name = "crown", at = "arch:0.5", component = "z" }]
+[member.arch]
+from = "l"
+to = "r"
+sine = { rise = 0.1, waves = 1 }
+theory = "elastica"
+elements = 20
+material = "m"
+section = "s"
+[curve]
+event = { kind = "limit-point" }
+over = "member.arch.sine.rise"
+range = [0.05, 0.15]
+land = [0.12]
+)toml";
+  const EventCurve curve = curve_of(deck);
+  const auto cusps = specials(curve, CurveSpecialKind::cusp), crossings = specials(curve, CurveSpecialKind::crossing);
+  ASSERT_EQ(cusps.size(), 1U);
+  EXPECT_NEAR(cusps[0].key, 0.057825384052, 1e-6);
+  EXPECT_NEAR(cusps[0].lambda, 0.061386356, 1e-6);
+  ASSERT_FALSE(crossings.empty());
+  EXPECT_NEAR(crossings.back().key, 0.138553363544, 2e-6);
+  EXPECT_NEAR(crossings.back().lambda, 0.371987159883, 5e-6);
+  EXPECT_EQ(curve.points.back().unstable_before, 1);
+  EXPECT_NEAR(std::max_element(curve.points.begin(), curve.points.end(),
+                               [](const CurvePoint& a, const CurvePoint& b) {
+                                 return (a.key == 0.12 ? a.lambda : -1.0) < (b.key == 0.12 ? b.lambda : -1.0);
+                               })
+                  ->lambda,
+              0.262293877613, 1e-7);
+}
+
+// A column in a channel has a
+// snap that a larger half sine raises and a larger third harmonic lowers, so that the worst change goes against the one
+// and with the other.
+TEST(WorstCombination, GoesAgainstTheSlopesAndLowersTheSnap) {
+  std::string text = channel(
+      "event = { kind = \"limit-point\" }\nworst = [\"member.column.imperfection.0.amplitude\", "
+      "\"member.column.imperfection.1.amplitude\"]\nradius = 2e-5\n");
+  const WorstCombination worst = worst_combination(deck::read_deck_text(text, "deck.toml"), {});
+  EXPECT_EQ(worst.problem, "");
+  EXPECT_TRUE(worst.settled);
+  EXPECT_LT(worst.values.at(0), worst.own.at(0));
+  EXPECT_GT(worst.values.at(1), worst.own.at(1));
+  const Vec2 change(worst.values[0] - worst.own[0], worst.values[1] - worst.own[1]);
+  const Vec2 slopes(worst.slopes.at(0), worst.slopes.at(1));
+  EXPECT_NEAR(change.norm(), 2e-5, 1e-12);
+  EXPECT_NEAR(change.normalized().dot(slopes.normalized()), -1.0, 1e-10);
+  // Others of the same norm are higher.
+  for (const double turn : {-0.3, 0.3}) {
+    const Vec2 other = std::cos(turn) * change + std::sin(turn) * perp(change);
+    const TracedDeck traced(text,
+                            {fmt::format("member.column.imperfection.0.amplitude={:.17g}", worst.own[0] + other.x()),
+                             fmt::format("member.column.imperfection.1.amplitude={:.17g}", worst.own[1] + other.y())});
+    for (const RecordEvent& event : traced.record().events)
+      EXPECT_TRUE(event.kind != EventKind::limit_point || event.lambda > worst.lambda);
+  }
+}
+
+TEST(EventCurve, IsRefusedWithASentence) {
+  const auto problem = [](const std::string& curve, const std::vector<std::string>& set = {}) {
+    try {
+      return trace_event_curve(deck::read_deck_text(channel(curve), "deck.toml", set), {}).problem;
+    } catch (const InputError& error) {
+      return error.diagnostics().front().message;
+    }
+  };
+  const std::string over = "over = \"wall.upper.profile.z\"\n", range = "range = [0.17, 0.25]\n";
+  const std::string limit = "event = { kind = \"limit-point\" }\n";
+  EXPECT_NE(problem(limit + over + "range = [0.3, 0.4]\n").find("is outside"), std::string::npos);
+  EXPECT_NE(problem(limit + over).find("is missing"), std::string::npos);
+  EXPECT_NE(problem(limit + over + "range = [0.3, 0.1]\n").find("no interval"), std::string::npos);
+  EXPECT_NE(problem(limit).find("nothing varies"), std::string::npos);
+  EXPECT_NE(problem(limit + "over = \"wall.upper.side\"\n" + range).find("is no number"), std::string::npos);
+  EXPECT_NE(problem("event = { kind = \"limit-point\", number = 7 }\n" + over + range).find("only 1"),
+            std::string::npos);
+  EXPECT_NE(problem("event = { kind = \"branch-point\" }\n" + over + range).find("none of kind branch-point"),
+            std::string::npos);
+}
+
+TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
+  const std::string text =
+      channel("event = { kind = \"contact-closes\" }\nover = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n");
+  const deck::Deck deck = deck::read_deck_text(text, "deck.toml");
+  EXPECT_EQ(deck::read_deck_text(deck::to_toml(deck), "deck.toml"), deck);
+  const EventCurve curve = curve_of(text);
+  const std::string csv = curve_csv(curve, UnitLabels::left_out);
+  EXPECT_TRUE(csv.starts_with("point,arc,key,lambda,mid,slope,unstable_before,unstable_after,contacts\n0,0,0.19,"));
+  const auto json = curve_json(curve, text, {});
+  EXPECT_EQ(json["specials"].front()["kind"], "begins");
+  EXPECT_EQ(json["specials"].back()["kind"], "ends");
+  EXPECT_EQ(json["specials"].back()["reason"], "stop");
+  EXPECT_DOUBLE_EQ(json["specials"].back()["key"].get<double>(), 0.21);
+  EXPECT_NE(curve_html(curve).find("<svg"), std::string::npos);
+  EXPECT_EQ(curve_status(curve), ExitStatus::success);
+}
+
+}  // namespace arcwall::curve_test

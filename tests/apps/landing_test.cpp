@@ -1,0 +1,244 @@
+// Where structures fall to, against closed forms, shooting and a slow motion with a step rule of its own.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "apps/output/events_json.hpp"
+#include "apps/output/events_text.hpp"
+#include "continuation/metric.hpp"
+#include "core/algebra/factorization.hpp"
+#include "core/linearization.hpp"
+#include "model/event_names.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall::landing_test {
+namespace {
+
+using test::TracedDeck;
+
+const RecordEvent& first(const TracedDeck& traced, EventKind kind) {
+  for (const RecordEvent& event : traced.record().events)
+    if (event.kind == kind) return event;
+  throw std::runtime_error("there is no " + std::string(to_text(kind)));
+}
+
+// Two bars of half-span 10 and rise 1, Green strain, EA = 1e4; the path ends at a depth.
+std::string truss(const std::string& depth) {
+  return R"toml(
+title = "Two bars"
+material.m = { E = 1e4 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "top", force = [0.0, -1.0] }]
+monitor = [{ name = "w", at = "top", component = "z" }]
+[member.a]
+from = "left"
+to = "top"
+theory = "truss"
+strain = "green"
+elements = 1
+material = "m"
+section = "s"
+[member.b]
+from = "top"
+to = "right"
+theory = "truss"
+strain = "green"
+elements = 1
+material = "m"
+section = "s"
+[path]
+step = 0.3
+landing = true
+branches = "primary"
+stop.w = [)toml" +
+         depth + ", 0.5]\n";
+}
+
+// Lee's frame: a column of 120 and a beam of 120, EI = 1440, loaded at a fifth of the beam.
+const std::string lee = R"toml(
+title = "Lee's frame"
+material.m = { E = 720.0, nu = 0.3 }
+section.s = { shape = "general", A = 6.0, I = 2.0 }
+point = { foot = [0.0, 0.0], corner = [0.0, 120.0], loaded = [24.0, 120.0], end = [120.0, 120.0] }
+support = { foot = ["x", "z"], end = ["x", "z"] }
+load = [{ at = "loaded", force = [0.0, -1.0] }]
+path = { step = 0.1, landing = true, stop = { w = [-95.0, 10.0] } }
+monitor = [{ name = "u", at = "loaded", component = "x" }, { name = "w", at = "loaded", component = "z" }]
+[member.column]
+from = "foot"
+to = "corner"
+theory = "elastica"
+elements = 20
+material = "m"
+section = "s"
+[member.left]
+from = "corner"
+to = "loaded"
+theory = "elastica"
+elements = 4
+material = "m"
+section = "s"
+[member.right]
+from = "loaded"
+to = "end"
+theory = "elastica"
+elements = 16
+material = "m"
+section = "s"
+)toml";
+
+// A beam between walls as in the other tests of columns in a channel.
+const std::string channel = R"toml(
+title = "A column in a channel"
+material.m = { E = 21000.0, nu = 0.29 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+load = [{ at = "B", force = [-1.0, 0.0] }]
+path = { step = 0.05, landing = true, stop = { lambda = [-1.0, 10.0] } }
+monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "B", component = "x", sign = -1 }]
+[[wall]]
+name = "upper"
+side = "above"
+profile = { type = "flat", z = 0.2 }
+[[wall]]
+name = "lower"
+side = "below"
+profile = { type = "flat", z = -0.2 }
+[member.column]
+from = "A"
+to = "B"
+theory = "elastica"
+elements = 40
+imperfection = [{ shape = "sine", amplitude = 0.00176, waves = 1 }, { shape = "sine", amplitude = 0.0001, waves = 3 }]
+material = "m"
+section = "s"
+)toml";
+
+// μ W ẋ = −F at fixed λ by steps x − (K + μ W)⁻¹ F of one Newton iteration each, no longer than a length that is
+// prescribed: no search, no energy, no contact.
+State slow_motion(const System& system, State state, double mu, double longest) {
+  Linearization at;
+  const auto solver = make_ldlt();
+  const Vector weights = system.weights(state.piece);
+  for (int step = 0; step < 20000; ++step) {
+    system.linearize(state, at);
+    for (Index i = 0; i < weights.size(); ++i) at.K.coeffRef(i, i) += mu * weights[i];
+    if (solver->factorize(at.K, {}) != FactorStatus::ok) throw std::runtime_error("singular");
+    Matrix dx = -at.F;
+    solver->solve(dx);
+    const double length = std::sqrt((weights.array() * dx.col(0).array().square()).sum());
+    state.x += std::min(1.0, longest / length) * dx.col(0);
+    if (length < 1e-12) return state;
+  }
+  throw std::runtime_error("no rest");
+}
+
+}  // namespace
+
+// The truss falls from h (1 − 1/√3) to h (1 + 2/√3) = 2.1547005383793 and releases 7.3888900263118; it comes back by
+// the same, so that 14.777780052624 are lost. Closed forms.
+TEST(Landing, OfATrussIsThatOfTheClosedForm) {
+  const TracedDeck traced(truss("-2.5"));
+  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  ASSERT_TRUE(snap.landing);
+  EXPECT_EQ(snap.landing->reason, "");
+  EXPECT_NEAR(snap.landing->monitors.at(0), -2.1547005383793, 1e-9);
+  EXPECT_NEAR(snap.landing->released, 7.3888900263118, 1e-9);
+  EXPECT_EQ(snap.landing->unstable, 0);
+  EXPECT_EQ(snap.landing->on_branch, 0);
+  ASSERT_TRUE(snap.landing->back);
+  EXPECT_NEAR(snap.landing->back->lambda, -snap.lambda, 1e-9);
+  ASSERT_TRUE(snap.landing->loop);
+  EXPECT_NEAR(*snap.landing->loop, 14.777780052624, 1e-9);
+
+  const auto json = event_json(traced.record(), snap);
+  EXPECT_NEAR(json["landing"]["monitors"]["w"].get<double>(), -2.1547005383793, 1e-9);
+  EXPECT_NE(events_text(traced.record()).find("falls to"), std::string::npos);
+}
+
+// A path that ends before it comes there: the state is found all the same, but not the way back.
+TEST(Landing, IsFoundWhereThePathDoesNotPass) {
+  const TracedDeck traced(truss("-1.2"));
+  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  ASSERT_TRUE(snap.landing);
+  EXPECT_NEAR(snap.landing->monitors.at(0), -2.1547005383793, 1e-9);
+  EXPECT_FALSE(snap.landing->on_branch);
+  EXPECT_FALSE(snap.landing->back);
+}
+
+// Shooting: u 85.912715359, w −92.553278331, released 82.328152133, back at −0.94144315556, loop 215.843460563.
+TEST(Landing, OfLeesFrameIsThatOfShooting) {
+  const TracedDeck traced(lee);
+  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  ASSERT_TRUE(snap.landing && snap.landing->back);
+  EXPECT_NEAR(snap.landing->monitors.at(0), 85.912715359, 1e-5);
+  EXPECT_NEAR(snap.landing->monitors.at(1), -92.553278331, 1e-5);
+  EXPECT_NEAR(snap.landing->released, 82.328152133, 1e-4);
+  EXPECT_NEAR(snap.landing->back->lambda, -0.94144315556, 1e-7);
+  EXPECT_NEAR(snap.landing->loop.value(), 215.843460563, 1e-4);
+
+  // The same state by a motion of another rule.
+  const System& system = traced.model().system();
+  State start = traced.record().points[static_cast<std::size_t>(snap.step) + 1].state;
+  start.lambda = snap.lambda;
+  const State rest = slow_motion(system, start, 2e3, 0.01);
+  EXPECT_NEAR(traced.model().monitors()[1].quantity->value(rest), snap.landing->monitors.at(1), 1e-8);
+}
+
+// Shooting: the snap from two points above ends with one point above, one below, one above; mid −0.15, shortening
+// 0.357478384025, released 0.449814851283; back at 4.252069687267, loop 0.564429600789.
+TEST(Landing, OfAColumnInAChannelIsThatOfShooting) {
+  const TracedDeck traced(channel);
+  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  ASSERT_TRUE(snap.landing);
+  EXPECT_EQ(snap.landing->reason, "") << snap.landing->why;
+  EXPECT_EQ(snap.landing->word, "upper lower upper");
+  EXPECT_NEAR(snap.landing->monitors.at(0), -0.15, 1e-9);
+  EXPECT_NEAR(snap.landing->monitors.at(1), 0.357478384025, 1e-7);
+  EXPECT_NEAR(snap.landing->released, 0.449814851283, 1e-7);
+  ASSERT_TRUE(snap.landing->back);
+  EXPECT_EQ(snap.landing->back->kind, EventKind::contact_limit_point);
+  EXPECT_NEAR(snap.landing->back->lambda, 4.252069687267, 1e-7);
+  EXPECT_NEAR(snap.landing->loop.value(), 0.564429600789, 1e-6);
+}
+
+// A steep truss of rise 5 and half-span 1 sways at z = √23 above its feet, and that branch is unstable. With
+// P L³ = z (25 − z²) at z = √23 it falls to the other root of z³ − 25 z + 2 √23 = 0 below, z = −(√23 + √31)/2.
+TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
+  std::string deck = truss("-4.5");
+  const auto put = [&](const std::string& from, const std::string& to) {
+    deck.replace(deck.find(from), from.size(), to);
+  };
+  put("left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0]",
+      "left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0]");
+  put("E = 1e4", "E = 1.0");
+  put("step = 0.3", "step = 0.005");
+  put("branches = \"primary\"", "branches = \"follow\"");
+  const TracedDeck traced(deck);
+  const RecordEvent& sway = first(traced, EventKind::branch_point);
+  ASSERT_TRUE(sway.landing);
+  EXPECT_EQ(sway.landing->reason, "");
+  EXPECT_NEAR(sway.landing->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
+}
+
+// A column that buckles into the post-buckling branch, which is stable, does not fall.
+TEST(Landing, IsNoneWhereTheBranchBehindIsStable) {
+  const TracedDeck traced(R"toml(
+title = "A straight column"
+material.m = { E = 21000.0 }
+section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+load = [{ at = "B", force = [-1.0, 0.0] }]
+path = { step = 0.05, landing = true, stop = { lambda = [-1.0, 0.5] } }
+member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
+)toml");
+  EXPECT_FALSE(first(traced, EventKind::branch_point).landing);
+}
+
+}  // namespace arcwall::landing_test
