@@ -151,13 +151,13 @@ def test_a_path_is_traced_by_one_thread_at_a_time():
 
 def test_other_threads_run_while_a_path_is_traced():
     path = long_deck().tracing().path
-    thread = threading.Thread(target=path.resume, kwargs={"max_seconds": 0.4})
+    thread = threading.Thread(target=path.resume, kwargs={"max_seconds": 1.0})
     thread.start()
     count = 0
     while thread.is_alive():
         time.sleep(0.001)
         count += 1
-    assert count > 50  # some 400 where the lock is free; a few where it is kept
+    assert count > 10  # some 1000 where the lock is free, also on a busy machine; a few where it is kept
 
 
 # Ctrl-C: KeyboardInterrupt within moments, and what was traced stands and can go on.
