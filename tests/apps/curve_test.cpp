@@ -222,7 +222,7 @@ section = "s"
 }  // namespace
 
 // Touch, spreading and snap over the gap are those of other runs.
-TEST(EventCurve, OfEachEventOfAColumnInAChannelIsThatOfOtherRuns) {
+TEST(EventCurve, OfEachEventOfAColumnInAChannelIsThatOfOtherRunsSlow) {
   for (const char* kind : {"contact-closes", "contact-spreads", "limit-point"}) {
     SCOPED_TRACE(kind);
     const std::string deck = channel(fmt::format(

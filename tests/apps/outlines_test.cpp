@@ -81,7 +81,7 @@ std::vector<Strip> turned_strips() {
 }  // namespace
 
 // Shooting: touch at 0.2081006194318634; at twice that the end is at -0.07814581171568506.
-TEST(Outlines, APegIsTouchedFromAnySide) {
+TEST(Outlines, APegIsTouchedFromAnySideSlow) {
   for (const Strip& strip : turned_strips()) {
     SCOPED_TRACE(fmt::format("turned by {}{}", strip.angle, strip.reversed ? ", reversed" : ""));
     const test::TracedDeck traced(strip.deck("type = \"circle\", radius = 0.02, centre = " + strip.point(0.6, -0.05)));
@@ -142,7 +142,7 @@ path = { step = 1.0, max_step = 3.0, stop = { lambda = [-0.1, 0.45] } }
 
 // The end comes down on a floor 0.1 below it; every other way round it does so at the same loads, and lies down
 // likewise.
-TEST(Outlines, AFloorMayStandUpright) {
+TEST(Outlines, AFloorMayStandUprightSlow) {
   std::vector<std::vector<double>> found;
   for (Strip strip : turned_strips()) {
     SCOPED_TRACE(fmt::format("turned by {}", strip.angle));

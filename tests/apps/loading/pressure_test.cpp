@@ -117,7 +117,7 @@ TEST(PressedDeck, IsBorneByTheSupports) {
 }
 
 // It is pressed through onto a floor and lies down there. On the floor, too, what is read off is confirmed.
-TEST(PressedDeck, LiesDownOnAFloor) {
+TEST(PressedDeck, LiesDownOnAFloorSlow) {
   for (const std::string points : {"sliding", "nodes"}) {
     const TracedDeck traced(pressed_arch(centimetres, floor_at(centimetres, -0.12)),
                             {"contact.points=\"" + points + "\""});
@@ -142,7 +142,7 @@ TEST(PressedDeck, IsAppliedBeforeThePathWhereItIsConstant) {
 }
 
 // Loads in the frame of the member, on both meshes.
-TEST(LoadInTheFrameOfItsMember, IsConfirmedAndTheSameOnAMeshThatSlides) {
+TEST(LoadInTheFrameOfItsMember, IsConfirmedAndTheSameOnAMeshThatSlidesSlow) {
   const auto deck = [](const UnitsOf& in, const std::string& more, const std::string& theory) {
     std::string text = pressed_arch(in, more, theory, "\"z\"");
     const std::size_t at = text.find("pressure = ");
