@@ -40,10 +40,6 @@ const sliding::ValidityBound& bound_of(const SlidingState& at, Index guard) {
   return *at.layout.bounds()[static_cast<std::size_t>(guard) - at.contacts()];
 }
 
-bool is_pinched(const SlidingContactLayout& on, std::size_t contact) {
-  return contact < on.points().size() && on.points()[contact].is_pinched();
-}
-
 bool is_bound(const SlidingState& at, Index guard) { return guard >= static_cast<Index>(at.contacts()); }
 
 }  // namespace
@@ -122,7 +118,7 @@ double SlidingContact::guard(const State& state, Index j) const {
   const SlidingState at(state);
   if (is_bound(at, j)) return bound_of(at, j).value(*setting_, at);
   const auto contact = static_cast<std::size_t>(j);
-  if (is_pinched(at.layout, contact)) return out_of_reach;
+  if (at.layout.is_pinched(contact)) return out_of_reach;
   if (at.is_closed(contact)) return at.force(contact) / scales().force;
   if (sliding::lies_flat(*setting_, at.layout, contact)) return out_of_reach;
   const double gap = sliding::face_gap(*setting_, sliding::touch_of_contact(*setting_, at.layout, contact), at);
@@ -133,7 +129,7 @@ Row SlidingContact::guard_gradient(const State& state, Index j) const {
   const SlidingState at(state);
   if (is_bound(at, j)) return bound_of(at, j).gradient(*setting_, at);
   Row row = at.no_slope();
-  if (is_pinched(at.layout, static_cast<std::size_t>(j))) return row;
+  if (at.layout.is_pinched(static_cast<std::size_t>(j))) return row;
   if (const auto p = at.index.force(static_cast<std::size_t>(j))) {
     row.dx[*p] = 1.0 / scales().force;
     return row;
@@ -152,7 +148,7 @@ Vector SlidingContact::unit_force(const State& state, Index j) const {
 }
 
 bool SlidingContact::is_two_sided(const Piece& piece, Index j) const {
-  return is_pinched(sliding_layout(piece), static_cast<std::size_t>(j));
+  return sliding_layout(piece).is_pinched(static_cast<std::size_t>(j));
 }
 
 Vector SlidingContact::transfer(const Vector& x, const Piece& from, const Piece& to) const {
@@ -231,24 +227,12 @@ State SlidingContact::adopted(const State& state) const {
 
 std::optional<State> SlidingContact::taken_over(const State& state) const {
   const SlidingState at(state);
-  const ElementsPerSegment& elements = at.mesh.elements_per_segment();
-  const std::size_t ends = at.contacts() - at.layout.points().size();
-  if (static_cast<Index>(elements.size()) != body().strands() || ends != setting_->free_ends.size())
-    return std::nullopt;
-  for (std::size_t strand = 0; strand < elements.size(); ++strand) {
-    const auto loads = static_cast<Index>(body().point_loads(static_cast<Index>(strand)).size());
-    for (const MeshSegment& segment : elements[strand])
-      if (segment.load >= loads) return std::nullopt;
-  }
-  const auto has_pinch = [&](const SlidingContactLayout::Point& point) {
-    return !point.pinch || *point.pinch < setting_->pinches.size();
-  };
-  if (!std::all_of(at.layout.points().begin(), at.layout.points().end(), has_pinch)) return std::nullopt;
-  const auto mesh = body().mesh(elements);
-  if (mesh->unknowns() != at.mesh.unknowns() || mesh->breakpoints() != at.mesh.breakpoints()) return std::nullopt;
+  if (at.contacts() - at.layout.points().size() != setting_->free_ends.size()) return std::nullopt;
   const auto here =
-      std::make_shared<SlidingContactLayout>(body(), mesh, at.layout.points(), at.layout.origin(), at.layout.lying());
-  if (here->bounds().size() != at.layout.bounds().size()) return std::nullopt;
+      layout_of(at.mesh.elements_per_segment(), at.layout.points(), at.layout.origin(), at.layout.lying());
+  if (!here || here->mesh().unknowns() != at.mesh.unknowns() || here->mesh().breakpoints() != at.mesh.breakpoints() ||
+      here->bounds().size() != at.layout.bounds().size())
+    return std::nullopt;
   return State{.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
 }
 
@@ -268,7 +252,7 @@ ContactPoint SlidingContact::contact(const State& state, Index j) const {
 double SlidingContact::force(const State& state, Index j) const {
   const SlidingState at(state);
   const double force = at.force(static_cast<std::size_t>(j));
-  return is_pinched(at.layout, static_cast<std::size_t>(j)) ? std::max(force, 0.0) : force;
+  return at.layout.is_pinched(static_cast<std::size_t>(j)) ? std::max(force, 0.0) : force;
 }
 
 std::vector<ContactPoint> SlidingContact::closed_contacts(const State& state) const {

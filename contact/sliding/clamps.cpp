@@ -5,6 +5,7 @@
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/bound_value.hpp"
 #include "contact/sliding/bounds/clamp.hpp"
+#include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/bounds/tail.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
@@ -62,23 +63,14 @@ Transition with_parts(const SlidingSetting& setting, const SlidingState& at, con
 }  // namespace
 
 double parting(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
-  if (!setting.body.is_hinged(end.strand, end.last))
-    return end_curvature_gap(setting, at, end).value * setting.scales.length;
-  const double angle = touch_gap(setting, touch_of_end(setting, at.layout, end), at).angle;
-  return outward(setting.obstacles[end.obstacle].surface->side(), end.last) * std::sin(angle);
+  if (setting.body.is_hinged(end.strand, end.last)) return sine_from_end(setting, at, end);
+  return end_curvature_gap(setting, at, end).value * setting.scales.length;
 }
 
 Row parting_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  if (setting.body.is_hinged(end.strand, end.last)) return sine_from_end_gradient(setting, at, end);
   Row row = at.no_slope();
-  if (!setting.body.is_hinged(end.strand, end.last)) {
-    end_curvature_gap(setting, at, end).add_to(row, setting.scales.length, at.index);
-    return row;
-  }
-  const Touch touch = touch_of_end(setting, at.layout, end);
-  const TouchGap gap = touch_gap(setting, touch, at);
-  const double by_tilt = outward(setting.obstacles[end.obstacle].surface->side(), end.last) * std::cos(gap.angle);
-  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_tilt * gap.tilt.gradient, row.dx);
-  row.dlambda = by_tilt * gap.tilt.rate;
+  end_curvature_gap(setting, at, end).add_to(row, setting.scales.length, at.index);
   return row;
 }
 

@@ -39,10 +39,6 @@ ContactPoint at_least_pressure(const SlidingSetting& setting, const SlidingState
           .place = face(setting.face_offset(node.obstacle, node.strand), at.mesh.place(least, at.now))};
 }
 
-}  // namespace
-
-namespace {
-
 // Of the two obstacles of a pinch each is told to push with what is positive of the force across the axis in its
 // direction. The couple that they make besides has no place of its own.
 ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std::size_t j, bool other) {
@@ -52,14 +48,10 @@ ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std
   return at_node(setting, at, touch, std::max((other ? -1.0 : 1.0) * at.force(j), 0.0));
 }
 
-bool is_pinched(const SlidingState& at, std::size_t j) {
-  return j < at.layout.points().size() && at.layout.points()[j].is_pinched();
-}
-
 }  // namespace
 
 ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
-  if (is_pinched(at, j)) return at_pinch(setting, at, j, false);
+  if (at.layout.is_pinched(j)) return at_pinch(setting, at, j, false);
   if (j < at.contacts()) return at_node(setting, at, touch_of_contact(setting, at.layout, j), at.force(j));
   const ValidityBound& bound = *at.layout.bounds()[j - at.contacts()];
   if (const auto* clamp = dynamic_cast<const ClampBound*>(&bound))
@@ -74,7 +66,7 @@ std::vector<ContactPoint> closed_contacts(const SlidingSetting& setting, const S
   for (std::size_t j = 0; j < at.contacts(); ++j)
     if (at.is_closed(j)) {
       contacts.push_back(contact_point(setting, at, j));
-      if (is_pinched(at, j)) contacts.push_back(at_pinch(setting, at, j, true));
+      if (at.layout.is_pinched(j)) contacts.push_back(at_pinch(setting, at, j, true));
     }
   return contacts;
 }

@@ -26,9 +26,8 @@ void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, 
     visit([&] { return touch_gap(setting, touch, at).tilt; }, unknowns_of(touch), moment);
   };
   const SlidingContactLayout& on = at.layout;
-  const auto is_pinched = [&](std::size_t j) { return j < on.points().size() && on.points()[j].is_pinched(); };
   for (std::size_t j = 0; j < at.contacts(); ++j)
-    if (at.is_closed(j) && !is_pinched(j)) visit_gap(touch_of_contact(setting, on, j), *at.index.force(j));
+    if (at.is_closed(j) && !on.is_pinched(j)) visit_gap(touch_of_contact(setting, on, j), *at.index.force(j));
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i)
     visit_gap(touch_of_node(setting, on.pressed_nodes()[i]), at.index.pressed_force(i));
   for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) {
@@ -46,7 +45,7 @@ void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, 
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i)
     visit_tilt(touch_of_tip(setting, on.pressed_tips()[i]), at.index.tip_moment(i));
   for (std::size_t k = 0; k < on.points().size(); ++k)
-    if (!is_pinched(k)) visit_tilt(touch_of_contact(setting, on, k), at.index.moment(static_cast<Index>(k)));
+    if (!on.is_pinched(k)) visit_tilt(touch_of_contact(setting, on, k), at.index.moment(static_cast<Index>(k)));
 }
 
 // The loose span at one of whose ends point k is, if it is.
@@ -79,7 +78,7 @@ BorderEquation loose_equation(const SlidingSetting& setting, const SlidingState&
 // loose spans have instead.
 BorderEquation border_equation(const SlidingSetting& setting, const SlidingState& at, Index k) {
   const auto point = static_cast<std::size_t>(k);
-  if (at.layout.points()[point].is_pinched()) return energy_by_sliding(setting, at, point);
+  if (at.layout.is_pinched(point)) return energy_by_sliding(setting, at, point);
   if (const NeutralSpan* loose = loose_span_at(at, k)) return loose_equation(setting, at, *loose, k);
   BorderEquation equation{.row = at.no_slope()};
   if (at.layout.lies_pressed(point)) {
@@ -94,14 +93,11 @@ BorderEquation border_equation(const SlidingSetting& setting, const SlidingState
   return equation;
 }
 
-// The forces of contact on the body, and the equations of constraints and border.
-void add_contact(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
-  for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
-    const NodeFunction constraint = function();
-    add_at_node(unknowns, -at.state.x[multiplier] * constraint.gradient, F);
-    F[multiplier] = -constraint.value;
-  });
-  for (Index k = 0; k < at.index.points; ++k) F[at.index.coordinate(k)] = border_equation(setting, at, k).value;
+// A constraint in F: its equation, and what its multiplier does to the node.
+void add_to_residual(const NodeFunction& constraint, const NodeUnknowns& unknowns, Index multiplier,
+                     const SlidingState& at, Eigen::Ref<Vector> F) {
+  add_at_node(unknowns, -at.state.x[multiplier] * constraint.gradient, F);
+  F[multiplier] = -constraint.value;
 }
 
 // The row of a constraint, less its gradient by a node.
@@ -141,7 +137,7 @@ void lay_out(const SlidingSetting& setting, const SlidingState& at, Linearizatio
   out.energetic.clear();
   for (Index k = 0; k < at.index.points; ++k) {
     out.holding.push_back(at.index.moment(k));
-    out.energetic.push_back(at.layout.points()[static_cast<std::size_t>(k)].is_pinched());
+    out.energetic.push_back(at.layout.is_pinched(static_cast<std::size_t>(k)));
   }
   out.K = with_rows_behind(out.inner->K, entries, at.index.multipliers());
   out.pattern_of = at.state.piece;
@@ -163,7 +159,10 @@ void take_over(const Linearization& mesh, const SlidingState& at, Linearization&
 
 void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<Vector> F) {
   at.mesh.residual(at.now, F.head(at.index.nodes));
-  add_contact(setting, at, F);
+  for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
+    add_to_residual(function(), unknowns, multiplier, at, F);
+  });
+  for (Index k = 0; k < at.index.points; ++k) F[at.index.coordinate(k)] = border_equation(setting, at, k).value;
 }
 
 void linearize(const SlidingSetting& setting, const SlidingState& at, Linearization& out) {
@@ -175,14 +174,16 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
   if (!out.pattern_of || *out.pattern_of != at.state.piece) lay_out(setting, at, out);
 
   take_over(mesh, at, out);
-  add_contact(setting, at, out.F);
   out.border_rates = border_rates(setting, at);
   for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
-    add_constraint(function(), unknowns, multiplier, at, out);
+    const NodeFunction constraint = function();
+    add_to_residual(constraint, unknowns, multiplier, at, out.F);
+    add_constraint(constraint, unknowns, multiplier, at, out);
   });
   out.C.resize(at.index.points, at.index.size());
   for (Index k = 0; k < at.index.points; ++k) {
     const BorderEquation equation = border_equation(setting, at, k);
+    out.F[at.index.coordinate(k)] = equation.value;
     out.C.row(k) = equation.row.dx.transpose();
     out.F_lambda[at.index.coordinate(k)] = equation.row.dlambda;
   }

@@ -19,9 +19,7 @@ namespace {
 bool is_followed(const SlidingSetting& setting, const SlidingState& at, const LeastGap& gap) {
   for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
     const auto point = static_cast<Index>(k);
-    const std::vector<std::size_t> touched = obstacles_at(setting, at.layout, k);
-    const bool touches = std::find(touched.begin(), touched.end(), gap.obstacle) != touched.end();
-    if (touches && at.mesh.breakpoint(point).first == gap.at.strand &&
+    if (touches(setting, at.layout, k, gap.obstacle) && at.mesh.breakpoint(point).first == gap.at.strand &&
         std::abs(at.s(point) - gap.at.s) < shortest_span(setting.body, gap.at.strand))
       return true;
   }

@@ -97,6 +97,10 @@ class SlidingContactLayout final : public SlidingLayout {
 
   /// The points at pinches, ascending.
   const std::vector<std::size_t>& pinched_points() const { return pinched_points_; }
+
+  /// Whether a contact of a piece with this layout is a point at a pinch.
+  bool is_pinched(std::size_t contact) const { return contact < points_.size() && points_[contact].is_pinched(); }
+
   const std::vector<Segment>& segments() const { return segments_; }
 
   const Lying& lying() const { return lying_; }

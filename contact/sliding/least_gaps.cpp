@@ -100,8 +100,7 @@ std::vector<Watched> watched_elements(const SlidingSetting& setting, const Slidi
     for (Watched& element : watched) element.along = true;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [on, position] = at.mesh.breakpoint(static_cast<Index>(k));
-    const std::vector<std::size_t> touched = obstacles_at(setting, at.layout, k);
-    if (on != strand || std::find(touched.begin(), touched.end(), obstacle) == touched.end()) continue;
+    if (on != strand || !touches(setting, at.layout, k, obstacle)) continue;
     watched[static_cast<std::size_t>(position) - 1].at_last = true;
     watched[static_cast<std::size_t>(position)].at_first = true;
     if (points[k].before != Span::free)

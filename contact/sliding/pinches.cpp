@@ -65,9 +65,15 @@ BorderEquation energy_by_sliding(const SlidingSetting& setting, const SlidingSta
 
 std::vector<std::size_t> obstacles_at(const SlidingSetting& setting, const SlidingContactLayout& on,
                                       std::size_t point) {
-  if (!on.points()[point].is_pinched()) return {on.points()[point].obstacle};
+  if (!on.is_pinched(point)) return {on.points()[point].obstacle};
   const Pinch& pinch = pinch_of(setting, on, point);
   return {pinch.obstacle, pinch.other};
+}
+
+bool touches(const SlidingSetting& setting, const SlidingContactLayout& on, std::size_t point, std::size_t obstacle) {
+  if (!on.is_pinched(point)) return on.points()[point].obstacle == obstacle;
+  const Pinch& pinch = pinch_of(setting, on, point);
+  return pinch.obstacle == obstacle || pinch.other == obstacle;
 }
 
 CurvatureGap curvature_gap_beside(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
@@ -110,6 +116,7 @@ bool are_opposite(const TouchAtRest& a, const TouchAtRest& b, double length) {
 }  // namespace
 
 std::vector<Pinch> pinches_at_rest(const SlidingSetting& setting, const SlidingState& rest) {
+  if (setting.obstacles.size() < 2) return {};
   const std::vector<TouchAtRest> touches = touches_at_rest(setting, rest);
   std::vector<Pinch> pinches;
   const auto is_known = [&](const TouchAtRest& touch) {

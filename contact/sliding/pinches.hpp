@@ -37,4 +37,7 @@ CurvatureGap curvature_gap_beside(const SlidingSetting& setting, const SlidingSt
 /// The obstacles that a tracked point touches: one, or the two of its pinch.
 std::vector<std::size_t> obstacles_at(const SlidingSetting& setting, const SlidingContactLayout& on, std::size_t point);
 
+/// Whether an obstacle is one of these.
+bool touches(const SlidingSetting& setting, const SlidingContactLayout& on, std::size_t point, std::size_t obstacle);
+
 }  // namespace arcwall::sliding

@@ -39,21 +39,24 @@ double sine_from_end(const SlidingSetting& setting, const SlidingState& at, cons
          std::sin(touch_gap(setting, touch_of_end(setting, at.layout, end), at).angle);
 }
 
+Row sine_from_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  const Touch touch = touch_of_end(setting, at.layout, end);
+  const TouchGap gap = touch_gap(setting, touch, at);
+  const double by_tilt = outward(setting.obstacles[end.obstacle].surface->side(), end.last) * std::cos(gap.angle);
+  Row row = at.no_slope();
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_tilt * gap.tilt.gradient, row.dx);
+  row.dlambda = by_tilt * gap.tilt.rate;
+  return row;
+}
+
 double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto touching = touching_end(setting, at, end());
   return touching ? sine_from_end(setting, at, *touching) : out_of_reach;
 }
 
 Row LiesDownBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  Row row = at.no_slope();
   const auto touching = touching_end(setting, at, end());
-  if (!touching) return row;
-  const Touch touch = touch_of_end(setting, at.layout, *touching);
-  const TouchGap gap = touch_gap(setting, touch, at);
-  const double by_tilt = outward(setting.obstacles[touching->obstacle].surface->side(), last_) * std::cos(gap.angle);
-  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_tilt * gap.tilt.gradient, row.dx);
-  row.dlambda = by_tilt * gap.tilt.rate;
-  return row;
+  return touching ? sine_from_end_gradient(setting, at, *touching) : at.no_slope();
 }
 
 std::vector<Transition> LiesDownBound::transitions(const SlidingSetting& setting, const SlidingState& at,

@@ -6,6 +6,7 @@ namespace arcwall::sliding {
 
 /// The sine of the angle at which the body leaves an obstacle from an end on that touches it; < 0 where it would enter.
 double sine_from_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+Row sine_from_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// How fast the gap grows from a free end on that touches: behind the bound a tip lies down on the wall, or contact
 /// moves inside. Positive where the end does not touch.
