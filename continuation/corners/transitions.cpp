@@ -282,18 +282,17 @@ std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& 
   return point;
 }
 
-// The branch point, which takes over the change of the count from the last event.
-void add_pitchfork(const PathPoint& at, BranchPoint point, std::vector<Event>& events) {
-  Event& change = events.back();
-  Event event{.kind = EventKind::branch_point,
-              .state = at.state,
-              .arc = at.arc,
-              .residual = at.residual,
-              .unstable_before = change.unstable_before,
-              .unstable_after = change.unstable_after};
-  change.unstable_after = change.unstable_before;
-  event.branching = std::make_shared<const BranchPoint>(std::move(point));
-  events.push_back(std::move(event));
+// The branch point, which takes over the change of the count from the events that the corner has had.
+void add_pitchfork(const PathPoint& at, const PathPoint& begin, BranchPoint point, std::vector<Event>& events) {
+  const std::optional<Index> before = events.front().unstable_before;
+  for (Event& event : events) event.unstable_after = before;
+  events.push_back({.kind = EventKind::branch_point,
+                    .state = at.state,
+                    .arc = at.arc,
+                    .residual = at.residual,
+                    .unstable_before = before,
+                    .unstable_after = begin.count.unstable,
+                    .branching = std::make_shared<const BranchPoint>(std::move(point))});
 }
 
 }  // namespace
@@ -314,7 +313,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       const PathPoint begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
       if (auto pitchfork = pitchfork_at_corner(tools, corner, passed.at, begin))
-        add_pitchfork(passed.at, std::move(*pitchfork), passed.events);
+        add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);
       passed.entered = EnteredPiece{.begin = begin, .first = std::move(entered->at)};
       return passed;
     }
