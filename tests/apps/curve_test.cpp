@@ -14,6 +14,7 @@
 #include "model/deck/writer.hpp"
 #include "model/event_curve.hpp"
 #include "model/event_names.hpp"
+#include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 namespace arcwall::curve_test {
@@ -40,19 +41,13 @@ std::vector<CurvePoint> specials(const EventCurve& curve, CurveSpecialKind kind)
   return points;
 }
 
-double event_of_run(const std::string& deck, const std::string& assignment, EventKind kind, int number = 1) {
-  const TracedDeck traced(deck, {assignment});
-  for (const RecordEvent& event : traced.record().events)
-    if (event.kind == kind && --number == 0) return event.lambda;
-  throw std::runtime_error("there is no such event");
-}
-
 // λ of the curve at `places` of its points against runs of the deck with the key's value there.
 void expect_runs(const std::string& deck, const EventCurve& curve, std::size_t places, double tolerance) {
   for (std::size_t i = 0; i < places; ++i) {
     const CurvePoint& point = curve.points[i * (curve.points.size() - 1) / (places - 1)];
     SCOPED_TRACE(fmt::format("{} = {}", curve.key, point.key));
-    const double run = event_of_run(deck, fmt::format("{}={:.17g}", curve.key, point.key), curve.event, curve.number);
+    const TracedDeck traced(deck, {fmt::format("{}={:.17g}", curve.key, point.key)});
+    const double run = event_of(traced, curve.event, curve.number).lambda;
     EXPECT_NEAR(point.lambda, run, tolerance * std::abs(run));
   }
 }
@@ -69,23 +64,8 @@ load = [{ at = "top", force = [0.0, -1.0] }]
 spring = [{ at = "top", stiffness = { z = 1.0 } }]
 path = { step = 0.3, branches = "primary", stop = { w = [-2.5, 0.5] } }
 monitor = [{ name = "w", at = "top", component = "z" }]
-[member.a]
-from = "left"
-to = "top"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-[member.b]
-from = "top"
-to = "right"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-[curve]
+)toml" + test::two_bars +
+         R"toml([curve]
 )toml" + curve;
 }
 
@@ -115,7 +95,7 @@ TEST(EventCurve, OfATrussOnASpringHasTheCuspOfTheClosedForm) {
 // A steep truss sways, and a side load H lowers its limit load from the perfect one's by 0.60678 H^(2/3), a value found
 // by continuation of the closed form.
 TEST(EventCurve, OfAnImperfectionFollowsTheTwoThirdsLaw) {
-  const std::string deck = R"toml(
+  const std::string deck = std::string(R"toml(
 title = "A steep truss with a side load"
 material.m = { E = 1.0 }
 section.s = { shape = "general", A = 1.0, I = 1.0 }
@@ -124,23 +104,7 @@ support = { left = ["x", "z"], right = ["x", "z"] }
 load = [{ at = "top", force = [0.0, -1.0] }, { at = "top", force = [1e-4, 0.0], constant = true }]
 path = { step = 0.005, stop = { event = "limit-point" } }
 monitor = [{ name = "w", at = "top", component = "z" }]
-[member.a]
-from = "left"
-to = "top"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-[member.b]
-from = "top"
-to = "right"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-[curve]
+)toml") + test::two_bars + R"toml([curve]
 event = { kind = "limit-point" }
 over = "load.1.force.0"
 range = [1e-9, 1e-4]
@@ -199,23 +163,8 @@ support = { A = ["x", "z"], B = ["z"] }
 load = [{ at = "B", force = [-1.0, 0.0] }]
 path = { step = 0.05, stop = { lambda = [-1.0, 10.0], event = "limit-point" } }
 monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
-[[wall]]
-name = "upper"
-side = "above"
-profile = { type = "flat", z = 0.2 }
-[[wall]]
-name = "lower"
-side = "below"
-profile = { type = "flat", z = -0.2 }
-[member.column]
-from = "A"
-to = "B"
-theory = "elastica"
-elements = 20
-imperfection = [{ shape = "sine", amplitude = 0.00176, waves = 1 }, { shape = "sine", amplitude = 0.0001, waves = 3 }]
-material = "m"
-section = "s"
-[curve]
+)toml" + test::column_in_channel(20) +
+         R"toml([curve]
 )toml" + curve;
 }
 

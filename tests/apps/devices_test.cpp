@@ -24,13 +24,6 @@ double monitor(const Record& record, const std::vector<double>& values, const st
   return 0.0;
 }
 
-const RecordEvent& event(const Record& record, EventKind kind, int number = 0) {
-  for (const RecordEvent& event : record.events)
-    if (event.kind == kind && number-- == 0) return event;
-  ADD_FAILURE() << "no such event";
-  return record.events.front();
-}
-
 const RecordPoint& landed(const Record& record, double lambda) {
   return *std::min_element(record.points.begin(), record.points.end(), [&](const auto& a, const auto& b) {
     return std::abs(a.lambda - lambda) < std::abs(b.lambda - lambda);
@@ -44,7 +37,7 @@ struct Number {
 
 Number of_bow(const Record& record) {  // EI/(R a), from a point to a stretch
   const double a = 100.0, sagitta = 4.5, R = (a * a + sagitta * sagitta) / (2.0 * sagitta);
-  const RecordEvent& spreads = event(record, EventKind::contact_spreads);
+  const RecordEvent& spreads = test::event_of(record, EventKind::contact_spreads);
   return {monitor(record, spreads.monitors, "press"), 2.0e5 * 20.0 / 12.0 / (R * a), 0.01};
 }
 
@@ -52,7 +45,7 @@ Number of_bow(const Record& record) {  // EI/(R a), from a point to a stretch
 // (EI/p)^⅓, by Runge-Kutta's method of order 4.
 Number of_drill_string(const Record& record) {
   const double EI = 2.1e8 * pi / 4.0 * (std::pow(0.08, 4.0) - std::pow(0.035, 4.0));
-  return {event(record, EventKind::branch_point).lambda, 1.938332 * std::cbrt(EI * 1.2 * 1.2), 1e-4};
+  return {test::event_of(record, EventKind::branch_point).lambda, 1.938332 * std::cbrt(EI * 1.2 * 1.2), 1e-4};
 }
 
 Number of_guidewire(const Record& record) {  // EI/(2 R²)
@@ -75,7 +68,7 @@ Number of_lattice(const Record& record) {
   for (double d = 0.0; d < 1.0; d += 1e-3)
     greatest =
         std::max(greatest, 1.5 * std::pow(pi, 4.0) * Q * Q * d * ((d - 1.5) * (d - 1.5) - 0.25 + 4.0 / (3.0 * Q * Q)));
-  const RecordEvent& peak = event(record, EventKind::displacement_limit);
+  const RecordEvent& peak = test::event_of(record, EventKind::displacement_limit);
   return {monitor(record, peak.monitors, "force"), 2.0 * greatest * EI * 3.0 / std::pow(40.0, 3.0), 0.06};
 }
 
@@ -87,17 +80,17 @@ Number of_leaf_spring(const Record& record) {  // an arc of the former, and a ca
 
 Number of_mems_switch(const Record& record) {  // 740 EI h/ℓ³
   const double EI = 1.6e5 * 100.0 * 125.0 / 12.0;
-  return {event(record, EventKind::limit_point).lambda, 740.0 * EI * 40.0 / 1e9, 0.02};
+  return {test::event_of(record, EventKind::limit_point).lambda, 740.0 * EI * 40.0 / 1e9, 0.02};
 }
 
 Number of_portal(const Record& record) {  // k h tan k h = 6
-  return {event(record, EventKind::branch_point).lambda, 1.34955 * 1.34955 * 2100.0 / 16.0, 2e-3};
+  return {test::event_of(record, EventKind::branch_point).lambda, 1.34955 * 1.34955 * 2100.0 / 16.0, 2e-3};
 }
 
 Number of_rail(const Record& record) {  // EI q² + k/q² of three half waves
   const double q = 3.0 * pi / 12.0;
-  return {monitor(record, event(record, EventKind::branch_point).monitors, "force"), 2100.0 * q * q + 500.0 / (q * q),
-          2e-3};
+  return {monitor(record, test::event_of(record, EventKind::branch_point).monitors, "force"),
+          2100.0 * q * q + 500.0 / (q * q), 2e-3};
 }
 
 Number of_ring(const Record& record) {  // at 1/100 of the radius
@@ -106,7 +99,7 @@ Number of_ring(const Record& record) {  // at 1/100 of the radius
 }
 
 Number of_snap_fit(const Record& record) {  // P t with P = (3 EI y/ℓ³)/(1 − 3 a t/(2 ℓ)), at the greatest push
-  const RecordEvent& greatest = event(record, EventKind::displacement_limit);
+  const RecordEvent& greatest = test::event_of(record, EventKind::displacement_limit);
   const double EI = 2400.0 * 5.0 * std::pow(1.5, 3.0) / 12.0, y = monitor(record, greatest.monitors, "lift");
   return {monitor(record, greatest.monitors, "push"), 0.5 * 3.0 * EI * y / 8000.0 / (1.0 - 1.5 * 3.0 * 0.5 / 20.0),
           0.08};

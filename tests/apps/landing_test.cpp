@@ -7,22 +7,16 @@
 
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
-#include "continuation/metric.hpp"
 #include "core/algebra/factorization.hpp"
 #include "core/linearization.hpp"
 #include "model/event_names.hpp"
+#include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 namespace arcwall::landing_test {
 namespace {
 
 using test::TracedDeck;
-
-const RecordEvent& first(const TracedDeck& traced, EventKind kind) {
-  for (const RecordEvent& event : traced.record().events)
-    if (event.kind == kind) return event;
-  throw std::runtime_error("there is no " + std::string(to_text(kind)));
-}
 
 // Two bars of half-span 10 and rise 1, Green strain, EA = 1e4; the path ends at a depth.
 std::string truss(const std::string& depth) {
@@ -34,23 +28,8 @@ point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
 support = { left = ["x", "z"], right = ["x", "z"] }
 load = [{ at = "top", force = [0.0, -1.0] }]
 monitor = [{ name = "w", at = "top", component = "z" }]
-[member.a]
-from = "left"
-to = "top"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-[member.b]
-from = "top"
-to = "right"
-theory = "truss"
-strain = "green"
-elements = 1
-material = "m"
-section = "s"
-[path]
+)toml" + test::two_bars +
+         R"toml([path]
 step = 0.3
 landing = true
 branches = "primary"
@@ -92,7 +71,7 @@ section = "s"
 )toml";
 
 // A beam between walls as in the other tests of columns in a channel.
-const std::string channel = R"toml(
+const std::string channel = std::string(R"toml(
 title = "A column in a channel"
 material.m = { E = 21000.0, nu = 0.29 }
 section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
@@ -101,23 +80,7 @@ support = { A = ["x", "z"], B = ["z"] }
 load = [{ at = "B", force = [-1.0, 0.0] }]
 path = { step = 0.05, landing = true, stop = { lambda = [-1.0, 10.0] } }
 monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "B", component = "x", sign = -1 }]
-[[wall]]
-name = "upper"
-side = "above"
-profile = { type = "flat", z = 0.2 }
-[[wall]]
-name = "lower"
-side = "below"
-profile = { type = "flat", z = -0.2 }
-[member.column]
-from = "A"
-to = "B"
-theory = "elastica"
-elements = 40
-imperfection = [{ shape = "sine", amplitude = 0.00176, waves = 1 }, { shape = "sine", amplitude = 0.0001, waves = 3 }]
-material = "m"
-section = "s"
-)toml";
+)toml") + test::column_in_channel(40);
 
 // μ W ẋ = −F at fixed λ by steps x − (K + μ W)⁻¹ F of one Newton iteration each, no longer than a length that is
 // prescribed: no search, no energy, no contact.
@@ -144,7 +107,7 @@ State slow_motion(const System& system, State state, double mu, double longest) 
 // the same, so that 14.777780052624 are lost. Closed forms.
 TEST(Landing, OfATrussIsThatOfTheClosedForm) {
   const TracedDeck traced(truss("-2.5"));
-  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
   ASSERT_TRUE(snap.landing);
   EXPECT_EQ(snap.landing->reason, "");
   EXPECT_NEAR(snap.landing->monitors.at(0), -2.1547005383793, 1e-9);
@@ -164,7 +127,7 @@ TEST(Landing, OfATrussIsThatOfTheClosedForm) {
 // A path that ends before it comes there: the state is found all the same, but not the way back.
 TEST(Landing, IsFoundWhereThePathDoesNotPass) {
   const TracedDeck traced(truss("-1.2"));
-  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
   ASSERT_TRUE(snap.landing);
   EXPECT_NEAR(snap.landing->monitors.at(0), -2.1547005383793, 1e-9);
   EXPECT_FALSE(snap.landing->on_branch);
@@ -174,7 +137,7 @@ TEST(Landing, IsFoundWhereThePathDoesNotPass) {
 // Shooting: u 85.912715359, w −92.553278331, released 82.328152133, back at −0.94144315556, loop 215.843460563.
 TEST(Landing, OfLeesFrameIsThatOfShooting) {
   const TracedDeck traced(lee);
-  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
   ASSERT_TRUE(snap.landing && snap.landing->back);
   EXPECT_NEAR(snap.landing->monitors.at(0), 85.912715359, 1e-5);
   EXPECT_NEAR(snap.landing->monitors.at(1), -92.553278331, 1e-5);
@@ -194,7 +157,7 @@ TEST(Landing, OfLeesFrameIsThatOfShooting) {
 // 0.357478384025, released 0.449814851283; back at 4.252069687267, loop 0.564429600789.
 TEST(Landing, OfAColumnInAChannelIsThatOfShooting) {
   const TracedDeck traced(channel);
-  const RecordEvent& snap = first(traced, EventKind::limit_point);
+  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
   ASSERT_TRUE(snap.landing);
   EXPECT_EQ(snap.landing->reason, "") << snap.landing->why;
   EXPECT_EQ(snap.landing->word, "upper lower upper");
@@ -220,7 +183,7 @@ TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
   put("step = 0.3", "step = 0.005");
   put("branches = \"primary\"", "branches = \"follow\"");
   const TracedDeck traced(deck);
-  const RecordEvent& sway = first(traced, EventKind::branch_point);
+  const RecordEvent& sway = event_of(traced, EventKind::branch_point);
   ASSERT_TRUE(sway.landing);
   EXPECT_EQ(sway.landing->reason, "");
   EXPECT_NEAR(sway.landing->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
@@ -238,7 +201,7 @@ load = [{ at = "B", force = [-1.0, 0.0] }]
 path = { step = 0.05, landing = true, stop = { lambda = [-1.0, 0.5] } }
 member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
 )toml");
-  EXPECT_FALSE(first(traced, EventKind::branch_point).landing);
+  EXPECT_FALSE(event_of(traced, EventKind::branch_point).landing);
 }
 
 }  // namespace arcwall::landing_test

@@ -11,6 +11,7 @@
 #include "apps/output/events_text.hpp"
 #include "core/error.hpp"
 #include "model/event_names.hpp"
+#include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 
 namespace arcwall::sensitivity_test {
@@ -30,24 +31,8 @@ support = { A = ["x", "z"], B = ["z"] }
 name = "mid"
 at = "column:0.5"
 component = "z"
-[[wall]]
-name = "upper"
-side = "above"
-profile = { type = "flat", z = 0.2 }
-[[wall]]
-name = "lower"
-side = "below"
-profile = { type = "flat", z = -0.2 }
-[member.column]
-from = "A"
-to = "B"
-theory = "elastica"
-elements = 20
-imperfection = [{ shape = "sine", amplitude = 0.00176, waves = 1 }, { shape = "sine", amplitude = 0.0001, waves = 3 }]
-material = "m"
-section = "s"
-)toml" + more +
-         "\n[path]\n" + path + "\n";
+)toml" + test::column_in_channel(20) +
+         more + "\n[path]\n" + path + "\n";
 }
 
 std::string names_of(const std::vector<std::string>& keys) {
@@ -63,12 +48,6 @@ std::vector<RecordEvent> located(const TracedDeck& traced) {
   for (const RecordEvent& event : traced.record().events)
     if (is_located(event)) events.push_back(event);
   return events;
-}
-
-const RecordEvent& first(const TracedDeck& traced, EventKind kind) {
-  for (const RecordEvent& event : traced.record().events)
-    if (event.kind == kind) return event;
-  throw std::runtime_error("there is no " + std::string(to_text(kind)));
 }
 
 // (8 (f(h) − f(−h)) − (f(2h) − f(−2h)))/12h of the λ of each event, by runs with other values.
@@ -117,8 +96,8 @@ const std::string to_the_snap = "step = 0.05\nstop.lambda = [-1.0, 10.0]\nstop.e
 TEST(Sensitivity, OfAColumnInAChannelIsThatOfTheElastica) {
   const TracedDeck traced(channel(to_the_snap, pressed),
                           {"path.sensitivity=['wall.upper.profile.z','member.column.imperfection.1.amplitude']"});
-  const auto& touch = first(traced, EventKind::contact_closes).sensitivity;
-  const auto& snap = first(traced, EventKind::limit_point).sensitivity;
+  const auto& touch = event_of(traced, EventKind::contact_closes).sensitivity;
+  const auto& snap = event_of(traced, EventKind::limit_point).sensitivity;
   EXPECT_NEAR(touch.at(0).slope.value(), 0.0752436482913, 1e-5 * 0.0752436482913);
   EXPECT_NEAR(touch.at(1).slope.value(), 0.152295287554, 1e-5 * 0.152295287554);
   EXPECT_NEAR(snap.at(0).slope.value(), -1.61894208038, 1e-4 * 1.61894208038);
@@ -161,7 +140,7 @@ member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material 
 )toml";
   const TracedDeck traced(
       deck, {"path.sensitivity=['point.B.0','section.s.I','section.s.A','member.c.imperfection.0.amplitude']"});
-  const RecordEvent& buckles = first(traced, EventKind::branch_point);
+  const RecordEvent& buckles = event_of(traced, EventKind::branch_point);
   const double EI = 21000.0 * 8.333333333333333e-6, EA = 210.0, L = 2.0, E = 21000.0, P = buckles.lambda;
   const double slope = 1.0 - 2.0 * P / EA;  // of P (1 − P/EA)
   const double of_L = -2.0 * pi * pi * EI / (L * L * L) / slope, of_I = pi * pi * E / (L * L) / slope;
@@ -200,7 +179,7 @@ wall = [
 ]
 )toml";
   const TracedDeck traced(deck, {"path.sensitivity=['wall.left.profile.apex.1','material.m.E']"});
-  const auto& found = first(traced, EventKind::contact_closes).sensitivity;
+  const auto& found = event_of(traced, EventKind::contact_closes).sensitivity;
   ASSERT_EQ(found.size(), 2U);
   EXPECT_FALSE(found[0].slope);
   EXPECT_FALSE(found[0].why_none.empty());
@@ -237,7 +216,7 @@ stop = { event = "limit-point" }
   expect_agreement(arch("{ lambda = [-1.0, 0.1] }"),
                    {{"member.arch.sine.rise", 1e-4}, {"stage.side.stop.lambda.1", 1e-3}}, 1e-7);
   const TracedDeck otherwise(arch("{ crown = [-0.003, 1.0] }"), {names_of({"member.arch.sine.rise"})});
-  const auto& found = first(otherwise, EventKind::limit_point).sensitivity;
+  const auto& found = event_of(otherwise, EventKind::limit_point).sensitivity;
   ASSERT_EQ(found.size(), 1U);
   EXPECT_FALSE(found[0].slope);
   EXPECT_NE(found[0].why_none.find("a stage before"), std::string::npos) << found[0].why_none;

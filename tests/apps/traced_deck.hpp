@@ -8,6 +8,7 @@
 
 #include "apps/cli/example_decks.hpp"
 #include "model/session.hpp"
+#include "tests/model/traced_session.hpp"
 
 namespace arcwall::test {
 
@@ -15,11 +16,7 @@ namespace arcwall::test {
 class TracedDeck {
  public:
   explicit TracedDeck(std::string_view text, const std::vector<std::string>& assignments = {})
-      : run_({.deck = "deck.toml", .deck_text = std::string(text), .assignments = assignments}) {
-    if (!run_.begin()) ADD_FAILURE() << run_.problem();
-    while (run_.next() != nullptr) {
-    }
-  }
+      : run_(traced(std::string(text), assignments)) {}
 
   const Session& session() const { return run_; }
   const Model& model() const { return run_.model(); }
@@ -29,6 +26,14 @@ class TracedDeck {
  private:
   Session run_;
 };
+
+inline std::vector<RecordEvent> events_of(const TracedDeck& traced, EventKind kind) {
+  return events_of(traced.record(), kind);
+}
+
+inline const RecordEvent& event_of(const TracedDeck& traced, EventKind kind, int number = 1) {
+  return event_of(traced.record(), kind, number);
+}
 
 /// The text of an example that comes with the program.
 inline std::string_view example(const std::string& name) {

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "core/text.hpp"
-#include "model/session.hpp"
+#include "tests/model/traced_session.hpp"
 
 namespace arcwall::lying_test {
 namespace {
+
+using test::traced;
 
 constexpr double EI = 2.0, EA = 1e5, length = 1.0, hump = 1e-3;
 
@@ -35,14 +37,6 @@ monitor = [
 }
 
 const std::string humped = "member.beam.imperfection = { shape = \"sine\", amplitude = 1e-3, waves = 1 }";
-
-Session traced(const std::string& deck, const std::vector<std::string>& assignments = {}) {
-  Session run({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
-  EXPECT_TRUE(run.begin()) << run.problem();
-  while (run.next() != nullptr) {
-  }
-  return run;
-}
 
 std::vector<double> loads_of(const Session& run, EventKind kind) {
   std::vector<double> loads;

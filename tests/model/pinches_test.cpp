@@ -10,10 +10,12 @@
 #include "core/text.hpp"
 #include "model/deck/reader.hpp"
 #include "model/model.hpp"
-#include "model/session.hpp"
+#include "tests/model/traced_session.hpp"
 
 namespace arcwall::pinches_test {
 namespace {
+
+using test::traced;
 
 constexpr double EA = 1e5, radius = 0.02;
 
@@ -40,14 +42,6 @@ monitor = [
 ]
 )toml") + "wall = [" +
          peg("over", radius) + ", " + peg("under", -radius) + "]\n" + path + "\n";
-}
-
-Session traced(const std::string& deck, const std::vector<std::string>& assignments = {}) {
-  Session run({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
-  EXPECT_TRUE(run.begin()) << run.problem();
-  while (run.next() != nullptr) {
-  }
-  return run;
 }
 
 // The load at which a column, pinned at its ends and clamped at the fraction `at` of its span where it slides through,

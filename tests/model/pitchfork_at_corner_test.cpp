@@ -3,11 +3,10 @@
 // stays stable, near the same load.
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "model/session.hpp"
+#include "tests/model/traced_session.hpp"
 
 namespace arcwall::pitchfork_at_corner_test {
 namespace {
@@ -40,36 +39,26 @@ soft = { from = "sky", to = "top", theory = "classic", hinge = ["from", "to"], m
 }
 
 Session traced(const std::string& side_force, const std::vector<std::string>& assignments = {}) {
-  Session run({.deck = "deck.toml", .deck_text = ring(side_force), .assignments = assignments});
-  EXPECT_TRUE(run.begin()) << run.problem();
-  while (run.next() != nullptr) {
-  }
-  return run;
-}
-
-std::optional<RecordEvent> first(const Session& run, EventKind kind) {
-  for (const RecordEvent& event : run.events())
-    if (event.kind == kind) return event;
-  return std::nullopt;
+  return test::traced(ring(side_force), assignments);
 }
 
 TEST(PitchforkAtACorner, IsAnEventWhereStabilityIsLostWithANewFlatPart) {
   const Session run = traced("0.0", {"path.branches=\"primary\""});
-  const auto spreads = first(run, EventKind::contact_spreads), pitchfork = first(run, EventKind::branch_point);
-  ASSERT_TRUE(spreads && pitchfork);
-  EXPECT_EQ(spreads->unstable_before, 0);
-  EXPECT_EQ(spreads->unstable_after, 0);
-  EXPECT_EQ(pitchfork->lambda, spreads->lambda);
-  EXPECT_EQ(pitchfork->branch_type, BranchType::symmetric);
-  EXPECT_EQ(pitchfork->unstable_before, 0);
-  EXPECT_EQ(pitchfork->unstable_after, 1);
+  const RecordEvent& spreads = test::event_of(run.record(), EventKind::contact_spreads);
+  const RecordEvent& pitchfork = test::event_of(run.record(), EventKind::branch_point);
+  EXPECT_EQ(spreads.unstable_before, 0);
+  EXPECT_EQ(spreads.unstable_after, 0);
+  EXPECT_EQ(pitchfork.lambda, spreads.lambda);
+  EXPECT_EQ(pitchfork.branch_type, BranchType::symmetric);
+  EXPECT_EQ(pitchfork.unstable_before, 0);
+  EXPECT_EQ(pitchfork.unstable_after, 1);
   EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
 }
 
 // The branch cannot be entered: its flat part has no length at first. Who wants the stable way is told so.
 TEST(PitchforkAtACorner, EndsAPathThatIsToBeStable) {
   const Session run = traced("0.0");
-  ASSERT_TRUE(first(run, EventKind::branch_point));
+  EXPECT_EQ(test::events_of(run.record(), EventKind::branch_point).size(), 1u);
   EXPECT_EQ(run.record().branches.size(), 1u);
   EXPECT_EQ(run.record().branches.back().end->reason, EndReason::min_step);
 }
@@ -77,12 +66,12 @@ TEST(PitchforkAtACorner, EndsAPathThatIsToBeStable) {
 // A side force takes from the load of the pitchfork what goes with its 2/3rd power, 2e-5 to 1e-4 of it here.
 TEST(PitchforkAtACorner, IsWhereASmallSideForceRollsTheRingAside) {
   const Session perfect = traced("0.0"), pushed = traced("0.001");
-  const auto at = first(perfect, EventKind::branch_point), spreads = first(pushed, EventKind::contact_spreads);
-  ASSERT_TRUE(at && spreads);
-  EXPECT_FALSE(first(pushed, EventKind::branch_point));
-  EXPECT_EQ(spreads->unstable_after, 0);
+  const RecordEvent& at = test::event_of(perfect.record(), EventKind::branch_point);
+  const RecordEvent& spreads = test::event_of(pushed.record(), EventKind::contact_spreads);
+  EXPECT_TRUE(test::events_of(pushed.record(), EventKind::branch_point).empty());
+  EXPECT_EQ(spreads.unstable_after, 0);
   EXPECT_EQ(pushed.record().branches.back().end->reason, EndReason::stop);
-  EXPECT_NEAR(spreads->lambda, at->lambda, 1e-4 * at->lambda);
+  EXPECT_NEAR(spreads.lambda, at.lambda, 1e-4 * at.lambda);
 }
 
 }  // namespace

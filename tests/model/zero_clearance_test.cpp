@@ -12,7 +12,7 @@
 #include "core/text.hpp"
 #include "model/deck/reader.hpp"
 #include "model/model.hpp"
-#include "model/session.hpp"
+#include "tests/model/traced_session.hpp"
 
 namespace arcwall::zero_clearance_test {
 namespace {
@@ -38,20 +38,9 @@ path = { step = 50.0, stop = { lambda = [-10.0, 6000.0] } }
 constexpr double EI = 2.1875e7, EA = 1.05e7, length = 1000.0;
 const double euler = pi * pi * EI / (length * length);
 
-Session traced(const std::vector<std::string>& assignments = {}) {
-  Session run({.deck = "deck.toml", .deck_text = column, .assignments = assignments});
-  EXPECT_TRUE(run.begin()) << run.problem();
-  while (run.next() != nullptr) {
-  }
-  return run;
-}
+Session traced(const std::vector<std::string>& assignments = {}) { return test::traced(column, assignments); }
 
-std::vector<RecordEvent> events(const Session& run, EventKind kind) {
-  std::vector<RecordEvent> found;
-  for (const RecordEvent& event : run.events())
-    if (event.kind == kind) found.push_back(event);
-  return found;
-}
+std::vector<RecordEvent> events(const Session& run, EventKind kind) { return test::events_of(run.record(), kind); }
 
 std::string problem_of(const std::vector<std::string>& assignments) {
   try {

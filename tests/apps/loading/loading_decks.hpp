@@ -65,13 +65,6 @@ B = ["z"]
          more;
 }
 
-inline std::vector<RecordEvent> events_of(const TracedDeck& traced, EventKind kind) {
-  std::vector<RecordEvent> found;
-  for (const RecordEvent& event : traced.record().events)
-    if (event.kind == kind) found.push_back(event);
-  return found;
-}
-
 // The same kinds at the same λ.
 inline void expect_same_events(const TracedDeck& a, const TracedDeck& b, double relative) {
   const auto &first = a.record().events, &second = b.record().events;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "model/event_names.hpp"
+#include "model/session.hpp"
+
+namespace arcwall::test {
+
+/// The text of a deck, traced to the end of its paths.
+inline Session traced(const std::string& deck, const std::vector<std::string>& assignments = {}) {
+  Session run({.deck = "deck.toml", .deck_text = deck, .assignments = assignments});
+  if (!run.begin()) ADD_FAILURE() << run.problem();
+  while (run.next() != nullptr) {
+  }
+  return run;
+}
+
+/// The events of a kind, in their order.
+inline std::vector<RecordEvent> events_of(const Record& record, EventKind kind) {
+  std::vector<RecordEvent> found;
+  for (const RecordEvent& event : record.events)
+    if (event.kind == kind) found.push_back(event);
+  return found;
+}
+
+/// One of them, the first being number 1. Throws if there is none.
+inline const RecordEvent& event_of(const Record& record, EventKind kind, int number = 1) {
+  for (const RecordEvent& event : record.events)
+    if (event.kind == kind && --number == 0) return event;
+  throw std::runtime_error("there is no such " + std::string(to_text(kind)));
+}
+
+}  // namespace arcwall::test
