@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "continuation/answers/descent.hpp"
-#include "continuation/metric.hpp"
 #include "continuation/tracer.hpp"
 #include "model/event_names.hpp"
 

@@ -33,11 +33,42 @@ void parts(Archive& archive, RecordSensitivity& sensitivity) {
 }
 
 template <typename Archive>
+void parts(Archive& archive, RecordStretch& stretch) {
+  archive(stretch.label, stretch.is_line, stretch.force);
+}
+
+/// What a record alone owns is kept as what may be missing.
+template <typename T, typename Archive>
+void keep_owned(Archive& archive, std::shared_ptr<const T>& owned) {
+  std::optional<T> value;
+  if (owned) value = *owned;
+  archive(value);
+  if constexpr (Archive::reads) owned = value ? std::make_shared<const T>(std::move(*value)) : nullptr;
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordWayBack& back);
+
+template <typename Archive>
+void parts(Archive& archive, RecordLanding& landing) {
+  archive(landing.reason, landing.why, landing.lambda, landing.monitors, landing.contacts, landing.word, landing.energy,
+          landing.released, landing.unstable, landing.on_branch, landing.arc, landing.point, landing.loop);
+  keep_owned(archive, landing.back);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordWayBack& back) {
+  archive(back.lambda, back.kind, back.monitors);
+  keep_owned(archive, back.landing);
+}
+
+template <typename Archive>
 void parts(Archive& archive, RecordEvent& event) {
   archive(event.id, event.kind, event.branch, event.step, event.arc, event.lambda, event.monitors,
           event.unstable_before, event.unstable_after, event.unstable_dead, event.residual, event.localised,
           event.contacts, event.monitor, event.branch_end, event.branch_type, event.multiplicity, event.suspected,
-          event.discretisation, event.branches, event.mode, event.sensitivity);
+          event.discretisation, event.branches, event.mode, event.sensitivity, event.continuum);
+  keep_owned(archive, event.landing);
 }
 
 template <typename Archive>

@@ -26,6 +26,18 @@ void keep_traced(Archive& archive, Record& record) {
   archive(record.branches, record.points, record.events, record.branch_points, record.steps);
 }
 
+// Whether all that a landing refers to is in the record. One that was not found has no monitors.
+bool is_whole(const Record& record, const std::shared_ptr<const RecordLanding>& landing) {
+  if (!landing) return true;
+  const auto are_all = [&](const std::vector<double>& monitors) { return monitors.size() == record.columns.size(); };
+  const bool has_none = landing->monitors.empty() && !landing->reason.empty();
+  if (landing->point >= record.points.size() || !(are_all(landing->monitors) || has_none)) return false;
+  if (landing->on_branch &&
+      (*landing->on_branch < 0 || *landing->on_branch >= static_cast<Index>(record.branches.size())))
+    return false;
+  return !landing->back || (are_all(landing->back->monitors) && is_whole(record, landing->back->landing));
+}
+
 // Whether all that a record refers to is in it.
 bool is_whole(const Record& record, std::size_t ended_stages) {
   const auto has_branch = [&](Index branch) {
@@ -39,7 +51,8 @@ bool is_whole(const Record& record, std::size_t ended_stages) {
   for (const RecordPoint& point : record.points)
     if (!has_branch(point.branch) || point.monitors.size() != record.columns.size()) return false;
   for (const RecordEvent& event : record.events)
-    if (!has_branch(event.branch) || event.monitors.size() != record.columns.size()) return false;
+    if (!has_branch(event.branch) || event.monitors.size() != record.columns.size() || !is_whole(record, event.landing))
+      return false;
   for (const RecordBranchPoint& point : record.branch_points)
     if (!has_event(point.event)) return false;
   return true;
@@ -80,14 +93,16 @@ bool Session::begin() {
 
 const RecordPoint* Session::next() {
   if (!problem_.empty() || !begin()) return nullptr;
+  const bool had_ended = tracing_->has_ended();
   if (tracing_->advance()) return &record_->points.back();
-  add_landings(*model_, *record_);
+  if (!had_ended && !stopped_) add_landings(*model_, *record_);
   return nullptr;
 }
 
 bool Session::has_ended() const { return tracing_ && tracing_->has_ended(); }
 
 void Session::stop(const BranchEnd& end) {
+  stopped_ = true;
   if (tracing_) tracing_->stop(end);
 }
 
@@ -138,8 +153,6 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
     if (stopped && how == Session::Resume::as_ended) {
       session.stop(*stopped);
       session.next();
-    } else if (session.has_ended()) {
-      add_landings(*session.model_, *session.record_);
     }
     return session;
   } catch (const BadArchive& problem) {

@@ -47,7 +47,8 @@ class Session {
   bool has_ended() const;
 
   /// Ends every branch where it is; the next call of next() records that. A checkpoint does not know of it but for its
-  /// argument. A run that has not begun has no branches, so that nothing happens.
+  /// argument. A run that has not begun has no branches, so that nothing happens. Where the structure falls to is not
+  /// looked for at the end of such a run; whoever goes on with it has that at its own end.
   void stop(const BranchEnd& end);
 
   const RunDescription& description() const { return description_; }
@@ -80,6 +81,7 @@ class Session {
   State start_{};
   std::string problem_{};
   std::unique_ptr<Tracing> tracing_;
+  bool stopped_ = false;  // from outside: nothing that takes long is done at the end
 };
 
 /// The session whose files are in a folder, from its checkpoint. Throws OutputError if there is none or it cannot be

@@ -124,6 +124,34 @@ TEST(Landing, OfATrussIsThatOfTheClosedForm) {
   EXPECT_NE(events_text(traced.record()).find("falls to"), std::string::npos);
 }
 
+// A run that is read back has its landings, and none is looked for again.
+TEST(Landing, IsKeptInACheckpoint) {
+  Session run = test::traced(truss("-2.5"));
+  const Session read = Session::from(run.checkpoint(), "checkpoint", Session::Resume::as_ended);
+  const RecordEvent& snap = test::event_of(run.record(), EventKind::limit_point);
+  ASSERT_TRUE(snap.landing && snap.landing->back);
+  EXPECT_EQ(event_json(read.record(), test::event_of(read.record(), EventKind::limit_point)),
+            event_json(run.record(), snap));
+}
+
+// Who stops a run does not wait for a descent; who goes on with it has the landings at its end.
+TEST(Landing, IsNotLookedForWhereARunIsStopped) {
+  Session run = test::traced(truss("-2.5"));
+  Session begun({.deck = "deck.toml", .deck_text = truss("-2.5")});
+  ASSERT_TRUE(begun.begin());
+  while (test::events_of(begun.record(), EventKind::limit_point).empty()) ASSERT_NE(begun.next(), nullptr);
+  const std::string checkpoint = begun.checkpoint();
+  begun.stop({.reason = EndReason::interrupted, .detail = "enough"});
+  EXPECT_EQ(begun.next(), nullptr);
+  EXPECT_FALSE(test::event_of(begun.record(), EventKind::limit_point).landing);
+
+  Session resumed = Session::from(checkpoint, "checkpoint", Session::Resume::go_on);
+  while (resumed.next() != nullptr) {
+  }
+  EXPECT_EQ(event_json(resumed.record(), test::event_of(resumed.record(), EventKind::limit_point)),
+            event_json(run.record(), test::event_of(run.record(), EventKind::limit_point)));
+}
+
 // A path that ends before it comes there: the state is found all the same, but not the way back.
 TEST(Landing, IsFoundWhereThePathDoesNotPass) {
   const TracedDeck traced(truss("-1.2"));
