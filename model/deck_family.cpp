@@ -20,10 +20,8 @@ struct DeckFamily::Kept {
   bool has_piece = false;
 };
 
-DeckFamily::DeckFamily(deck::Deck deck, deck::DeckNumber number, std::string turning)
-    : deck_(std::move(deck)), number_(std::move(number)), turning_(std::move(turning)) {
-  deck_.curve.reset();
-  deck_.path.sensitivity.clear();
+DeckFamily::DeckFamily(const deck::Deck& deck, deck::DeckNumber number)
+    : deck_(without_answers(deck)), number_(std::move(number)) {
   own_ = std::make_shared<const Model>(deck_);
   spacing_ = natural_step(number_, own_->structure());
 }

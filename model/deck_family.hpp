@@ -15,21 +15,21 @@ namespace arcwall {
 /// with the value in place, and the last ones are kept.
 class DeckFamily final : public SystemFamily {
  public:
-  /// `deck`: without stages. `turning`: the watched monitor of a displacement limit, else empty. `spacing`: see
-  /// SystemFamily. Throws InputError where the deck itself is wrong.
-  DeckFamily(deck::Deck deck, deck::DeckNumber number, std::string turning = {});
+  /// `deck`: without stages. Throws InputError where it is wrong.
+  DeckFamily(const deck::Deck& deck, deck::DeckNumber number);
   ~DeckFamily() override;
 
   /// The model of the deck's own value, in whose terms states are common.
   const Model& own() const { return *own_; }
-  const deck::DeckNumber& number() const { return number_; }
 
   /// The model for a value; null where there is no such deck: problem() then says why.
   std::shared_ptr<const Model> model(double value) const;
 
-  /// What was wrong with the last deck that could not be built; empty if all could.
+  /// What was wrong with the last deck that could not be built; empty if all could since it was forgotten.
   const std::string& problem() const { return problem_; }
+  void forget_problem() const { problem_.clear(); }
 
+  /// The watched monitor of a displacement limit, which members have from then on.
   void set_turning(std::string monitor) { turning_ = std::move(monitor); }
 
   std::optional<Member> at(double kappa, const State& state) const override;

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "continuation/answers/event_system.hpp"
-#include "continuation/explorer.hpp"
 #include "continuation/step/corrector.hpp"
 #include "continuation/tracer.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/value.hpp"
 #include "model/deck_family.hpp"
 #include "model/event_names.hpp"
+#include "model/find_event.hpp"
 
 namespace arcwall {
 
@@ -27,49 +27,10 @@ constexpr double steps_of_range = 100.0, longest_step = 0.04;  // of a curve [pa
 
 // --- the event of the traced path -----------------------------------------------------------------------------------
 
-struct FoundEvent {
-  Arc arc;
-  Event event;
-};
-
-// The deck's path is traced no farther than need be.
-std::optional<FoundEvent> find_event(const Model& model, const deck::EventToFollow& curve,
-                                     const std::function<bool()>& stopped, std::string& problem) {
-  auto start = model.start(problem);
-  if (!start) return std::nullopt;
-  Explorer explorer(model.system(), std::move(*start), model.options(), model.watched(), model.explore());
-  int found = 0;
-  while (const auto step = explorer.next()) {
-    for (const Event& event : step->arc.events)
-      if (event.kind == curve.event && ++found == curve.number) return FoundEvent{.arc = step->arc, .event = event};
-    if (stopped && stopped()) {
-      problem = "stopped before the event was found";
-      return std::nullopt;
-    }
-  }
-  problem = fmt::format("the path has {} of kind {}, not {}", found == 0 ? "none" : "only " + std::to_string(found),
-                        to_text(curve.event), curve.number);
-  return std::nullopt;
-}
-
-bool is_change_of_contact(EventKind kind) {
-  switch (kind) {
-    case EventKind::contact_closes:
-    case EventKind::contact_opens:
-    case EventKind::contact_spreads:
-    case EventKind::contact_gathers:
-    case EventKind::contact_passes:
-    case EventKind::contact_limit_point:
-      return true;
-    case EventKind::start:
-    case EventKind::end:
-    case EventKind::limit_point:
-    case EventKind::displacement_limit:
-    case EventKind::branch_point:
-    case EventKind::user:
-      break;
-  }
-  return false;
+bool is_at_change(const FoundEvent& found) {
+  return std::any_of(found.arc.events.begin(), found.arc.events.end(), [](const Event& one) {
+    return changes_contact(one.kind) || one.kind == EventKind::contact_limit_point;
+  });
 }
 
 // What changes contact there, the fastest along the path first.
@@ -93,8 +54,7 @@ std::optional<FollowedEvent> followed(const System& system, const FoundEvent& fo
   };
   const Event& event = found.event;
   if (event.suspected) return refuse("the event is only suspected");
-  const bool at_change = std::any_of(found.arc.events.begin(), found.arc.events.end(),
-                                     [](const Event& one) { return is_change_of_contact(one.kind); });
+  const bool at_change = is_at_change(found);
   if (event.kind == EventKind::branch_point) {
     const BranchPoint& point = *event.branching;
     if (at_change || point.modes.empty())
@@ -173,6 +133,7 @@ class CurveTrace {
 
   Side side(double sign, std::pair<std::optional<Index>, std::optional<Index>> counts) {
     Side side;
+    family_.forget_problem();
     const TraceOptions options = trace_options(sign);
     Tracer tracer(system_, start_, options);
     while (const auto arc = tracer.next()) {
@@ -232,7 +193,6 @@ class CurveTrace {
     point.unstable_before = counts.first;
     point.unstable_after = counts.second;
     point.contacts = model->closed_contacts(member->state);
-    point.residual = at.residual;
     point.shape = shape_of(*model, member->state);
     return point;
   }
@@ -398,7 +358,7 @@ EventCurve trace_event_curve(const deck::Deck& deck, const std::function<bool()>
   const auto number = std::get<deck::DeckNumber>(deck::number_of(deck, deck.curve->over));
   DeckFamily family(deck, number);
   EventCurve curve = described(deck, family.own(), number);
-  const auto found = find_event(family.own(), *deck.curve, stopped, curve.problem);
+  const auto found = find_event(family.own(), deck.curve->event, deck.curve->number, stopped, curve.problem);
   if (!found) return curve;
   const auto event = followed(family.own().system(), *found, curve.problem);
   if (!event) return curve;
@@ -416,7 +376,9 @@ EventCurve trace_event_curve(const deck::Deck& deck, const std::function<bool()>
   const bool down = number.value > deck.curve->range[0], up = number.value < deck.curve->range[1];
   join(down ? trace.side(-1.0, counts) : CurveTrace::Side{}, up ? trace.side(1.0, counts) : CurveTrace::Side{}, curve);
   if (curve.points.empty()) {
-    curve.problem = "the event's equations are singular: it does not move with this number alone";
+    curve.problem = family.problem().empty()
+                        ? "the event's equations are singular: it does not move with this number alone"
+                        : family.problem();
     return curve;
   }
   const CurveSpecial at_bound{.why = "the range ends", .reason = EndReason::stop};

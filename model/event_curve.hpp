@@ -22,7 +22,6 @@ struct CurvePoint {
   std::optional<double> slope{};  ///< dλ/dkey; empty at a cusp
   std::optional<Index> unstable_before{}, unstable_after{};
   Index contacts = 0;  ///< closed
-  double residual = 0.0;
   Shape shape{};
 };
 
@@ -45,7 +44,6 @@ struct CurveSpecial {
 struct EventCurve {
   std::string deck{}, title{};
   std::string key{}, key_unit{};
-  std::string load_unit{};
   EventKind event = EventKind::limit_point;
   int number = 1;
   double own_value = 0.0;  ///< of the deck

@@ -436,8 +436,8 @@ const ContactQuery* Model::contacts() const {
 
 // A pinch is one contact of the piece and two of the user.
 Index Model::closed_contacts(const State& state) const {
-  const auto pinches = static_cast<Index>(sliding_ ? sliding_->pinches().size() : 0);
-  return state.piece.closed_count() + pinches;
+  const std::size_t pinches = sliding_ ? sliding_layout(state.piece).pinched_points().size() : 0;
+  return state.piece.closed_count() + static_cast<Index>(pinches);
 }
 
 }  // namespace arcwall

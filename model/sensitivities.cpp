@@ -119,8 +119,7 @@ Sensitivities::~Sensitivities() = default;
 const Sensitivities::Beside& Sensitivities::beside(std::size_t number) {
   if (beside_[number]) return *beside_[number];
   const deck::DeckNumber& varied = numbers_[number];
-  deck::Deck deck = model_.whole_deck();
-  deck.path.sensitivity.clear();
+  const deck::Deck deck = without_answers(model_.whole_deck());
   auto made = std::make_unique<Beside>();
   const double step = natural_step(varied, model_.structure());
   for (const double shorter : {1.0, 1e-1, 1e-2, 1e-3}) {

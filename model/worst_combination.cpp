@@ -5,10 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "continuation/explorer.hpp"
 #include "model/deck/numbers.hpp"
 #include "model/event_curve.hpp"
-#include "model/event_names.hpp"
+#include "model/find_event.hpp"
 #include "model/model.hpp"
 #include "model/sensitivities.hpp"
 
@@ -24,38 +23,28 @@ struct EventOfRun {
   Vector slopes{};
 };
 
-// The event of the deck with other values, and its slopes by them.
+// The event of the deck with other values, and where it is no higher than `best` its slopes by them.
 std::optional<EventOfRun> event_at(const deck::Deck& deck, const std::vector<deck::DeckNumber>& numbers,
-                                   const Vector& values, std::string& problem) {
-  deck::Deck varied = deck;
+                                   const Vector& values, const EventOfRun* best, const std::function<bool()>& stopped,
+                                   std::string& problem) {
+  deck::Deck varied = without_answers(deck);
   varied.path.sensitivity = deck.curve->worst;
-  const deck::EventToFollow wanted = *deck.curve;
-  varied.curve.reset();
   for (std::size_t i = 0; i < numbers.size(); ++i)
     varied = with_number(varied, numbers[i], values[static_cast<Index>(i)]);
   const Model model(varied);
-  auto start = model.start(problem);
-  if (!start) return std::nullopt;
-  Sensitivities sensitivities(model, {});
-  Explorer explorer(model.system(), std::move(*start), model.options(), model.watched(), model.explore());
-  int found = 0;
-  while (const auto step = explorer.next()) {
-    for (const Event& event : step->arc.events) {
-      if (event.kind != wanted.event || ++found < wanted.number) continue;
-      EventOfRun of{.lambda = event.state.lambda, .slopes = Vector::Zero(values.size())};
-      const auto rows = sensitivities.of(step->arc, event);
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (!rows[i].slope) {
-          problem = fmt::format("λ of the event has no slope by {}: {}", rows[i].key, rows[i].why_none);
-          return std::nullopt;
-        }
-        of.slopes[static_cast<Index>(i)] = *rows[i].slope;
-      }
-      return of;
+  const auto found = find_event(model, deck.curve->event, deck.curve->number, stopped, problem);
+  if (!found) return std::nullopt;
+  EventOfRun of{.lambda = found->event.state.lambda, .slopes = Vector::Zero(values.size())};
+  if (best != nullptr && of.lambda > best->lambda) return of;
+  const auto rows = Sensitivities(model, {}).of(found->arc, found->event);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].slope) {
+      problem = fmt::format("λ of the event has no slope by {}: {}", rows[i].key, rows[i].why_none);
+      return std::nullopt;
     }
+    of.slopes[static_cast<Index>(i)] = *rows[i].slope;
   }
-  problem = fmt::format("with other values the path has no {} {}", to_text(wanted.event), wanted.number);
-  return std::nullopt;
+  return of;
 }
 
 std::vector<double> list_of(const Vector& vector) { return {vector.begin(), vector.end()}; }
@@ -75,7 +64,7 @@ WorstCombination worst_combination(const deck::Deck& deck, const std::function<b
   worst.own = list_of(own);
   const double radius = *deck.curve->radius;
 
-  auto here = event_at(deck, numbers, own, worst.problem);
+  auto here = event_at(deck, numbers, own, nullptr, stopped, worst.problem);
   worst.runs = 1;
   if (!here) return worst;
   worst.own_lambda = here->lambda;
@@ -84,9 +73,12 @@ WorstCombination worst_combination(const deck::Deck& deck, const std::function<b
     worst.problem = "λ of the event has no slope by these numbers";
     return worst;
   }
+  worst.values = worst.own;
+  worst.slopes = list_of(here->slopes);
+  worst.lambda = here->lambda;
   std::optional<EventOfRun> best;
   while (worst.runs < most_runs && !(stopped && stopped())) {
-    auto next = event_at(deck, numbers, own + radius * direction, worst.problem);
+    auto next = event_at(deck, numbers, own + radius * direction, best ? &*best : nullptr, stopped, worst.problem);
     ++worst.runs;
     if (!next && !best) return worst;
     if (!next || (best && next->lambda > best->lambda)) {

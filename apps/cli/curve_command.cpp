@@ -29,6 +29,7 @@ ExitStatus curve(const Options& options) {
   const InterruptGuard interrupts;
   const bool quiet = options.has("quiet");
   const std::filesystem::path out = options.text("out").value_or(std::filesystem::path(file).stem().string());
+  require_other_than_input(out, file);
   const OutputFolder folder(out, std::filesystem::path(file).filename().string(),
                             options.has("force") ? Foreign::overwrite : Foreign::refuse);
   if (deck.curve->over.empty()) {

@@ -68,9 +68,8 @@ double distance(const RecordEvent& a, const RecordEvent& b, const Ranges& ranges
 }
 
 deck::Deck with_elements(const deck::Deck& deck, const std::vector<int>& elements) {
-  deck::Deck finer = deck;
+  deck::Deck finer = without_answers(deck);
   for (std::size_t i = 0; i < finer.members.size(); ++i) finer.members[i].elements = elements[i];
-  finer.path.sensitivity.clear();
   return deck::read_deck_text(deck::to_toml(finer), deck.source.file);
 }
 

@@ -68,22 +68,13 @@ class BorderedMatrix {
  public:
   BorderedMatrix(const SystemFamily::Member& at, Linearization& equations, Vector f, Row r,
                  const MakeFactorization& make)
-      : equations_(equations), f_(std::move(f)), r_(std::move(r)), solver_(make), transposed_solver_(make) {
-    const Index multipliers = at.system->multiplier_count(at.state.piece);
-    solver_.factorize(equations_, multipliers);
-    const Index n = equations.K.cols(), m = equations.B.cols();
-    if (m == 0) return;
-    transposed_.K = equations.K;
-    transposed_.F = equations.F;
-    transposed_.B = equations.C.leftCols(n).transpose();
-    transposed_.C.resize(m, n + m);
-    transposed_.C << equations.B.transpose(), equations.C.rightCols(m).transpose();
-    transposed_.holding = equations.holding;
-    transposed_.border_rates = equations.border_rates;
-    transposed_.translation_free = equations.translation_free;
-    transposed_.ground = equations.ground;
-    transposed_.F_lambda = r_.dx;
-    transposed_solver_.factorize(transposed_, multipliers);
+      : equations_(equations),
+        f_(std::move(f)),
+        r_(std::move(r)),
+        multipliers_(at.system->multiplier_count(at.state.piece)),
+        solver_(make),
+        transposed_solver_(make) {
+    solver_.factorize(equations_, multipliers_);
   }
 
   // A X = (top, last)
@@ -94,11 +85,27 @@ class BorderedMatrix {
   // Aᵀ P = (top, last)
   std::optional<Direction> solve_transposed(const Vector& top, double last) {
     const Row row{.dx = f_, .dlambda = r_.dlambda};
-    if (transposed_.B.cols() > 0) return transposed_solver_.solve(row, top, last);
-    return with_column(r_.dx, [&] { return solver_.solve(row, top, last); });
+    if (equations_.B.cols() == 0) return with_column(r_.dx, [&] { return solver_.solve(row, top, last); });
+    if (transposed_.B.cols() == 0) transpose();
+    return transposed_solver_.solve(row, top, last);
   }
 
  private:
+  void transpose() {
+    const Index n = equations_.K.cols(), m = equations_.B.cols();
+    transposed_.K = equations_.K;
+    transposed_.F = equations_.F;
+    transposed_.B = equations_.C.leftCols(n).transpose();
+    transposed_.C.resize(m, n + m);
+    transposed_.C << equations_.B.transpose(), equations_.C.rightCols(m).transpose();
+    transposed_.holding = equations_.holding;
+    transposed_.border_rates = equations_.border_rates;
+    transposed_.translation_free = equations_.translation_free;
+    transposed_.ground = equations_.ground;
+    transposed_.F_lambda = r_.dx;
+    transposed_solver_.factorize(transposed_, multipliers_);
+  }
+
   template <typename Solve>
   std::optional<Direction> with_column(const Vector& column, const Solve& solve) {
     Vector F_lambda = std::exchange(equations_.F_lambda, column);
@@ -111,8 +118,9 @@ class BorderedMatrix {
   Linearization& equations_;
   Vector f_;
   Row r_;
+  Index multipliers_;
   BorderedSolver solver_;
-  Linearization transposed_;
+  Linearization transposed_;  // where the equations have a border, once it is asked for
   BorderedSolver transposed_solver_;
 };
 
@@ -128,9 +136,27 @@ struct BorderedScalar {
   Direction d{};
 };
 
+// The equations of a sample, and what they count in the derivative by κ.
+struct WeightedEquations {
+  double weight = 0.0;
+  Linearization equations{};
+};
+
+std::vector<WeightedEquations> equations_of(const std::vector<WeightedMember>& samples, Differences how) {
+  std::vector<WeightedEquations> list;
+  for (const WeightedMember& sample : samples) {
+    const double weight = how == Differences::fine ? sample.weight : sample.few;
+    if (weight == 0.0) continue;
+    WeightedEquations& one = list.emplace_back();
+    one.weight = weight;
+    sample.member.system->linearize(sample.member.state, one.equations);
+  }
+  return list;
+}
+
 // The derivative of F in two directions is symmetric in them: −∂σ/∂z is the derivative of [J F_λ]ᵀ w along d.
 EventEquation equation_of(const BorderedScalar& scalar, const SystemFamily::Member& at,
-                          const std::vector<WeightedMember>& samples, const Metric& metric, Differences how) {
+                          const std::vector<WeightedEquations>& samples, const Metric& metric, Differences how) {
   Linearization workspace;
   EventEquation equation{.value = scalar.value};
   equation.row = rows_differenced_along(metric, at.state, scalar.d, how, [&](const State& state) {
@@ -139,13 +165,8 @@ EventEquation equation_of(const BorderedScalar& scalar, const SystemFamily::Memb
   });
   equation.row.dx = -equation.row.dx;
   equation.row.dlambda = -equation.row.dlambda;
-  for (const WeightedMember& sample : samples) {
-    const double weight = how == Differences::fine ? sample.weight : sample.few;
-    if (weight == 0.0) continue;
-    Linearization of_sample;
-    sample.member.system->linearize(sample.member.state, of_sample);
-    equation.by_kappa -= weight * scalar.w.dot(applied(of_sample, scalar.d));
-  }
+  for (const WeightedEquations& sample : samples)
+    equation.by_kappa -= sample.weight * scalar.w.dot(applied(sample.equations, scalar.d));
   return equation;
 }
 
@@ -159,8 +180,8 @@ std::optional<std::vector<EventEquation>> turning_equation(const SystemFamily::M
   auto t = A.solve(Vector::Zero(at.state.x.size()), 1.0);
   const auto P = A.solve_transposed(border.scale * gradient.dx, border.scale * gradient.dlambda);
   if (!t || !P) return std::nullopt;
-  EventEquation equation = equation_of({.value = border.scale * apply(gradient, *t), .w = P->dx, .d = *t}, at, samples,
-                                       metric, Differences::simple);
+  EventEquation equation = equation_of({.value = border.scale * apply(gradient, *t), .w = P->dx, .d = *t}, at,
+                                       equations_of(samples, Differences::simple), metric, Differences::simple);
   if (at.turning) {
     add(equation.row, border.scale,
         rows_differenced_along(metric, at.state, *t, Differences::simple,
@@ -180,9 +201,10 @@ std::optional<std::vector<EventEquation>> crossing_equations(const SystemFamily:
   const Vector zero = Vector::Zero(at.state.x.size());
   const auto first = A.solve(zero, 1.0), second = A.solve(-F_lambda, 0.0), left = A.solve_transposed(zero, 1.0);
   if (!first || !second || !left) return std::nullopt;
+  const std::vector<WeightedEquations> of_samples = equations_of(samples, Differences::fine);
   const auto of = [&](const Direction& solution, double dlambda) {
     return equation_of({.value = solution.dlambda, .w = left->dx, .d = {.dx = solution.dx, .dlambda = dlambda}}, at,
-                       samples, metric, Differences::fine);
+                       of_samples, metric, Differences::fine);
   };
   return std::vector{of(*first, 0.0), of(*second, 1.0)};
 }

@@ -85,11 +85,10 @@ double EventSystem::lambda_rate(const State& state, const Direction& direction) 
   return direction.dx[layout_of(state.piece).base_size];
 }
 
-// `event` in the family's terms.
-State EventSystem::extended(const State& event, double kappa, EventBorder border, const State* like) const {
-  const auto member = family_.at(kappa, event);
-  const System& system = *member->system;
-  const Piece& piece = member->state.piece;
+State EventSystem::extended(const SystemFamily::Member& at, const State& event, double kappa, EventBorder border,
+                            const State* like) const {
+  const System& system = *at.system;
+  const Piece& piece = at.state.piece;
   auto layout =
       std::make_shared<EventLayout>(event.piece, event.x.size(), system.weights(piece), system.multiplier_count(piece),
                                     system.guard_count(piece), std::move(border));
@@ -105,7 +104,7 @@ std::optional<State> EventSystem::of_event(const State& event, double kappa) con
   if (!member) return std::nullopt;
   auto border = event_border(event_.criterion, *member, metric_of(*member), make_);
   if (!border) return std::nullopt;
-  return extended(event, kappa, std::move(*border));
+  return extended(*member, event, kappa, std::move(*border));
 }
 
 Index EventSystem::size(const Piece& piece) const { return layout_of(piece).base_size + extra(); }
@@ -305,7 +304,7 @@ std::optional<Transition> EventSystem::remeshed(const State& from, const SystemF
   auto border = event_border(event_.criterion, ahead, metric_of(ahead), make_);
   if (!border) return std::nullopt;
   Transition found{.change = Transition::Change::remeshed};
-  found.guess = extended(*event, from.lambda, std::move(*border), &from);
+  found.guess = extended(ahead, *event, from.lambda, std::move(*border), &from);
   const Index n = event->x.size();
   found.forward = {.dx = Vector::Zero(found.guess.x.size()), .dlambda = forward.dlambda};
   found.forward.dx.head(n) = transition.forward.dx;
@@ -356,7 +355,7 @@ std::optional<Transition> EventSystem::with_inserted_contact(const State& from, 
   auto border = event_border(event_.criterion, *here, metric_of(*here), make_, before ? &*before : nullptr);
   if (!border) return std::nullopt;
   Transition same{.change = Transition::Change::remeshed};
-  same.guess = extended(start, from.lambda, std::move(*border), &from);
+  same.guess = extended(*here, start, from.lambda, std::move(*border), &from);
   same.forward = forward;
   return same;
 }

@@ -76,7 +76,11 @@ class EventSystem final : public System {
   static const EventLayout& layout_of(const Piece& piece);
   Index extra() const { return event_.criterion == Criterion::crossing ? 2 : 1; }
   State in_common_terms(const State& state) const;
-  State extended(const State& event, double kappa, EventBorder border, const State* like = nullptr) const;
+
+  // An event's state `event`, in the family's terms, as one here; `at`: the same in those of the system for κ. `like`:
+  // a state whose μ it has.
+  State extended(const SystemFamily::Member& at, const State& event, double kappa, EventBorder border,
+                 const State* like = nullptr) const;
   std::vector<WeightedMember> samples(const State& event, double kappa) const;
   std::optional<std::vector<EventEquation>> equations(const SystemFamily::Member& at, const EventBorder& border,
                                                       Linearization& here,

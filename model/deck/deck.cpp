@@ -135,6 +135,13 @@ PointsOfContact points_of_contact(const Deck& deck) {
 }
 
 // Load increments end at the last value of land.lambda.
+Deck without_answers(Deck deck) {
+  deck.path.sensitivity.clear();
+  deck.path.landing = false;
+  deck.curve.reset();
+  return deck;
+}
+
 bool is_unbounded(const Path& path) {
   const Stop& stop = path.stop;
   return stop.bounds.empty() && !stop.contacts && stop.events.empty() && !path.max_points_given.in_deck &&

@@ -600,6 +600,9 @@ std::optional<LineProfile> line_without_clearance(const Deck& deck, const Wall& 
 /// Whether nothing but the default of max_points ends the path.
 bool is_unbounded(const Path& path);
 
+/// The same deck with nothing asked about its paths: no sensitivities, no landings, no curve. For models beside a run.
+Deck without_answers(Deck deck);
+
 /// How messages name a `--set key=value`: on one line, cut where it gets long.
 std::string origin_of(const std::string& assignment);
 
