@@ -17,6 +17,22 @@ def study(
     file: str, text: bytes | str, assignments: Sequence[str], levels: int, factor: int
 ) -> tuple[dict[str, Any], str]: ...
 
+def event_curve(
+    file: str, text: bytes | str, assignments: Sequence[str]
+) -> tuple[
+    dict[str, Any],
+    list[tuple[str, str, np.ndarray]],
+    list[tuple[dict[str, np.ndarray], list[Any]]],
+    dict[str, str],
+    str,
+    str,
+]: ...
+def worst(file: str, text: bytes | str, assignments: Sequence[str]) -> tuple[dict[str, Any], str]: ...
+def walls(
+    file: str, text: bytes | str, assignments: Sequence[str], lam: float
+) -> dict[str, tuple[np.ndarray, str]]: ...
+def write_files(folder: str, deck: str, force: bool, files: Sequence[tuple[str, str]]) -> None: ...
+
 class Run:
     def __init__(self, file: str, text: bytes | str, assignments: Sequence[str]) -> None: ...
     @staticmethod

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["ArcwallError", "DeckError", "Diagnostic", "FileError", "NoStart"]
+__all__ = ["ArcwallError", "DeckError", "Diagnostic", "FileError", "NoAnswer", "NoStart"]
 
 
 @dataclass(frozen=True)
@@ -44,3 +44,7 @@ class FileError(ArcwallError, OSError):
 
 class NoStart(ArcwallError, RuntimeError):
     """There is no equilibrium at which a path could start."""
+
+
+class NoAnswer(ArcwallError, RuntimeError):
+    """What is asked about an event has no answer: it is not on the path, or cannot be followed, for the reason given."""

@@ -8,7 +8,9 @@ from typing import Any, overload
 
 import numpy as np
 
-__all__ = ["Branch", "Contact", "End", "Event", "Events", "Point"]
+__all__ = [
+    "Branch", "Contact", "Continuum", "End", "Event", "Events", "Landing", "LandingContact", "Point", "WayBack",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -24,12 +26,65 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class Continuum:
+    """A continuum of equilibria with one load and energy, of which the path keeps to one or at which it ends."""
+
+    parts: int  #: flat parts on walls, new ones being points yet
+    energy: float  #: total potential [force·length]
+    length: float  #: sum of the lengths of the parts [length]
+
+
+@dataclass(frozen=True)
 class End:
     """Why a branch ended."""
 
     reason: str  #: ``stop``, ``closed_loop``, ``max_points``, ``min_step``, …
     detail: str  #: which bound it was; what to try
     partner: int | None = None  #: the branch that it joined or that goes on
+    family: Continuum | None = None  #: that lies ahead
+
+
+@dataclass(frozen=True)
+class LandingContact:
+    """A contact of a landing, or a stretch of contact."""
+
+    wall: str
+    member: str
+    fraction: float  #: of the member's length, where it begins; nan where it is unknown
+    kind: str  #: ``point`` or ``line``
+    force: float  #: in sum [force]
+
+
+@dataclass(frozen=True)
+class Landing:
+    """Where a structure falls to behind an event at which it loses its stability, λ being held.
+
+    ``reason`` says why that was not found, and then all but ``lam`` and ``why`` is None or empty.
+    """
+
+    lam: float  #: λ, that of the event
+    reason: str | None = None  #: None, ``falls_away`` or ``not_found``
+    why: str | None = None  #: the reason in words
+    monitors: Mapping[str, float] = field(default_factory=dict)
+    contacts: tuple[LandingContact, ...] = ()  #: along the members
+    word: str = ""  #: the walls of these, as ``upper lower upper``; ``upper=`` of a stretch
+    energy: float | None = None  #: total potential there [force·length]
+    released: float | None = None  #: energy before less energy behind [force·length]
+    unstable: int | None = None  #: as of points
+    on_branch: int | None = None  #: the branch that passes through the state, if one does
+    arc: float | None = None  #: along it [path metric]
+    back: WayBack | None = None  #: λ taken back from there; None: no loss of stability is known
+    loop: float | None = None  #: energy lost in the hysteresis loop, if that closes [force·length]
+
+
+@dataclass(frozen=True)
+class WayBack:
+    """Where the state that was fallen to loses its stability as λ goes back."""
+
+    lam: float
+    kind: str  #: of the event
+    monitors: Mapping[str, float]
+    landing: Landing | None = None  #: where it falls to from there
 
 
 @dataclass(frozen=True)
@@ -61,6 +116,9 @@ class Event:
     #: of a branch point: rates of the monitors along the critical mode; of a system of one's own the mode itself
     mode: Any = None
     end: End | None = None  #: of an end
+    family: Continuum | None = None  #: of a change of contact: the branch keeps to one of these from here on
+    #: where the structure falls to; None where it does not, and where ``path.landing`` is not asked for
+    landing: Landing | None = None
     stage: str | None = None
     unstable_dead: int | None = None
 
@@ -157,13 +215,50 @@ def _float(value: float | None) -> float:
     return float("nan") if value is None else value
 
 
+def _floats(values: Mapping[str, float | None]) -> dict[str, float]:
+    return {name: _float(value) for name, value in values.items()}
+
+
 def end_of(json: Mapping[str, Any] | None) -> End | None:
-    return None if json is None else End(json["reason"], json["detail"], json.get("partner"))
+    return None if json is None else End(json["reason"], json["detail"], json.get("partner"), _family_of(json))
+
+
+def _family_of(json: Mapping[str, Any]) -> Continuum | None:
+    of = json.get("family")
+    return of and Continuum(of["parts"], _float(of["energy"]), _float(of["length"]))
+
+
+def _landing_of(json: Mapping[str, Any] | None) -> Landing | None:
+    if json is None:
+        return None
+    if "reason" in json:
+        return Landing(_float(json["lambda"]), json["reason"], json["why"])
+    return Landing(
+        lam=_float(json["lambda"]),
+        monitors=_floats(json["monitors"]),
+        contacts=tuple(
+            LandingContact(c["wall"], c["member"], _float(c["fraction"]), c["kind"], _float(c["force"]))
+            for c in json["contacts"]
+        ),
+        word=json["word"],
+        energy=_float(json["energy"]),
+        released=_float(json["released"]),
+        unstable=json["unstable"],
+        on_branch=json.get("on_branch"),
+        arc=json.get("arc"),
+        back=_way_back_of(json.get("back")),
+        loop=json.get("loop"),
+    )
+
+
+def _way_back_of(json: Mapping[str, Any] | None) -> WayBack | None:
+    if json is None:
+        return None
+    return WayBack(_float(json["lambda"]), json["kind"], _floats(json["monitors"]), _landing_of(json.get("landing")))
 
 
 def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None) -> Event:
     """An event as in events.json, on that point of its path."""
-    monitors = {name: _float(value) for name, value in json["monitors"].items()}
     return Event(
         id=json["id"],
         kind=json["kind"],
@@ -172,7 +267,7 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         point=point,
         arc=_float(json["arc"]),
         lam=_float(json["lambda"]),
-        monitors=monitors,
+        monitors=_floats(json["monitors"]),
         unstable_before=json["unstable_before"],
         unstable_after=json["unstable_after"],
         residual=_float(json["residual"]),
@@ -188,6 +283,8 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         branches=tuple(json.get("branches", ())),
         mode=json.get("mode") if mode is None else mode,
         end=end_of(json) if "reason" in json else None,
+        family=_family_of(json),
+        landing=_landing_of(json.get("landing")),
         stage=json.get("stage"),
         unstable_dead=json.get("unstable_dead"),
     )
@@ -213,7 +310,7 @@ def point_of(json: Mapping[str, Any], index: int) -> Point:
         step=json["step"],
         arc=_float(json["arc"]),
         lam=_float(json["lambda"]),
-        monitors={name: _float(value) for name, value in json["monitors"].items()},
+        monitors=_floats(json["monitors"]),
         unstable=json["unstable"],
         stability=json["stability"],
         contacts=tuple(Contact(wall, member, at, x, force, p) for (wall, member, at), x, force, p in json["forces"]),

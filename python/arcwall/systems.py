@@ -9,9 +9,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from . import _engine
-from .curves import Curve
+from .curves import Curve, row_of
 from .events import KINDS, Event, event_of
-from .path import _index, _limit
 
 __all__ = ["Detector", "System", "SystemPath", "trace"]
 
@@ -76,12 +75,7 @@ class SystemPath(Curve):
 
     def state(self, point: int) -> tuple[np.ndarray, float]:
         """x, shape (n,), and λ at a point."""
-        return self._run.state(_index(point, len(self)))[:2]
-
-    def resume(self, *, max_points: int | None = None, max_seconds: float | None = None) -> SystemPath:
-        """Goes on where the path is; returns the path itself."""
-        self._run.advance(_limit(max_points), math.inf if max_seconds is None else float(max_seconds))
-        return self
+        return self._run.state(row_of(point, len(self)))[:2]
 
     def __reduce__(self) -> Any:
         raise TypeError("a path of a system of one's own cannot be pickled or copied; pickle path.table, path.x or path.events")

@@ -77,6 +77,7 @@ PYBIND11_MODULE(_engine, module) {
   module.doc() = "The libraries of arcwall; use the package arcwall, which is made of it.";
   module.attr("version") = arcwall::program_version();
   pybind11::register_exception_translator(arcwall::python::translate);
+  arcwall::python::bind_answers(module);
   arcwall::python::bind_decks(module);
   arcwall::python::bind_runs(module);
   arcwall::python::bind_systems(module);
