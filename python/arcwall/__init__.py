@@ -13,7 +13,7 @@ in a thread of its own.
 from ._engine import version as __version__
 from .curves import Curve
 from .deck import Deck
-from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoAnswer, NoStart
+from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoAnswer, NoStart, NotFinite
 from .event_curves import CurveSpecial, EventCurve, WorstCombination
 from .events import Branch, Contact, Continuum, End, Event, Events, Landing, LandingContact, Point, WayBack
 from .path import Path, State, Tracing, load
@@ -45,6 +45,7 @@ __all__ = [
     "MemberShape",
     "NoAnswer",
     "NoStart",
+    "NotFinite",
     "Path",
     "Point",
     "Shape",

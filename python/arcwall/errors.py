@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["ArcwallError", "DeckError", "Diagnostic", "FileError", "NoAnswer", "NoStart"]
+__all__ = ["ArcwallError", "DeckError", "Diagnostic", "FileError", "NoAnswer", "NoStart", "NotFinite"]
 
 
 @dataclass(frozen=True)
@@ -48,3 +48,11 @@ class NoStart(ArcwallError, RuntimeError):
 
 class NoAnswer(ArcwallError, RuntimeError):
     """What is asked about an event has no answer: it is not on the path, or cannot be followed, for the reason given."""
+
+
+class NotFinite(ArcwallError, ValueError):
+    """A function of a system returned nan or infinity where there must be numbers. ``arcwall_state`` is x and λ there.
+
+    Residuals and derivatives may be no numbers at trial states: the step is shortened. This is raised where no shorter one
+    succeeds.
+    """

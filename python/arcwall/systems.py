@@ -59,13 +59,20 @@ class SystemPath(Curve):
     def _monitor_column(self, name: str) -> np.ndarray | None:
         if name not in self._monitors:
             return None
-        function = self._monitors[name]
-        values = [float(function(*self._run.state(i)[:2])) for i in range(len(self))]
-        return np.array(values, dtype=float)
+        return np.array([self._monitor(name, *self.state(i)) for i in range(len(self))], dtype=float)
+
+    def _monitor(self, name: str, x: np.ndarray, lam: float) -> float:
+        try:
+            value = np.asarray(self._monitors[name](x, lam))
+            if value.size != 1 or value.dtype.kind not in "fiub":
+                raise TypeError(f"monitor {name!r} returned {value.dtype} of shape {value.shape}; one real number is wanted")
+        except Exception as error:
+            error.arcwall_state = x, lam  # type: ignore[attr-defined]
+            raise
+        return float(value.item())
 
     def _event(self, json: Mapping[str, Any], point: int) -> Event:
-        x, lam, _ = self._run.state(point)
-        values = {name: float(function(x, lam)) for name, function in self._monitors.items()}
+        values = {name: self._monitor(name, *self.state(point)) for name in self._monitors}
         return event_of({**json, "monitors": values}, point, self._run.modes().get(json["id"]))
 
     @property
@@ -120,9 +127,9 @@ def trace(
     max_points      of a branch
     max_seconds     of this call; ``path.resume()`` goes on
 
-    What a method raises comes out as it is, with the attribute ``arcwall_state``, a pair of x and λ. TypeError and ValueError
-    say what a method returned and what is wanted. Where a residual is not finite the step is shortened, and the branch ends
-    if that does not help; at the start that is NoStart.
+    What a method raises comes out as it is. TypeError and ValueError say what a method returned and what is wanted, NotFinite
+    which number is none: of equations where no shorter step avoids that, at the start NoStart. All of them have the attribute
+    ``arcwall_state``, a pair of x and λ, and but for those of the start ``arcwall_path``, what was traced until then.
     """
     x = np.array(x0, dtype=float, ndmin=1)
     if x.ndim != 1 or x.size == 0 or not np.isfinite(x).all() or not math.isfinite(lam0):
@@ -146,7 +153,12 @@ def trace(
         if not callable(function):
             raise TypeError(f"monitor {name!r} is no function of (x, lam)")
     path = SystemPath(run, monitors or {})
-    return path.resume(max_seconds=max_seconds)
+    try:
+        return path.resume(max_seconds=max_seconds)
+    except BaseException as error:
+        if len(path):
+            error.arcwall_path = path  # type: ignore[attr-defined]
+        raise
 
 
 def _one_of(name: str, word: str, words: tuple[str, ...]) -> str:
