@@ -50,7 +50,7 @@ class Deck:
         self._text = text.encode() if isinstance(text, str) else bytes(text)
         self._name = os.fspath(name)
         self._assignments = list(assignments)
-        _engine.document(self._text, self._name, self._assignments)
+        _engine.require_toml(self._text, self._name, self._assignments)
 
     @property
     def name(self) -> str:
@@ -75,7 +75,7 @@ class Deck:
     def __setitem__(self, key: str, value: Any) -> None:
         """Replaces or adds a value; lists and dicts are what they are in TOML. DeckError where the key leads nowhere."""
         assignments = [*self._assignments, f"{_checked_key(key)}={toml.value(value)}"]
-        _engine.document(self._text, self._name, assignments)
+        _engine.require_toml(self._text, self._name, assignments)
         self._assignments = assignments
 
     def __contains__(self, key: object) -> bool:

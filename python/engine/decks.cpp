@@ -75,6 +75,12 @@ py::object value(const std::string& text, const std::string& file, const Assignm
 }  // namespace
 
 void bind_decks(py::module_& module) {
+  module.def(
+      "require_toml",
+      [](const std::string& text, const std::string& file, const Assignments& assignments) {
+        document(text, file, assignments);
+      },
+      py::arg("text"), py::arg("file"), py::arg("assignments"));
   module.def("read_text_file", &deck::read_text_file, py::arg("file"));
   module.def("written", &written, py::arg("text"), py::arg("file"), py::arg("assignments"));
   module.def("check", &check, py::arg("text"), py::arg("file"), py::arg("assignments"));
