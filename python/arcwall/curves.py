@@ -53,7 +53,7 @@ class Curve:
 
         ``max_points`` counts those of this call. Nothing happens where every branch has ended.
         """
-        self._run.advance(_limit_of(max_points), math.inf if max_seconds is None else float(max_seconds))
+        self._run.advance(_limit_of(max_points), _seconds_of(max_seconds))
         return self
 
     @property
@@ -164,3 +164,11 @@ def _limit_of(points: int | None) -> int:
     if count < 0:
         raise ValueError(f"max_points = {count} is negative")
     return min(count, most)
+
+
+def _seconds_of(seconds: float | None) -> float:
+    if seconds is None:
+        return math.inf
+    if not seconds >= 0.0:
+        raise ValueError(f"max_seconds = {seconds!r} is no time; give 0 or more")
+    return float(seconds)

@@ -136,7 +136,7 @@ def trace(
         raise ValueError(f"x0 has shape {x.shape}; one array of finite numbers is wanted, and a finite lam0")
     wishes = _engine.Wishes()
     wishes.step, wishes.least_step, wishes.greatest_step = _positive(step, least_step, greatest_step)
-    wishes.max_points, wishes.depth = max(1, max_points), depth
+    wishes.max_points, wishes.depth = _at_least(1, "max_points", max_points), _at_least(0, "depth", depth)
     wishes.branches = _one_of("branches", branches, ("primary", "follow", "all"))
     wishes.method = _one_of("method", method, ("spherical", "load"))
     wishes.targets = [*_targets(stop, x.size, True), *_targets(land, x.size, False)]
@@ -169,8 +169,16 @@ def _one_of(name: str, word: str, words: tuple[str, ...]) -> str:
 
 def _positive(step: float, least: float, greatest: float) -> tuple[float, float, float]:
     if not (step != 0.0 and math.isfinite(step) and 0.0 < least < greatest):
-        raise ValueError(f"step = {step!r} is not zero, and 0 < least_step = {least!r} < greatest_step = {greatest!r}")
+        raise ValueError(
+            f"step = {step!r} must be another number than zero, and 0 < least_step = {least!r} < greatest_step = {greatest!r} hold"
+        )
     return float(step), float(least), float(greatest)
+
+
+def _at_least(least: int, name: str, count: Any) -> int:
+    if isinstance(count, bool) or not hasattr(count, "__index__") or not least <= count.__index__() <= 2**31 - 1:
+        raise ValueError(f"{name} = {count!r} is no whole number from {least} on")
+    return int(count.__index__())
 
 
 def _unknown(index: Any, size: int) -> int:
