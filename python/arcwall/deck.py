@@ -29,7 +29,7 @@ class Deck:
         """A deck of a dict, as ``{"units": {"length": "cm"}, "wall": [{"name": "floor", …}], …}``."""
         if content is not None and not isinstance(content, Mapping):
             raise TypeError(f"Deck() takes a dict, not {type(content).__name__}; Deck.load takes a file, Deck.parse a text")
-        self._set(toml.document(content or {}), name, [])
+        self._set(toml.document(content or {}), name)
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Deck:
@@ -43,14 +43,21 @@ class Deck:
         if not isinstance(text, (str, bytes)):
             raise TypeError(f"Deck.parse takes a text, not {type(text).__name__}")
         deck = cls.__new__(cls)
-        deck._set(text, name, [])
+        deck._set(text, name)
         return deck
 
-    def _set(self, text: str | bytes, name: str, assignments: list[str]) -> None:
+    # One whose text and assignments are known to be TOML.
+    @classmethod
+    def _of(cls, text: bytes, name: str, assignments: Iterable[str]) -> Deck:
+        deck = cls.__new__(cls)
+        deck._text, deck._name, deck._assignments = text, name, list(assignments)
+        return deck
+
+    def _set(self, text: str | bytes, name: str) -> None:
         self._text = text.encode() if isinstance(text, str) else bytes(text)
         self._name = os.fspath(name)
-        self._assignments = list(assignments)
-        _engine.require_toml(self._text, self._name, self._assignments)
+        self._assignments: list[str] = []
+        _engine.require_toml(self._text, self._name, [])
 
     @property
     def name(self) -> str:
@@ -74,8 +81,17 @@ class Deck:
 
     def __setitem__(self, key: str, value: Any) -> None:
         """Replaces or adds a value; lists and dicts are what they are in TOML. DeckError where the key leads nowhere."""
-        assignments = [*self._assignments, f"{_checked_key(key)}={toml.value(value)}"]
-        _engine.require_toml(self._text, self._name, assignments)
+        assignment = f"{_checked_key(key)}={toml.value(value)}"
+        # What was set for this key before is of no account, unless other keys that were set lie inside of it.
+        others = [one for one in self._assignments if not one.startswith(f"{key}=")]
+        for before in (others, self._assignments):
+            assignments = [*before, assignment]
+            try:
+                _engine.require_toml(self._text, self._name, assignments)
+                break
+            except DeckError:
+                if before is self._assignments:
+                    raise
         self._assignments = assignments
 
     def __contains__(self, key: object) -> bool:
@@ -97,8 +113,7 @@ class Deck:
 
     def copy(self, values: Mapping[str, Any] | None = None) -> Deck:
         """Another deck of the same content, with other values: ``deck.copy({"material.steel.E": 2.0e4})``."""
-        deck = type(self).__new__(type(self))
-        deck._text, deck._name, deck._assignments = self._text, self._name, list(self._assignments)
+        deck = self._of(self._text, self._name, self._assignments)
         deck.update(values or {})
         return deck
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 __all__ = ["ArcwallError", "DeckError", "Diagnostic", "FileError", "NoAnswer", "NoStart", "NotFinite"]
 
@@ -17,7 +17,7 @@ class Diagnostic:
     key: str  #: dotted path of the key, as ``member.column.elements``; may be empty
     message: str  #: what is wrong, with the value that was found
     cure: str  #: what would be right; may be empty
-    text: str  #: all of it in one line
+    text: str = field(repr=False)  #: all of it in one line
 
     def __str__(self) -> str:
         return self.text

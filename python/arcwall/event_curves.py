@@ -12,6 +12,7 @@ import numpy as np
 from . import _engine
 from .curves import row_of
 from .shapes import Shape, shape_of
+from .values import Value
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
 __all__ = ["CurveSpecial", "EventCurve", "WorstCombination"]
 
 
-@dataclass(frozen=True)
-class CurveSpecial:
+@dataclass(frozen=True, repr=False)
+class CurveSpecial(Value):
     """Something that happens on a curve of events."""
 
     kind: str  #: ``begins``, ``ends``, ``cusp``: the number turns, or ``crossing``: another event is met

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
+
+from .values import Value
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 __all__ = [
     "Branch", "Contact", "Continuum", "End", "Event", "Events", "Landing", "LandingContact", "Point", "WayBack",
 ]  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Contact:
+@dataclass(frozen=True, repr=False)
+class Contact(Value):
     """A place of the structure on a wall."""
 
     wall: str
@@ -25,8 +31,8 @@ class Contact:
     pressure: float | None = None  #: [force/length]; None for a point force
 
 
-@dataclass(frozen=True)
-class Continuum:
+@dataclass(frozen=True, repr=False)
+class Continuum(Value):
     """A continuum of equilibria with one load and energy, of which the path keeps to one or at which it ends."""
 
     parts: int  #: flat parts on walls, new ones being points yet
@@ -34,8 +40,8 @@ class Continuum:
     length: float  #: sum of the lengths of the parts [length]
 
 
-@dataclass(frozen=True)
-class End:
+@dataclass(frozen=True, repr=False)
+class End(Value):
     """Why a branch ended."""
 
     reason: str  #: ``stop``, ``closed_loop``, ``max_points``, ``min_step``, …
@@ -44,8 +50,8 @@ class End:
     family: Continuum | None = None  #: that lies ahead
 
 
-@dataclass(frozen=True)
-class LandingContact:
+@dataclass(frozen=True, repr=False)
+class LandingContact(Value):
     """A contact of a landing, or a stretch of contact."""
 
     wall: str
@@ -55,8 +61,8 @@ class LandingContact:
     force: float  #: in sum [force]
 
 
-@dataclass(frozen=True)
-class Landing:
+@dataclass(frozen=True, repr=False)
+class Landing(Value):
     """Where a structure falls to behind an event at which it loses its stability, λ being held.
 
     ``reason`` says why that was not found, and then all but ``lam`` and ``why`` is None or empty.
@@ -77,8 +83,8 @@ class Landing:
     loop: float | None = None  #: energy lost in the hysteresis loop, if that closes [force·length]
 
 
-@dataclass(frozen=True)
-class WayBack:
+@dataclass(frozen=True, repr=False)
+class WayBack(Value):
     """Where the state that was fallen to loses its stability as λ goes back."""
 
     lam: float
@@ -87,8 +93,8 @@ class WayBack:
     landing: Landing | None = None  #: where it falls to from there
 
 
-@dataclass(frozen=True)
-class Event:
+@dataclass(frozen=True, repr=False)
+class Event(Value):
     """A located point of a path at which something happens, as in ``events.json``."""
 
     id: int  #: counts from 0 over all branches
@@ -123,8 +129,8 @@ class Event:
     unstable_dead: int | None = None
 
 
-@dataclass(frozen=True)
-class Branch:
+@dataclass(frozen=True, repr=False)
+class Branch(Value):
     """Arcs joined end to end."""
 
     id: int
@@ -137,8 +143,8 @@ class Branch:
     stage: str | None = None
 
 
-@dataclass(frozen=True)
-class Point:
+@dataclass(frozen=True, repr=False)
+class Point(Value):
     """A converged point of a path: a row of ``path.csv``, with its contacts."""
 
     index: int  #: row of ``path.table``
@@ -161,8 +167,9 @@ class Point:
 class Events(Sequence[Event]):
     """Events in their order. ``events[0]`` is one, ``events["limit-point"]`` those of a kind, ``events[2:4]`` a part."""
 
-    def __init__(self, events: Sequence[Event]):
+    def __init__(self, events: Sequence[Event], kind: str = ""):
         self._events = tuple(events)
+        self._kind = kind  # of which all are; empty: any
 
     @overload
     def __getitem__(self, which: int) -> Event: ...
@@ -172,10 +179,28 @@ class Events(Sequence[Event]):
         if isinstance(which, str):
             if which not in KINDS:
                 raise KeyError(f"{which!r} is no kind of event; there are {', '.join(KINDS)}")
-            return Events([event for event in self._events if event.kind == which])
+            return Events([event for event in self._events if event.kind == which], which)
         if isinstance(which, slice):
-            return Events(self._events[which])
-        return self._events[which]
+            return Events(self._events[which], self._kind)
+        index = operator.index(which)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"there is no event {index}; the path has {len(self)}{self._kind and ' of kind ' + self._kind}")
+        return self._events[index]
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """The events as a pandas DataFrame, one row each: what and where, λ, the monitors, and unstable directions."""
+        import pandas as pd
+
+        names = ["id", "kind", "branch", "step", "point", "lambda"]
+        counts = ["unstable_before", "unstable_after"]
+        monitors = list(self._events[0].monitors) if self._events else []
+        rows = [
+            (e.id, e.kind, e.branch, e.step, e.point, e.lam, *e.monitors.values(), e.unstable_before, e.unstable_after)
+            for e in self._events
+        ]
+        table = pd.DataFrame(rows, columns=[*names, *monitors, *counts])
+        return table.astype(dict.fromkeys(counts, float))
 
     def __len__(self) -> int:
         return len(self._events)

@@ -49,6 +49,9 @@ class _Points(Sequence[Point]):
         index = row_of(which, len(self))
         return point_of(self._run.point(index), index)
 
+    def __repr__(self) -> str:
+        return f"<{len(self)} points of a path>"
+
 
 class Path(Curve):
     """What was traced of a deck: points, events and branches. It owns all that it needs, the deck may go.
@@ -61,9 +64,7 @@ class Path(Curve):
     def deck(self) -> Deck:
         """The deck that was traced."""
         name, text, assignments = self._run.description()
-        deck = Deck.parse(text, name=name)
-        deck._set(text, name, assignments)
-        return deck
+        return Deck._of(text.encode(), name, assignments)
 
     @property
     def warnings(self) -> list[str]:
@@ -164,6 +165,9 @@ class Tracing(Iterator[Point]):
         if self.path._run.advance(1, math.inf) == 0:
             raise StopIteration
         return self.path.points[-1]
+
+    def __repr__(self) -> str:
+        return f"<arcwall.Tracing of {self.path!r}>"
 
 
 def load(folder: str | os.PathLike[str]) -> Path:

@@ -11,7 +11,7 @@ import numpy as np
 __all__ = ["ContactMark", "MemberShape", "Shape", "WallShape"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class MemberShape:
     """A member's axis from end to end, at fixed fractions, at nodes and where contacts are; arrays of one shape (n,).
 
@@ -28,6 +28,9 @@ class MemberShape:
     axial_force: np.ndarray  #: tension is positive [force]
     moment: np.ndarray  #: positive where it adds to the curvature [force·length]
 
+    def __repr__(self) -> str:
+        return f"<arcwall.MemberShape of {len(self.x)} places>"
+
 
 @dataclass(frozen=True)
 class ContactMark:
@@ -42,13 +45,16 @@ class ContactMark:
     pressure: float | None  #: [force/length]; None for a point force
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class WallShape:
     """The surface of a wall where the structure may come, at the point's λ."""
 
     x: np.ndarray  #: [length]
     z: np.ndarray
     side: str  #: ``above`` or ``below`` the structure
+
+    def __repr__(self) -> str:
+        return f"<arcwall.WallShape of {len(self.x)} places, {self.side}>"
 
 
 @dataclass(frozen=True)

@@ -69,7 +69,9 @@ py::object value(const std::string& text, const std::string& file, const Assignm
   const auto found = deck::part_of(whole, key);
   if (const auto* part = std::get_if<deck::DeckPart>(&found)) return python_value(*part->value);
   const auto& none = std::get<deck::NoNumber>(found);
-  throw py::key_error(key + " " + none.message + "; " + none.cure);
+  // The cure of a number that is not there speaks of numbers; here any value is asked for.
+  const bool names_another = none.cure.rfind("did you mean", 0) == 0;
+  throw py::key_error(key + " " + none.message + (names_another ? "; " + none.cure : ""));
 }
 
 }  // namespace
