@@ -236,6 +236,10 @@ std::optional<State> SlidingContact::taken_over(const State& state) const {
   return State{.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
 }
 
+State SlidingContact::with_given_contacts(const State& open, const std::vector<GivenContact>& contacts) const {
+  return sliding::with_given_contacts(*setting_, SlidingState(open), contacts);
+}
+
 std::shared_ptr<const SlidingContactLayout> SlidingContact::layout_of(const ElementsPerSegment& elements,
                                                                       std::vector<SlidingContactLayout::Point> points,
                                                                       const Vector& origin,

@@ -7,6 +7,7 @@
 #include "contact/contact_point.hpp"
 #include "contact/contact_scales.hpp"
 #include "contact/continuum_choice.hpp"
+#include "contact/sliding/given_contacts.hpp"
 #include "contact/sliding/layout.hpp"
 #include "contact/sliding_obstacle.hpp"
 #include "core/sliding_body.hpp"
@@ -86,6 +87,10 @@ class SlidingContact final : public System, public ContactQuery {
   /// The state with the same unknowns, of a body among obstacles that differs from this one in numbers alone. Empty
   /// where other numbers make other strands, ends or bounds, so that the unknowns do not mean the same.
   std::optional<State> taken_over(const State& state) const;
+
+  /// The state with these contacts closed, of one in which all are open and whose shape is nearly theirs: a start for
+  /// Newton's method.
+  State with_given_contacts(const State& open, const std::vector<GivenContact>& contacts) const;
 
   /// The layout of so many elements and these points that began at these places; null if they do not belong together.
   std::shared_ptr<const SlidingContactLayout> layout_of(const ElementsPerSegment& elements,

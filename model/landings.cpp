@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "continuation/answers/descent.hpp"
+#include "continuation/answers/equilibrium_at.hpp"
 #include "continuation/tracer.hpp"
+#include "model/deck_mesh.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
@@ -17,75 +19,9 @@ namespace {
 
 // All lengths in the path metric of the deck's mesh.
 constexpr double is_elsewhere = 0.03;           // from the event, where a descent has left it
-constexpr double is_there = 0.03;               // of the state at rest from one of the path
+constexpr double is_there = 0.03;               // of an equilibrium of nodes from the same of the path
+constexpr double is_same = 0.003;               // of two equilibria of the path on meshes of their own
 constexpr double pushes[] = {0.01, 0.03, 0.1};  // off the event, along the path behind it
-
-// --- states on the deck's mesh --------------------------------------------------------------------------------------
-
-// The unknowns of the deck's structure in states of the model, whichever mesh those have.
-class DeckMesh {
- public:
-  explicit DeckMesh(const Model& model) : model_(model), size_(model.structure().size({})) {
-    if (model.sliding() == nullptr) return;
-    const Structure& structure = model.structure();
-    readings_.resize(static_cast<std::size_t>(size_));
-    const auto read = [&](Index freedom, std::shared_ptr<const Observable> what) {
-      if (const auto unknown = structure.unknown(freedom)) readings_[static_cast<std::size_t>(*unknown)] = what;
-    };
-    for (std::size_t m = 0; m < structure.members().size(); ++m) {
-      const MemberMesh& mesh = structure.members()[m];
-      for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
-        using enum MemberObservable::Component;
-        read(structure.freedom(mesh.nodes[k], Freedom::x), model.body().motion(m, k, x));
-        read(structure.freedom(mesh.nodes[k], Freedom::z), model.body().motion(m, k, z));
-        if (mesh.rotations[k]) read(*mesh.rotations[k], model.body().motion(m, k, rotation));
-      }
-    }
-    rest_ = values(model.sliding()->rest());  // monitors are measured from the axis without imperfection
-  }
-
-  // Whether every unknown of the deck's mesh can be read off the model's states.
-  bool is_complete() const {
-    return std::all_of(readings_.begin(), readings_.end(), [](const auto& one) { return one != nullptr; });
-  }
-
-  const UnilateralSystem& system() const {
-    if (model_.contact() != nullptr) return *model_.contact();
-    return model_.structure();
-  }
-
-  // Without contact forces.
-  State state(const State& of_model, double lambda) const {
-    const Piece piece = model_.contact() != nullptr ? model_.contact()->open_piece() : Piece();
-    State state{.x = Vector::Zero(system().size(piece)), .lambda = lambda, .piece = piece};
-    state.x.head(size_) = unknowns(of_model);
-    return state;
-  }
-
-  Vector unknowns(const State& of_model) const {
-    if (readings_.empty()) return of_model.x.head(size_);
-    return values(of_model) - rest_;
-  }
-
-  double distance(const Vector& a, const Vector& b) const {
-    const Vector weights = model_.structure().weights({});
-    return std::sqrt((weights.array() * (a - b).array().square()).sum());
-  }
-
-  Index size() const { return size_; }
-
- private:
-  Vector values(const State& state) const {
-    Vector values(size_);
-    for (Index i = 0; i < size_; ++i) values[i] = readings_[static_cast<std::size_t>(i)]->value(state);
-    return values;
-  }
-
-  const Model& model_;
-  Index size_;
-  std::vector<std::shared_ptr<const Observable>> readings_{};  // empty where states have the deck's mesh
-  Vector rest_{};
-};
 
 // --- the traced path at a λ -----------------------------------------------------------------------------------------
 
@@ -97,16 +33,23 @@ struct OnPath {
   std::optional<Index> unstable{};
 };
 
-// From a point of the path to the λ, along the path.
-std::optional<OnPath> at_lambda(const Model& model, const State& from, double lambda) {
+// What to trace a path with that begins with λ towards a value and ends there.
+TraceOptions up_to(const Model& model, const State& from, double lambda) {
   TraceOptions options = model.options();
   options.target_values = {{.quantity = std::make_shared<ParameterValue>(), .value = lambda, .stops = true}};
   options.stop_contacts.reset();
   options.stop_events.clear();
   options.detectors.clear();
+  options.max_points = TraceOptions{}.max_points;
+  options.step.first = std::copysign(std::abs(options.step.first), lambda - from.lambda);
+  return options;
+}
+
+// From a point of the path to the λ, along the path.
+std::optional<OnPath> at_lambda(const Model& model, const State& from, double lambda) {
+  TraceOptions options = up_to(model, from, lambda);
   options.events = EventSearch::none;
   options.max_points = 100;
-  options.step.first = std::copysign(std::abs(options.step.first), lambda - from.lambda);
   Tracer tracer(model.system(), from, options);
   OnPath found;
   while (const auto arc = tracer.next()) {
@@ -118,12 +61,13 @@ std::optional<OnPath> at_lambda(const Model& model, const State& from, double la
   return met ? std::optional(std::move(found)) : std::nullopt;
 }
 
-// Those of a record, beside the event at point `but`.
-std::vector<OnPath> stable_at(const Model& model, const Record& record, double lambda, std::size_t but) {
+// Those of a record, but not beside the event at point `but` if it is one of the record's.
+std::vector<OnPath> stable_at(const Model& model, const Record& record, double lambda,
+                              const std::optional<std::size_t>& but) {
   std::vector<OnPath> found;
   for (std::size_t i = 0; i + 1 < record.points.size(); ++i) {
     const RecordPoint &a = record.points[i], &b = record.points[i + 1];
-    if (a.branch != b.branch || i == but || i + 1 == but) continue;
+    if (a.branch != b.branch || (but && (i == *but || i + 1 == *but))) continue;
     const bool between = (a.lambda - lambda) * (b.lambda - lambda) <= 0.0 && a.lambda != b.lambda;
     const bool stable = a.count.stability == Stability::stable || b.count.stability == Stability::stable;
     if (!between || !stable) continue;
@@ -140,37 +84,67 @@ std::vector<OnPath> stable_at(const Model& model, const Record& record, double l
 
 // --- what is told of a state ----------------------------------------------------------------------------------------
 
-// Closed contacts that are one stretch on a wall: tracked points with a part on the wall between them, or nodes that
-// follow each other.
-std::vector<RecordStretch> stretches_of(const Model& model, const State& state) {
+// Closed nodes that follow each other are one stretch on a wall.
+std::vector<RecordStretch> stretches_of_nodes(const Model& model, const State& state) {
   std::vector<RecordStretch> stretches;
-  if (model.contacts() == nullptr) return stretches;
-  const std::vector<ContactPoint> closed = model.contacts()->closed_contacts(state);
-  const auto joins = [&](const ContactPoint& a, const ContactPoint& b, std::size_t k) {
-    if (a.label.wall != b.label.wall || a.label.member != b.label.member) return false;
-    if (model.sliding() == nullptr) {
-      const double apart = std::abs(a.label.fraction - b.label.fraction) * 0.999;
-      for (const MemberMesh& mesh : model.structure().members())
-        if (mesh.name == a.label.member) return apart <= 1.0 / double(mesh.nodes.size() - 1);
-      return false;
-    }
-    // The k-th closed point is the k-th of those that are closed on the piece.
-    const SlidingContactLayout& layout = sliding_layout(state.piece);
-    std::size_t point = 0;
-    for (std::size_t seen = 0; point < layout.points().size(); ++point)
-      if (state.piece[point] != 0 && seen++ == k) break;
-    return point < layout.points().size() && layout.points()[point].behind != SlidingContactLayout::Span::free;
+  std::optional<ContactLabel> last;
+  const auto follows = [&](const ContactLabel& label) {
+    if (!last || last->wall != label.wall || last->member != label.member) return false;
+    const double apart = std::abs(last->fraction - label.fraction) * 0.999;
+    for (const MemberMesh& mesh : model.structure().members())
+      if (mesh.name == label.member) return apart <= 1.0 / double(mesh.nodes.size() - 1);
+    return false;
   };
-  for (std::size_t k = 0; k < closed.size(); ++k) {
-    const ContactPoint& contact = closed[k];
-    if (k > 0 && joins(closed[k - 1], contact, k - 1)) {
+  for (const ContactPoint& contact : model.contacts()->closed_contacts(state)) {
+    if (follows(contact.label)) {
       stretches.back().is_line = true;
       stretches.back().force += contact.force;
     } else {
       stretches.push_back({.label = contact.label, .force = contact.force});
     }
+    last = contact.label;
   }
   return stretches;
+}
+
+// So are tracked points with a part on the wall between them, and a strand that lies on it from end to end. The nodes
+// that are pressed inside bear a part of the force.
+std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, const State& state) {
+  using Span = SlidingContactLayout::Span;
+  const SlidingContactLayout& layout = sliding_layout(state.piece);
+  std::vector<RecordStretch> stretches;
+  std::vector<std::size_t> of_point(layout.points().size());
+  for (std::size_t k = 0; k < state.piece.size(); ++k) {
+    if (state.piece[k] == 0) continue;
+    const ContactPoint here = contact.contact(state, static_cast<Index>(k));
+    const bool is_point = k < layout.points().size();
+    if (is_point && k > 0 && layout.points()[k - 1].behind != Span::free) {
+      stretches.back().is_line = true;
+      stretches.back().force += here.force;
+    } else {
+      stretches.push_back({.label = here.label, .force = here.force});
+    }
+    if (is_point) of_point[k] = stretches.size() - 1;
+  }
+  std::vector<std::optional<std::size_t>> lying(static_cast<std::size_t>(contact.body().strands()));
+  const std::vector<ContactPoint> pressed = contact.pressed_nodes(state);
+  for (std::size_t i = 0; i < pressed.size(); ++i) {
+    const SlidingContactLayout::Segment& part = layout.segments()[layout.pressed_nodes()[i].segment];
+    std::optional<std::size_t>& whole = lying[static_cast<std::size_t>(part.strand)];
+    if (!part.has_point() && !whole) {
+      whole = stretches.size();
+      stretches.push_back({.label = pressed[i].label});
+    }
+    RecordStretch& stretch = stretches[part.has_point() ? of_point[part.end_point()] : *whole];
+    stretch.is_line = true;
+    stretch.force += pressed[i].force;
+  }
+  return stretches;
+}
+
+std::vector<RecordStretch> stretches_of(const Model& model, const State& state) {
+  if (model.contacts() == nullptr) return {};
+  return model.sliding() != nullptr ? stretches_that_slide(*model.sliding(), state) : stretches_of_nodes(model, state);
 }
 
 std::string word_of(const std::vector<RecordStretch>& stretches) {
@@ -190,33 +164,94 @@ void tell_state(const Model& model, const State& state, RecordLanding& landing) 
 
 // --- one fall -------------------------------------------------------------------------------------------------------
 
+// Where a stable structure loses its stability.
+struct Loss {
+  EventKind kind = EventKind::limit_point;
+  State at{};
+  double energy = 0.0;
+  std::optional<State> behind{};       // a state of the path, or of a branch that leaves it there, just behind
+  std::optional<std::size_t> point{};  // of the record
+};
+
+bool is_kind_of_loss(EventKind kind) {
+  return kind == EventKind::limit_point || kind == EventKind::contact_limit_point || kind == EventKind::branch_point;
+}
+
 class Falls {
  public:
   Falls(const Model& model, const Record& record) : model_(model), record_(record), mesh_(model) {}
 
   bool can_fall() const { return mesh_.is_complete(); }
 
-  // Where the structure falls to from an event at a point of the record, off which it goes along the path to the points
-  // in the direction `onwards`; null where it stays beside it. `depth`: how often it may go back and fall again.
+  // Where the structure falls to from an event at a point of the record; null where it stays beside it.
+  std::shared_ptr<const RecordLanding> from(const RecordEvent& event, std::size_t point) const {
+    State rest;
+    const auto landing = fall(recorded(event, point, 1), rest);
+    if (!landing || !landing->reason.empty()) return landing;
+    const double ahead = point > 0 ? event.lambda - record_.points[point - 1].lambda : 0.0;
+    if (ahead != 0.0) add_way_back(event, rest, ahead, *landing);
+    return landing;
+  }
+
+ private:
+  // An event at a point of the record, of which the points in the direction `onwards` are behind it.
+  Loss recorded(const RecordEvent& event, std::size_t point, int onwards) const {
+    constexpr double is_behind = 1e-6;
+    const RecordPoint& here = record_.points[point];
+    Loss loss{.kind = event.kind, .at = here.state, .energy = here.energy, .point = point};
+    loss.at.lambda = event.lambda;
+    for (auto i = static_cast<std::ptrdiff_t>(point) + onwards;
+         i >= 0 && i < static_cast<std::ptrdiff_t>(record_.points.size()); i += onwards) {
+      const RecordPoint& next = record_.points[static_cast<std::size_t>(i)];
+      const auto& leaving = event.branches;
+      if (next.branch != event.branch && std::find(leaving.begin(), leaving.end(), next.branch) == leaving.end()) break;
+      if (mesh_.distance(mesh_.unknowns(next.state), mesh_.unknowns(here.state)) <= is_behind) continue;
+      loss.behind = next.state;
+      break;
+    }
+    return loss;
+  }
+
+  // The first one on the way from a stable state to a λ.
+  std::optional<Loss> traced(const State& from, double lambda) const {
+    Tracer tracer(model_.system(), from, up_to(model_, from, lambda));
+    std::optional<Loss> found;
+    while (const auto arc = tracer.next()) {
+      if (found) {
+        if (!found->behind) found->behind = arc->to.state;
+        return found;
+      }
+      if (model_.adrift(arc->to.state)) return std::nullopt;
+      for (const Event& event : arc->events) {
+        if (!is_kind_of_loss(event.kind) || event.suspected || event.unstable_before != 0 ||
+            event.unstable_after.value_or(0) == 0)
+          continue;
+        found = Loss{.kind = event.kind, .at = event.state, .energy = model_.system().energy(event.state)};
+        if (event.branching && event.branching->mode.dx.size() == event.state.x.size())
+          found->behind = moved(event.state, event.branching->mode, pushes[0]);
+      }
+    }
+    return std::nullopt;
+  }
+
   // `rest` becomes the state.
-  std::shared_ptr<const RecordLanding> from(const RecordEvent& event, std::size_t point, int onwards, int depth,
-                                            State& rest) const {
-    const RecordPoint& at = record_.points[point];
-    const Vector event_x = mesh_.unknowns(at.state);
+  std::shared_ptr<RecordLanding> fall(const Loss& loss, State& rest) const {
+    if (!loss.behind) return nullptr;
+    const Vector start = mesh_.unknowns(loss.at), behind = mesh_.unknowns(*loss.behind) - start;
+    const double far = mesh_.distance(behind, Vector::Zero(behind.size()));
     auto landing = std::make_shared<RecordLanding>();
-    landing->lambda = event.lambda;
+    landing->lambda = loss.at.lambda;
     bool left = false;
     for (const double push : pushes) {
-      const auto start = pushed(event, point, onwards, push);
-      if (!start) break;
-      const Descent descent = descend(mesh_.system(), mesh_.state(at.state, event.lambda), *start);
+      const Vector pushed = start + std::max(1.0, push / far) * behind;
+      const Descent descent = descend(mesh_.system(), mesh_.state(loss.at, loss.at.lambda), pushed);
       if (descent.end == DescentEnd::falls_away) {
         landing->reason = "falls_away";
         landing->why = "nothing holds the structure at this load";
         return landing;
       }
       // Near a branch point from which a stable branch leaves it creeps back.
-      if (mesh_.distance(descent.state.x.head(mesh_.size()), event_x) <= is_elsewhere) continue;
+      if (mesh_.distance(descent.state.x.head(mesh_.size()), start) <= is_elsewhere) continue;
       if (descent.end == DescentEnd::not_found) {
         landing->reason = "not_found";
         landing->why = "the descent came to no rest";
@@ -224,28 +259,10 @@ class Falls {
         continue;
       }
       rest = descent.state;
-      settle(event, point, rest, *landing);
-      if (landing->reason.empty() && depth > 0) add_way_back(event, point, depth, *landing);
+      settle(loss, rest, *landing);
       return landing;
     }
     return left ? landing : nullptr;
-  }
-
- private:
-  // The deck's unknowns at least so far from the event, towards the next point of the path or of a branch that leaves
-  // it there.
-  std::optional<Vector> pushed(const RecordEvent& event, std::size_t point, int onwards, double least) const {
-    const Vector event_x = mesh_.unknowns(record_.points[point].state);
-    for (auto i = static_cast<std::ptrdiff_t>(point) + onwards;
-         i >= 0 && i < static_cast<std::ptrdiff_t>(record_.points.size()); i += onwards) {
-      const RecordPoint& next = record_.points[static_cast<std::size_t>(i)];
-      const auto& leaving = event.branches;
-      if (next.branch != event.branch && std::find(leaving.begin(), leaving.end(), next.branch) == leaving.end()) break;
-      const Vector x = mesh_.unknowns(next.state);
-      const double far = mesh_.distance(x, event_x);
-      if (far > 1e-6) return event_x + std::max(1.0, least / far) * (x - event_x);
-    }
-    return std::nullopt;
   }
 
   Descent descend(const UnilateralSystem& system, State start, const Vector& x) const {
@@ -254,11 +271,12 @@ class Falls {
   }
 
   // The state at rest in the path's own formulation, counted.
-  void settle(const RecordEvent& event, std::size_t point, State& rest, RecordLanding& landing) const {
-    const Vector x = rest.x.head(mesh_.size());
+  void settle(const Loss& loss, State& rest, RecordLanding& landing) const {
+    const std::optional<State> found = in_path_formulation(rest);
+    const Vector x = found ? mesh_.unknowns(*found) : rest.x.head(mesh_.size());
     const OnPath* nearest = nullptr;
-    const std::vector<OnPath> stable = stable_at(model_, record_, event.lambda, point);
-    double least = is_there;
+    const std::vector<OnPath> stable = stable_at(model_, record_, loss.at.lambda, loss.point);
+    double least = found ? is_same : is_there;
     for (const OnPath& one : stable) {
       const double far = mesh_.distance(mesh_.unknowns(one.state), x);
       if (far > least) continue;
@@ -269,40 +287,70 @@ class Falls {
       landing.on_branch = record_.points[nearest->point].branch;
       landing.arc = nearest->arc;
       landing.point = nearest->point;
-    } else if (model_.sliding() != nullptr) {
+      rest = nearest->state;
+    } else if (found) {
+      rest = *found;
+    } else {
       landing.reason = "not_found";
-      landing.why = "it comes to rest where the traced path does not pass, and contact that slides is not begun there";
+      landing.why = "it comes to rest where the traced path does not pass, and contact that slides is not found there";
       return;
     }
-    if (nearest != nullptr) rest = nearest->state;
     tell_state(model_, rest, landing);
     landing.unstable = 0;
-    landing.released = record_.points[point].energy - landing.energy;
+    landing.released = loss.energy - landing.energy;
   }
 
-  // λ goes back along the branch, and the structure falls again where that loses its stability.
-  void add_way_back(const RecordEvent& event, std::size_t point, int depth, RecordLanding& landing) const {
-    if (!landing.on_branch || point == 0) return;
-    const double ahead = event.lambda - record_.points[point - 1].lambda;  // of λ on the way to the event
+  // The same stable state in the path's own formulation.
+  std::optional<State> in_path_formulation(const State& rest) const {
+    const Vector x = rest.x.head(mesh_.size());
+    for (const State& guess : mesh_.in_path_formulation(rest)) {
+      const auto found = equilibrium_at_lambda(model_.system(), guess, model_.options());
+      if (found && found->count.unstable == 0 && mesh_.distance(mesh_.unknowns(found->state), x) <= is_there)
+        return found->state;
+    }
+    return std::nullopt;
+  }
+
+  // λ, which increased by `ahead` on the way to the event, goes back from the state at rest, and the structure falls
+  // again where that loses its stability.
+  void add_way_back(const RecordEvent& event, const State& rest, double ahead, RecordLanding& landing) const {
+    const std::optional<Loss> lost =
+        landing.on_branch ? recorded_back(landing, ahead) : traced(rest, far_back(event, ahead));
+    if (!lost) return;
+    auto way = std::make_shared<RecordWayBack>();
+    way->lambda = lost->at.lambda;
+    way->kind = lost->kind;
+    for (const MonitorColumn& column : model_.monitors()) way->monitors.push_back(column.quantity->value(lost->at));
+    State back;
+    const auto again = fall(*lost, back);
+    way->landing = again;
+    if (again && again->reason.empty() && is_before(event, *again, back))
+      landing.loop = landing.released + again->released;
+    landing.back = std::move(way);
+  }
+
+  // The first loss of stability on the branch of a landing, with λ going against `ahead`.
+  std::optional<Loss> recorded_back(const RecordLanding& landing, double ahead) const {
     const RecordPoint &a = record_.points[landing.point], &b = record_.points[landing.point + 1];
     const int back = (b.lambda - a.lambda) * ahead > 0.0 ? -1 : 1;  // along the record
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(landing.point) + (back > 0 ? 1 : 0);
     for (std::ptrdiff_t i = first; i >= 0 && i < static_cast<std::ptrdiff_t>(record_.points.size()); i += back) {
       const auto k = static_cast<std::size_t>(i);
-      if (record_.points[k].branch != *landing.on_branch) return;
-      const RecordEvent* const lost = loss_at(k, back);
-      if (lost == nullptr) continue;
-      auto way = std::make_shared<RecordWayBack>();
-      way->lambda = lost->lambda;
-      way->kind = lost->kind;
-      way->monitors = lost->monitors;
-      State rest;
-      way->landing = from(*lost, k, back, depth - 1, rest);
-      if (way->landing && way->landing->reason.empty() && is_before(event, *way->landing, rest))
-        landing.loop = landing.released + way->landing->released;
-      landing.back = std::move(way);
-      return;
+      if (record_.points[k].branch != *landing.on_branch) return std::nullopt;
+      if (const RecordEvent* const lost = loss_at(k, back)) return recorded(*lost, k, back);
     }
+    return std::nullopt;
+  }
+
+  // λ beyond which no loss of stability is sought: from the event against `ahead` two and a half times as far as from
+  // the beginning of its branch.
+  double far_back(const RecordEvent& event, double ahead) const {
+    return event.lambda - std::copysign(2.5 * std::abs(event.lambda - first_point(event.branch).lambda), ahead);
+  }
+
+  const RecordPoint& first_point(Index branch) const {
+    return *std::find_if(record_.points.begin(), record_.points.end(),
+                         [&](const RecordPoint& point) { return point.branch == branch; });
   }
 
   // Whether a structure is again on the way to an event, so that the loop closes: on its branch before it, or where the
@@ -310,10 +358,9 @@ class Falls {
   bool is_before(const RecordEvent& event, const RecordLanding& landing, const State& state) const {
     constexpr double same = 1e-6;
     if (landing.on_branch) return landing.on_branch == event.branch && landing.arc <= event.arc;
-    const auto first = std::find_if(record_.points.begin(), record_.points.end(),
-                                    [&](const RecordPoint& point) { return point.branch == event.branch; });
-    const auto there = at_lambda(model_, state, first->lambda);
-    return there && mesh_.distance(mesh_.unknowns(there->state), mesh_.unknowns(first->state)) <= same;
+    const RecordPoint& first = first_point(event.branch);
+    const auto there = at_lambda(model_, state, first.lambda);
+    return there && mesh_.distance(mesh_.unknowns(there->state), mesh_.unknowns(first.state)) <= same;
   }
 
   // The event at a point that is stable on the side one comes from and unstable behind.
@@ -338,9 +385,8 @@ class Falls {
 };
 
 bool loses_stability(const RecordEvent& event) {
-  const bool kind = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point ||
-                    event.kind == EventKind::branch_point;
-  return kind && !event.suspected && event.unstable_before == 0 && event.unstable_after.value_or(0) > 0;
+  return is_kind_of_loss(event.kind) && !event.suspected && event.unstable_before == 0 &&
+         event.unstable_after.value_or(0) > 0;
 }
 
 // The number of the event's point in the record.
@@ -360,8 +406,7 @@ void add_landings(const Model& model, Record& record) {
     const auto point = loses_stability(event) ? point_of(record, event) : std::nullopt;
     if (!point) continue;
     if (of.can_fall()) {
-      State rest;
-      event.landing = of.from(event, *point, 1, 1, rest);
+      event.landing = of.from(event, *point);
     } else {
       event.landing =
           std::make_shared<RecordLanding>(RecordLanding{.reason = "not_found",

@@ -196,7 +196,7 @@ TEST(EventCurve, OfAThirdHarmonicFollowsTheSquareRootLawSlow) {
 }
 
 // λ is the end shortening, and the reaction turns before it does.
-TEST(EventCurve, OfAMonitorThatTurnsIsThatOfOtherRuns) {
+TEST(EventCurve, OfAMonitorThatTurnsIsThatOfOtherRunsSlow) {
   std::string deck =
       channel("event = { kind = \"displacement-limit\" }\nover = \"wall.upper.profile.z\"\nrange = [0.18, 0.22]\n");
   const auto put = [&](const std::string& from, const std::string& to) {

@@ -152,14 +152,65 @@ TEST(Landing, IsNotLookedForWhereARunIsStopped) {
             event_json(run.record(), test::event_of(run.record(), EventKind::limit_point)));
 }
 
-// A path that ends before it comes there: the state is found all the same, but not the way back.
+// A path that ends before it comes there: the state is found all the same, and the way back is followed from it.
 TEST(Landing, IsFoundWhereThePathDoesNotPass) {
   const TracedDeck traced(truss("-1.2"));
   const RecordEvent& snap = event_of(traced, EventKind::limit_point);
   ASSERT_TRUE(snap.landing);
   EXPECT_NEAR(snap.landing->monitors.at(0), -2.1547005383793, 1e-9);
   EXPECT_FALSE(snap.landing->on_branch);
-  EXPECT_FALSE(snap.landing->back);
+  ASSERT_TRUE(snap.landing->back);
+  EXPECT_NEAR(snap.landing->back->lambda, -snap.lambda, 1e-9);
+}
+
+// The column below, traced to just behind its limit point alone: contact that slides is begun where the structure comes
+// to rest, and followed back from there. The same numbers by shooting as on the whole path.
+TEST(Landing, BeginsContactThatSlidesWhereThePathDoesNotPass) {
+  const TracedDeck traced(channel, {"path.max_points=33"});
+  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
+  ASSERT_TRUE(snap.landing);
+  EXPECT_EQ(snap.landing->reason, "") << snap.landing->why;
+  EXPECT_FALSE(snap.landing->on_branch);
+  EXPECT_EQ(snap.landing->word, "upper lower upper");
+  EXPECT_NEAR(snap.landing->monitors.at(1), 0.357478384025, 1e-7);
+  EXPECT_NEAR(snap.landing->released, 0.449814851283, 1e-7);
+  ASSERT_TRUE(snap.landing->back);
+  EXPECT_EQ(snap.landing->back->kind, EventKind::contact_limit_point);
+  EXPECT_NEAR(snap.landing->back->lambda, 4.252069687267, 1e-7);
+  EXPECT_NEAR(snap.landing->loop.value(), 0.564429600789, 1e-6);
+}
+
+// An arch under a load along it snaps onto a floor: onto a point of it, along a part that is pressed, and from end to
+// end where the floor is as high as the hinges. Where the path passes the state it is that of the path, which was traced
+// to it through every change of contact.
+TEST(Landing, OnAFloorIsThatOfThePathWhereverThatEnds) {
+  const std::string arch = R"toml(
+title = "An arch above a floor"
+material.m = { E = 21000.0, nu = 0.29 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { l = [0.0, 0.0], r = [2.0, 0.0] }
+support = { l = ["x", "z"], r = ["x", "z"] }
+member.arch = { from = "l", to = "r", sine = { rise = 0.1, waves = 1 }, theory = "elastica", elements = 40, material = "m", section = "s" }
+load = [{ on = "arch", distributed = [0.0, -1.0] }]
+path = { step = 0.01, landing = true, stop = { lambda = [-0.05, 0.2] } }
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = -0.06 } }]
+monitor = [{ name = "quarter", at = "arch:0.25", component = "z" }]
+)toml";
+  struct Floor {
+    std::string z, word;
+  };
+  for (const Floor& floor : {Floor{"-0.06", "floor"}, Floor{"-0.02", "floor="}, Floor{"0.0", "floor="}}) {
+    const std::string set = "wall.floor.profile.z=" + floor.z;
+    const TracedDeck whole(arch, {set}), part(arch, {set, "path.max_points=10"});
+    const RecordEvent &on_path = event_of(whole, EventKind::limit_point), &off = event_of(part, EventKind::limit_point);
+    ASSERT_TRUE(on_path.landing && off.landing);
+    EXPECT_TRUE(on_path.landing->on_branch);
+    EXPECT_FALSE(off.landing->on_branch);
+    EXPECT_EQ(on_path.landing->word, floor.word);
+    EXPECT_EQ(off.landing->word, floor.word);
+    EXPECT_NEAR(off.landing->monitors.at(0), on_path.landing->monitors.at(0), 1e-6);
+    EXPECT_NEAR(off.landing->released, on_path.landing->released, 1e-8);
+  }
 }
 
 // Shooting: u 85.912715359, w −92.553278331, released 82.328152133, back at −0.94144315556, loop 215.843460563.

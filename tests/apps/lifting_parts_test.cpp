@@ -98,7 +98,7 @@ TEST(LiftingParts, LiftOffAtOnceBesideAPlaceWithoutPressureSlow) {
 
 // A floor that is less curved on one side of the touch. Where the part lifts off inside, λ grows on: on a curved wall
 // the load of that event and the first load behind it have errors of the mesh, which do not make it turn.
-TEST(LiftingParts, LiftOffOnACurvedFloorWithoutATurnOfTheLoad) {
+TEST(LiftingParts, LiftOffOnACurvedFloorWithoutATurnOfTheLoadSlow) {
   double load = 0.0;
   for (const int elements : {16, 40, 60}) {
     SCOPED_TRACE(elements);

@@ -104,13 +104,13 @@ TEST(Sensitivity, OfAColumnInAChannelIsThatOfTheElastica) {
   EXPECT_NEAR(snap.at(1).slope.value(), -1024.34228122, 1e-4 * 1024.34228122);
 }
 
-TEST(Sensitivity, OfEveryEventInAChannelIsThatOfOtherRuns) {
+TEST(Sensitivity, OfEveryEventInAChannelIsThatOfOtherRunsSlow) {
   expect_agreement(channel(to_the_snap, pressed),
                    {{"wall.upper.profile.z", 2e-4}, {"material.m.E", 20.0}, {"point.B.0", 2e-3}}, 1e-7);
 }
 
 // λ is the end shortening, and a monitor turns: the reaction, which has its maximum before the shortening has.
-TEST(Sensitivity, OfPrescribedMovementsAndOfMonitorsThatTurn) {
+TEST(Sensitivity, OfPrescribedMovementsAndOfMonitorsThatTurnSlow) {
   const std::string more =
       "[[prescribed]]\nat = \"B\"\nx = -1.0\n[[monitor]]\nname = \"P\"\nat = \"B\"\ncomponent = \"reaction-x\"\n";
   expect_agreement(channel("step = 0.004\nwatch = [\"P\"]\nstop.event = \"limit-point\"", more),
@@ -118,7 +118,7 @@ TEST(Sensitivity, OfPrescribedMovementsAndOfMonitorsThatTurn) {
 }
 
 // λ is the strain of heat between fixed ends.
-TEST(Sensitivity, OfHeat) {
+TEST(Sensitivity, OfHeatSlow) {
   std::string deck =
       channel("step = 0.0005\nstop.event = \"limit-point\"", "[[load]]\non = \"column\"\ntemperature = 1e3");
   deck.replace(deck.find("B = [\"z\"]"), 9, "B = [\"x\", \"z\"]");

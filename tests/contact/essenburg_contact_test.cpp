@@ -58,7 +58,7 @@ Matrix differences(const System& system, const State& at) {
 }  // namespace
 
 // Each element against each kind of wall, a thousand random states in all.
-TEST(EssenburgContact, TangentIsExactOnEveryWall) {
+TEST(EssenburgContact, TangentIsExactOnEveryWallSlow) {
   test::Numbers numbers(80);
   for (const test::TestWall& wall : test::all_walls(false))
     for (const QuadraticTerm quadratic : {QuadraticTerm::fixed, QuadraticTerm::director})

@@ -119,7 +119,7 @@ std::vector<test::TestWall> two_of(const std::vector<test::TestWall>& walls, std
 // Central differences of fourth order and step 1e-6: round-off 1e-10 of the greatest entry; a thousand times that in
 // guards, which are of order 1 where entries of short elements are of order 1000. Of these a wrong one shows with
 // either of two steps, and round-off with the shorter one alone.
-TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWalls) {
+TEST(SlidingContact, DerivativesAreConsistentOnEveryLayoutAmongAllWallsSlow) {
   Numbers numbers(70);
   for (const bool on_axis : {false, true}) {
     const auto walls = test::all_walls(on_axis);
@@ -323,7 +323,7 @@ void expect_rates(const SlidingContact& system, const State& state) {
 }  // namespace
 
 // Among walls that stand still, while λ heats the beam.
-TEST(SlidingContact, KnowsTheRatesOfHeat) {
+TEST(SlidingContact, KnowsTheRatesOfHeatSlow) {
   Numbers numbers(77);
   for (const Theory theory : {Theory::classic, Theory::elastica}) {
     StructureBuilder builder = wavy_beam(false, theory);
@@ -343,7 +343,7 @@ TEST(SlidingContact, KnowsTheRatesOfHeat) {
 }
 
 // Springs along the beam go with it where the mesh slides.
-TEST(SlidingContact, DerivativesAreConsistentOnAFoundation) {
+TEST(SlidingContact, DerivativesAreConsistentOnAFoundationSlow) {
   Numbers numbers(79);
   for (const Theory theory : {Theory::classic, Theory::elastica}) {
     StructureBuilder builder = wavy_beam(false, theory);

@@ -91,7 +91,7 @@ void expect_tangents(int count) {
 }  // namespace
 
 // Central differences of fourth order, step 1e-4: 1e-12 by round-off. K is compared as a whole, so it is symmetric too.
-TEST(Tangents, AreDerivativesForEveryTheoryWallAndLaw) { expect_tangents(40); }
+TEST(Tangents, AreDerivativesForEveryTheoryWallAndLawSlow) { expect_tangents(40); }
 
 // What moves with λ has rates: of the gaps in F_λ and in the guards, and of the directions of the forces in F_λ.
 TEST(Tangents, KnowTheRatesOfWallsThatMove) {

@@ -66,7 +66,7 @@ Vector moved(const EssenburgReference& reference, const Vector& u, double angle,
 
 }  // namespace
 
-TEST(EssenburgBeam, DerivativesAreExactAtAThousandRandomStates) {
+TEST(EssenburgBeam, DerivativesAreExactAtAThousandRandomStatesSlow) {
   Numbers numbers(70);
   for (const EssenburgReference& reference : stretches()) {
     const EssenburgBeam beam(reference, stiffness(5.0 / 6.0));

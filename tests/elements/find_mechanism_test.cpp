@@ -125,7 +125,7 @@ TEST(FindMechanism, OneHingeAmongManyMembersIsFound) {
   EXPECT_FALSE(find_mechanism(*beam.structure()));
 }
 
-TEST(FindMechanism, AGirderOfManyBarsNeedsAllItsDiagonals) {
+TEST(FindMechanism, AGirderOfManyBarsNeedsAllItsDiagonalsSlow) {
   for (const int panels : {4, 40, 400}) {
     EXPECT_FALSE(find_mechanism(*girder(panels))) << panels << " panels";
     EXPECT_TRUE(find_mechanism(*girder(panels, panels / 2))) << panels << " panels";

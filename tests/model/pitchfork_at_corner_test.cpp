@@ -64,7 +64,7 @@ TEST(PitchforkAtACorner, EndsAPathThatIsToBeStable) {
 }
 
 // A side force takes from the load of the pitchfork what goes with its 2/3rd power, 2e-5 to 1e-4 of it here.
-TEST(PitchforkAtACorner, IsWhereASmallSideForceRollsTheRingAside) {
+TEST(PitchforkAtACorner, IsWhereASmallSideForceRollsTheRingAsideSlow) {
   const Session perfect = traced("0.0"), pushed = traced("0.001");
   const RecordEvent& at = test::event_of(perfect.record(), EventKind::branch_point);
   const RecordEvent& spreads = test::event_of(pushed.record(), EventKind::contact_spreads);

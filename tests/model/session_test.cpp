@@ -43,7 +43,7 @@ std::string traced(const Case& run) {
 }  // namespace
 
 // The same to the last bit as one after the other, also beside a run of the same deck.
-TEST(Session, TwoAtOnceInTwoThreadsGiveWhatEachGivesAlone) {
+TEST(Session, TwoAtOnceInTwoThreadsGiveWhatEachGivesAloneSlow) {
   for (const Case& first : runs)
     for (const Case& second : runs) {
       std::string first_beside, second_beside;

@@ -191,7 +191,7 @@ TEST(PinnedSemicircle, SwaysBeforeItsLimitPointToBothSidesAlike) {
   }
 }
 
-TEST(PinnedSemicircle, BranchAndLimitPointsConverge) {
+TEST(PinnedSemicircle, BranchAndLimitPointsConvergeSlow) {
   for (const BeamTheory& theory : test::elastica_theories()) {
     test::expect_points_converge(theory, 8, [](int n, const auto& of) { return semicircle(n, of); }, semicircle_points,
                                  {.limit_in_lambda = 1e-8, .limit_in_displacement = 1e-7});

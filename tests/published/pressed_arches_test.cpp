@@ -99,7 +99,7 @@ TEST(PressedArch, OfReissnersBeamsBucklesAlike) { EXPECT_NEAR(half_circle(Ends::
 
 // Loads that stay radial as they were buckle a ring at 4 (Bresse's 3 belongs to pressure; Singer and Babcock 1970) and
 // a pinned half circle at 3.271245 (the smallest root of its boundary value problem, by shooting).
-TEST(DeadRadialLoad, BucklesARingAndAnArchLaterThanPressure) {
+TEST(DeadRadialLoad, BucklesARingAndAnArchLaterThanPressureSlow) {
   for (const test::BeamTheory& theory : {elastica, classic}) {
     SCOPED_TRACE(theory.name);
     std::vector<double> found;

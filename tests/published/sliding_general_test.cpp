@@ -236,7 +236,7 @@ TEST(SlidingContactPath, FollowsAClampedColumnBetweenNearWalls) {
 
 // The equations are singular where the contact spreads, and the touchdown is at a node: whatever round-off makes of
 // both.
-TEST(SlidingContactPath, FollowsAClampedColumnByAnyMeshAndStep) {
+TEST(SlidingContactPath, FollowsAClampedColumnByAnyMeshAndStepSlow) {
   for (int elements = 10; elements < 60; elements += 2)
     for (const double scale : {0.3, 0.5, 0.7, 0.9, 1.0, 1.1, 1.4}) {
       SCOPED_TRACE(std::to_string(elements) + " elements, steps by " + std::to_string(scale));
@@ -306,7 +306,7 @@ TEST(SlidingContactPath, CountsAsItsEquationsSayOnASharpBend) {
 // The line branch between walls 0.6 apart from the axis ends in a load maximum, where each outer arc alone loses its
 // stability: two modes at one place, a fold and a branch point that meet. P a²/EI = 2.7532 for inextensible
 // arcs, 1.3383; extension takes a hundredth off.
-TEST(SlidingContactPath, TurnsAtTheLoadMaximumOfItsOuterArcs) {
+TEST(SlidingContactPath, TurnsAtTheLoadMaximumOfItsOuterArcsSlow) {
   std::vector<double> maxima;
   for (const int elements : {20, 40, 80}) {
     const Path path = path_of(SlidingChannel{.members = one(elements), .upper = 0.6, .lower = 0.6}, 1.3275);
@@ -410,7 +410,7 @@ SlidingModel column_that_snaps(int elements) {
 
 // It touches the upper wall, comes off and snaps to the lower one. On coarse meshes a place of least gap that is
 // followed comes within half an element of the support before that, and is given up: nothing happens there.
-TEST(SlidingContactPath, GivesUpALeastGapThatReachesASupport) {
+TEST(SlidingContactPath, GivesUpALeastGapThatReachesASupportSlow) {
   const Path fine = path_of(column_that_snaps(80), 9.2);
   ASSERT_EQ(fine.end(), EndReason::stop);
   ASSERT_EQ(fine.events().size(), 8U);

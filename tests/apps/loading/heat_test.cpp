@@ -68,7 +68,7 @@ TEST(Heat, BucklesAColumnBetweenFixedEnds) {
 
 // In the channel the greatest heat and the greatest force are two events; values of the extensible elastica by
 // shooting.
-TEST(Heat, SnapsAColumnInAChannelAtTheGreatestHeat) {
+TEST(Heat, SnapsAColumnInAChannelAtTheGreatestHeatSlow) {
   const TracedDeck traced(heated_column(centimetres, true, 0.001, 0.15));
   for (const Pushed& expected : {Pushed{EventKind::contact_closes, 0.01581703139244, 0.423765738927, 0, 0},
                                  Pushed{EventKind::contact_spreads, 0.02483532672461, 1.671915436069, 0, 0},

@@ -28,11 +28,11 @@ TEST(Prescribed, AColumnInAChannelSnapsAtItsGreatestShortening) {
   EXPECT_EQ(events_of(traced, EventKind::limit_point).size(), 2u);
 }
 
-TEST(Prescribed, GivesTheSameEventsInOtherUnits) {
+TEST(Prescribed, GivesTheSameEventsInOtherUnitsSlow) {
   expect_same_events(TracedDeck(shortened_channel(centimetres)), TracedDeck(shortened_channel(metres)), 1e-8);
 }
 
-TEST(Prescribed, IsConfirmedWhateverTheContact) {
+TEST(Prescribed, IsConfirmedWhateverTheContactSlow) {
   expect_confirmed(TracedDeck(shortened_channel(centimetres)));
   expect_confirmed(TracedDeck(shortened_channel(centimetres, "[contact]\npoints = \"nodes\"\n")));
 }

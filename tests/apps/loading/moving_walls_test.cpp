@@ -61,7 +61,7 @@ sign = -1
 
 // While it touches at one point the force is that of a dead central load at the same height of the crown; values by
 // independent solvers. The force turns, but λ does not: a way does not snap.
-TEST(MovingWall, PushesAFlatArchThroughWithoutASnap) {
+TEST(MovingWall, PushesAFlatArchThroughWithoutASnapSlow) {
   const TracedDeck traced(indented_arch(centimetres, 0.1, 0.17));
   const RecordEvent greatest = event_near(traced, EventKind::displacement_limit, 0.056131352628);
   EXPECT_NEAR(greatest.lambda, 0.056131352628, 2e-5 * greatest.lambda);
@@ -97,7 +97,7 @@ TEST(MovingWall, PushesAtNodesToo) {
 }
 
 // ∂Π/∂λ of a wall is its force against the way; trapezoids of the points' forces sum to the energy.
-TEST(MovingWall, DoesTheWorkOfItsForce) {
+TEST(MovingWall, DoesTheWorkOfItsForceSlow) {
   const TracedDeck traced(indented_arch(centimetres, 0.1, 0.12), {"path.max_step=0.001"});
   const auto& points = traced.record().points;
   double work = 0.0;

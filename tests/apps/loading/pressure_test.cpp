@@ -92,7 +92,7 @@ TEST(PressedDeck, IsConfirmedWhateverTheTheoryAndTheEnds) {
 }
 
 // With a wall that nothing touches the mesh is another one, and the path the same.
-TEST(PressedDeck, IsTheSameOnAMeshThatSlides) {
+TEST(PressedDeck, IsTheSameOnAMeshThatSlidesSlow) {
   for (const std::string right : {"\"x\", \"z\"", "\"z\""}) {
     const std::vector<std::string> landing{"path.land.lambda=[0.2]", "path.stop.lambda=[-0.1,0.2]", "path.step=0.01"};
     const TracedDeck fixed(pressed_arch(centimetres, "", "elastica", right), landing);

@@ -85,7 +85,7 @@ TEST(Springs, GiveTheSameEventsInOtherUnits) {
   expect_same_events(one, other, 1e-8);
 }
 
-TEST(Springs, AreConfirmed) {
+TEST(Springs, AreConfirmedSlow) {
   for (const std::string theory : {"classic", "elastica", "exact"}) {
     SCOPED_TRACE(theory);
     const TracedDeck traced(column(centimetres, springs(centimetres), theory));
@@ -240,7 +240,7 @@ TEST(Springs, OfAFoundationWithALawHoldAColumnByTheirStiffnessAtRest) {
 }
 
 // On meshes that slide the path is the one on the deck's, whatever the law.
-TEST(Springs, OfAFoundationWithALawActWhateverTheMesh) {
+TEST(Springs, OfAFoundationWithALawActWhateverTheMeshSlow) {
   const std::string loaded = R"(
 [[load]]
 at = "B"

@@ -228,7 +228,7 @@ TEST(Stages, MoveWallsInAndOut) {
 
 // What stages do in one order they do in the other: here nothing jumps, and no energy is lost. Contact points, spread
 // stretches and the mesh with them are taken over from stage to stage.
-TEST(Stages, DoTheSameInEitherOrder) {
+TEST(Stages, DoTheSameInEitherOrderSlow) {
   const auto ends = [](const std::string& order) {
     const TracedDeck staged(pressed_and_pulled(order));
     EXPECT_EQ(staged.record().branches.back().end->reason, EndReason::stop);
@@ -278,7 +278,7 @@ TEST(Stages, MayBeCutInTwo) {
 }
 
 // Stopped anywhere and taken up again, to the last bit.
-TEST(Stages, GoOnFromACheckpoint) {
+TEST(Stages, GoOnFromACheckpointSlow) {
   for (const std::string& deck :
        {pushed_column(three_stages), indented_in_and_out(), pressed_and_pulled(pull + press + back)}) {
     const TracedDeck whole(deck);

@@ -98,7 +98,7 @@ const std::string flat = R"({ type = "flat", z = -0.6 })";
 
 }  // namespace
 
-TEST(Verify, EveryExampleHolds) {
+TEST(Verify, EveryExampleHoldsSlow) {
   for (const std::string name : {"arch", "cantilever", "channel", "cylinder", "foundation", "lee", "truss"}) {
     SCOPED_TRACE(name);
     expect_confirmed(TracedDeck(example(name)));
@@ -414,7 +414,7 @@ TEST_F(FalsifiedRun, ACountOffByOneIsCaught) {
 
 // Lee's frame with its loaded point moved: under the force that it has there it loses stability at the greatest force,
 // with its movement given where that turns.
-TEST(FalsifiedMovedRun, ACountUnderDeadLoadsOffByOneIsCaught) {
+TEST(FalsifiedMovedRun, ACountUnderDeadLoadsOffByOneIsCaughtSlow) {
   std::string text(example("lee"));
   const std::string load = "[[load]]\nat = \"loaded\"\nforce = [0.0, -1.0]";
   text.replace(text.find(load), load.size(), "[[prescribed]]\nat = \"loaded\"\nz = -90.0");

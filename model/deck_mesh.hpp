@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/observable.hpp"
+#include "model/model.hpp"
+
+namespace arcwall {
+
+/// The states of a model on the deck's own mesh, whose unknowns always mean the same and whose contacts are those of
+/// nodes: what is sought beside the traced path is sought there. Where contact slides, the states of the path have
+/// other unknowns; there is a way to and fro.
+class DeckMesh {
+ public:
+  /// `model` must outlive this.
+  explicit DeckMesh(const Model& model);
+
+  /// Whether every unknown of the deck's mesh can be read off the model's states.
+  bool is_complete() const;
+
+  /// The structure among the walls, with contact at its nodes.
+  const UnilateralSystem& system() const;
+
+  Index size() const { return size_; }
+
+  /// The unknowns of the structure in a state of the model, whichever mesh that has.
+  Vector unknowns(const State& of_model) const;
+
+  /// The same as a state of system(), without contact forces.
+  State state(const State& of_model, double lambda) const;
+
+  /// Between the unknowns of two states, in the path metric [-].
+  double distance(const Vector& a, const Vector& b) const;
+
+  /// Where Newton's method may begin in the path's own formulation, from an equilibrium of system(): that state itself,
+  /// or where contact slides several, the likeliest first, as nodes hardly tell whether contact is at a point, along a
+  /// part without pressure or along one with pressure. Each is within an element of what it is meant for.
+  std::vector<State> in_path_formulation(const State& equilibrium) const;
+
+ private:
+  Vector values(const State& state) const;
+
+  const Model& model_;
+  Index size_;
+  std::vector<std::shared_ptr<const Observable>> readings_{};  // empty where states have the deck's mesh
+  Vector rest_{};
+};
+
+}  // namespace arcwall
