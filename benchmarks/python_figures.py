@@ -4,9 +4,9 @@
     python3 benchmarks/python_figures.py BUILD [--rounds N] [DECK …]
 
 BUILD has the module (ARCWALL_PYTHON) and the benchmarks. Prints for each deck the CPU time of a trace by the library and by
-Python, each from the deck's text to the end of the path, and by how much Python's is greater; then where the time of a path of one's own equations goes. The library and Python
-run in turn, each in a process of its own, and of each trace the least time of all rounds counts: other work on the machine only
-adds.
+Python, each from the deck's text to the end of the path, and by how much Python's is greater; then where the time of a path of
+one's own equations goes. The library and Python run in turn, each in a process of its own, and of each trace the least time of
+all rounds counts: other work on the machine only adds.
 """
 
 import argparse

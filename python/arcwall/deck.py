@@ -171,8 +171,8 @@ class Deck:
         """Traces all paths of the deck, as ``trace-path run`` does, to the same last bit.
 
         ``max_points`` and ``max_seconds`` end this call; ``path.resume()`` goes on. DeckError for a wrong deck, NoStart where
-        there is no equilibrium to begin with. ``sensitivity`` and ``landing`` are as of ``tracing()``. Ctrl-C raises KeyboardInterrupt at the next point; what was traced by then is
-        kept only by ``tracing()``.
+        there is no equilibrium to begin with. ``sensitivity`` and ``landing`` are as of ``tracing()``. Ctrl-C raises
+        KeyboardInterrupt at the next point; what was traced by then is kept only by ``tracing()``.
         """
         path = self.tracing(sensitivity=sensitivity, landing=landing).path
         path.resume(max_points=max_points, max_seconds=max_seconds)

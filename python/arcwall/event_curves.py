@@ -66,10 +66,10 @@ class EventCurve:
             for one in json["specials"]
         )
         self._columns: dict[str, np.ndarray] = {}
-        self._units: dict[str, str] = {}
+        self.units: dict[str, str] = {}  #: of the columns; empty where one has none
         for name, unit, values in columns:
             values.setflags(write=False)
-            self._columns[name], self._units[name] = values, unit
+            self._columns[name], self.units[name] = values, unit
         self._shapes, self._files, self._text, self._picture = shapes, dict(files), text, picture
 
     def __len__(self) -> int:
@@ -97,10 +97,6 @@ class EventCurve:
         import pandas as pd
 
         return pd.DataFrame(self._columns)
-
-    def unit_of(self, name: str) -> str:
-        """The unit of a column; empty where it has none."""
-        return self._units[name] if name in self._units else ""
 
     def _of_kind(self, *kinds: str) -> tuple[CurveSpecial, ...]:
         return tuple(one for one in self.specials if one.kind in kinds)

@@ -102,8 +102,8 @@ def plot_event_curve(curve: EventCurve, x: str, y: str, ax: Any) -> Any:
             first = last
     for special in curve.specials:
         _draw_mark(ax, across[special.point], up[special.point], _SPECIAL_MARKS[special.kind])
-    ax.set_xlabel(_with_unit(curve.over if x == "key" else _shown(x), curve.unit_of(x)))
-    ax.set_ylabel(_with_unit(curve.over if y == "key" else _shown(y), curve.unit_of(y)))
+    ax.set_xlabel(_with_unit(curve.over if x == "key" else _shown(x), curve.units[x]))
+    ax.set_ylabel(_with_unit(curve.over if y == "key" else _shown(y), curve.units[y]))
     ax.set_title(f"{curve.event} {curve.number}")
     ax.grid(True, color="#e8eaed")
     return ax

@@ -10,8 +10,8 @@ class Value:
     """A dataclass that is shown without the fields that have their defaults."""
 
     def __repr__(self) -> str:
-        shown = [f"{one.name}={getattr(self, one.name)!r}" for one in fields(self) if one.repr and not self._is_default(one)]  # type: ignore[arg-type]
-        return f"{type(self).__name__}({', '.join(shown)})"
+        shown = [one.name for one in fields(self) if one.repr and not self._is_default(one)]  # type: ignore[arg-type]
+        return f"{type(self).__name__}({', '.join(f'{name}={getattr(self, name)!r}' for name in shown)})"
 
     def _is_default(self, field: Any) -> bool:
         value = getattr(self, field.name)

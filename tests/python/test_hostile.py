@@ -197,13 +197,14 @@ sys.modules["kept"] = kept
     assert subprocess.run([sys.executable, "-c", script]).returncode == 0
 
 
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
 # One process, many traces: what is resident after the first of them is what is there after all.
 @pytest.mark.skipif(SANITIZED, reason="the sanitizer keeps what is freed")
 def test_memory_is_flat(channel):
-    def resident():
-        with open("/proc/self/statm") as file:
-            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
     deck = channel.copy({"member.column.elements": 8, "path.max_points": 12})
 
     def traces(count):
@@ -215,4 +216,34 @@ def test_memory_is_flat(channel):
     traces(200)
     before = resident()
     traces(1000)
+    assert resident() - before < 1 << 20
+
+
+@pytest.mark.skipif(SANITIZED, reason="the sanitizer keeps what is freed")
+def test_memory_is_flat_where_systems_raise():
+    class Fold:
+        def residual(self, x, lam):
+            if lam > self.end:
+                raise KeyError("beyond")
+            return x * x + lam
+
+        def jacobian(self, x, lam):
+            return [[2 * x[0]]]
+
+        def dlam(self, x, lam):
+            return [1.0]
+
+    def traces(count):
+        for i in range(count):
+            system = Fold()
+            system.end = -0.5 if i % 2 else 1.0
+            try:
+                assert arcwall.trace(system, [1.0], -1.0, stop={"lambda": (-2, 1)}).events
+            except KeyError as error:
+                assert len(error.arcwall_path)
+        gc.collect()
+
+    traces(100)
+    before = resident()
+    traces(300)
     assert resident() - before < 1 << 20

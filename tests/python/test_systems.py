@@ -319,7 +319,8 @@ def with_domain():
 # was traced is there.
 def test_residuals_that_are_no_numbers_shorten_the_step_and_at_last_end_the_path():
     assert arcwall.trace(with_domain(), [1.0], stop={"lambda": (-1, 0.999)}).ended
-    with pytest.raises(NotFinite, match=r"no step ahead succeeds: (residual|dlam)\(x, lam\) returned nan in entry 0 at lam = 1") as raised:
+    ahead = r"no step ahead succeeds: (residual|dlam)\(x, lam\) returned nan in entry 0 at lam = 1"
+    with pytest.raises(NotFinite, match=ahead) as raised:
         arcwall.trace(with_domain(), [1.0], stop={"lambda": (-1, 2)}, max_points=300)
     x, lam = raised.value.arcwall_state
     path = raised.value.arcwall_path
