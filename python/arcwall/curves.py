@@ -77,7 +77,11 @@ class Curve:
         ``iterations`` int64; ``unstable`` is float64, nan where the count is open; ``stability`` and ``event`` are texts, None
         where there is no event. KeyError for another name.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"a path is asked for columns by their names, as in path['lambda'], not for {name!r}")
         return self._cached(("column", name), lambda: self._make_column(name))
+
+    __iter__ = None  # type: ignore[assignment]
 
     def _make_column(self, name: str) -> np.ndarray:
         values = self._monitor_column(name)

@@ -101,6 +101,8 @@ class Deck:
             return False
         return True
 
+    __iter__ = None  # type: ignore[assignment]
+
     def update(self, values: Mapping[str, Any]) -> None:
         """Sets several values, in their order: all of them, or none where one cannot be set."""
         before = self._assignments

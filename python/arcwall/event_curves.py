@@ -91,6 +91,8 @@ class EventCurve:
         except KeyError:
             raise KeyError(f"{name!r} is no column; there are {', '.join(self.columns)}") from None
 
+    __iter__ = None  # type: ignore[assignment]
+
     @property
     def table(self) -> pd.DataFrame:
         """All columns as a pandas DataFrame, one row a point; a new one each time."""

@@ -69,6 +69,15 @@ def test_values_that_are_no_numbers_are_diagnosed(channel):
         assert deck.check(), value
 
 
+def test_what_is_asked_by_names_is_no_list(channel):
+    path = channel.trace(max_points=2)
+    for mapping in (channel, path):
+        with pytest.raises(TypeError, match="not iterable"):
+            list(mapping)
+    with pytest.raises(TypeError, match="asked for columns by their names"):
+        path[0]
+
+
 def test_deep_values_are_refused(channel):
     deep = []
     for _ in range(5000):

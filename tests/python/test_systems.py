@@ -420,6 +420,9 @@ def test_starts_that_are_none_are_refused():
         dict(stop={1: (0, 1)}),
         dict(stop={"lambda": (1, 0)}),
         dict(stop={"lambda": (0, 1, 2)}),
+        dict(stop={"lambda": 1.0}),
+        dict(land={"lambda": 1.0}),
+        dict(step="long"),
         dict(watch=[5]),
         dict(weights=[1.0, 2.0]),
         dict(weights=[-1.0]),
@@ -429,6 +432,18 @@ def test_starts_that_are_none_are_refused():
 def test_options_that_mean_nothing_are_refused(options):
     with pytest.raises(ValueError):
         arcwall.trace(fold(), [1.0], -1.0, **options)
+
+
+def test_options_of_other_kinds_are_refused():
+    for option in ("stop", "land", "events", "monitors"):
+        with pytest.raises(TypeError, match=f"{option} is a dict, not list"):
+            arcwall.trace(fold(), [1.0], -1.0, **{option: [3]})
+    with pytest.raises(TypeError, match=r"give Pendulums\(…\), not the class"):
+        arcwall.trace(Pendulums, [0.0, 0.0])
+    for lam0 in ([0.0], "x", math.nan, None):
+        with pytest.raises(ValueError, match="lam0 = .* is no finite number"):
+            arcwall.trace(fold(), [1.0], lam0)
+    assert len(trace(fold(), watch=0).events["displacement-limit"]) == 0
 
 
 def test_event_functions_that_are_none_are_refused():
