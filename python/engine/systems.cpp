@@ -112,15 +112,15 @@ class SystemRun {
     if (phase_ == Phase::tracing) throw std::runtime_error("a function of this system asks for more of its own path");
     if (phase_ == Phase::failed)
       throw std::runtime_error("this path was ended by an exception; what was traced before it is there");
-    phase_ = Phase::tracing;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto in_time = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < most_seconds;
+    };
     Index points = 0;
-    try {
-      points = trace(most_points, most_seconds);
-    } catch (...) {
-      phase_ = Phase::failed;
-      throw;
+    while (points < most_points && (points == 0 || in_time()) && !ahead_ && whole_step()) {
+      ++points;
+      raise_what_waits();
     }
-    phase_ = Phase::idle;
     if (const auto met = std::exchange(ahead_, std::nullopt)) raise("NotFinite", "no step ahead succeeds: ", *met);
     return points;
   }
@@ -139,17 +139,17 @@ class SystemRun {
  private:
   enum class Phase { idle, tracing, failed };
 
-  Index trace(Index most_points, double most_seconds) {
-    const auto begin = std::chrono::steady_clock::now();
-    const auto in_time = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < most_seconds;
-    };
-    Index points = 0;
-    while (points < most_points && (points == 0 || in_time()) && !ahead_ && step()) {
-      ++points;
-      raise_what_waits();
+  // What is raised inside of a step leaves it half done; between two steps a path can go on.
+  bool whole_step() {
+    phase_ = Phase::tracing;
+    try {
+      const bool more = step();
+      phase_ = Phase::idle;
+      return more;
+    } catch (...) {
+      phase_ = Phase::failed;
+      throw;
     }
-    return points;
   }
 
   bool step() {
