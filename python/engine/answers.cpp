@@ -38,12 +38,6 @@ py::tuple study(const std::string& file, const std::string& text, const Assignme
                         convergence_text(*found));
 }
 
-py::dict files_dict(const NamedTexts& files) {
-  py::dict dict;
-  for (const auto& [name, content] : files) dict[py::str(name)] = content;
-  return dict;
-}
-
 enum class Question { curve, worst };
 
 // The deck has a table [curve] that asks this.
@@ -61,8 +55,7 @@ void require(const deck::Deck& deck, Question question) {
            curve ? "worst() gives the worst combination" : "curve() follows the event");
 }
 
-// --- curves of events
-// -------------------------------------------------------------------------------------------------
+// --- curves of events -----------------------------------------------------------------------------------------------
 
 template <typename Number, typename Of>
 py::array_t<Number> column(const EventCurve& curve, const Of& of) {
@@ -105,6 +98,12 @@ py::list shapes(const EventCurve& curve) {
   return list;
 }
 
+py::dict files_dict(const NamedTexts& files) {
+  py::dict dict;
+  for (const auto& [name, content] : files) dict[py::str(name)] = content;
+  return dict;
+}
+
 // The content of curve.json, columns, shapes, the files of the program, its table and its picture of λ over the number.
 py::tuple event_curve(const std::string& file, const std::string& text, const Assignments& assignments) {
   const deck::Deck deck = deck::read_deck_text(text, file, assignments);
@@ -125,8 +124,7 @@ py::tuple worst(const std::string& file, const std::string& text, const Assignme
   return py::make_tuple(to_python(worst_json(deck, found, text, assignments)), worst_text(deck, found));
 }
 
-// --- what belongs to them
-// ---------------------------------------------------------------------------------------------
+// --- what belongs to them -------------------------------------------------------------------------------------------
 
 py::dict walls(const std::string& file, const std::string& text, const Assignments& assignments, double lambda) {
   return walls_at(Model(deck::read_deck_text(text, file, assignments)), lambda);
