@@ -16,14 +16,14 @@ preset=tests
 groups=(build test python report benchmark)
 if [[ ${1:-} == --sanitize ]]; then
   preset=sanitize
-  groups=(build test report sanitize)
+  groups=(build test python report sanitize)
 fi
 
 bash cmake/install_debian_packages.sh "${groups[@]}"
 if [[ -f build/$preset/CMakeCache.txt ]]; then
-  # One that is older than the Python module was told nothing of it.
+  # One that was made before it had the Python module gets it.
   python=()
-  if [[ $preset == tests ]] && ! grep -q '^ARCWALL_PYTHON:' build/tests/CMakeCache.txt; then python=(-DARCWALL_PYTHON=ON); fi
+  if ! grep -q '^ARCWALL_PYTHON:.*=ON' "build/$preset/CMakeCache.txt"; then python=(-DARCWALL_PYTHON=ON); fi
   cmake --log-level=WARNING "${python[@]}" "build/$preset"
 else
   cmake --preset "$preset" --log-level=WARNING

@@ -55,9 +55,7 @@ ExitStatus curve(const Options& options) {
   }
   FileSet files(folder);
   const UnitLabels labels = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown;
-  files.write("curve.csv", curve_csv(found, labels));
-  files.write("report.html", curve_html(found));
-  files.write("curve.json", to_text(curve_json(found, text, assignments), JsonLayout::lines));
+  for (const auto& [name, content] : curve_files(found, labels, text, assignments)) files.write(name, content);
   files.put_in_place();
   if (!quiet) std::cout << curve_text(found);
   return curve_status(found);

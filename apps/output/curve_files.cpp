@@ -7,6 +7,7 @@
 #include <set>
 
 #include "apps/output/csv.hpp"
+#include "apps/output/events_json.hpp"
 #include "apps/output/markup.hpp"
 #include "apps/output/report_parts.hpp"
 #include "apps/output/result_json.hpp"
@@ -237,6 +238,13 @@ OrderedJson curve_json(const EventCurve& curve, std::string_view deck_text,
   return json;
 }
 
+NamedTexts curve_files(const EventCurve& curve, UnitLabels labels, std::string_view deck_text,
+                       const std::vector<std::string>& assignments) {
+  return {{"curve.csv", curve_csv(curve, labels)},
+          {"report.html", curve_html(curve)},
+          {"curve.json", to_text(curve_json(curve, deck_text, assignments), JsonLayout::lines)}};
+}
+
 std::string curve_text(const EventCurve& curve) {
   return fmt::format("{}: {} points\n\n", what(curve), curve.points.size()) +
          text_table({{"special point"}, {"number", TableColumn::Side::right}, {"λ", TableColumn::Side::right}, {"why"}},
@@ -266,6 +274,8 @@ std::string curve_html(const EventCurve& curve) {
   }
   return html + "</main>\n<footer>trace-path " + program_version() + "</footer>\n</body>\n</html>\n";
 }
+
+std::string curve_picture(const EventCurve& curve) { return framed_chart(chart_of(curve, "λ", lambda_of, 0)); }
 
 OrderedJson worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,
                        const std::vector<std::string>& assignments) {

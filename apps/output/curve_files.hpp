@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "apps/output/exit_status.hpp"
 #include "model/event_curve.hpp"
@@ -18,11 +20,19 @@ std::string curve_csv(const EventCurve& curve, UnitLabels labels);
 nlohmann::ordered_json curve_json(const EventCurve& curve, std::string_view deck_text,
                                   const std::vector<std::string>& assignments);
 
+/// The files of a curve by their names, in the order in which they are written: curve.csv, report.html, curve.json.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+NamedTexts curve_files(const EventCurve& curve, UnitLabels labels, std::string_view deck_text,
+                       const std::vector<std::string>& assignments);
+
 /// What the command shows: the special points as a table.
 std::string curve_text(const EventCurve& curve);
 
 /// report.html of a curve: λ and the monitors over the number, and the shape at some points.
 std::string curve_html(const EventCurve& curve);
+
+/// Its first chart alone, λ over the number, as an element for other pages.
+std::string curve_picture(const EventCurve& curve);
 
 /// curve.json of the worst combination of numbers, and what the command shows of it.
 nlohmann::ordered_json worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,

@@ -479,21 +479,9 @@ std::string ReportPage::text() const {
   return text;
 }
 
-// The rules of page.css for charts, for this element alone: the page around it has others.
 std::string curve_html(const Record& record, const std::vector<LoadText>& loads, std::optional<std::size_t> monitor) {
-  constexpr std::string_view style =
-      "<style>.arcwall{max-width:720px;background:#fff;color:#1c1f23}.arcwall svg{display:block}"
-      ".arcwall svg.chart text{font:13px sans-serif;fill:#5b6470}.arcwall svg.chart "
-      "text.axis{fill:#1c1f23;font-size:14px}"
-      ".arcwall .grid{stroke:#e8eaed;fill:none}.arcwall .line{fill:none;stroke-width:2.2;stroke-linejoin:round}"
-      ".arcwall .mark{fill:#1c1f23;stroke:#1c1f23;stroke-width:1.4}.arcwall .open.mark{fill:#fff}"
-      ".arcwall .legend{list-style:none;margin:6px 0 0;padding:0;display:flex;flex-wrap:wrap;gap:3px "
-      "18px;font-size:13px}"
-      ".arcwall .legend li{display:flex;align-items:center;gap:6px}.arcwall .key{width:16px;height:16px}"
-      ".arcwall .key.wide{width:40px}</style>";
   const ReportContent content{.loads = loads};
-  return fmt::format("<div class=\"arcwall\">{}{}{}</div>", style, svg_chart(chart(record, content, monitor)),
-                     legend(record, content.overlays));
+  return framed_chart(chart(record, content, monitor), legend(record, content.overlays));
 }
 
 }  // namespace arcwall

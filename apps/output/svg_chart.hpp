@@ -38,6 +38,10 @@ std::vector<double> ticks(double low, double high);
 /// places in the picture: `low high low-place high-place`.
 std::string svg_chart(const Chart& chart);
 
+/// The chart with rules of style of its own, and `below` it, as a <div> element of class `arcwall` for pages that have
+/// none.
+std::string framed_chart(const Chart& chart, const std::string& below = {});
+
 /// The mark of a kind of events alone, as a small <svg> element, for legends.
 std::string svg_mark(EventKind kind);
 

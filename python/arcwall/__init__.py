@@ -13,9 +13,11 @@ in a thread of its own.
 from ._engine import version as __version__
 from .curves import Curve
 from .deck import Deck
-from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoStart
-from .events import Branch, Contact, End, Event, Events, Point
-from .path import ContactMark, MemberShape, Path, Shape, State, Tracing, WallShape, load
+from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoAnswer, NoStart, NotFinite
+from .event_curves import CurveSpecial, EventCurve, WorstCombination
+from .events import Branch, Contact, Continuum, End, Event, Events, Landing, LandingContact, Point, WayBack
+from .path import Path, State, Tracing, load
+from .shapes import ContactMark, MemberShape, Shape, WallShape
 from .studies import ConvergedEvent, Convergence
 from .systems import Detector, System, SystemPath, trace
 
@@ -24,19 +26,26 @@ __all__ = [
     "Branch",
     "Contact",
     "ContactMark",
+    "Continuum",
     "ConvergedEvent",
     "Convergence",
     "Curve",
+    "CurveSpecial",
     "Deck",
     "DeckError",
     "Detector",
     "Diagnostic",
     "End",
     "Event",
+    "EventCurve",
     "Events",
     "FileError",
+    "Landing",
+    "LandingContact",
     "MemberShape",
+    "NoAnswer",
     "NoStart",
+    "NotFinite",
     "Path",
     "Point",
     "Shape",
@@ -45,6 +54,8 @@ __all__ = [
     "SystemPath",
     "Tracing",
     "WallShape",
+    "WayBack",
+    "WorstCombination",
     "__version__",
     "load",
     "trace",

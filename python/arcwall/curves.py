@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import operator
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -14,6 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = ["Curve"]
+
+C = TypeVar("C", bound="Curve")
 
 
 class Curve:
@@ -44,8 +48,17 @@ class Curve:
         """Whether every branch has its end; otherwise one can go on."""
         return self._run.has_ended()
 
+    def resume(self: C, *, max_points: int | None = None, max_seconds: float | None = None) -> C:
+        """Goes on where the path is, to the last bit as if it had never stopped; returns the path itself.
+
+        ``max_points`` counts those of this call. Nothing happens where every branch has ended.
+        """
+        self._run.advance(_limit_of(max_points), _seconds_of(max_seconds))
+        return self
+
     @property
     def title(self) -> str:
+        """The deck's title; empty of a system."""
         return self._run.title()
 
     @property
@@ -64,7 +77,11 @@ class Curve:
         ``iterations`` int64; ``unstable`` is float64, nan where the count is open; ``stability`` and ``event`` are texts, None
         where there is no event. KeyError for another name.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"a path is asked for columns by their names, as in path['lambda'], not for {name!r}")
         return self._cached(("column", name), lambda: self._make_column(name))
+
+    __iter__ = None  # type: ignore[assignment]
 
     def _make_column(self, name: str) -> np.ndarray:
         values = self._monitor_column(name)
@@ -132,3 +149,30 @@ class Curve:
         kind = type(self).__name__
         state = "" if self.ended else ", goes on"
         return f"<arcwall.{kind} of {len(self)} points, {len(self.events)} events, {len(self.branches)} branches{state}>"
+
+
+def row_of(point: Any, size: int) -> int:
+    """A point's row from 0, of one that may count from the end. IndexError where there is none."""
+    index = operator.index(point)
+    if not -size <= index < size:
+        raise IndexError(f"there is no point {index}; the path has {size}")
+    return index % size
+
+
+def _limit_of(points: int | None) -> int:
+    """As many points more as one call may trace."""
+    most = 2**62
+    if points is None:
+        return most
+    count = operator.index(points)
+    if count < 0:
+        raise ValueError(f"max_points = {count} is negative")
+    return min(count, most)
+
+
+def _seconds_of(seconds: float | None) -> float:
+    if seconds is None:
+        return math.inf
+    if not seconds >= 0.0:
+        raise ValueError(f"max_seconds = {seconds!r} is no time; give 0 or more")
+    return float(seconds)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _engine, toml
 from .errors import DeckError, Diagnostic
 
 if TYPE_CHECKING:
+    from .event_curves import EventCurve, WorstCombination
     from .path import Path, Tracing
     from .studies import Convergence
 
@@ -28,7 +29,7 @@ class Deck:
         """A deck of a dict, as ``{"units": {"length": "cm"}, "wall": [{"name": "floor", …}], …}``."""
         if content is not None and not isinstance(content, Mapping):
             raise TypeError(f"Deck() takes a dict, not {type(content).__name__}; Deck.load takes a file, Deck.parse a text")
-        self._set(toml.document(content or {}), name, [])
+        self._set(toml.document(content or {}), name)
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Deck:
@@ -42,14 +43,21 @@ class Deck:
         if not isinstance(text, (str, bytes)):
             raise TypeError(f"Deck.parse takes a text, not {type(text).__name__}")
         deck = cls.__new__(cls)
-        deck._set(text, name, [])
+        deck._set(text, name)
         return deck
 
-    def _set(self, text: str | bytes, name: str, assignments: list[str]) -> None:
+    # One whose text and assignments are known to be TOML.
+    @classmethod
+    def _of(cls, text: bytes, name: str, assignments: Iterable[str]) -> Deck:
+        deck = cls.__new__(cls)
+        deck._text, deck._name, deck._assignments = text, name, list(assignments)
+        return deck
+
+    def _set(self, text: str | bytes, name: str) -> None:
         self._text = text.encode() if isinstance(text, str) else bytes(text)
         self._name = os.fspath(name)
-        self._assignments = list(assignments)
-        _engine.document(self._text, self._name, self._assignments)
+        self._assignments: list[str] = []
+        _engine.require_toml(self._text, self._name, [])
 
     @property
     def name(self) -> str:
@@ -73,8 +81,17 @@ class Deck:
 
     def __setitem__(self, key: str, value: Any) -> None:
         """Replaces or adds a value; lists and dicts are what they are in TOML. DeckError where the key leads nowhere."""
-        assignments = [*self._assignments, f"{_checked_key(key)}={toml.value(value)}"]
-        _engine.document(self._text, self._name, assignments)
+        assignment = f"{_checked_key(key)}={toml.value(value)}"
+        # What was set for this key before is of no account, unless other keys that were set lie inside of it.
+        others = [one for one in self._assignments if not one.startswith(f"{key}=")]
+        for before in (others, self._assignments):
+            assignments = [*before, assignment]
+            try:
+                _engine.require_toml(self._text, self._name, assignments)
+                break
+            except DeckError:
+                if before is self._assignments:
+                    raise
         self._assignments = assignments
 
     def __contains__(self, key: object) -> bool:
@@ -83,6 +100,8 @@ class Deck:
         except (KeyError, DeckError, TypeError):
             return False
         return True
+
+    __iter__ = None  # type: ignore[assignment]
 
     def update(self, values: Mapping[str, Any]) -> None:
         """Sets several values, in their order: all of them, or none where one cannot be set."""
@@ -96,8 +115,7 @@ class Deck:
 
     def copy(self, values: Mapping[str, Any] | None = None) -> Deck:
         """Another deck of the same content, with other values: ``deck.copy({"material.steel.E": 2.0e4})``."""
-        deck = type(self).__new__(type(self))
-        deck._text, deck._name, deck._assignments = self._text, self._name, list(self._assignments)
+        deck = self._of(self._text, self._name, self._assignments)
         deck.update(values or {})
         return deck
 
@@ -131,17 +149,17 @@ class Deck:
         """What one should know of a right deck though it is no error: one sentence each."""
         return _engine.check(self._text, self._name, self._assignments)[1]
 
-    def tracing(self, *, sensitivity: Iterable[str] | None = None) -> Tracing:
+    def tracing(self, *, sensitivity: Iterable[str] | None = None, landing: bool | None = None) -> Tracing:
         """Traces while it is iterated, a point at a time: ``for point in deck.tracing(): …``.
 
         One may stop at any time and go on later; ``tracing.path`` has what was traced so far. DeckError for a wrong deck.
-        ``sensitivity``: numbers of the deck by which each event's λ is derived, in place of the deck's own list.
+        ``sensitivity``: numbers of the deck by which each event's λ is derived; ``landing``: whether it is found where the
+        structure falls to, when every branch has ended. Both stand in place of what the deck says (docs/answers.md).
         """
         from .path import Path, Tracing
 
-        deck = self
-        if sensitivity is not None:
-            deck = self.copy({"path.sensitivity": [sensitivity] if isinstance(sensitivity, str) else list(sensitivity)})
+        wanted = {"path.sensitivity": _list_of_keys(sensitivity), "path.landing": landing}
+        deck = self.copy({key: value for key, value in wanted.items() if value is not None})
         return Tracing(Path(_engine.Run(deck._name, deck._text, deck._assignments)))
 
     def trace(
@@ -150,16 +168,19 @@ class Deck:
         max_points: int | None = None,
         max_seconds: float | None = None,
         sensitivity: Iterable[str] | None = None,
+        landing: bool | None = None,
     ) -> Path:
         """Traces all paths of the deck, as ``trace-path run`` does, to the same last bit.
 
         ``max_points`` and ``max_seconds`` end this call; ``path.resume()`` goes on. DeckError for a wrong deck, NoStart where
-        there is no equilibrium to begin with. Ctrl-C raises KeyboardInterrupt at the next point; what was traced by then is
-        kept only by ``tracing()``.
+        there is no equilibrium to begin with. ``sensitivity`` and ``landing`` are as of ``tracing()``. Ctrl-C raises
+        KeyboardInterrupt at the next point; what was traced by then is kept only by ``tracing()``.
         """
-        path = self.tracing(sensitivity=sensitivity).path
+        path = self.tracing(sensitivity=sensitivity, landing=landing).path
         path.resume(max_points=max_points, max_seconds=max_seconds)
         return path
+
+    # --- answers --------------------------------------------------------------------------------------------------------
 
     def converge(self, *, levels: int = 3, factor: int = 2) -> Convergence:
         """Traces the deck on ``levels`` meshes, each ``factor`` times finer than the one before, and says how sure its events
@@ -170,6 +191,77 @@ class Deck:
             if not isinstance(number, int) or not 2 <= number <= most:
                 raise ValueError(f"{name} = {number!r} is out of range; give a whole number from 2 to {most}")
         return Convergence(*_engine.study(self._name, self._text, self._assignments, levels, factor))
+
+    def curve(
+        self,
+        event: str | None = None,
+        over: str | None = None,
+        range: Sequence[float] | None = None,
+        *,
+        number: int | None = None,
+        step: float | None = None,
+        max_points: int | None = None,
+        land: Sequence[float] | None = None,
+    ) -> EventCurve:
+        """Follows an event while a number of the deck varies, as ``trace-path curve`` does (docs/answers.md): exactly, to both
+        sides of the deck's own value and through its turning points.
+
+        event, number   kind of the event, as ``limit-point``, and which of that kind along the path, from 1
+        over, range     the number by its key, and (least, greatest) value, the deck's own inside
+        step            increment of the number of the first predictor; by default 1/100 of the range
+        max_points      on each side of the deck's own value
+        land            values of the number each of which is a point
+
+        What is left out is taken from the deck's table ``[curve]``, if it has one. DeckError for a wrong deck or question,
+        NoAnswer where the event is not on the path or cannot be followed.
+        """
+        from .event_curves import EventCurve
+
+        wanted = {"over": over, "range": range, "step": step, "max_points": max_points, "land": land}
+        deck = self._asking(event, number, wanted, {"worst", "radius"})
+        return EventCurve(deck, *_engine.event_curve(deck._name, deck._text, deck._assignments))
+
+    def worst(
+        self,
+        event: str | None = None,
+        keys: Iterable[str] | None = None,
+        radius: float | None = None,
+        *,
+        number: int | None = None,
+    ) -> WorstCombination:
+        """The combination of numbers that lowers an event most: of all changes of the numbers ``keys`` with the root of the sum
+        of their squares equal to ``radius`` (docs/answers.md).
+
+        What is left out is taken from the deck's table ``[curve]``, if it has one. DeckError for a wrong deck or question,
+        NoAnswer where the event is not on the path, or its λ has no slope by these numbers.
+        """
+        from .event_curves import worst_of
+
+        wanted = {"worst": _list_of_keys(keys), "radius": radius}
+        deck = self._asking(event, number, wanted, {"over", "range", "step", "max_points", "land"})
+        return worst_of(deck, *_engine.worst(deck._name, deck._text, deck._assignments))
+
+    # The deck with what is wanted in place of that in its table [curve], without what belongs to another question.
+    def _asking(self, event: str | None, number: int | None, wanted: Mapping[str, Any], others: set[str]) -> Deck:
+        given = {key: value for key, value in wanted.items() if value is not None}
+        if event is None and number is None and not given:
+            return self
+        own = self.to_dict().get("curve", {})
+        kept = {key: value for key, value in own.items() if key not in others} if isinstance(own, dict) else {}
+        if given.get("over", kept.get("over")) != kept.get("over"):  # these are of the other number
+            kept = {key: value for key, value in kept.items() if key not in ("range", "step", "land")}
+        if event is not None:
+            kept["event"] = {"kind": event}
+        if number is not None:
+            kept["event"] = {**kept.get("event", {}), "number": number}
+        table = {**kept, **given}
+        if "land" in given and not len(given["land"]):  # no values at all
+            del table["land"]
+        return self.copy({"curve": table})
+
+
+def _list_of_keys(keys: Iterable[str] | None) -> list[str] | None:
+    return None if keys is None else [keys] if isinstance(keys, str) else list(keys)
 
 
 def _checked_key(key: str) -> str:

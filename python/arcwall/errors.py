@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-__all__ = ["ArcwallError", "DeckError", "Diagnostic", "FileError", "NoStart"]
+__all__ = ["ArcwallError", "DeckError", "Diagnostic", "FileError", "NoAnswer", "NoStart", "NotFinite"]
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class Diagnostic:
     key: str  #: dotted path of the key, as ``member.column.elements``; may be empty
     message: str  #: what is wrong, with the value that was found
     cure: str  #: what would be right; may be empty
-    text: str  #: all of it in one line
+    text: str = field(repr=False)  #: all of it in one line
 
     def __str__(self) -> str:
         return self.text
@@ -44,3 +44,15 @@ class FileError(ArcwallError, OSError):
 
 class NoStart(ArcwallError, RuntimeError):
     """There is no equilibrium at which a path could start."""
+
+
+class NoAnswer(ArcwallError, RuntimeError):
+    """What is asked about an event has no answer: it is not on the path, or cannot be followed, for the reason given."""
+
+
+class NotFinite(ArcwallError, ValueError):
+    """A function of a system returned nan or infinity where there must be numbers. ``arcwall_state`` is x and λ there.
+
+    Residuals and derivatives may be no numbers at trial states: the step is shortened. This is raised where no shorter one
+    succeeds.
+    """

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-__all__ = ["Branch", "Contact", "End", "Event", "Events", "Point"]
+from .values import Value
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = [
+    "Branch", "Contact", "Continuum", "End", "Event", "Events", "Landing", "LandingContact", "Point", "WayBack",
+]  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Contact:
+@dataclass(frozen=True, repr=False)
+class Contact(Value):
     """A place of the structure on a wall."""
 
     wall: str
@@ -23,17 +31,70 @@ class Contact:
     pressure: float | None = None  #: [force/length]; None for a point force
 
 
-@dataclass(frozen=True)
-class End:
+@dataclass(frozen=True, repr=False)
+class Continuum(Value):
+    """A continuum of equilibria with one load and energy, of which the path keeps to one or at which it ends."""
+
+    parts: int  #: flat parts on walls, new ones being points yet
+    energy: float  #: total potential [force·length]
+    length: float  #: sum of the lengths of the parts [length]
+
+
+@dataclass(frozen=True, repr=False)
+class End(Value):
     """Why a branch ended."""
 
     reason: str  #: ``stop``, ``closed_loop``, ``max_points``, ``min_step``, …
     detail: str  #: which bound it was; what to try
     partner: int | None = None  #: the branch that it joined or that goes on
+    family: Continuum | None = None  #: that lies ahead
 
 
-@dataclass(frozen=True)
-class Event:
+@dataclass(frozen=True, repr=False)
+class LandingContact(Value):
+    """A contact of a landing, or a stretch of contact."""
+
+    wall: str
+    member: str
+    fraction: float  #: of the member's length, where it begins; nan where it is unknown
+    kind: str  #: ``point`` or ``line``
+    force: float  #: in sum [force]
+
+
+@dataclass(frozen=True, repr=False)
+class Landing(Value):
+    """Where a structure falls to behind an event at which it loses its stability, λ being held.
+
+    ``reason`` says why that was not found, and then all but ``lam`` and ``why`` is None or empty.
+    """
+
+    lam: float  #: λ, that of the event
+    reason: str | None = None  #: None, ``falls_away`` or ``not_found``
+    why: str | None = None  #: the reason in words
+    monitors: Mapping[str, float] = field(default_factory=dict)
+    contacts: tuple[LandingContact, ...] = ()  #: along the members
+    word: str = ""  #: the walls of these, as ``upper lower upper``; ``upper=`` of a stretch
+    energy: float | None = None  #: total potential there [force·length]
+    released: float | None = None  #: energy before less energy behind [force·length]
+    unstable: int | None = None  #: as of points
+    on_branch: int | None = None  #: the branch that passes through the state, if one does
+    arc: float | None = None  #: along it [path metric]
+    back: WayBack | None = None  #: λ taken back from there; None: no loss of stability is known
+    loop: float | None = None  #: energy lost in the hysteresis loop, if that closes [force·length]
+
+
+@dataclass(frozen=True, repr=False)
+class WayBack(Value):
+    """Where the state that was fallen to loses its stability as λ goes back."""
+
+    lam: float
+    kind: str  #: of the event
+    monitors: Mapping[str, float]
+    landing: Landing | None = None  #: where it falls to from there
+
+
+@dataclass(frozen=True, repr=False)
+class Event(Value):
     """A located point of a path at which something happens, as in ``events.json``."""
 
     id: int  #: counts from 0 over all branches
@@ -61,12 +122,15 @@ class Event:
     #: of a branch point: rates of the monitors along the critical mode; of a system of one's own the mode itself
     mode: Any = None
     end: End | None = None  #: of an end
+    family: Continuum | None = None  #: of a change of contact: the branch keeps to one of these from here on
+    #: where the structure falls to; None where it does not, and where ``path.landing`` is not asked for
+    landing: Landing | None = None
     stage: str | None = None
     unstable_dead: int | None = None
 
 
-@dataclass(frozen=True)
-class Branch:
+@dataclass(frozen=True, repr=False)
+class Branch(Value):
     """Arcs joined end to end."""
 
     id: int
@@ -79,8 +143,8 @@ class Branch:
     stage: str | None = None
 
 
-@dataclass(frozen=True)
-class Point:
+@dataclass(frozen=True, repr=False)
+class Point(Value):
     """A converged point of a path: a row of ``path.csv``, with its contacts."""
 
     index: int  #: row of ``path.table``
@@ -103,8 +167,9 @@ class Point:
 class Events(Sequence[Event]):
     """Events in their order. ``events[0]`` is one, ``events["limit-point"]`` those of a kind, ``events[2:4]`` a part."""
 
-    def __init__(self, events: Sequence[Event]):
+    def __init__(self, events: Sequence[Event], kind: str = ""):
         self._events = tuple(events)
+        self._kind = kind  # of which all are; empty: any
 
     @overload
     def __getitem__(self, which: int) -> Event: ...
@@ -114,10 +179,28 @@ class Events(Sequence[Event]):
         if isinstance(which, str):
             if which not in KINDS:
                 raise KeyError(f"{which!r} is no kind of event; there are {', '.join(KINDS)}")
-            return Events([event for event in self._events if event.kind == which])
+            return Events([event for event in self._events if event.kind == which], which)
         if isinstance(which, slice):
-            return Events(self._events[which])
-        return self._events[which]
+            return Events(self._events[which], self._kind)
+        index = operator.index(which)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"there is no event {index}; the path has {len(self)}{self._kind and ' of kind ' + self._kind}")
+        return self._events[index]
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """The events as a pandas DataFrame, one row each: what and where, λ, the monitors, and unstable directions."""
+        import pandas as pd
+
+        names = ["id", "kind", "branch", "step", "point", "lambda"]
+        counts = ["unstable_before", "unstable_after"]
+        monitors = list(self._events[0].monitors) if self._events else []
+        rows = [
+            (e.id, e.kind, e.branch, e.step, e.point, e.lam, *e.monitors.values(), e.unstable_before, e.unstable_after)
+            for e in self._events
+        ]
+        table = pd.DataFrame(rows, columns=[*names, *monitors, *counts])
+        return table.astype(dict.fromkeys(counts, float))
 
     def __len__(self) -> int:
         return len(self._events)
@@ -157,13 +240,50 @@ def _float(value: float | None) -> float:
     return float("nan") if value is None else value
 
 
+def _floats(values: Mapping[str, float | None]) -> dict[str, float]:
+    return {name: _float(value) for name, value in values.items()}
+
+
 def end_of(json: Mapping[str, Any] | None) -> End | None:
-    return None if json is None else End(json["reason"], json["detail"], json.get("partner"))
+    return None if json is None else End(json["reason"], json["detail"], json.get("partner"), _family_of(json))
+
+
+def _family_of(json: Mapping[str, Any]) -> Continuum | None:
+    of = json.get("family")
+    return of and Continuum(of["parts"], _float(of["energy"]), _float(of["length"]))
+
+
+def _landing_of(json: Mapping[str, Any] | None) -> Landing | None:
+    if json is None:
+        return None
+    if "reason" in json:
+        return Landing(_float(json["lambda"]), json["reason"], json["why"])
+    return Landing(
+        lam=_float(json["lambda"]),
+        monitors=_floats(json["monitors"]),
+        contacts=tuple(
+            LandingContact(c["wall"], c["member"], _float(c["fraction"]), c["kind"], _float(c["force"]))
+            for c in json["contacts"]
+        ),
+        word=json["word"],
+        energy=_float(json["energy"]),
+        released=_float(json["released"]),
+        unstable=json["unstable"],
+        on_branch=json.get("on_branch"),
+        arc=json.get("arc"),
+        back=_way_back_of(json.get("back")),
+        loop=json.get("loop"),
+    )
+
+
+def _way_back_of(json: Mapping[str, Any] | None) -> WayBack | None:
+    if json is None:
+        return None
+    return WayBack(_float(json["lambda"]), json["kind"], _floats(json["monitors"]), _landing_of(json.get("landing")))
 
 
 def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None) -> Event:
     """An event as in events.json, on that point of its path."""
-    monitors = {name: _float(value) for name, value in json["monitors"].items()}
     return Event(
         id=json["id"],
         kind=json["kind"],
@@ -172,7 +292,7 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         point=point,
         arc=_float(json["arc"]),
         lam=_float(json["lambda"]),
-        monitors=monitors,
+        monitors=_floats(json["monitors"]),
         unstable_before=json["unstable_before"],
         unstable_after=json["unstable_after"],
         residual=_float(json["residual"]),
@@ -188,6 +308,8 @@ def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None
         branches=tuple(json.get("branches", ())),
         mode=json.get("mode") if mode is None else mode,
         end=end_of(json) if "reason" in json else None,
+        family=_family_of(json),
+        landing=_landing_of(json.get("landing")),
         stage=json.get("stage"),
         unstable_dead=json.get("unstable_dead"),
     )
@@ -213,7 +335,7 @@ def point_of(json: Mapping[str, Any], index: int) -> Point:
         step=json["step"],
         arc=_float(json["arc"]),
         lam=_float(json["lambda"]),
-        monitors={name: _float(value) for name, value in json["monitors"].items()},
+        monitors=_floats(json["monitors"]),
         unstable=json["unstable"],
         stability=json["stability"],
         contacts=tuple(Contact(wall, member, at, x, force, p) for (wall, member, at), x, force, p in json["forces"]),

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _engine
-from .curves import Curve
+from .curves import Curve, row_of
 from .deck import Deck
-from .events import Contact, Point, point_of
+from .events import Point, point_of
+from .shapes import Shape, shape_of
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -21,9 +22,7 @@ if TYPE_CHECKING:
 
     from .studies import Convergence
 
-__all__ = ["ContactMark", "MemberShape", "Path", "Shape", "State", "Tracing", "WallShape", "load"]
-
-_MOST = 2**62  # points
+__all__ = ["Path", "State", "Tracing", "load"]
 
 
 @dataclass(frozen=True)
@@ -33,56 +32,6 @@ class State:
     x: np.ndarray  #: unknowns, as the engine has them (docs/theory.md, sections 1 and 8.1); shape (unknowns,)
     lam: float
     closed: np.ndarray  #: which contacts are closed; bool, shape (contacts,)
-
-
-@dataclass(frozen=True)
-class MemberShape:
-    """A member's axis from end to end, at fixed fractions, at nodes and where contacts are; arrays of one shape (n,).
-
-    Where forces jump (a load, a contact, a support) a point is there twice, before and behind.
-    """
-
-    fraction: np.ndarray  #: of the member's stress-free length
-    x: np.ndarray  #: present place [length]
-    z: np.ndarray
-    ux: np.ndarray  #: displacement from the stress-free shape [length]
-    uz: np.ndarray
-    angle: np.ndarray  #: of the section's normal [rad]
-    rotation: np.ndarray  #: of the section, from the stress-free shape [rad]
-    axial_force: np.ndarray  #: tension is positive [force]
-    moment: np.ndarray  #: positive where it adds to the curvature [force·length]
-
-
-@dataclass(frozen=True)
-class ContactMark:
-    """A closed contact as a picture has it."""
-
-    wall: str
-    member: str
-    fraction: float
-    x: float  #: of the point that touches [length]
-    z: float
-    force: tuple[float, float]  #: of the wall on the structure, along x and z [force]
-    pressure: float | None  #: [force/length]; None for a point force
-
-
-@dataclass(frozen=True)
-class WallShape:
-    """The surface of a wall where the structure may come, at the point's λ."""
-
-    x: np.ndarray  #: [length]
-    z: np.ndarray
-    side: str  #: ``above`` or ``below`` the structure
-
-
-@dataclass(frozen=True)
-class Shape:
-    """What a structure looks like at a point, and what it carries."""
-
-    members: dict[str, MemberShape]
-    contacts: tuple[ContactMark, ...]
-    walls: dict[str, WallShape]
-    lam: float
 
 
 class _Points(Sequence[Point]):
@@ -97,15 +46,11 @@ class _Points(Sequence[Point]):
     def __getitem__(self, which: Any) -> Any:
         if isinstance(which, slice):
             return [self[i] for i in range(*which.indices(len(self)))]
-        index = _index(which, len(self))
+        index = row_of(which, len(self))
         return point_of(self._run.point(index), index)
 
-
-def _index(point: Any, size: int) -> int:
-    index = point.__index__()
-    if not -size <= index < size:
-        raise IndexError(f"there is no point {index}; the path has {size}")
-    return index % size
+    def __repr__(self) -> str:
+        return f"<{len(self)} points of a path>"
 
 
 class Path(Curve):
@@ -119,9 +64,7 @@ class Path(Curve):
     def deck(self) -> Deck:
         """The deck that was traced."""
         name, text, assignments = self._run.description()
-        deck = Deck.parse(text, name=name)
-        deck._set(text, name, assignments)
-        return deck
+        return Deck._of(text.encode(), name, assignments)
 
     @property
     def warnings(self) -> list[str]:
@@ -138,35 +81,20 @@ class Path(Curve):
         """The points as objects, with their contacts and forces."""
         return _Points(self._run)
 
-    def resume(self, *, max_points: int | None = None, max_seconds: float | None = None) -> Path:
-        """Goes on where the path is, to the last bit as if it had never stopped; returns the path itself.
-
-        ``max_points`` counts those of this call. Nothing happens where every branch has ended.
-        """
-        self._run.advance(_limit(max_points), math.inf if max_seconds is None else float(max_seconds))
-        return self
-
     def tracing(self) -> Tracing:
         """Goes on a point at a time."""
         return Tracing(self)
 
     def state(self, point: int) -> State:
         """The state at a point: a copy."""
-        x, lam, closed = self._run.state(_index(point, len(self)))
+        x, lam, closed = self._run.state(row_of(point, len(self)))
         return State(x, lam, np.asarray(closed, dtype=bool))
 
     def shape(self, point: int) -> Shape:
         """The deformed structure at a point of the path: its row in ``table``, or −1 for the last."""
-        index = _index(point, len(self))
+        index = row_of(point, len(self))
         members, contacts, walls = self._run.shape(index)
-        return Shape(
-            members={name: MemberShape(*np.ascontiguousarray(table.T)) for name, table in members.items()},
-            contacts=tuple(
-                ContactMark(wall, member, at, x, z, (fx, fz), p) for (wall, member, at), x, z, fx, fz, p in contacts
-            ),
-            walls={name: WallShape(line[:, 0].copy(), line[:, 1].copy(), side) for name, (line, side) in walls.items()},
-            lam=float(self["lambda"][index]),
-        )
+        return shape_of(members, contacts, walls, float(self["lambda"][index]))
 
     def converge(self, *, levels: int = 3, factor: int = 2) -> Convergence:
         """How sure the events are: the deck on several meshes, as ``deck.converge()``."""
@@ -216,15 +144,6 @@ class Path(Curve):
         return make(*arguments)
 
 
-def _limit(points: int | None) -> int:
-    if points is None:
-        return _MOST
-    count = points.__index__()
-    if count < 0:
-        raise ValueError(f"max_points = {count} is negative")
-    return min(count, _MOST)
-
-
 def _begun(name: str, text: bytes, assignments: list[str]) -> Path:
     return Path(_engine.Run(name, text, assignments))
 
@@ -246,6 +165,9 @@ class Tracing(Iterator[Point]):
         if self.path._run.advance(1, math.inf) == 0:
             raise StopIteration
         return self.path.points[-1]
+
+    def __repr__(self) -> str:
+        return f"<arcwall.Tracing of {self.path!r}>"
 
 
 def load(folder: str | os.PathLike[str]) -> Path:

@@ -8,7 +8,9 @@ import numpy as np
 
 if TYPE_CHECKING:
     from .curves import Curve
-    from .path import Path, Shape
+    from .event_curves import EventCurve
+    from .path import Path
+    from .shapes import Shape
 
 #: Okabe and Ito's palette, as in report.html.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -28,6 +30,12 @@ MARKS = {
     "branch-point": ("*", 10, True),
     "user": ("p", 7, True),
 }
+_SPECIAL_MARKS = {
+    "begins": MARKS["start"],
+    "ends": MARKS["end"],
+    "cusp": MARKS["limit-point"],
+    "crossing": MARKS["branch-point"],
+}
 
 
 def _axes(ax: Any) -> Any:
@@ -38,10 +46,21 @@ def _axes(ax: Any) -> Any:
     return plt.subplots()[1]
 
 
-def _title(path: Curve, name: str) -> str:
-    unit = path.monitors.get(name, "")
-    shown = {"lambda": "load factor λ", "arc": "arc length"}.get(name, name)
-    return f"{shown} [{unit}]" if unit else shown
+def _shown(column: str) -> str:
+    return {"lambda": "load factor λ", "arc": "arc length"}.get(column, column)
+
+
+def _with_unit(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name
+
+
+def _title(path: Curve, column: str) -> str:
+    return _with_unit(_shown(column), path.monitors.get(column, ""))
+
+
+def _draw_mark(ax: Any, x: Any, y: Any, mark: tuple[str, int, bool]) -> None:
+    marker, size, filled = mark
+    ax.plot(x, y, marker, ms=size, mfc="black" if filled else "white", mec="black", zorder=3)
 
 
 def plot(path: Curve, x: str | None, y: str, ax: Any, events: bool) -> Any:
@@ -61,15 +80,40 @@ def plot(path: Curve, x: str | None, y: str, ax: Any, events: bool) -> Any:
             linewidth=1.8,
         )
     for event in path.events if events else ():
-        marker, size, filled = MARKS[event.kind]
-        face = "black" if filled else "white"
-        ax.plot(across[event.point], up[event.point], marker, ms=size, mfc=face, mec="black", zorder=3)
+        _draw_mark(ax, across[event.point], up[event.point], MARKS[event.kind])
     ax.set_xlabel(_title(path, x))
     ax.set_ylabel(_title(path, y))
     if path.title:
         ax.set_title(path.title)
     ax.grid(True, color="#e8eaed")
     return ax
+
+
+def plot_event_curve(curve: EventCurve, x: str, y: str, ax: Any) -> Any:
+    across, up = curve[x], curve[y]
+    ax = _axes(ax)
+    stability = [_stability_beside(*counts) for counts in zip(curve["unstable_before"], curve["unstable_after"])]
+    first = 0
+    for last in range(1, len(curve)):  # a line has the stability of the points behind its first
+        if last + 1 == len(curve) or stability[last + 1] != stability[last]:
+            ax.plot(
+                across[first : last + 1], up[first : last + 1], _DASHES[stability[last]], color=COLOURS[0], linewidth=1.8
+            )
+            first = last
+    for special in curve.specials:
+        _draw_mark(ax, across[special.point], up[special.point], _SPECIAL_MARKS[special.kind])
+    ax.set_xlabel(_with_unit(curve.over if x == "key" else _shown(x), curve.units[x]))
+    ax.set_ylabel(_with_unit(curve.over if y == "key" else _shown(y), curve.units[y]))
+    ax.set_title(f"{curve.event} {curve.number}")
+    ax.grid(True, color="#e8eaed")
+    return ax
+
+
+# Of an event: stable where one side of it is.
+def _stability_beside(before: float, after: float) -> str:
+    if np.isnan(before) or np.isnan(after):
+        return "undecided"
+    return "stable" if min(before, after) == 0.0 else "unstable"
 
 
 def _draw_members(ax: Any, shape: Shape, **style: Any) -> list[Any]:

@@ -9,9 +9,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from . import _engine
-from .curves import Curve
+from .curves import Curve, row_of
 from .events import KINDS, Event, event_of
-from .path import _index, _limit
 
 __all__ = ["Detector", "System", "SystemPath", "trace"]
 
@@ -60,13 +59,20 @@ class SystemPath(Curve):
     def _monitor_column(self, name: str) -> np.ndarray | None:
         if name not in self._monitors:
             return None
-        function = self._monitors[name]
-        values = [float(function(*self._run.state(i)[:2])) for i in range(len(self))]
-        return np.array(values, dtype=float)
+        return np.array([self._monitor(name, *self.state(i)) for i in range(len(self))], dtype=float)
+
+    def _monitor(self, name: str, x: np.ndarray, lam: float) -> float:
+        try:
+            value = np.asarray(self._monitors[name](x, lam))
+            if value.size != 1 or value.dtype.kind not in "fiub":
+                raise TypeError(f"monitor {name!r} returned {value.dtype} of shape {value.shape}; one real number is wanted")
+        except Exception as error:
+            error.arcwall_state = x, lam  # type: ignore[attr-defined]
+            raise
+        return float(value.item())
 
     def _event(self, json: Mapping[str, Any], point: int) -> Event:
-        x, lam, _ = self._run.state(point)
-        values = {name: float(function(x, lam)) for name, function in self._monitors.items()}
+        values = {name: self._monitor(name, *self.state(point)) for name in self._monitors}
         return event_of({**json, "monitors": values}, point, self._run.modes().get(json["id"]))
 
     @property
@@ -76,12 +82,7 @@ class SystemPath(Curve):
 
     def state(self, point: int) -> tuple[np.ndarray, float]:
         """x, shape (n,), and λ at a point."""
-        return self._run.state(_index(point, len(self)))[:2]
-
-    def resume(self, *, max_points: int | None = None, max_seconds: float | None = None) -> SystemPath:
-        """Goes on where the path is; returns the path itself."""
-        self._run.advance(_limit(max_points), math.inf if max_seconds is None else float(max_seconds))
-        return self
+        return self._run.state(row_of(point, len(self)))[:2]
 
     def __reduce__(self) -> Any:
         raise TypeError("a path of a system of one's own cannot be pickled or copied; pickle path.table, path.x or path.events")
@@ -126,33 +127,41 @@ def trace(
     max_points      of a branch
     max_seconds     of this call; ``path.resume()`` goes on
 
-    What a method raises comes out as it is, with the attribute ``arcwall_state``, a pair of x and λ. TypeError and ValueError
-    say what a method returned and what is wanted. Where a residual is not finite the step is shortened, and the branch ends
-    if that does not help; at the start that is NoStart.
+    What a method raises comes out as it is. TypeError and ValueError say what a method returned and what is wanted, NotFinite
+    which number is none: of equations where no shorter step avoids that, at the start NoStart. All of them have the attribute
+    ``arcwall_state``, a pair of x and λ, and but for those of the start ``arcwall_path``, what was traced until then.
     """
+    if isinstance(system, type):
+        raise TypeError(f"a system is an object with methods; give {system.__name__}(…), not the class")
     x = np.array(x0, dtype=float, ndmin=1)
-    if x.ndim != 1 or x.size == 0 or not np.isfinite(x).all() or not math.isfinite(lam0):
-        raise ValueError(f"x0 has shape {x.shape}; one array of finite numbers is wanted, and a finite lam0")
+    if x.ndim != 1 or x.size == 0 or not np.isfinite(x).all():
+        raise ValueError(f"x0 has shape {x.shape}; one array of finite numbers is wanted")
+    start = _number("lam0", lam0)
     wishes = _engine.Wishes()
-    wishes.step, wishes.least_step, wishes.greatest_step = _positive(step, least_step, greatest_step)
-    wishes.max_points, wishes.depth = max(1, max_points), depth
+    wishes.step, wishes.least_step, wishes.greatest_step = _steps(step, least_step, greatest_step)
+    wishes.max_points, wishes.depth = _at_least(1, "max_points", max_points), _at_least(0, "depth", depth)
     wishes.branches = _one_of("branches", branches, ("primary", "follow", "all"))
     wishes.method = _one_of("method", method, ("spherical", "load"))
-    wishes.targets = [*_targets(stop, x.size, True), *_targets(land, x.size, False)]
+    wishes.targets = [*_targets("stop", stop, x.size), *_targets("land", land, x.size)]
     wishes.stop_events = [_one_of("stop_at", kind, KINDS) for kind in ([stop_at] if isinstance(stop_at, str) else stop_at)]
-    wishes.detectors = [_detector(label, of) for label, of in (events or {}).items()]
-    wishes.watch = [_unknown(index, x.size) for index in watch]
+    wishes.detectors = [_detector(label, of) for label, of in _mapping("events", events).items()]
+    wishes.watch = [_unknown(index, x.size) for index in ([watch] if isinstance(watch, int) else watch)]
     metric = np.full(x.size, 1.0 / x.size) if weights is None else np.asarray(weights, dtype=float)
     if metric.shape != x.shape or not (metric >= 0.0).all() or not metric.any():
         raise ValueError(f"weights have shape {metric.shape}; {x.shape} is wanted, not negative and not all zero")
-    run = _engine.SystemRun(system, x, float(lam0), metric, wishes)
-    for name, function in (monitors or {}).items():
+    run = _engine.SystemRun(system, x, start, metric, wishes)
+    for name, function in _mapping("monitors", monitors).items():
         if name in run.column_names() or not isinstance(name, str):
             raise ValueError(f"{name!r} is the name of another column, or none; choose another for this monitor")
         if not callable(function):
             raise TypeError(f"monitor {name!r} is no function of (x, lam)")
     path = SystemPath(run, monitors or {})
-    return path.resume(max_seconds=max_seconds)
+    try:
+        return path.resume(max_seconds=max_seconds)
+    except BaseException as error:
+        if len(path):
+            error.arcwall_path = path  # type: ignore[attr-defined]
+        raise
 
 
 def _one_of(name: str, word: str, words: tuple[str, ...]) -> str:
@@ -161,10 +170,35 @@ def _one_of(name: str, word: str, words: tuple[str, ...]) -> str:
     return word
 
 
-def _positive(step: float, least: float, greatest: float) -> tuple[float, float, float]:
-    if not (step != 0.0 and math.isfinite(step) and 0.0 < least < greatest):
-        raise ValueError(f"step = {step!r} is not zero, and 0 < least_step = {least!r} < greatest_step = {greatest!r}")
-    return float(step), float(least), float(greatest)
+def _number(name: str, value: Any) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"{name} = {value!r} is no finite number")
+    return number
+
+
+def _mapping(name: str, given: Mapping[Any, Any] | None) -> Mapping[Any, Any]:
+    if given is not None and not isinstance(given, Mapping):
+        raise TypeError(f"{name} is a dict, not {type(given).__name__}")
+    return given or {}
+
+
+def _steps(step: float, least: float, greatest: float) -> tuple[float, float, float]:
+    step, least, greatest = _number("step", step), _number("least_step", least), _number("greatest_step", greatest)
+    if not (step != 0.0 and 0.0 < least < greatest):
+        raise ValueError(
+            f"step = {step!r} must be another number than zero, and 0 < least_step = {least!r} < greatest_step = {greatest!r} hold"
+        )
+    return step, least, greatest
+
+
+def _at_least(least: int, name: str, count: Any) -> int:
+    if isinstance(count, bool) or not hasattr(count, "__index__") or not least <= count.__index__() <= 2**31 - 1:
+        raise ValueError(f"{name} = {count!r} is no whole number from {least} on")
+    return int(count.__index__())
 
 
 def _unknown(index: Any, size: int) -> int:
@@ -173,12 +207,17 @@ def _unknown(index: Any, size: int) -> int:
     return index.__index__() % size
 
 
-def _targets(wanted: Mapping[Any, Any] | None, size: int, stops: bool) -> list[tuple[int | None, float, bool, str]]:
+# Bounds of `stop`, or values of `land`.
+def _targets(option: str, wanted: Mapping[Any, Any] | None, size: int) -> list[tuple[int | None, float, bool, str]]:
+    stops = option == "stop"
     targets = []
-    for key, values in (wanted or {}).items():
+    for key, values in _mapping(option, wanted).items():
         unknown = None if key == "lambda" else _unknown(key, size)
         name = "lambda" if unknown is None else f"x[{unknown}]"
-        numbers = [float(value) for value in values]
+        try:
+            numbers = [float(value) for value in values]
+        except (TypeError, ValueError):
+            raise ValueError(f"{option} of {name} is {values!r}; a list of numbers is wanted") from None
         if stops and (len(numbers) != 2 or not numbers[0] < numbers[1]):
             raise ValueError(f"stop of {name} is {values!r}; a pair of a lower and an upper bound is wanted")
         targets += [(unknown, number, stops, f"{name} = {number!r}") for number in numbers if math.isfinite(number)]

@@ -69,12 +69,20 @@ py::object value(const std::string& text, const std::string& file, const Assignm
   const auto found = deck::part_of(whole, key);
   if (const auto* part = std::get_if<deck::DeckPart>(&found)) return python_value(*part->value);
   const auto& none = std::get<deck::NoNumber>(found);
-  throw py::key_error(key + " " + none.message + "; " + none.cure);
+  // The cure of a number that is not there speaks of numbers; here any value is asked for.
+  const bool names_another = none.cure.rfind("did you mean", 0) == 0;
+  throw py::key_error(key + " " + none.message + (names_another ? "; " + none.cure : ""));
 }
 
 }  // namespace
 
 void bind_decks(py::module_& module) {
+  module.def(
+      "require_toml",
+      [](const std::string& text, const std::string& file, const Assignments& assignments) {
+        document(text, file, assignments);
+      },
+      py::arg("text"), py::arg("file"), py::arg("assignments"));
   module.def("read_text_file", &deck::read_text_file, py::arg("file"));
   module.def("written", &written, py::arg("text"), py::arg("file"), py::arg("assignments"));
   module.def("check", &check, py::arg("text"), py::arg("file"), py::arg("assignments"));

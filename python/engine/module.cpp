@@ -12,6 +12,16 @@ void set_error(const char* name, const py::object& argument) {
   PyErr_SetObject(type.ptr(), type(argument).ptr());
 }
 
+// What the program would do by an option.
+std::string in_terms_of_python(std::string text) {
+  const auto replace = [&text](const std::string& option, const std::string& by) {
+    if (const std::size_t at = text.find(option); at != std::string::npos) text.replace(at, option.size(), by);
+  };
+  replace(" with --out", "");
+  replace("with --force", "with force=True");
+  return text;
+}
+
 // The libraries' errors as those of Python.
 void translate(std::exception_ptr thrown) {
   try {
@@ -19,7 +29,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const InputError& error) {
     set_error("DeckError", to_python(error.diagnostics()));
   } catch (const OutputError& error) {
-    set_error("FileError", py::str(error.what()));
+    set_error("FileError", py::str(in_terms_of_python(error.what())));
   }
 }
 
@@ -77,6 +87,7 @@ PYBIND11_MODULE(_engine, module) {
   module.doc() = "The libraries of arcwall; use the package arcwall, which is made of it.";
   module.attr("version") = arcwall::program_version();
   pybind11::register_exception_translator(arcwall::python::translate);
+  arcwall::python::bind_answers(module);
   arcwall::python::bind_decks(module);
   arcwall::python::bind_runs(module);
   arcwall::python::bind_systems(module);

@@ -44,6 +44,7 @@ inline void raise_what_waits() {
 /// An exception of a class of arcwall.errors, with one text.
 [[noreturn]] void raise(const char* name, const std::string& text);
 
+void bind_answers(py::module_& module);
 void bind_decks(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_systems(py::module_& module);

@@ -5,23 +5,17 @@
 #include <utility>
 
 #include "apps/cli/trace_and_write.hpp"
-#include "apps/converge/convergence.hpp"
-#include "apps/converge/convergence_files.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/report_html.hpp"
-#include "model/deck/reader.hpp"
 #include "model/session.hpp"
-#include "model/shape.hpp"
 #include "python/engine/columns.hpp"
+#include "python/engine/interrupt_watch.hpp"
+#include "python/engine/shapes.hpp"
 
 namespace arcwall::python {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 // A session of Python's. While one thread traces it without the interpreter's lock, no other looks inside.
 class Run {
@@ -90,7 +84,6 @@ class Run {
   }
 
  private:
-  static constexpr double between_signals = 0.05;  // [s]
   inline static const BranchEnd stopped{.reason = EndReason::interrupted, .detail = "the path was stopped here"};
 
   // While it lives others are kept out. The interpreter's lock is held when it is made and when it goes.
@@ -130,8 +123,6 @@ const RecordPoint& point_at(const Run& run, Index point) {
   return points[static_cast<std::size_t>(point)];
 }
 
-py::tuple label(const ContactLabel& label) { return py::make_tuple(label.wall, label.member, label.fraction); }
-
 py::dict point(const Run& run, Index index) {
   const RecordPoint& at = point_at(run, index);
   py::dict dict = to_python(point_json(run.record(), at)).cast<py::dict>();
@@ -143,43 +134,12 @@ py::dict point(const Run& run, Index index) {
   return dict;
 }
 
-// --- shapes ---------------------------------------------------------------------------------------------------------
-
-py::array_t<double> member_array(const MemberShape& member) {
-  constexpr py::ssize_t columns = 9;
-  py::array_t<double> array({static_cast<py::ssize_t>(member.points.size()), columns});
-  double* to = array.mutable_data();
-  for (const ShapePoint& at : member.points)
-    for (const double value : {at.fraction, at.position.x(), at.position.y(), at.displacement.x(), at.displacement.y(),
-                               at.angle, at.rotation, at.axial_force, at.moment})
-      *to++ = value;
-  return array;
-}
-
-py::array_t<double> line_array(const std::vector<Vec2>& line) {
-  py::array_t<double> array({static_cast<py::ssize_t>(line.size()), py::ssize_t{2}});
-  double* to = array.mutable_data();
-  for (const Vec2& at : line) {
-    *to++ = at.x();
-    *to++ = at.y();
-  }
-  return array;
-}
-
 // Members with their points, contacts with their forces, and walls.
 py::tuple shape(const Run& run, Index index) {
   const RecordPoint& at = point_at(run, index);
   const Model& model = run.session().model().at_stage(run.record().stage_number(at.branch));
-  const Shape shape = shape_of(model, at.state);
-  py::dict members, walls;
-  py::list contacts;
-  for (const MemberShape& member : shape.members) members[py::str(member.member)] = member_array(member);
-  for (const ContactMark& mark : shape.contacts)
-    contacts.append(py::make_tuple(label(mark.label), mark.position.x(), mark.position.y(), mark.force.x(),
-                                   mark.force.y(), mark.pressure));
-  for (const WallShape& wall : wall_shapes(model, at.lambda))
-    walls[py::str(wall.name)] = py::make_tuple(line_array(wall.line), wall.side == Side::above ? "above" : "below");
-  return py::make_tuple(members, contacts, walls);
+  const auto [members, contacts] = shape_parts(shape_of(model, at.state));
+  return py::make_tuple(members, contacts, walls_at(model, at.lambda));
 }
 
 // --- pages ----------------------------------------------------------------------------------------------------------
@@ -192,28 +152,6 @@ std::string report(const Run& run) {
 
 std::string curve(const Run& run, std::optional<std::size_t> monitor) {
   return curve_html(run.record(), driven_by_lambda(run.session().model().whole_deck()), monitor);
-}
-
-// The content of convergence.json and of convergence.txt.
-py::tuple study(const std::string& file, const std::string& text, const std::vector<std::string>& assignments,
-                int levels, int factor) {
-  const deck::Deck deck = deck::read_deck_text(text, file, assignments);
-  MeshStudy meshes{.levels = levels, .factor = factor};
-  bool interrupted = false;
-  Clock::time_point since = Clock::now();
-  meshes.stopped = [&] {
-    if (seconds_since(since) < 0.05) return false;
-    since = Clock::now();
-    const py::gil_scoped_acquire with_lock;
-    return interrupted = PyErr_CheckSignals() != 0;
-  };
-  const auto found = [&] {
-    const py::gil_scoped_release without_lock;
-    return converge(deck, meshes);
-  }();
-  if (interrupted) throw py::error_already_set();
-  return py::make_tuple(to_python(convergence_json(*found, {.text = text, .assignments = assignments})),
-                        convergence_text(*found));
 }
 
 }  // namespace
@@ -238,8 +176,6 @@ void bind_runs(py::module_& module) {
       .def("report", &report)
       .def("curve", &curve, py::arg("monitor"));
   bind_record(run);
-  module.def("study", &study, py::arg("file"), py::arg("text"), py::arg("assignments"), py::arg("levels"),
-             py::arg("factor"));
 }
 
 }  // namespace arcwall::python

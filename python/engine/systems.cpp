@@ -55,9 +55,9 @@ EventDetector detector_of(const Detector& wanted) {
   const auto& [label, function, direction] = wanted;
   const std::string what = "event function \"" + label + "\"";
   const auto value = [function = function, what](const PathPoint& point) {
-    const double found = number_from(called(function, what, point.state), what);
-    if (!std::isfinite(found))
-      throw py::value_error(what + " is not finite at lam = " + round_trip(point.state.lambda));
+    const double found =
+        asked(function, what, point.state, [&](const py::object& of) { return number_from(of, what); });
+    if (!std::isfinite(found)) raise("NotFinite", "", {.what = what + " is not finite", .state = point.state});
     return found;
   };
   const Crossing crossing = direction == 0 ? Crossing::any : direction > 0 ? Crossing::rising : Crossing::falling;
@@ -113,14 +113,16 @@ class SystemRun {
     if (phase_ == Phase::failed)
       throw std::runtime_error("this path was ended by an exception; what was traced before it is there");
     phase_ = Phase::tracing;
+    Index points = 0;
     try {
-      const Index points = trace(most_points, most_seconds);
-      phase_ = Phase::idle;
-      return points;
+      points = trace(most_points, most_seconds);
     } catch (...) {
       phase_ = Phase::failed;
       throw;
     }
+    phase_ = Phase::idle;
+    if (const auto met = std::exchange(ahead_, std::nullopt)) raise("NotFinite", "no step ahead succeeds: ", *met);
+    return points;
   }
 
   const Record& record() const { return record_; }
@@ -143,7 +145,7 @@ class SystemRun {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < most_seconds;
     };
     Index points = 0;
-    while (points < most_points && (points == 0 || in_time()) && step()) {
+    while (points < most_points && (points == 0 || in_time()) && !ahead_ && step()) {
       ++points;
       raise_what_waits();
     }
@@ -152,17 +154,19 @@ class SystemRun {
 
   bool step() {
     if (ended_) return false;
+    system_.take_not_finite();
     const std::optional<Explorer::Step> step = explorer_.next();
+    const std::optional<NotFinite> met = system_.take_not_finite();
     if (!step) {
-      finish();
+      finish(met);
       return false;
     }
     if (step->branch != branch_) {
-      if (recorder_) recorder_->end(*branch().end);
+      if (recorder_) end_branch(met);
       branch_ = step->branch;
       recorder_.emplace(system_, record_, branch());
     }
-    if (record_.points.empty()) require_equilibrium(step->arc.to);
+    if (record_.points.empty()) require_equilibrium(step->arc.to, met);
     recorder_->add(step->arc);
     // What the program's detectors found is known by their labels.
     const std::size_t first = record_.events.size() - step->arc.events.size();
@@ -171,24 +175,35 @@ class SystemRun {
     return true;
   }
 
+  // A branch that ended since residuals ahead are no numbers has its end in the record before that is raised.
+  void end_branch(const std::optional<NotFinite>& met) {
+    const BranchEnd& end = *branch().end;
+    recorder_->end(end);
+    const bool found_no_step =
+        end.reason == EndReason::not_finite || end.reason == EndReason::min_step || end.reason == EndReason::singular;
+    if (found_no_step) ahead_ = met;
+  }
+
   // A tracer begins where it is told, and corrects the start as far as Newton's method does.
-  void require_equilibrium(const PathPoint& start) {
+  void require_equilibrium(const PathPoint& start, const std::optional<NotFinite>& met) {
     constexpr double nearly = 1e-6;
     if (start.residual <= nearly) return;
     ended_ = true;
-    raise("NoStart", "there is no equilibrium at the start: from x0 Newton's method finds none at lam0 = " +
-                         round_trip(start.state.lambda) + "; the relative residual is " + round_trip(start.residual));
+    if (met) raise("NoStart", no_start, *met);
+    raise("NoStart", no_start + ("from x0 Newton's method finds none at lam0 = " + round_trip(start.state.lambda)) +
+                         "; the relative residual is " + round_trip(start.residual));
   }
 
-  void finish() {
+  void finish(const std::optional<NotFinite>& met) {
     ended_ = true;
-    if (!recorder_) {
-      const BranchEnd end = explorer_.branches().front().end.value();
-      raise("NoStart", "there is no equilibrium at the start: " + std::string(explanation(end.reason)) +
-                           (end.detail.empty() ? "" : " (" + end.detail + ")"));
-    }
-    recorder_->end(*branch().end);
+    if (recorder_) return end_branch(met);
+    if (met) raise("NoStart", no_start, *met);
+    const BranchEnd end = explorer_.branches().front().end.value();
+    raise("NoStart",
+          no_start + std::string(explanation(end.reason)) + (end.detail.empty() ? "" : " (" + end.detail + ")"));
   }
+
+  inline static const std::string no_start = "there is no equilibrium at the start: ";
 
   const BranchRecord& branch() const { return explorer_.branches()[static_cast<std::size_t>(branch_)]; }
 
@@ -198,6 +213,7 @@ class SystemRun {
   std::optional<Recorder> recorder_{};
   int branch_ = -1;
   bool ended_ = false;
+  std::optional<NotFinite> ahead_{};  // of the branch that has just ended; to be raised
   Phase phase_ = Phase::idle;
 };
 

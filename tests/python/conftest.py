@@ -11,6 +11,9 @@ import arcwall
 SOURCE = pathlib.Path(os.environ.get("ARCWALL_SOURCE", pathlib.Path(__file__).parents[2]))
 EXAMPLES = SOURCE / "examples"
 
+# Under the address sanitizer, which is loaded before the interpreter. A program that is built with it must not be given it.
+SANITIZED = "asan" in os.environ.get("LD_PRELOAD", "")
+
 
 @pytest.fixture
 def program():
@@ -18,7 +21,8 @@ def program():
 
     def run(*arguments):
         command = [os.environ.get("TRACE_PATH", SOURCE / "build/dev/apps/trace-path"), *map(str, arguments)]
-        outcome = subprocess.run(command, capture_output=True, text=True)
+        environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+        outcome = subprocess.run(command, capture_output=True, text=True, env=environment)
         assert outcome.returncode in (0, 3, 6), outcome.stderr
         return outcome.stdout
 

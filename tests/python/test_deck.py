@@ -29,6 +29,8 @@ def test_what_the_deck_leaves_out_has_its_default(channel):
 def test_a_key_that_is_not_there_names_the_nearest(channel):
     with pytest.raises(KeyError, match='did you mean "upper"'):
         channel["wall.uper.profile.z"]
+    with pytest.raises(KeyError, match='names nothing: there is no "points" in contact\'$'):
+        channel["contact.points"]
     assert "wall.uper" not in channel
     assert "wall.upper" in channel
 
@@ -39,6 +41,20 @@ def test_setting_a_value_is_what_set_does(channel, program, tmp_path):
     program("run", EXAMPLES / "channel.toml", "--set", "wall.upper.profile.z=0.25", "--set", "member.column.elements=20",
             "--no-pictures", "--out", tmp_path / "run")  # fmt: skip
     assert str(channel) == (tmp_path / "run" / "deck.toml").read_text()
+
+
+# A deck that is varied in place many times stays as long as it was.
+def test_what_was_set_before_is_not_kept(channel):
+    for z in (0.21, 0.22, 0.23):
+        channel["wall.upper.profile.z"] = z
+    assert channel.assignments == ["wall.upper.profile.z=0.23"]
+    channel["load"] = [{"at": "right", "force": [-1.0, 0.0]}]
+    channel["load.0.constant"] = False
+    channel["load"] = [{"at": "right", "force": [-2.0, 0.0]}]
+    assert channel["load"] == [{"at": "right", "force": [-2.0, 0.0]}] and channel.check() == []
+    deck = channel.copy({"curve": {"event": {"kind": "limit-point"}}, "curve.over": "material.steel.E"})
+    deck["curve"] = {"event": {"kind": "branch-point"}, "over": "material.steel.E", "range": [1.0, 1e5]}
+    assert deck["curve.event.kind"] == "branch-point" and deck["curve.range"] == [1.0, 1e5]
 
 
 def test_values_of_every_kind_come_back(channel):

@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES
+from conftest import EXAMPLES, SANITIZED
 
 import arcwall
 from arcwall import Deck, DeckError
@@ -67,6 +67,15 @@ def test_values_that_are_no_numbers_are_diagnosed(channel):
             assert value == 10**30
             continue
         assert deck.check(), value
+
+
+def test_what_is_asked_by_names_is_no_list(channel):
+    path = channel.trace(max_points=2)
+    for mapping in (channel, path):
+        with pytest.raises(TypeError, match="not iterable"):
+            list(mapping)
+    with pytest.raises(TypeError, match="asked for columns by their names"):
+        path[0]
 
 
 def test_deep_values_are_refused(channel):
@@ -197,12 +206,14 @@ sys.modules["kept"] = kept
     assert subprocess.run([sys.executable, "-c", script]).returncode == 0
 
 
-# One process, many traces: what is resident after the first of them is what is there after all.
-def test_memory_is_flat(channel):
-    def resident():
-        with open("/proc/self/statm") as file:
-            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
+
+# One process, many traces: what is resident after the first of them is what is there after all.
+@pytest.mark.skipif(SANITIZED, reason="the sanitizer keeps what is freed")
+def test_memory_is_flat(channel):
     deck = channel.copy({"member.column.elements": 8, "path.max_points": 12})
 
     def traces(count):
@@ -214,4 +225,34 @@ def test_memory_is_flat(channel):
     traces(200)
     before = resident()
     traces(1000)
+    assert resident() - before < 1 << 20
+
+
+@pytest.mark.skipif(SANITIZED, reason="the sanitizer keeps what is freed")
+def test_memory_is_flat_where_systems_raise():
+    class Fold:
+        def residual(self, x, lam):
+            if lam > self.end:
+                raise KeyError("beyond")
+            return x * x + lam
+
+        def jacobian(self, x, lam):
+            return [[2 * x[0]]]
+
+        def dlam(self, x, lam):
+            return [1.0]
+
+    def traces(count):
+        for i in range(count):
+            system = Fold()
+            system.end = -0.5 if i % 2 else 1.0
+            try:
+                assert arcwall.trace(system, [1.0], -1.0, stop={"lambda": (-2, 1)}).events
+            except KeyError as error:
+                assert len(error.arcwall_path)
+        gc.collect()
+
+    traces(100)
+    before = resident()
+    traces(300)
     assert resident() - before < 1 << 20

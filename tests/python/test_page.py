@@ -39,7 +39,7 @@ def test_the_page_names_all_there_is():
     page = (SOURCE / "docs/python.md").read_text()
     for name in set(arcwall.__all__) - {"__version__"}:
         assert name in page, name
-    for kind in (arcwall.Deck, arcwall.Path, arcwall.Curve, arcwall.SystemPath):
+    for kind in (arcwall.Deck, arcwall.Path, arcwall.Curve, arcwall.SystemPath, arcwall.EventCurve, arcwall.Events):
         for method in vars(kind):
             if not method.startswith("_"):
                 assert method in page, f"{kind.__name__}.{method}"

@@ -50,6 +50,15 @@ def test_events_are_those_of_events_json(channel, program, tmp_path):
     assert events[-1].kind == "end" and events[-1].end.reason == "stop"
     with pytest.raises(KeyError, match="no kind of event"):
         events["limit point"]
+    with pytest.raises(IndexError, match="there is no event 1; the path has 1 of kind limit-point"):
+        events["limit-point"][1]
+    with pytest.raises(IndexError, match="there is no event -8; the path has 7"):
+        events[-8]
+    with pytest.raises(TypeError):
+        events[1.0]
+    table = events.table
+    assert list(table["lambda"]) == [event.lam for event in events] and list(table["mid"]) == [e["monitors"]["mid"] for e in stored]
+    assert list(events["branch-point"].table.columns)[:6] == list(table.columns)[:6] and len(events["branch-point"].table) == 0
 
 
 def test_the_table_has_a_row_a_point(channel):
@@ -95,6 +104,15 @@ def test_a_path_is_traced_a_point_at_a_time(channel):
     assert next(tracing, None) is None
 
 
+def test_objects_are_shown_in_a_line(channel):
+    path = channel.trace(max_points=3)
+    start = path.events[0]
+    assert repr(start).startswith("Event(id=0, kind='start', branch=0") and "landing" not in repr(start)
+    assert eval(repr(start), {"Event": arcwall.Event}) == start
+    assert repr(path.points) == "<3 points of a path>" and "3 points" in repr(path.tracing())
+    assert len(repr(path.shape(0))) < 400
+
+
 def test_a_limit_of_points_ends_a_call_alone(channel):
     path = channel.trace(max_points=7)
     assert len(path) == 7 and not path.ended
@@ -105,6 +123,9 @@ def test_a_limit_of_points_ends_a_call_alone(channel):
     assert len(path.resume()) == len(path)
     with pytest.raises(ValueError, match="negative"):
         path.resume(max_points=-1)
+    for seconds in (-1.0, math.nan):
+        with pytest.raises(ValueError, match="is no time"):
+            path.resume(max_seconds=seconds)
 
 
 def test_a_path_that_was_stopped_is_saved_loaded_and_goes_on(channel, program, tmp_path):
@@ -123,7 +144,7 @@ def test_a_path_that_was_stopped_is_saved_loaded_and_goes_on(channel, program, t
 
 def test_run_folders_of_others_are_left_alone(channel, tmp_path):
     (tmp_path / "letter.txt").write_text("dear")
-    with pytest.raises(FileError, match="is not empty"):
+    with pytest.raises(FileError, match="is not empty.*name another folder, or write over it with force=True"):
         channel.trace(max_points=2).save(tmp_path)
     channel.trace(max_points=2).save(tmp_path, force=True, pictures=False)
     with pytest.raises(OSError, match="there is no such folder"):

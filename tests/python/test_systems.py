@@ -12,7 +12,7 @@ import pytest
 import scipy.sparse as sp
 
 import arcwall
-from arcwall import Detector, NoStart
+from arcwall import Detector, NoStart, NotFinite
 
 
 class Function:
@@ -227,8 +227,10 @@ def trace(system, **options):
     ],
 )
 def test_what_a_method_must_not_return_is_named(methods, error, text):
-    with pytest.raises(error, match=text):
+    with pytest.raises(error, match=text) as raised:
         trace(broken(**methods))
+    if callable(methods.get("residual", len)):
+        assert raised.value.arcwall_state[1] == -1.0 and any("at lam = -1" in note for note in raised.value.__notes__)
 
 
 def test_a_sparse_matrix_with_broken_parts_is_refused():
@@ -274,6 +276,7 @@ def test_exceptions_come_out_as_they_are():
     x, lam = error.arcwall_state
     assert x.shape == (1,) and lam > -0.5
     assert any("residual(x, lam) at lam" in note for note in error.__notes__)
+    assert error.arcwall_path["lambda"].max() <= -0.5
     assert "raise error" in "".join(traceback.format_exception(raised.value))
 
 
@@ -281,8 +284,9 @@ def test_exceptions_of_event_functions_too():
     with pytest.raises(ZeroDivisionError) as raised:
         trace(fold(), events={"bad": lambda x, lam: 1 / 0})
     assert any('event function "bad"' in note for note in raised.value.__notes__)
-    with pytest.raises(ValueError, match='event function "bad" is not finite'):
+    with pytest.raises(NotFinite, match='event function "bad" is not finite at lam = ') as raised:
         trace(fold(), events={"bad": lambda x, lam: math.nan})
+    assert raised.value.arcwall_state[0].shape == (1,)
 
 
 def test_a_path_that_an_exception_ended_keeps_its_points_and_says_so():
@@ -302,19 +306,89 @@ def test_a_path_that_an_exception_ended_keeps_its_points_and_says_so():
         path.resume()
 
 
-def test_residuals_that_are_no_numbers_shorten_the_step():
-    # √ of what becomes negative: the step is cut until it is not; the path ends before the bound with a reason.
-    root = Function(
+def with_domain():
+    """x = √(1 − λ): beyond λ = 1 nothing is defined."""
+    return Function(
         lambda x, lam: x - math.sqrt(1 - lam) if lam <= 1 else math.nan,
         lambda x, lam: 1.0,
         lambda x, lam: 0.5 / math.sqrt(1 - lam) if lam < 1 else math.nan,
     )
-    path = arcwall.trace(root, [1.0], stop={"lambda": (-1, 2)}, max_points=300)
-    assert path.ended and path["lambda"].max() <= 1.0 and path.events[-1].end.reason in ("min_step", "not_finite", "singular")
-    with pytest.raises(NoStart, match="no equilibrium at the start"):
-        trace(broken(residual=lambda x, lam: [math.nan]))
-    with pytest.raises(NoStart):
-        trace(broken(jacobian=lambda x, lam: [[math.nan]]))
+
+
+# Trial states may lie beyond: the step is cut until they do not. Where no step is left, that is said with its state, and what
+# was traced is there.
+def test_residuals_that_are_no_numbers_shorten_the_step_and_at_last_end_the_path():
+    assert arcwall.trace(with_domain(), [1.0], stop={"lambda": (-1, 0.999)}).ended
+    ahead = r"no step ahead succeeds: (residual|dlam)\(x, lam\) returned nan in entry 0 at lam = 1"
+    with pytest.raises(NotFinite, match=ahead) as raised:
+        arcwall.trace(with_domain(), [1.0], stop={"lambda": (-1, 2)}, max_points=300)
+    x, lam = raised.value.arcwall_state
+    path = raised.value.arcwall_path
+    assert x.shape == (1,) and 1.0 <= lam < 1.1
+    assert path.ended and 0.99 < path["lambda"].max() <= 1.0 and len(path.table) == len(path)
+    assert path.events[-1].end.reason in ("min_step", "not_finite", "singular")
+    assert path.resume() is path  # and it is said once
+
+
+# One branch of several leaves its domain: the others are traced when one goes on.
+def test_other_branches_go_on_behind_one_that_leaves_its_domain():
+    def half(x, lam):
+        return math.nan if x[0] > 0.5 else pitchfork().residual(x, lam)[0]
+
+    system = pitchfork()
+    whole, system.residual = system.residual, lambda x, lam: np.array([half(x, lam)])
+    options = dict(stop={"lambda": (-1.5, 1.0)}, branches="all", step=0.1)
+    with pytest.raises(NotFinite) as raised:
+        arcwall.trace(system, [0.0], -1.0, **options)
+    path = raised.value.arcwall_path.resume()
+    assert path.ended and len(path.branches) == 3
+    system.residual = whole
+    assert path["lambda"].size < len(arcwall.trace(system, [0.0], -1.0, **options))
+    assert sorted(branch.end.reason == "stop" for branch in path.branches) == [False, True, True]
+
+
+@pytest.mark.parametrize(
+    "methods, error, text",
+    [
+        (dict(residual=lambda x, lam: [math.nan]), NoStart, r"start: residual\(x, lam\) returned nan in entry 0 at lam = -1"),
+        (dict(residual=lambda x, lam: [-math.inf]), NoStart, "returned -inf in entry 0"),
+        (dict(jacobian=lambda x, lam: [[math.nan]]), NoStart, r"jacobian\(x, lam\) returned nan in entry \(0, 0\) at lam = -1"),
+        (dict(jacobian=lambda x, lam: sp.csc_matrix([[math.inf]])), NoStart, r"jacobian.*inf in entry \(0, 0\)"),
+        (dict(dlam=lambda x, lam: [math.nan]), NoStart, r"dlam\(x, lam\) returned nan in entry 0 at lam = -1"),
+        (dict(energy=lambda x, lam: math.nan), NotFinite, r"energy\(x, lam\) returned nan at lam = -1"),
+    ],
+)
+def test_numbers_that_are_none_are_named_with_their_state(methods, error, text):
+    with pytest.raises(error, match=text) as raised:
+        trace(broken(**methods))
+    x, lam = raised.value.arcwall_state
+    assert x.tolist() == [1.0] and lam == -1.0
+    assert isinstance(raised.value, arcwall.ArcwallError)
+
+
+@pytest.mark.parametrize("convert", [np.array, sp.csc_matrix])
+@pytest.mark.parametrize("place", [(0, 1), (1, 0)])
+def test_a_jacobian_is_looked_at_on_both_sides(convert, place):
+    class Holed(Pendulums):
+        def jacobian(self, a, lam):
+            J = Pendulums.jacobian(self, a, lam)
+            J[place] = math.nan
+            return convert(J)
+
+    with pytest.raises(NoStart, match=rf"nan in entry \({place[0]}, {place[1]}\)"):
+        arcwall.trace(Holed(), [0.0, 0.0])
+
+
+def test_monitors_that_give_no_number_are_named_with_their_state():
+    path = trace(fold(), monitors={"m": lambda x, lam: [1.0, 2.0], "n": lambda x, lam: 1 / 0, "o": lambda x, lam: None})
+    for name, error, text in [
+        ("m", TypeError, r"monitor 'm' returned float64 of shape \(2,\); one real number is wanted"),
+        ("n", ZeroDivisionError, "division"),
+        ("o", TypeError, "monitor 'o' returned object"),
+    ]:
+        with pytest.raises(error, match=text) as raised:
+            path[name]
+        assert raised.value.arcwall_state[1] == -1.0
 
 
 def test_starts_that_are_none_are_refused():
@@ -334,6 +408,11 @@ def test_starts_that_are_none_are_refused():
         dict(step=0.0),
         dict(step=math.nan),
         dict(least_step=1.0, greatest_step=0.1),
+        dict(max_points=0),
+        dict(max_points=2.5),
+        dict(depth=-1),
+        dict(max_points=10**12),
+        dict(max_seconds=-1.0),
         dict(branches="every"),
         dict(method="newton"),
         dict(stop_at=["limit point"]),
@@ -341,6 +420,9 @@ def test_starts_that_are_none_are_refused():
         dict(stop={1: (0, 1)}),
         dict(stop={"lambda": (1, 0)}),
         dict(stop={"lambda": (0, 1, 2)}),
+        dict(stop={"lambda": 1.0}),
+        dict(land={"lambda": 1.0}),
+        dict(step="long"),
         dict(watch=[5]),
         dict(weights=[1.0, 2.0]),
         dict(weights=[-1.0]),
@@ -350,6 +432,18 @@ def test_starts_that_are_none_are_refused():
 def test_options_that_mean_nothing_are_refused(options):
     with pytest.raises(ValueError):
         arcwall.trace(fold(), [1.0], -1.0, **options)
+
+
+def test_options_of_other_kinds_are_refused():
+    for option in ("stop", "land", "events", "monitors"):
+        with pytest.raises(TypeError, match=f"{option} is a dict, not list"):
+            arcwall.trace(fold(), [1.0], -1.0, **{option: [3]})
+    with pytest.raises(TypeError, match=r"give Pendulums\(…\), not the class"):
+        arcwall.trace(Pendulums, [0.0, 0.0])
+    for lam0 in ([0.0], "x", math.nan, None):
+        with pytest.raises(ValueError, match="lam0 = .* is no finite number"):
+            arcwall.trace(fold(), [1.0], lam0)
+    assert len(trace(fold(), watch=0).events["displacement-limit"]) == 0
 
 
 def test_event_functions_that_are_none_are_refused():
