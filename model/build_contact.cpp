@@ -333,15 +333,61 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
           candidates.push_back(std::move(candidate));
         }
     }
-    if (deepest.depth > round_off)
+    if (deepest.depth > wall.interference + round_off)
       problems.add(wall.position, "wall." + wall.name,
-                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.4g}",
-                               deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth),
+                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.4g}{}",
+                               deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth,
+                               wall.interference > 0.0 ? ", more than its interference" : ""),
                    how_to_part(wall, deepest));
   }
   constexpr double near = 1e-6;  // of the structure's length
   join_opposite(touches, known, near * structure.length_scale(), candidates, problems);
   return candidates;
+}
+
+namespace {
+
+// The normal of a wall into the free side where the stress-free structure is deepest in it, or nearest to it: at nodes
+// and between them, where a wall may be narrower than an element.
+Vec2 way_out(const deck::Wall& wall, const Structure& structure) {
+  constexpr int parts = 100;  // of an element
+  const State rest{.x = Vector::Zero(structure.size({}))};
+  double least = infinity;
+  Vec2 normal = Vec2::Zero();
+  for (const MemberMesh& mesh : structure.members()) {
+    if (!concerns(wall, mesh.name)) continue;
+    const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall, kept_off(wall, mesh.height.value_or(0.0)));
+    const auto look_at = [&](const Vec2& place) {
+      const LinearField gap = obstacle->gap_slope(place, 0.0);
+      if (!(gap.value < least)) return;
+      least = gap.value;
+      normal = Vec2(gap.x, gap.z).normalized();
+    };
+    std::vector<Vec2> before;
+    for (const MemberSection& section : mesh.contact_sections()) {
+      std::vector<Vec2> here;
+      for (const double offset : offsets(wall, mesh, section))
+        here.push_back(MemberPoint(structure, section, offset).position(rest));
+      for (const Vec2& place : here) look_at(place);
+      for (std::size_t face = 0; face < std::min(before.size(), here.size()); ++face)
+        for (int part = 1; part < parts; ++part)
+          look_at(before[face] + (here[face] - before[face]) * (double(part) / parts));
+      before = std::move(here);
+    }
+  }
+  return normal;
+}
+
+}  // namespace
+
+deck::Deck with_walls_of_ramp(deck::Deck deck, const Structure& structure) {
+  for (deck::Wall& wall : deck.walls) {
+    wall.motion.reset();
+    if (wall.interference == 0.0) continue;
+    const Vec2 way = wall.interference * way_out(wall, structure);
+    wall.motion = deck::WallMotion{.x = way.x(), .z = way.y(), .progress = {.constant = -1.0, .proportional = 1.0}};
+  }
+  return deck;
 }
 
 bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b) {

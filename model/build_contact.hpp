@@ -40,6 +40,11 @@ PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& str
 std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structure& structure,
                                           const PinchedPlaces& known, DeckProblems& problems);
 
+/// The deck with its walls as they are while what is constant grows with λ from 0 to 1: at rest, but for those with an
+/// interference, which come to their places. Such a wall comes along its normal where the stress-free structure is
+/// deepest in it.
+deck::Deck with_walls_of_ramp(deck::Deck deck, const Structure& structure);
+
 /// Whether the same walls concern two members.
 bool same_walls(const deck::Deck& deck, const std::string& a, const std::string& b);
 

@@ -96,10 +96,9 @@ std::string start_outside_bounds(const deck::Path& path) {
          ": the path ends where it comes back";
 }
 
-// While what is constant is applied, walls do not move.
-deck::Deck with_walls_at_rest(deck::Deck deck) {
-  for (deck::Wall& wall : deck.walls) wall.motion.reset();
-  return deck;
+bool has_interference(const deck::Deck& deck) {
+  return std::any_of(deck.walls.begin(), deck.walls.end(),
+                     [](const deck::Wall& wall) { return wall.interference > 0.0; });
 }
 
 std::vector<Theory> theories_of(const deck::Deck& deck) {
@@ -174,6 +173,10 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
                    "use method \"spherical\"");
   for (const deck::Prescribed& moved : deck.prescribed)
     problems.add(moved.position, "prescribed", "method \"incremental\" moves no supports", "use method \"spherical\"");
+  for (const deck::Wall& wall : deck.walls)
+    if (wall.interference > 0.0)
+      problems.add(wall.position, "wall.interference", "method \"incremental\" pushes no walls to their places",
+                   "use method \"spherical\"");
   return possible;
 }
 
@@ -222,7 +225,8 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   if (!sliding) sliding_structure_.reset();
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   for (const LooseHolds::Hold& hold : loose_holds_.holds) held_.push_back(described.places.joints.at(hold.point));
-  if (sliding_ && stage_ == 0 && problems.empty()) check_between_nodes(deck_, *sliding_, problems);
+  if (sliding_ && stage_ == 0 && problems.empty())
+    check_between_nodes(deck_, sliding_ramp_ ? *sliding_ramp_ : *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
                   : body_of(*structure_, theories_of(deck_), incremental_structure_.get());
   const Measured read_off{.structure = *structure_,
@@ -313,8 +317,9 @@ std::optional<std::string> Model::adrift(const State& state) const {
 void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding) {
   const auto constant = [](const auto& driven) { return driven.constant; };
   const bool ramp =
-      stage_ == 0 && (std::any_of(whole_deck_.loads.begin(), whole_deck_.loads.end(), constant) ||
-                      std::any_of(whole_deck_.prescribed.begin(), whole_deck_.prescribed.end(), constant));
+      stage_ == 0 &&
+      (std::any_of(whole_deck_.loads.begin(), whole_deck_.loads.end(), constant) ||
+       std::any_of(whole_deck_.prescribed.begin(), whole_deck_.prescribed.end(), constant) || has_interference(deck_));
   if (ramp) ramp_structure_ = builder.build(true);
   if (!deck_.walls.empty()) {
     const auto held = loose_holds_.empty() ? nullptr : held_structure(false);
@@ -325,7 +330,8 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
     DeckProblems known(deck_.source);  // those of the structure itself
     if (ramp)
       ramp_contact_ = std::make_unique<MultiplierContact>(
-          *ramp_structure_, contact_candidates(with_walls_at_rest(deck_), *ramp_structure_, {}, known), scales, law);
+          *ramp_structure_, contact_candidates(with_walls_of_ramp(deck_, *structure_), *ramp_structure_, {}, known),
+          scales, law);
     if (sliding) make_sliding(builder, ramp, scales);
   }
 }
@@ -343,7 +349,7 @@ void Model::make_sliding(const StructureBuilder& builder, bool ramp, const Conta
   sliding_ = on(*sliding_structure_, deck_);
   if (!ramp) return;
   sliding_ramp_structure_ = sliding_structure(builder, true);
-  sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_at_rest(deck_));
+  sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_of_ramp(deck_, *structure_));
 }
 
 const System& Model::system() const {
@@ -375,7 +381,7 @@ std::optional<State> Model::start(std::string& reason) const {
   options.target_values.push_back(
       {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
   if (!loose_holds_.empty()) {
-    options.lambda_scale = lambda_scale_if_held(with_walls_at_rest(deck_), true);
+    options.lambda_scale = lambda_scale_if_held(with_walls_of_ramp(deck_, *structure_), true);
     options.corner.max_enumerated = 0;
   }
   const System* ramp = ramp_structure_.get();

@@ -28,8 +28,14 @@ ExitStatus curve(const Options& options) {
                     file));
   const InterruptGuard interrupts;
   const bool quiet = options.has("quiet");
-  const std::filesystem::path out = options.text("out").value_or(std::filesystem::path(file).stem().string());
+  const std::filesystem::path out =
+      options.text("out").value_or(std::filesystem::path(file).stem().string() + "-curve");
   require_other_than_input(out, file);
+  if (std::filesystem::exists(out / "result.json") && !options.has("force"))
+    throw OutputError(
+        fmt::format("{}: is the folder of a run, whose report.html the curve's would replace; give --out another "
+                    "folder, or --force",
+                    out.string()));
   const OutputFolder folder(out, std::filesystem::path(file).filename().string(),
                             options.has("force") ? Foreign::overwrite : Foreign::refuse);
   if (deck.curve->over.empty()) {
@@ -63,7 +69,8 @@ Command curve_command() {
                       .example = "trace-path curve channel.toml --set curve.range=[0.15,0.25]",
                       .usage = "DECK [options]",
                       .summary = "follows an event while a number of the deck varies",
-                      .options = {{"out", "DIR", "folder to write into (default: the deck's name without its ending)"},
+                      .options = {{"out", "DIR",
+                                   "folder to write into (default: the deck's name without its ending, and -curve)"},
                                   {"force", "", "write into DIR though something else filled it"},
                                   {"no-units", "", "no units in the titles of curve.csv"},
                                   {"quiet", "", "no table"},

@@ -1,11 +1,9 @@
 #include "apps/output/report_data.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 #include "apps/output/event_marks.hpp"
@@ -26,7 +24,11 @@ namespace {
 // Ten digits are more than a picture shows, and half as long as all of them.
 OrderedJson number(double value, int digits = 10) {
   if (!std::isfinite(value)) return nullptr;
-  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+  std::array<char, 64> text;
+  const auto written = std::to_chars(text.begin(), text.end(), value, std::chars_format::general, digits);
+  double rounded = value;
+  std::from_chars(text.begin(), written.ptr, rounded);
+  return rounded;
 }
 
 OrderedJson count(const std::optional<Index>& value) { return value ? OrderedJson(*value) : OrderedJson(nullptr); }

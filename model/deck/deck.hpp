@@ -404,6 +404,7 @@ struct Wall {
   std::variant<FlatProfile, LineProfile, CircleProfile, ParabolaProfile, SplineProfile> profile{};
   std::optional<Outline> outline{};  ///< instead of side and profile
   double corner_radius = 0.0;        ///< of a polyline [length]
+  double interference = 0.0;         ///< so far it begins moved back from the structure [length]
   std::optional<WallMotion> motion{};
 
   bool operator==(const Wall&) const = default;

@@ -108,6 +108,9 @@ void wall_keys(Keys& keys, Wall& wall, const Deck& deck) {
         "profile", Form::dotted, [&](Keys& of) { profile_keys(of, wall); },
         "z = ψ(x), one of the following; or an `outline`");
   outline_keys(keys, wall);
+  keys.number(optional("interference"), wall.interference, unit::length, not_negative,
+              "the wall begins moved back by so much and is pushed to its place while the constant loads grow: the "
+              "structure may be inside of it at rest");
   keys.part("motion", wall.motion, [&](WallMotion& motion) { motion_keys(keys, motion); });
   check_faces(keys, deck, wall);
 }

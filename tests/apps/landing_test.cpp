@@ -181,9 +181,9 @@ TEST(Landing, BeginsContactThatSlidesWhereThePathDoesNotPass) {
 }
 
 // An arch under a load along it snaps onto a floor: onto a point of it, along a part that is pressed, and from end to
-// end where the floor is as high as the hinges. Where the path passes the state it is that of the path, which was traced
-// to it through every change of contact.
-TEST(Landing, OnAFloorIsThatOfThePathWhereverThatEnds) {
+// end where the floor is as high as the hinges. Where the path passes the state it is that of the path, which was
+// traced to it through every change of contact.
+TEST(Landing, OnAFloorIsThatOfThePathWhereverThatEndsSlow) {
   const std::string arch = R"toml(
 title = "An arch above a floor"
 material.m = { E = 21000.0, nu = 0.29 }

@@ -1,0 +1,82 @@
+// Walls into which the structure reaches at rest, and which are pushed to their places before the path starts.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/error.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall::interference_test {
+namespace {
+
+using test::TracedDeck;
+
+// A beam of EI = 1 and span 2, pressed endwise, with walls of its own.
+std::string beam(const std::string& walls) {
+  return R"toml(
+title = "A beam with preloaded stops"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e4, I = 1.0 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+load = [{ at = "B", force = [-1.0, 0.0] }]
+member.beam = { from = "A", to = "B", theory = "elastica", elements = 12, material = "m", section = "s" }
+path = { step = 0.1, stop = { lambda = [-1.0, 0.5] } }
+monitor = [{ name = "up", wall = "under", component = "force-z" }, { name = "third", at = "beam:0.6666666666666666", component = "z" }]
+)toml" + walls;
+}
+
+// A round stop whose nearest point is at x and z.
+std::string stop(const std::string& name, double x, double z, bool under, double interference) {
+  const double radius = 0.1, centre = under ? z - radius : z + radius;
+  return "[[wall]]\nname = \"" + name + "\"\nacts_on = \"axis\"\noutline = { type = \"circle\", centre = [" +
+         std::to_string(x) + ", " + std::to_string(centre) +
+         "], radius = 0.1 }\ninterference = " + std::to_string(interference) + "\n";
+}
+
+double at_start(const TracedDeck& traced, std::size_t monitor) {
+  return traced.record().points.front().monitors.at(monitor);
+}
+
+}  // namespace
+
+// In small slopes a stop that lifts the middle by d bears 48 EI d/L³.
+TEST(Interference, OfAStopUnderTheMiddlePreloadsIt) {
+  for (const std::string points : {"sliding", "nodes"}) {
+    const TracedDeck traced(beam(stop("under", 1.0, 1e-4, true, 2e-4)), {"contact.points=\"" + points + "\""});
+    EXPECT_NEAR(at_start(traced, 0), 48.0 * 1e-4 / 8.0, 1e-9) << points;
+    EXPECT_EQ(traced.record().points.front().count.unstable, 0) << points;
+  }
+}
+
+// How far the wall was moved back does not matter.
+TEST(Interference, LeadsToTheSameStateFromFarther) {
+  const std::string walls = stop("under", 0.9, 0.05, true, 0.06);
+  const TracedDeck near(beam(walls)), far(beam(walls), {"wall.under.interference=0.4"});
+  EXPECT_GT(at_start(near, 0), 0.1);
+  EXPECT_NEAR(at_start(far, 0), at_start(near, 0), 1e-9);
+  EXPECT_NEAR(far.record().points.back().monitors[0], near.record().points.back().monitors[0], 1e-8);
+}
+
+// Stops from both sides at the thirds: each half of the beam is a beam of span L/2 with one of the forces,
+// P = 486 EI d/L³ in small slopes. Slopes of 10⁻⁴ move the contacts along the round stops, which changes that by some
+// 10⁻⁵ of it.
+TEST(Interference, OfStopsOnBothSidesHoldsBoth) {
+  const TracedDeck traced(
+      beam(stop("under", 2.0 / 3.0, 1e-4, true, 1e-4) + stop("over", 4.0 / 3.0, -1e-4, false, 1e-4)));
+  EXPECT_NEAR(at_start(traced, 0), 486.0 * 1e-4 / 8.0, 1e-6);
+  EXPECT_NEAR(at_start(traced, 1), -1e-4, 1e-8);
+}
+
+TEST(Interference, ThatIsTooSmallIsRefused) {
+  try {
+    const TracedDeck traced(beam(stop("under", 1.0, 0.01, true, 0.005)));
+    FAIL() << "it was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is inside the wall at the start: node beam:0.5 by 0.01, more than its"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace arcwall::interference_test

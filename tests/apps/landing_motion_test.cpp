@@ -1,0 +1,213 @@
+// Where structures fall to, against a slow motion of another step rule among walls that are stiff springs; and what is
+// lost in a loop, against the work of the load around it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/algebra/factorization.hpp"
+#include "core/linearization.hpp"
+#include "model/deck_mesh.hpp"
+#include "tests/apps/deck_texts.hpp"
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall::landing_motion_test {
+namespace {
+
+using test::TracedDeck;
+using Assignments = std::vector<std::string>;
+
+// Closed where a node is inside a wall, open elsewhere.
+State with_contacts_where_inside(const UnilateralSystem& system, const State& state) {
+  const Vector guards = system.guards(state);
+  Piece piece = state.piece;
+  for (std::size_t j = 0; j < piece.size(); ++j)
+    if (guards[static_cast<Index>(j)] < 0.0) piece[j] = piece[j] != 0 ? 0 : 1;
+  return system.with_piece(state, piece);
+}
+
+// μ W ẋ = −F at fixed λ by steps of one Newton iteration each, no longer than a hundredth; μ doubles while K + μ W has
+// negative eigenvalues and else falls by a tenth.
+State slow_motion(const UnilateralSystem& system, State state) {
+  constexpr double longest = 0.01, at_rest = 1e-11;
+  Linearization at;
+  const auto solver = make_ldlt();
+  double mu = 1.0;
+  for (int step = 0; step < 20000; ++step) {
+    state = with_contacts_where_inside(system, state);
+    const Vector weights = system.weights(state.piece);
+    const Index multipliers = system.multiplier_count(state.piece);
+    for (;; mu *= 2.0) {
+      system.linearize(state, at);
+      for (Index i = 0; i < weights.size(); ++i) at.K.coeffRef(i, i) += mu * weights[i];
+      const bool factored = solver->factorize(at.K, {.multipliers = multipliers}) == FactorStatus::ok;
+      if (factored && solver->inertia() && solver->inertia()->negative == multipliers) break;
+      if (mu > 1e12) throw std::runtime_error("no step is convex");
+    }
+    Matrix dx = -at.F;
+    solver->solve(dx);
+    const double length = std::sqrt((weights.array() * dx.col(0).array().square()).sum());
+    state.x += std::min(1.0, longest / length) * dx.col(0);
+    if (length < at_rest) return state;
+    mu *= 0.9;
+  }
+  throw std::runtime_error("no rest");
+}
+
+struct Problem {
+  std::string name, deck;
+  Assignments assignments{};
+  double tolerance = 1e-8;  // of monitors, by the size of the structure
+};
+
+std::ostream& operator<<(std::ostream& out, const Problem& problem) { return out << problem.name; }
+
+std::string arch_above(const std::string& floor) {
+  return R"toml(
+title = "An arch above a floor"
+material.m = { E = 21000.0, nu = 0.29 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { l = [0.0, 0.0], r = [2.0, 0.0] }
+support = { l = ["x", "z"], r = ["x", "z"] }
+member.arch = { from = "l", to = "r", sine = { rise = 0.1, waves = 1 }, theory = "elastica", elements = 40, material = "m", section = "s" }
+load = [{ on = "arch", distributed = [0.0, -1.0] }]
+path = { step = 0.01, landing = true, stop = { lambda = [-0.05, 0.2] } }
+monitor = [{ name = "quarter", at = "arch:0.25", component = "z" }]
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = )toml" +
+         floor + " } }]\n";
+}
+
+const std::string bars_above_a_stop = R"toml(
+title = "Two bars above a stop"
+material.m = { E = 1e4 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "top", force = [0.0, -1.0] }]
+monitor = [{ name = "w", at = "top", component = "z" }]
+wall = [{ name = "stop", side = "below", acts_on = "axis", profile = { type = "flat", z = -0.5 } }]
+path = { step = 0.3, landing = true, stop = { lambda = [-5.0, 5.0] } }
+)toml" + test::two_bars;
+
+// With walls nodes touch where the path has contact between them, and springs give way.
+std::vector<Problem> problems() {
+  constexpr double of_nodes = 0.02;
+  const std::string channel(test::example("channel")), arch(test::example("arch"));
+  const auto landing = [](Assignments more = {}) {
+    more.emplace_back("path.landing=true");
+    return more;
+  };
+  return {
+      {"ShallowArch", arch, landing()},
+      {"TwoBars", std::string(test::example("truss")), landing()},
+      {"Lee", std::string(test::example("lee")), landing()},
+      {"TwoBarsOnAStop", bars_above_a_stop, {}, 1e-5},
+      {"Channel", channel, landing(), of_nodes},
+      {"NarrowerChannel", channel, landing({"wall.upper.profile.z=0.19"}), of_nodes},
+      {"ArchOnALowFloor", arch_above("-0.08"), {}, 1e-5},
+      {"ArchOnAFloor", arch_above("-0.06"), {}, 1e-5},
+      {"ArchPressedOnAFloor", arch_above("-0.02"), {}, 1e-3},
+      {"ArchAlongAFloor", arch_above("0.0"), {}, 1e-3},
+  };
+}
+
+class FallenStructure : public testing::TestWithParam<Problem> {};
+
+}  // namespace
+
+TEST_P(FallenStructure, IsWhereASlowMotionAmongSpringsEnds) {
+  const Problem& problem = GetParam();
+  const TracedDeck traced(problem.deck, problem.assignments);
+  int fallen = 0;
+  for (const RecordEvent& event : traced.record().events) {
+    if (!event.landing || !event.landing->reason.empty()) continue;
+    ++fallen;
+    // The same deck with its contact at nodes and walls that give way.
+    Assignments assignments = problem.assignments;
+    if (traced.model().contact() != nullptr)
+      for (const char* set : {"contact.method=\"penalty\"", "contact.penalty=1e7"}) assignments.emplace_back(set);
+    const Session soft({.deck = "deck.toml", .deck_text = problem.deck, .assignments = assignments});
+    const DeckMesh mesh(traced.model()), soft_mesh(soft.model());
+    const auto& points = traced.record().points;
+    const auto at = std::find_if(points.begin(), points.end(), [&](const RecordPoint& point) {
+      return point.branch == event.branch && point.step == event.step;
+    });
+    const Vector here = mesh.unknowns(at->state), behind = mesh.unknowns((at + 1)->state) - here;
+    const double far = mesh.distance(behind, Vector::Zero(behind.size()));
+    const Piece piece = soft.model().contact() ? soft.model().contact()->open_piece() : Piece();
+    State start{.x = Vector::Zero(soft_mesh.system().size(piece)), .lambda = event.lambda, .piece = piece};
+    start.x.head(here.size()) = here + std::max(1.0, 0.03 / far) * behind;
+    const State rest = slow_motion(soft_mesh.system(), start);
+
+    for (std::size_t m = 0; m < traced.model().monitors().size(); ++m) {
+      // As soft() reads it: its states have the deck's mesh.
+      const double found = soft.model().monitors()[m].quantity->value(rest);
+      const double size = traced.model().structure().length_scale();
+      EXPECT_NEAR(found, event.landing->monitors[m], problem.tolerance * size)
+          << traced.model().monitors()[m].name << " of event " << event.id;
+    }
+  }
+  EXPECT_GT(fallen, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Problems, FallenStructure, testing::ValuesIn(problems()),
+                         [](const auto& problem) { return problem.param.name + "Slow"; });
+
+// ∮ q dλ around the loop: q of the branch that is fallen to less q of the one that is left, by Gauss' rule with 16
+// points in t, λ = λ₂ − (λ₂ − λ₁) t², as q goes with the root of λ₂ − λ at the limit point.
+TEST(HysteresisLoop, LosesTheWorkOfTheLoadSlow) {
+  const std::string channel(test::example("channel"));
+  const Assignments landing{"path.landing=true"};
+  const TracedDeck first(channel, landing);
+  const RecordEvent& snap = event_of(first, EventKind::limit_point);
+  ASSERT_TRUE(snap.landing && snap.landing->back && snap.landing->loop);
+  const double top = snap.lambda, bottom = snap.landing->back->lambda;
+
+  constexpr std::array<std::pair<double, double>, 8> gauss{{{0.0950125098376374, 0.1894506104550685},
+                                                            {0.2816035507792589, 0.1826034150449236},
+                                                            {0.4580167776572274, 0.1691565193950025},
+                                                            {0.6178762444026438, 0.1495959888165767},
+                                                            {0.7554044083550030, 0.1246289712555339},
+                                                            {0.8656312023878318, 0.0951585116824928},
+                                                            {0.9445750230732326, 0.0622535239386479},
+                                                            {0.9894009349916499, 0.0271524594117541}}};
+  struct Place {
+    double lambda, weight;
+  };
+  std::vector<Place> places;
+  std::string land;
+  for (const auto& [node, weight] : gauss)
+    for (const double sign : {-1.0, 1.0}) {
+      const double t = 0.5 * (1.0 + sign * node);
+      places.push_back({.lambda = top - (top - bottom) * t * t, .weight = 0.5 * weight * 2.0 * t * (top - bottom)});
+      char text[40];
+      std::snprintf(text, sizeof text, "%.17g", places.back().lambda);
+      land += (land.empty() ? "" : ", ") + std::string(text);
+    }
+  const TracedDeck dense(channel, {"path.landing=true", "path.land={lambda=[" + land + "]}"});
+  const std::size_t shortening = [&] {
+    const auto& monitors = dense.model().monitors();
+    for (std::size_t m = 0; m < monitors.size(); ++m)
+      if (monitors[m].name == "shortening") return m;
+    throw std::runtime_error("the example has no monitor of its end");
+  }();
+  const RecordEvent& turn = event_of(dense, EventKind::limit_point);
+  double area = 0.0;
+  for (const Place& place : places) {
+    double before = NAN, behind = NAN;
+    for (const RecordPoint& point : dense.record().points) {
+      if (point.lambda != place.lambda || point.count.unstable != 0) continue;
+      (point.step < turn.step ? before : behind) = point.monitors[shortening];
+    }
+    area += place.weight * (behind - before);
+  }
+  EXPECT_NEAR(area / *snap.landing->loop, 1.0, 1e-6);
+}
+
+}  // namespace arcwall::landing_motion_test
