@@ -15,6 +15,21 @@ def cosine_beam(Q: float) -> float:
     return max(1.5 * math.pi**4 * Q**2 * d * ((d - 1.5) ** 2 - 0.25 + 4 / (3 * Q**2)) for d in ways)
 
 
+def greatest_thrust(EI: float, A: float, k: float, q: float) -> float:
+    """The greatest P for which EI w⁗ + P w″ = EI A k⁴ cos kx − q has a span with w′ = w″ = 0 at its ends."""
+
+    def left_over(P: float, c: float) -> float:
+        mu, C = math.sqrt(P / EI), EI * A * k**4 / (P - EI * k**2)
+        return (q / P - C * math.cos(k * c)) * math.sin(mu * c) / mu + (C * math.sin(k * c) / k - q * c / P) * math.cos(mu * c)
+
+    low, high = 1.5 * EI * k**2, 8 * EI * k**2
+    while high - low > 1e-3:
+        P = (low + high) / 2
+        has_span = any(left_over(P, c / 100) * left_over(P, (c + 1) / 100) < 0 for c in range(800, 1500))
+        low, high = (P, high) if has_span else (low, P)
+    return low
+
+
 def device(name: str, title: str, quantity: Quantity) -> Case:
     return Case(title, f"examples/{name}.toml", {}, [quantity])
 
@@ -33,6 +48,7 @@ def devices() -> list:
     silicon = 1.6e5 * 100 * 5**3 / 12
     rail = 3 * math.pi / 12
     rubber = 5 * 20 * 2**3 / 12
+    pipe = 2.1e8 * math.pi / 4 * (0.162**4 - (0.162 - 0.0127) ** 4)
     arm = 2400 * 5 * 1.5**3 / 12
     return [
         device("snap-fit", "Snap-fit", Quantity(
@@ -52,6 +68,9 @@ def devices() -> list:
             "deflection at λ = 4", landed("tip", 4), leaf, "an arc of the former and a cantilever on its end, small slopes")),
         device("rail", "Heated rail", Quantity(
             "force at which it buckles", monitor("force", "branch-point"), 2100 * rail**2 + 500 / rail**2, "EI q² + k/q² of three half waves")),
+        device("pipeline", "Pipeline on the seabed", Quantity(
+            "thrust at which it lifts off", load("limit-point"), greatest_thrust(pipe, 0.3, math.pi / 30, 1.0),
+            "the greatest P for which EI w⁗ + P w″ = EI w₀⁗ − q has a free span without slope and moment at its ends")),
         device("portal", "Portal with a stop", Quantity(
             "load at which it sways", load("branch-point"), 1.34955**2 * 2100 / 16, "k h tan k h = 6")),
         device("ring", "Ring between plates", Quantity(

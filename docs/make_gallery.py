@@ -99,6 +99,9 @@ PICTURES = [
     Picture("rail", "Heated rail", "force at which it buckles", "limit-point", "A heated rail",
             "A rail on ballast that yields buckles sideways under heat. Behind the first limit point it would jump far out at the same "
             "temperature, and its compression falls."),
+    Picture("pipeline", "Pipeline on the seabed", "thrust at which it lifts off", "end", "A pipeline on the seabed",
+            "A pipe that is not quite straight lies on the seabed, pressed flat by its weight but for a free span under its hump. Heat makes "
+            "a thrust, under which the crest lifts off at a limit load and jumps up."),
     Picture("portal", "Portal with a stop", "load at which it sways", "end", "A portal with a stop",
             "A portal frame sways under loads on its corners until a stop holds it. It then carries more, and the stop little."),
     Picture("ring", "Ring between plates", "force at the way R/100", "end", "A ring between plates",

@@ -338,6 +338,13 @@ def driven_otherwise() -> list:
             Quantity("way at the least push", load("displacement-limit", 1), 0.147704654127, SHOOTING),
             Quantity("least push", monitor("F", "displacement-limit", 1), 0.039265852399, SHOOTING),
         ]),
+        Case("Ring between plates, held by nothing else", "docs/validation/ring_between_plates.toml",
+             meshes({"right": 1, "left": 1}, [12, 24, 48]), [
+            Quantity("force at a way of R/10", landed("F", 0.1), 0.6253825639848148, "extensible elastica of a quarter, by shooting"),
+            Quantity("way at which the touches spread", load("contact-spreads"), 0.5644732048945937, "extensible elastica of a quarter, by shooting"),
+            Quantity("force there", monitor("F", "contact-spreads"), 2.7864167288521418, "extensible elastica of a quarter, by shooting"),
+            Quantity("force at a way of R", landed("F", 1.0), 5.7419796992860315, "extensible elastica of a quarter, by shooting"),
+        ], note="Soft springs stand in for what holds it from sliding and rolling: one part in a million of the force."),
     ]
 
 

@@ -111,6 +111,7 @@ class StraightAxis final : public Axis {
       : from_(from), to_(to), length_((to - from).norm()), angle_(angle_of(to - from)) {}
   double length() const override { return length_; }
   bool is_straight() const override { return true; }
+  std::optional<double> constant_curvature() const override { return 0.0; }
   AxisPoint at(double s) const override {
     const double t = s / length_;
     return {.position = (1.0 - t) * from_ + t * to_, .angle = angle_};
@@ -124,9 +125,11 @@ class StraightAxis final : public Axis {
 
 class ArcAxis final : public Axis {
  public:
+  enum class Extent { to_last, all_round };
+
   // Centre from the perpendicular bisectors: with a = via − from and b = to − from,
   // centre − from = (|a|² b⊥ − |b|² a⊥) / (2 b × a), turned so that both chords end on the circle.
-  ArcAxis(const Vec2& from, const Vec2& via, const Vec2& to) {
+  ArcAxis(const Vec2& from, const Vec2& via, const Vec2& to, Extent extent = Extent::to_last) {
     const Vec2 a = via - from, b = to - from;
     centre_ = from + (b.squaredNorm() * perp(a) - a.squaredNorm() * perp(b)) / (2.0 * cross(a, b));
     radius_ = (from - centre_).norm();
@@ -134,9 +137,10 @@ class ArcAxis final : public Axis {
     start_ = angle_of(from - centre_);
     double sweep = sense_ * (angle_of(to - centre_) - start_);
     while (sweep <= 0.0) sweep += 2.0 * pi;
-    sweep_ = sweep;
+    sweep_ = extent == Extent::all_round ? 2.0 * pi : sweep;
   }
   double length() const override { return radius_ * sweep_; }
+  std::optional<double> constant_curvature() const override { return sense_ / radius_; }
   AxisPoint at(double s) const override {
     const double polar = start_ + sense_ * s / radius_;
     return {.position = centre_ + radius_ * Vec2(std::cos(polar), std::sin(polar)),
@@ -286,6 +290,10 @@ std::unique_ptr<Axis> straight_axis(const Vec2& from, const Vec2& to) {
 
 std::unique_ptr<Axis> arc_axis(const Vec2& from, const Vec2& via, const Vec2& to) {
   return std::make_unique<ArcAxis>(from, via, to);
+}
+
+std::unique_ptr<Axis> circle_axis(const Vec2& from, const Vec2& via, const Vec2& later) {
+  return std::make_unique<ArcAxis>(from, via, later, ArcAxis::Extent::all_round);
 }
 
 std::unique_ptr<Axis> sine_axis(const Vec2& from, const Vec2& to, double rise, int waves) {

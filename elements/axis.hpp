@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -27,6 +28,9 @@ class Axis {
   virtual double length() const = 0;
   virtual bool is_straight() const { return false; }
 
+  /// The curvature of a curve that has the same all along [1/length]; empty of others.
+  virtual std::optional<double> constant_curvature() const { return std::nullopt; }
+
   /// At arc length s from the start, 0 ≤ s ≤ length().
   virtual AxisPoint at(double s) const = 0;
 
@@ -38,6 +42,9 @@ std::unique_ptr<Axis> straight_axis(const Vec2& from, const Vec2& to);
 
 /// Circular arc through `via`, which must not lie on the line of the ends.
 std::unique_ptr<Axis> arc_axis(const Vec2& from, const Vec2& via, const Vec2& to);
+
+/// The full circle from a point, once round through `via` and then `later`, which are two others.
+std::unique_ptr<Axis> circle_axis(const Vec2& from, const Vec2& via, const Vec2& later);
 
 /// chord + rise · sin(waves π ξ), ξ the fraction along the chord; positive 90° anticlockwise from the chord.
 std::unique_ptr<Axis> sine_axis(const Vec2& from, const Vec2& to, double rise, int waves);

@@ -129,13 +129,9 @@ std::optional<MaterialPoint> SlidingStructure::inside(Index freedom) const {
   return std::nullopt;
 }
 
-MaterialPoint SlidingStructure::find(const std::string& member, double fraction) const {
-  for (Index r = 0; r < strands(); ++r)
-    for (const Part& part : at(r).parts)
-      if (part.member == member && fraction <= part.last_fraction && fraction >= part.first_fraction) {
-        const double t = (fraction - part.first_fraction) / (part.last_fraction - part.first_fraction);
-        return {.strand = r, .s = part.from + t * (part.to - part.from)};
-      }
+SlidingStructure::MemberPart SlidingStructure::part_at(const std::string& member, double fraction) const {
+  for (const MemberPart& part : parts_of(member))
+    if (fraction <= part.greatest_fraction() && fraction >= part.least_fraction()) return part;
   throw std::out_of_range("no member " + member + " has a place at the fraction " + std::to_string(fraction));
 }
 
@@ -150,7 +146,7 @@ std::vector<SlidingStructure::MemberPart> SlidingStructure::parts_of(const std::
                          .first_fraction = part.first_fraction,
                          .last_fraction = part.last_fraction});
   std::sort(parts.begin(), parts.end(),
-            [](const MemberPart& a, const MemberPart& b) { return a.first_fraction < b.first_fraction; });
+            [](const MemberPart& a, const MemberPart& b) { return a.least_fraction() < b.least_fraction(); });
   return parts;
 }
 
@@ -225,8 +221,8 @@ bool StructureBuilder::can_slide() const {
   return added_elements_.empty() && std::all_of(descriptions_.begin(), descriptions_.end(), is_slender);
 }
 
-// A member is cut into strands where more than a force acts inside it; strands that continue each other straight are
-// joined again.
+// A member is cut into strands where more than a force acts inside it; strands that continue each other along one line
+// or circle are joined again.
 std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
                                                                   const SlidingStructure::Alike& alike) const {
   auto structure = std::unique_ptr<SlidingStructure>(new SlidingStructure());
@@ -301,7 +297,7 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
       from = to;
     }
   }
-  structure->join_straight_runs(
+  structure->join_runs(
       with_terms, [this](Index node, Index rotation) { return carries_force_alone(node, rotation); }, alike);
   for (SlidingStructure::Run& strand : structure->runs_)
     if (strand.theory == Theory::classic && strand.shape->is_straight() && !strand.carries_load() &&
@@ -314,70 +310,6 @@ std::unique_ptr<SlidingStructure> StructureBuilder::build_sliding(bool ramp,
 SlidingStructure::PointLoad SlidingStructure::point_load(Index node) const {
   const std::array<Index, 2> freedoms{freedom(node, Freedom::x), freedom(node, Freedom::z)};
   return {.freedom = freedoms, .force = {nodal_.load(freedoms[0]), nodal_.load(freedoms[1])}};
-}
-
-// Runs a and b that meet at a joint where no more than a force acts, both straight, perfect and of one section, become
-// one.
-void SlidingStructure::join_straight_runs(const std::vector<bool>& with_terms,
-                                          const CarriesForceAlone& carries_force_alone, const Alike& alike) {
-  const auto is_loaded = [&](Index node) -> bool { return with_terms[static_cast<std::size_t>(node)]; };
-  const auto node_of = [&](const End& end) { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; };
-  const auto straight = [](const Run& strand) {
-    const double L = strand.axis->length();
-    return strand.perfect &&
-           std::abs((strand.axis->at(L).position - strand.axis->at(0.0).position).norm() - L) <= 1e-12 * L;
-  };
-  const auto ends_at = [&](Index node) {
-    Index count = 0;
-    for (const Run& strand : runs_)
-      for (const End& end : strand.ends) count += node_of(end) == node;
-    return count;
-  };
-  const auto continues = [&](const Run& a, const Run& b) {
-    const End &end = a.ends[1], &next = b.ends[0];
-    const Index node = node_of(end);
-    return end.freedom == next.freedom && ends_at(node) == 2 &&
-           (!is_loaded(node) || carries_force_alone(node, end.freedom[2])) && straight(a) && straight(b) &&
-           std::abs(end.angle - next.angle) <= 1e-12 && a.theory == b.theory && a.order == b.order &&
-           a.section.E == b.section.E && a.section.A == b.section.A && a.section.I == b.section.I &&
-           a.section.height == b.section.height && a.load == b.load && a.constant_load == b.constant_load &&
-           a.axis_load == b.axis_load && a.constant_axis_load == b.constant_axis_load && a.foundation == b.foundation &&
-           a.pressure == b.pressure && a.thermal == b.thermal &&
-           (!alike || alike(a.parts.back().member, b.parts.front().member));
-  };
-  for (bool joined = true; joined;) {
-    joined = false;
-    for (std::size_t a = 0; a < runs_.size() && !joined; ++a)
-      for (std::size_t b = 0; b < runs_.size() && !joined; ++b) {
-        if (a == b || !continues(runs_[a], runs_[b])) continue;
-        const AxisPlace from = undeformed({.strand = static_cast<Index>(a), .s = 0.0}, false);
-        const AxisPlace to = undeformed({.strand = static_cast<Index>(b), .s = runs_[b].length}, false);
-        const Index joint = node_of(runs_[a].ends[1]);
-        runs_[a].joints.push_back({.node = joint, .s = runs_[a].length});
-        if (is_loaded(joint)) {
-          runs_[a].point_loads.push_back(point_load(joint));
-          runs_[a].load_places.push_back(runs_[a].length);
-        }
-        for (const auto& [node, s] : runs_[b].joints)
-          runs_[a].joints.push_back({.node = node, .s = runs_[a].length + s});
-        for (std::size_t i = 0; i < runs_[b].point_loads.size(); ++i) {
-          runs_[a].point_loads.push_back(runs_[b].point_loads[i]);
-          runs_[a].load_places.push_back(runs_[a].length + runs_[b].load_places[i]);
-        }
-        for (Part part : runs_[b].parts) {
-          part.from += runs_[a].length;
-          part.to += runs_[a].length;
-          runs_[a].parts.push_back(part);
-        }
-        runs_[a].axis = straight_axis(from.position, to.position);
-        runs_[a].shape = std::make_shared<ImperfectAxis>(*runs_[a].axis, std::vector<SineDeviation>{});
-        runs_[a].offset = 0.0;
-        runs_[a].length = runs_[a].axis->length();
-        runs_[a].ends[1] = runs_[b].ends[1];
-        runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(b));
-        joined = true;
-      }
-  }
 }
 
 }  // namespace arcwall

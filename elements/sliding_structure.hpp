@@ -18,9 +18,10 @@ class SlidingStructureMesh;
 /// Slender beams between joints, supports and dead loads, to be meshed with breakpoints that move. Built by
 /// StructureBuilder::build_sliding().
 ///
-/// Members that continue each other straight at a joint without support, spring, moment or hinge are one strand: a
-/// breakpoint passes such a joint without notice. What else acts inside a member ends strands, too. A force does not:
-/// it acts on a node of the mesh, or inside an element where a breakpoint is too near for that.
+/// Members that continue each other at a joint without support, spring, moment or hinge are one strand where they lie
+/// on one line or on one circle, whichever of their ends meet: a breakpoint passes such a joint without notice. What
+/// else acts inside a member ends strands, too. A force does not: it acts on a node of the mesh, or inside an element
+/// where a breakpoint is too near for that.
 class SlidingStructure final : public SlidingBody {
  public:
   /// Whether two members, by name, may be parts of one strand.
@@ -57,19 +58,34 @@ class SlidingStructure final : public SlidingBody {
   double length_scale() const override { return length_scale_; }
   double force_scale() const override { return force_scale_; }
 
+  /// A member, or a part of it, as a stretch of a strand.
+  struct MemberPart {
+    Index strand = 0;
+    double from = 0.0, to = 0.0;                       ///< arc length along the strand, ascending
+    double first_fraction = 0.0, last_fraction = 1.0;  ///< of the member, at these
+
+    /// Whether the strand travels against the member.
+    bool is_reversed() const { return first_fraction > last_fraction; }
+    double least_fraction() const { return is_reversed() ? last_fraction : first_fraction; }
+    double greatest_fraction() const { return is_reversed() ? first_fraction : last_fraction; }
+
+    MaterialPoint at(double fraction) const {
+      const double t = (fraction - first_fraction) / (last_fraction - first_fraction);
+      return {.strand = strand, .s = from + t * (to - from)};
+    }
+  };
+
+  /// The first part of a member that reaches to a fraction of its length; std::out_of_range if there is none.
+  MemberPart part_at(const std::string& member, double fraction) const;
+
   /// The place of a member at a fraction of its length; std::out_of_range if there is none.
-  MaterialPoint find(const std::string& member, double fraction) const;
+  MaterialPoint find(const std::string& member, double fraction) const {
+    return part_at(member, fraction).at(fraction);
+  }
 
   /// Where a joint's freedom is that lies inside a strand; empty at ends of strands.
   std::optional<MaterialPoint> inside(Index freedom) const;
   Freedom kind(Index freedom) const { return freedoms_[static_cast<std::size_t>(freedom)].freedom; }
-
-  /// A member, or a part of it, as a stretch of a strand.
-  struct MemberPart {
-    Index strand = 0;
-    double from = 0.0, to = 0.0;                       ///< arc length along the strand
-    double first_fraction = 0.0, last_fraction = 1.0;  ///< of the member
-  };
 
   /// All of a member, from end to end.
   std::vector<MemberPart> parts_of(const std::string& member) const;
@@ -104,7 +120,7 @@ class SlidingStructure final : public SlidingBody {
   struct Part {
     std::string member;
     double from, to;                       // arc length along the strand
-    double first_fraction, last_fraction;  // of the member
+    double first_fraction, last_fraction;  // of the member, descending where the strand travels against it
     double elements;                       // that it asks for
   };
   // A force on a node inside a member, by the freedoms x and z of the deck's mesh there.
@@ -152,8 +168,12 @@ class SlidingStructure final : public SlidingBody {
   SlidingStructure() = default;
   // `carries_force_alone`: of nodes with terms, given with their rotation; a strand passes those.
   using CarriesForceAlone = std::function<bool(Index node, Index rotation)>;
-  void join_straight_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone,
-                          const Alike& alike);
+  void join_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone, const Alike& alike);
+  bool passes(const Run& a, const Run& b, const std::vector<bool>& with_terms,
+              const CarriesForceAlone& carries_force_alone) const;
+  static Run reversed(const Run& run);
+  Run joined(Run a, const Run& b, bool carries_force) const;
+  Index node_of(const End& end) const { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; }
   PointLoad point_load(Index node) const;
   std::vector<StrandEnd> ends_at(Index freedom_z) const;  // all ends of strands at the joint with this freedom
   double rest_value(Index freedom) const;  // of the mesh's unknown at rest: the position, where that is one

@@ -92,10 +92,7 @@ class SlidingMeshBody final : public Body {
 
   std::shared_ptr<const Observable> motion(Index freedom) const override;
   std::shared_ptr<const Observable> motion(std::size_t member, std::size_t node,
-                                           MemberObservable::Component component) const override {
-    const MaterialPoint point = sliding_.find(name(member), structure_.members()[member].fraction(node));
-    return std::make_shared<PlaceObservable>(sliding_, point, component);
-  }
+                                           MemberObservable::Component component) const override;
   std::shared_ptr<const Observable> reaction(Index freedom) const override {
     return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::reaction);
   }
@@ -119,6 +116,20 @@ std::shared_ptr<const Observable> SlidingMeshBody::motion(Index freedom) const {
   return std::make_shared<JointObservable>(sliding_, freedom, JointObservable::What::motion);
 }
 
+// Above the axis is to the left of the member, whichever way its strand travels.
+std::shared_ptr<const Observable> SlidingMeshBody::motion(std::size_t member, std::size_t node,
+                                                          MemberObservable::Component component) const {
+  using Component = MemberObservable::Component;
+  const double fraction = structure_.members()[member].fraction(node);
+  const SlidingStructure::MemberPart part = sliding_.part_at(name(member), fraction);
+  if (part.is_reversed() && component == Component::face_above_z) {
+    component = Component::face_below_z;
+  } else if (part.is_reversed() && component == Component::face_below_z) {
+    component = Component::face_above_z;
+  }
+  return std::make_shared<PlaceObservable>(sliding_, part.at(fraction), component);
+}
+
 // A member is one stretch of a strand, or several strands of its own where loads act inside it.
 std::vector<ShapePoint> SlidingMeshBody::shape(std::size_t member, const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
@@ -128,13 +139,15 @@ std::vector<ShapePoint> SlidingMeshBody::shape(std::size_t member, const State& 
   for (const SlidingStructure::MemberPart& part : sliding_.parts_of(name(member))) {
     const double rate = (part.last_fraction - part.first_fraction) / (part.to - part.from);
     const auto fraction = [&](double S) { return part.first_fraction + rate * (S - part.from); };
+    const auto first = static_cast<std::ptrdiff_t>(stretches.size());
     for (Index position = 0; position + 1 < mesh.nodes(part.strand); ++position) {
       MemberStretch stretch = sliding_stretch(sliding_, part.strand, position, state);
       if (stretch.to <= part.from || stretch.from >= part.to) continue;
       stretch.from = fraction(stretch.from);
       stretch.to = fraction(stretch.to);
-      stretches.push_back(stretch);
+      stretches.push_back(part.is_reversed() ? stretch.reversed() : stretch);
     }
+    if (part.is_reversed()) std::reverse(stretches.begin() + first, stretches.end());
     for (Index k = 0; k < mesh.breakpoints(); ++k)
       if (const double S = now.s[k]; mesh.breakpoint(k).first == part.strand && S > part.from && S < part.to)
         fractions.push_back(fraction(S));

@@ -32,11 +32,57 @@ LooseHolds holds_at(const StructureOfDeck& described, const Structure& structure
   LooseHolds found;
   for (const auto& [name, node] : described.places.joints) {
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
-    LooseHolds::Hold hold{.point = name};
+    LooseHolds::Hold hold{.at = {.name = name}};
     for (const NodeDirection& free : free_directions(structure, {node}))
       (free.freedom == Freedom::x ? hold.stiffness.x : hold.stiffness.z) = stiffness;
     if (hold.stiffness != deck::Stiffness{}) found.holds.push_back(std::move(hold));
   }
+  return found;
+}
+
+// A joint or a node of a member, and how far it is from the walls that concern the member [length].
+struct FreePlace {
+  deck::Place at{};
+  Vec2 place = Vec2::Zero();
+  double clearance = infinity;
+};
+
+std::vector<FreePlace> free_places(const deck::Deck& deck) {
+  DeckProblems ignored(deck.source);
+  const StructureOfDeck described = describe_structure(deck, ignored);
+  std::vector<FreePlace> places;
+  for (const deck::Member& member : deck.members) {
+    const MemberMesh& mesh = described.builder.mesh(described.places.members.at(member.name));
+    std::vector<std::shared_ptr<const Obstacle>> obstacles;
+    for (const deck::Wall& wall : deck.walls)
+      if (concerns(wall, member.name)) obstacles.push_back(obstacle_of(wall));
+    const std::size_t last = mesh.nodes.size() - 1;
+    for (std::size_t k = 0; k <= last; ++k) {
+      FreePlace& free = places.emplace_back();
+      free.at.name = k == 0 ? member.from : k == last ? member.to : member.name;
+      if (k > 0 && k < last) free.at.fraction = mesh.fraction(k);
+      free.place = mesh.shape[k].position;
+      for (const auto& obstacle : obstacles)
+        free.clearance = std::min(free.clearance, obstacle->gap_slope(free.place, 0.0).value);
+    }
+  }
+  return places;
+}
+
+// Holds at two places from which contact, which may come anywhere along members, is far: the farthest from the walls,
+// and of those that are at least half as far the one that is farthest from it.
+LooseHolds holds_far_from_walls(const deck::Deck& deck, double stiffness) {
+  const std::vector<FreePlace> places = free_places(deck);
+  const auto& first = *std::max_element(
+      places.begin(), places.end(), [](const FreePlace& a, const FreePlace& b) { return a.clearance < b.clearance; });
+  const FreePlace* second = &first;
+  for (const FreePlace& place : places)
+    if (place.clearance >= 0.5 * first.clearance &&
+        (place.place - first.place).norm() > (second->place - first.place).norm())
+      second = &place;
+  LooseHolds found;
+  for (const FreePlace* place : {&first, second})
+    found.holds.push_back({.at = place->at, .stiffness = {.x = stiffness, .z = stiffness}});
   return found;
 }
 
@@ -59,7 +105,7 @@ std::vector<deck::Spring> LooseHolds::springs(double times) const {
   std::vector<deck::Spring> springs(holds.size());
   for (std::size_t i = 0; i < holds.size(); ++i) {
     auto& spring = springs[i].kind.emplace<deck::GroundSpring>();
-    spring.at.name = holds[i].point;
+    spring.at = holds[i].at;
     spring.stiffness = {.x = times * holds[i].stiffness.x, .z = times * holds[i].stiffness.z};
   }
   return springs;
@@ -70,7 +116,7 @@ std::string LooseHolds::warning(const deck::Units& units) const {
   double stiffness = 0.0;
   for (const Hold& hold : holds) {
     const bool both = hold.stiffness.x > 0.0 && hold.stiffness.z > 0.0;
-    places += (places.empty() ? "" : ", ") + hold.point + " in " +
+    places += (places.empty() ? "" : ", ") + to_text(hold.at) + " in " +
               (both                     ? "x and z"
                : hold.stiffness.x > 0.0 ? "x"
                                         : "z");
@@ -94,8 +140,7 @@ double softest_stiffness(const deck::Deck& deck, const Structure& structure) {
   return stiffness;
 }
 
-// Free ends of members are preferred: a spring at a joint in a row of members would be in the way of contact that
-// slides along them.
+// Free ends of members are preferred: a spring in a row of members is in the way of contact that slides along them.
 LooseHolds loose_holds(const deck::Deck& deck) {
   const auto is_concerned = [&](const deck::Member& member) {
     return std::any_of(deck.walls.begin(), deck.walls.end(),
@@ -112,10 +157,11 @@ LooseHolds loose_holds(const deck::Deck& deck) {
     all.push_back(node);
     if (ends == 1) tips.push_back(node);
   }
-  for (const std::vector<Index>& nodes : {tips, all}) {
-    LooseHolds holds = holds_at(described, *structure, stiffness, nodes);
-    if (!holds.empty() && hold_all(deck, holds)) return holds;
-  }
+  const auto holds = [&](const LooseHolds& found) { return !found.empty() && hold_all(deck, found); };
+  if (LooseHolds found = holds_at(described, *structure, stiffness, tips); holds(found)) return found;
+  if (tips.empty())
+    if (LooseHolds found = holds_far_from_walls(deck, stiffness); holds(found)) return found;
+  if (LooseHolds found = holds_at(described, *structure, stiffness, all); holds(found)) return found;
   return {};
 }
 

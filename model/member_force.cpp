@@ -66,18 +66,25 @@ SlidingMemberForce::SlidingMemberForce(const SlidingStructure& structure, const 
   for (const SlidingStructure::MemberPart& part : structure.parts_of(member)) {
     const double t = (fraction - part.first_fraction) / (part.last_fraction - part.first_fraction);
     at_ = {.strand = part.strand, .s = part.from + std::clamp(t, 0.0, 1.0) * (part.to - part.from)};
-    begin_ = part.from;
-    if (fraction <= part.last_fraction + same) break;
+    is_reversed_ = part.is_reversed();
+    begin_ = is_reversed_ ? part.to : part.from;
+    if (fraction <= part.greatest_fraction() + same) break;
   }
 }
 
-// In the element that ends there; at the member's beginning, in its first.
+// In the element that ends there as the member travels; at the member's beginning, in its first.
 ShapePoint SlidingMemberForce::place(const State& state) const {
   const SlidingMesh& mesh = mesh_of(state);
   const Vector s = state.x.tail(mesh.breakpoints());
   const double same = 1e-12 * structure_.length(at_.strand);
+  const auto node = [&](Index position) { return mesh.coordinate(at_.strand, position, s); };
+  if (is_reversed_) {
+    Index position = mesh.nodes(at_.strand) - 2;
+    while (position > 0 && (node(position) > at_.s + same || node(position) >= begin_ - same)) --position;
+    return sliding_stretch(structure_, at_.strand, position, state).reversed().at(at_.s);
+  }
   Index position = 0;
-  const auto end = [&] { return mesh.coordinate(at_.strand, position + 1, s); };
+  const auto end = [&] { return node(position + 1); };
   while (position + 2 < mesh.nodes(at_.strand) && (end() < at_.s - same || end() <= begin_ + same)) ++position;
   return sliding_stretch(structure_, at_.strand, position, state).at(at_.s);
 }

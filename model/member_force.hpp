@@ -58,7 +58,8 @@ class SlidingMemberForce final : public MemberForce {
 
   const SlidingStructure& structure_;
   MaterialPoint at_;
-  double begin_ = 0.0;  // of the member on its strand
+  double begin_ = 0.0;        // of the member on its strand
+  bool is_reversed_ = false;  // the strand travels against it
 };
 
 }  // namespace arcwall

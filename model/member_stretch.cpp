@@ -34,6 +34,16 @@ AxisCurve::AxisCurve(const Vec2& first, const Vec2& second, double angle1, doubl
   derivative2_ = length * direction(angle2);
 }
 
+AxisCurve AxisCurve::reversed() const {
+  AxisCurve curve = *this;
+  curve.first_ = first_ + chord_;
+  curve.chord_ = -chord_;
+  curve.derivative1_ = -derivative2_;
+  curve.derivative2_ = -derivative1_;
+  curve.angle1_ = angle(1.0) + pi;
+  return curve;
+}
+
 Vec2 AxisCurve::position(double xi) const {
   const double x2 = xi * xi, x3 = x2 * xi;
   return first_ + (3.0 * x2 - 2.0 * x3) * chord_ + (xi - 2.0 * x2 + x3) * derivative1_ + (x3 - x2) * derivative2_;
@@ -50,6 +60,17 @@ double AxisCurve::angle(double xi) const {
   return angle_near(
       6.0 * (xi - x2) * chord_ + (1.0 - 4.0 * xi + 3.0 * x2) * derivative1_ + (3.0 * x2 - 2.0 * xi) * derivative2_,
       angle1_);
+}
+
+// What was behind a section is before it then.
+MemberStretch MemberStretch::reversed() const {
+  const auto of_other_part = [](const Resultant& one) { return Resultant{.force = -one.force, .moment = -one.moment}; };
+  return {.from = to,
+          .to = from,
+          .now = now.reversed(),
+          .rest = rest.reversed(),
+          .first = of_other_part(second),
+          .second = of_other_part(first)};
 }
 
 // With the force R = R1 + ξ (R2 − R1) the balance dM/dξ = −r′ × R gives

@@ -29,6 +29,10 @@ class AxisCurve {
   AxisCurve(const Vec2& first, const Vec2& second, double angle1, double angle2);
 
   const Vec2& first() const { return first_; }
+
+  /// The same, travelled the other way.
+  AxisCurve reversed() const;
+
   Vec2 position(double xi) const;     ///< ξ ∈ [0, 1]
   Vec2 integral_to(double xi) const;  ///< ∫ position dξ from 0
   double angle(double xi) const;      ///< of the tangent, with the winding number of angle1 [rad]
@@ -57,6 +61,9 @@ struct MemberStretch {
   Resultant first{}, second{};
 
   ShapePoint at(double fraction) const;
+
+  /// The same stretch of a member that travels the other way; for sections across the axis alone.
+  MemberStretch reversed() const;
 
   /// M at ξ as it follows from the first end and the forces.
   double balanced_moment(double xi) const;

@@ -224,7 +224,8 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   const bool sliding = slides(deck_, described.builder, candidates, problems);
   if (!sliding) sliding_structure_.reset();
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
-  for (const LooseHolds::Hold& hold : loose_holds_.holds) held_.push_back(described.places.joints.at(hold.point));
+  for (const LooseHolds::Hold& hold : loose_holds_.holds)
+    held_.push_back(described.places.find(hold.at, structure_->members()).node);
   if (sliding_ && stage_ == 0 && problems.empty())
     check_between_nodes(deck_, sliding_ramp_ ? *sliding_ramp_ : *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
@@ -308,7 +309,7 @@ std::optional<std::string> Model::adrift(const State& state) const {
     for (const Freedom direction : {Freedom::x, Freedom::z})
       squared += std::pow(body_->motion(structure_->freedom(held_[i], direction))->value(state), 2.0);
     if (squared <= std::pow(far * structure_->length_scale(), 2.0)) continue;
-    return "nothing holds the body at \"" + loose_holds_.holds[i].point + "\", which has moved by more than " +
+    return "nothing holds the body at \"" + to_text(loose_holds_.holds[i].at) + "\", which has moved by more than " +
            "twice the size of the structure";
   }
   return std::nullopt;

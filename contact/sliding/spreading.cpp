@@ -229,6 +229,26 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
     transitions.push_back(spread_to(Span::free, 1.0));
     transitions.push_back(spread_to(Span::pressed, shorter));
   }
+  return transitions;
+}
+
+// The closed points that have lost their curvature within a tolerance.
+Points points_without_curvature(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+  Points points;
+  for (const CurvatureBound* bound : reached<CurvatureBound>(setting, at, tolerance))
+    if (at.is_closed(bound->point())) points.push_back(bound->point());
+  return points;
+}
+
+// A structure that is symmetric but for what hardly counts, as soft springs do, has points that lose their curvature so
+// soon after each other that none is found between: all of them may spread then.
+std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, const SlidingState& at,
+                                                const Points& points) {
+  constexpr double near = 1e-5;  // of curvatures, as reached() takes it
+  std::vector<Transition> transitions = spreads(setting, at, points);
+  const Points all = points_without_curvature(setting, at, near);
+  if (all.size() > points.size())
+    for (Transition& transition : spreads(setting, at, all)) transitions.push_back(std::move(transition));
   transitions.push_back(unsupported(why_none_spreads(setting, at, points)));
   return transitions;
 }
@@ -236,9 +256,7 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
 }  // namespace
 
 std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
-  Points points;
-  for (const CurvatureBound* bound : reached<CurvatureBound>(setting, at, tolerance))
-    if (at.is_closed(bound->point())) points.push_back(bound->point());
+  const Points points = points_without_curvature(setting, at, tolerance);
   if (points.size() == 1)
     if (auto touches = tip_touches_with(setting, at, points.front()))
       return {std::move(*touches), unsupported("a tip touches with the part beside it, and no equilibrium was found")};
@@ -255,7 +273,7 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   if (is_continuum) {
     transitions.push_back(end_before(common));
   } else {
-    transitions = spreads(setting, at, points);
+    transitions = spreads_with_those_near(setting, at, points);
   }
   if (!neutral.any()) return transitions;
   const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);

@@ -42,7 +42,8 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
     const bool settled = next <= options.tolerance && ratio <= 1.0;
     if (settled || (size <= options.stagnation && ratio > 0.1))
       return arrived(std::move(result), metric, border, wanted);
-    if (ratio > options.divergence && result.iterations > 1) return ended(CorrectorStatus::diverged);
+    const bool grows = ratio > options.divergence && size > options.small * length;
+    if (grows && result.iterations > 1) return ended(CorrectorStatus::diverged);
     previous = size;
   }
   return ended(CorrectorStatus::too_many_iterations);

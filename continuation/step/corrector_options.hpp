@@ -8,6 +8,7 @@ struct CorrectorOptions {
   double straight = 1e-4;    ///< part of a first correction that may be left
   double stagnation = 1e-9;  ///< corrections below this that no longer shrink are round-off
   double divergence = 3.0;   ///< a correction longer than this times the one before ends the attempt
+  double small = 1e-3;       ///< but not one below this part of the step: a first one may be small by chance
   int max_iterations = 10;
   int patient_iterations = 40;  ///< of correct_patiently()
 };

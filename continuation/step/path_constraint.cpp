@@ -83,9 +83,13 @@ std::unique_ptr<PathConstraint> step_constraint(PathMethod method, const Metric&
       return std::make_unique<PlaneConstraint>(metric, from, tangent, s);
     case PathMethod::normal_plane:
       return std::make_unique<UpdatedPlaneConstraint>(metric, from);
-    case PathMethod::cylindrical:
-      return std::make_unique<SphereConstraint>(metric, Form::cylindrical, from, tangent,
-                                                s * std::sqrt(metric.inner_x(tangent, tangent)));
+    case PathMethod::cylindrical: {
+      constexpr double nothing_moves = 1e-12;  // of a tangent of unit length, squared
+      const double squared = metric.inner_x(tangent, tangent);
+      if (squared <= nothing_moves)
+        return std::make_unique<SphereConstraint>(metric, Form::spherical, from, tangent, s);
+      return std::make_unique<SphereConstraint>(metric, Form::cylindrical, from, tangent, s * std::sqrt(squared));
+    }
     case PathMethod::spherical:
       return std::make_unique<SphereConstraint>(metric, Form::spherical, from, tangent, s);
   }

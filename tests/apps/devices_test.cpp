@@ -83,6 +83,26 @@ Number of_mems_switch(const Record& record) {  // 740 EI h/ℓ³
   return {test::event_of(record, EventKind::limit_point).lambda, 740.0 * EI * 40.0 / 1e9, 0.02};
 }
 
+// The greatest P for which EI w⁗ + P w″ = EI A k⁴ cos kx − q has a span from −c to c with w′ = w″ = 0 at its ends, x
+// from the crest: w″ = B cos μx + C cos kx − q/P vanishes at c, and so does its integral.
+Number of_pipeline(const Record& record) {
+  const double ro = 0.162, ri = ro - 0.0127, EI = 2.1e8 * pi / 4.0 * (std::pow(ro, 4.0) - std::pow(ri, 4.0));
+  const double k = pi / 30.0, A = 0.3, q = 1.0;
+  const auto has_span = [&](double P) {
+    const double mu = std::sqrt(P / EI), C = EI * A * std::pow(k, 4.0) / (P - EI * k * k);
+    const auto left_over = [&](double c) {
+      return (q / P - C * std::cos(k * c)) * std::sin(mu * c) / mu +
+             (C * std::sin(k * c) / k - q * c / P) * std::cos(mu * c);
+    };
+    for (double c = 8.0; c < 15.0; c += 0.01)
+      if (left_over(c) * left_over(c + 0.01) < 0.0) return true;
+    return false;
+  };
+  double low = 1.5 * EI * k * k, high = 8.0 * EI * k * k;
+  while (high - low > 1e-3) (has_span(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  return {event(record, EventKind::limit_point).lambda, low, 0.01};
+}
+
 Number of_portal(const Record& record) {  // k h tan k h = 6
   return {test::event_of(record, EventKind::branch_point).lambda, 1.34955 * 1.34955 * 2100.0 / 16.0, 2e-3};
 }
@@ -112,6 +132,7 @@ const std::map<std::string_view, Number (*)(const Record&)> numbers{{"bow", of_b
                                                                     {"lattice", of_lattice},
                                                                     {"leaf-spring", of_leaf_spring},
                                                                     {"mems-switch", of_mems_switch},
+                                                                    {"pipeline", of_pipeline},
                                                                     {"portal", of_portal},
                                                                     {"rail", of_rail},
                                                                     {"ring", of_ring},

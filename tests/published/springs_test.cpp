@@ -89,6 +89,27 @@ TEST(ColumnOnSprings, BucklesOverASpringInItsMiddleAsStaticsSay) {
   EXPECT_NEAR(first_branch_point({.middle = 1.1 * stiff_enough}, Theory::elastica, 20), two_waves, 1e-8 * two_waves);
 }
 
+// A spring acts at nodes and leaves the elements' order; a foundation is of order 4 in those of either theory.
+TEST(ColumnOnSprings, ConvergesWithItsOrder) {
+  const auto least_order = [](const Springs& springs, Theory theory, double exact) {
+    std::vector<double> errors;
+    for (const int elements : {4, 8, 16})
+      errors.push_back(std::abs(first_branch_point(springs, theory, elements) / exact - 1.0));
+    EXPECT_GT(errors.back(), 1e-12);
+    return std::log2(std::max(errors[1], 1e-300) / std::max(errors[2], 1e-11));
+  };
+  const auto statics = [&](double P) {
+    const double k = wave_number(P);
+    return std::sin(0.5 * k * L) + EI * k / 0.5 * std::cos(0.5 * k * L);
+  };
+  const double at_ends = zero_of(statics, euler * 1.0001, 4.0 * euler);
+  EXPECT_GT(least_order({.ends = 0.5}, Theory::elastica, at_ends), 5.0);
+  EXPECT_GT(least_order({.ends = 0.5}, Theory::classic, at_ends), 3.5);
+  const double founded = std::min(load_of(pi / L, 5.0), load_of(2.0 * pi / L, 5.0));
+  EXPECT_GT(least_order({.foundation = 5.0}, Theory::elastica, founded), 3.5);
+  EXPECT_GT(least_order({.foundation = 5.0}, Theory::classic, founded), 3.5);
+}
+
 // Alike at both ends: tan(k L/2) = −EI k/c, from c = 0 (Euler) to ∞ (clamped).
 TEST(ColumnOnSprings, BucklesBetweenSpringsAtItsEndsAsStaticsSay) {
   for (const double c : {0.1, 0.5, 3.0}) {

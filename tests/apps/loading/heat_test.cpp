@@ -84,6 +84,25 @@ TEST(Heat, SnapsAColumnInAChannelAtTheGreatestHeatSlow) {
   expect_same_events(traced, TracedDeck(heated_column(metres, true, 0.001, 0.15)), 1e-7);
 }
 
+TEST(Heat, SnapsWithTheOrderOfTheTheory) {
+  constexpr double reference = 0.06540564515039;
+  for (const auto& [theory, order] : {std::pair("elastica", 5.0), std::pair("classic", 3.5)}) {
+    SCOPED_TRACE(theory);
+    std::vector<double> errors;
+    for (const int elements : {10, 20, 40}) {
+      const TracedDeck traced(
+          heated_column(centimetres, true, 0.002, 0.0655),
+          {fmt::format("member.column.elements={}", elements), fmt::format("member.column.theory=\"{}\"", theory)});
+      errors.push_back(event_near(traced, EventKind::limit_point, reference).lambda / reference - 1.0);
+    }
+    EXPECT_GT(least_order(errors, 1e-10), order) << errors[0] << ", " << errors[1] << ", " << errors[2];
+  }
+}
+
+TEST(Heat, HasTheSameEventsAlongAnyPathSlow) {
+  expect_same_events_along_any_path(heated_column(centimetres, true, 0.002, 0.0655), 0.002, 1e-8);
+}
+
 TEST(Heat, NeedsAMaterialThatExpandsAndATheoryThatKnowsIt) {
   const auto problem = [](const std::string& from, const std::string& to) -> std::string {
     std::string deck = heated_column(centimetres, false, 0.001, 0.01);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -140,6 +141,29 @@ component = "z"
                      square_bar(in), fmt::arg("length", 2.0 * in.cm), fmt::arg("first", 0.00176 * in.cm),
                      fmt::arg("third", 0.0001 * in.cm), fmt::arg("way", -in.cm), fmt::arg("wall", 0.2 * in.cm)) +
          more;
+}
+
+// The order in the element length that errors show between meshes of which each has twice the elements of the one
+// before; those that are round-off are left out.
+inline double least_order(const std::vector<double>& errors, double round_off) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < errors.size(); ++i)
+    if (std::abs(errors[i]) > round_off) least = std::min(least, std::log2(std::abs(errors[i - 1] / errors[i])));
+  return least;
+}
+
+// The same events with steps of a quarter and four times the deck's, and by four other path methods.
+inline void expect_same_events_along_any_path(const std::string& deck, double step, double relative) {
+  const TracedDeck usual(deck);
+  ASSERT_FALSE(usual.record().events.empty());
+  for (const double factor : {0.25, 4.0}) {
+    SCOPED_TRACE(factor);
+    expect_same_events(TracedDeck(deck, {fmt::format("path.step={:.17g}", factor * step)}), usual, relative);
+  }
+  for (const std::string method : {"riks", "normal-plane", "cylindrical", "pseudo-arclength"}) {
+    SCOPED_TRACE(method);
+    expect_same_events(TracedDeck(deck, {"path.method=\"" + method + "\""}), usual, relative);
+  }
 }
 
 // An event with the force P with which the support pushes, by shooting.

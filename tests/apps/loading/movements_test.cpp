@@ -10,6 +10,35 @@
 
 namespace arcwall::loading_test {
 
+namespace {
+
+// Lee's frame whose loaded point is pushed down.
+const std::string pushed_lees_frame = R"(
+title = "Lee's frame, pushed"
+material.m.E = 720.0
+section.s = { shape = "general", A = 6.0, I = 2.0 }
+[point]
+foot = [0.0, 0.0]
+corner = [0.0, 120.0]
+loaded = [24.0, 120.0]
+end = [120.0, 120.0]
+[member]
+column = { from = "foot", to = "corner", theory = "elastica", elements = 20, material = "m", section = "s" }
+left = { from = "corner", to = "loaded", theory = "elastica", elements = 4, material = "m", section = "s" }
+right = { from = "loaded", to = "end", theory = "elastica", elements = 16, material = "m", section = "s" }
+[support]
+foot = ["x", "z"]
+end = ["x", "z"]
+[[prescribed]]
+at = "loaded"
+z = -1.0
+[path]
+step = 1.0
+stop = { lambda = [-1.0, 90.0] }
+)";
+
+}  // namespace
+
 // Values of the extensible elastica by shooting. The load limit, at P = 6.863177634771, is no event of this path: the
 // column stays stable through it and snaps at the greatest shortening.
 TEST(Prescribed, AColumnInAChannelSnapsAtItsGreatestShortening) {
@@ -55,29 +84,7 @@ TEST(Prescribed, HasItsReactionAsAColumn) {
 // Lee's frame (E = 720, A = 6, I = 2, sides 120, the load at 24) whose loaded point is pushed down: values by two
 // independent solvers, also those of the displacement limits under a dead load.
 TEST(Prescribed, LeesFrameSnapsWhereItsDeflectionTurns) {
-  const TracedDeck traced(R"(
-title = "Lee's frame, pushed"
-material.m.E = 720.0
-section.s = { shape = "general", A = 6.0, I = 2.0 }
-[point]
-foot = [0.0, 0.0]
-corner = [0.0, 120.0]
-loaded = [24.0, 120.0]
-end = [120.0, 120.0]
-[member]
-column = { from = "foot", to = "corner", theory = "elastica", elements = 20, material = "m", section = "s" }
-left = { from = "corner", to = "loaded", theory = "elastica", elements = 4, material = "m", section = "s" }
-right = { from = "loaded", to = "end", theory = "elastica", elements = 16, material = "m", section = "s" }
-[support]
-foot = ["x", "z"]
-end = ["x", "z"]
-[[prescribed]]
-at = "loaded"
-z = -1.0
-[path]
-step = 1.0
-stop = { lambda = [-1.0, 90.0] }
-)");
+  const TracedDeck traced(pushed_lees_frame);
   const RecordEvent down = event_near(traced, EventKind::limit_point, 61.002978851425);
   EXPECT_NEAR(down.lambda, 61.002978851425, 3e-6 * down.lambda);
   EXPECT_NEAR(-down.monitors[0], 1.19441041878, 1e-5);
@@ -100,6 +107,57 @@ stop = { lambda = [-1.0, 90.0] }
     EXPECT_EQ(*point->unstable_dead, behind_first && point < least ? 1 : 0) << point->lambda;
   }
   expect_confirmed(traced);
+}
+
+TEST(Prescribed, LeesFrameSnapsWithTheOrderOfTheTheory) {
+  constexpr double reference = 61.002978851425;
+  for (const auto& [theory, order] : {std::pair("elastica", 5.0), std::pair("classic", 3.5)}) {
+    SCOPED_TRACE(theory);
+    std::vector<double> errors;
+    for (const int times : {2, 4, 8}) {
+      std::vector<std::string> assignments{"path.stop={ lambda = [-1.0, 61.5] }", "path.step=2.0"};
+      for (const auto& [name, elements] : {std::pair("column", 5), std::pair("left", 1), std::pair("right", 4)}) {
+        assignments.push_back(fmt::format("member.{}.elements={}", name, times * elements));
+        assignments.push_back(fmt::format("member.{}.theory=\"{}\"", name, theory));
+      }
+      const TracedDeck traced(pushed_lees_frame, assignments);
+      errors.push_back(event_near(traced, EventKind::limit_point, reference).lambda / reference - 1.0);
+    }
+    EXPECT_GT(least_order(errors, 1e-11), order) << errors[0] << ", " << errors[1] << ", " << errors[2];
+  }
+}
+
+// Driven by the way of a point or by the force on it, the frame passes through the same states.
+TEST(Prescribed, PassesThroughTheStatesOfADeadLoad) {
+  const std::string monitors =
+      "[[monitor]]\nname = \"turn\"\nat = \"loaded\"\ncomponent = \"rotation\"\n"
+      "[[monitor]]\nname = \"x\"\nat = \"corner\"\ncomponent = \"x\"\n"
+      "[[monitor]]\nname = \"push\"\nat = \"loaded\"\ncomponent = \"z\"\nsign = -1\n";
+  const std::string force = "[[monitor]]\nname = \"F\"\nat = \"loaded\"\ncomponent = \"reaction-z\"\nsign = -1\n";
+  std::string by_force = pushed_lees_frame;
+  by_force.replace(by_force.find("[[prescribed]]"), 0, "[[load]]\nat = \"loaded\"\nforce = [0.0, -1.0]\n");
+  by_force.erase(by_force.find("[[prescribed]]"), by_force.find("[path]") - by_force.find("[[prescribed]]"));
+  const TracedDeck moved(pushed_lees_frame + monitors + force,
+                         {"path.land={ lambda = [10.0, 30.0, 55.0] }", "path.stop={ lambda = [-1.0, 60.0] }"});
+  const TracedDeck loaded(by_force + monitors, {"path.land={ push = [10.0, 30.0, 55.0] }",
+                                                "path.stop={ push = [-1.0, 60.0] }", "path.step=0.1"});
+  for (const double way : {10.0, 30.0, 55.0}) {
+    SCOPED_TRACE(way);
+    const auto at = [&](const TracedDeck& traced) {
+      for (const RecordPoint& point : traced.record().points)
+        if (std::abs(point.monitors[2] - way) <= 1e-9) return point;
+      ADD_FAILURE() << "no such point";
+      return traced.record().points.back();
+    };
+    const RecordPoint a = at(moved), b = at(loaded);
+    EXPECT_NEAR(a.monitors[0], b.monitors[0], 1e-9);
+    EXPECT_NEAR(a.monitors[1], b.monitors[1], 1e-9 * 120.0);
+    EXPECT_NEAR(a.monitors[3], b.lambda, 1e-9);
+  }
+}
+
+TEST(Prescribed, GivesTheSameEventsAlongAnyPathSlow) {
+  expect_same_events_along_any_path(shortened_channel(centimetres), 0.004, 1e-8);
 }
 
 // A steep truss (b = 1, h = 5, Green's strain) whose apex is pushed down: it sways between z² = h² − 2b² on both sides,

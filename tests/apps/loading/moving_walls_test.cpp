@@ -87,6 +87,25 @@ TEST(MovingWall, HoldsASteepArchByItsCurvature) {
   EXPECT_EQ(sways[0].unstable_after, 1);
 }
 
+TEST(MovingWall, LetsAnArchSwayWithTheOrderOfTheTheory) {
+  constexpr double reference = 0.1024273364847;
+  for (const auto& [theory, order] : {std::pair("elastica", 5.0), std::pair("classic", 3.5)}) {
+    SCOPED_TRACE(theory);
+    std::vector<double> errors;
+    for (const int elements : {10, 20, 40}) {
+      const TracedDeck traced(
+          indented_arch(centimetres, 0.2, 0.11),
+          {fmt::format("member.arch.elements={}", elements), fmt::format("member.arch.theory=\"{}\"", theory)});
+      errors.push_back(event_near(traced, EventKind::branch_point, reference).lambda / reference - 1.0);
+    }
+    EXPECT_GT(least_order(errors, 1e-10), order) << errors[0] << ", " << errors[1] << ", " << errors[2];
+  }
+}
+
+TEST(MovingWall, GivesTheSameEventsAlongAnyPathSlow) {
+  expect_same_events_along_any_path(indented_arch(centimetres, 0.2, 0.11), 0.003, 1e-8);
+}
+
 // Contact at nodes: the same forces as the mesh becomes fine.
 TEST(MovingWall, PushesAtNodesToo) {
   const TracedDeck traced(indented_arch(centimetres, 0.1, 0.05, "[contact]\npoints = \"nodes\"\n"), {"path.watch=[]"});

@@ -83,6 +83,10 @@ TEST(PressedDeck, GivesTheSameEventsInOtherUnits) {
   expect_same_events(one, other, 1e-8);
 }
 
+TEST(PressedDeck, GivesTheSameEventsAlongAnyPathSlow) {
+  expect_same_events_along_any_path(pressed_arch(centimetres, ""), 0.05, 1e-8);
+}
+
 TEST(PressedDeck, IsConfirmedWhateverTheTheoryAndTheEnds) {
   for (const std::string theory : {"classic", "elastica", "exact", "essenburg"})
     for (const std::string right : {"\"x\", \"z\"", "\"z\""}) {

@@ -85,6 +85,10 @@ TEST(Springs, GiveTheSameEventsInOtherUnits) {
   expect_same_events(one, other, 1e-8);
 }
 
+TEST(Springs, GiveTheSameEventsAlongAnyPathSlow) {
+  expect_same_events_along_any_path(column(centimetres, springs(centimetres)), 0.1, 1e-8);
+}
+
 TEST(Springs, AreConfirmedSlow) {
   for (const std::string theory : {"classic", "elastica", "exact"}) {
     SCOPED_TRACE(theory);
