@@ -31,13 +31,9 @@ ExitStatus curve(const Options& options) {
   const std::filesystem::path out =
       options.text("out").value_or(std::filesystem::path(file).stem().string() + "-curve");
   require_other_than_input(out, file);
-  if (std::filesystem::exists(out / "result.json") && !options.has("force"))
-    throw OutputError(
-        fmt::format("{}: is the folder of a run, whose report.html the curve's would replace; give --out another "
-                    "folder, or --force",
-                    out.string()));
-  const OutputFolder folder(out, std::filesystem::path(file).filename().string(),
-                            options.has("force") ? Foreign::overwrite : Foreign::refuse);
+  const Foreign foreign = options.has("force") ? Foreign::overwrite : Foreign::refuse;
+  require_no_run(out, foreign);
+  const OutputFolder folder(out, std::filesystem::path(file).filename().string(), foreign);
   if (deck.curve->over.empty()) {
     const WorstCombination worst = worst_combination(deck, [&] { return interrupts.interrupted(); });
     if (!worst.problem.empty()) throw InputError(fmt::format("{}: curve.worst: {}", file, worst.problem));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <system_error>
 
 #include "apps/output/csv.hpp"
 #include "apps/output/events_json.hpp"
@@ -14,6 +15,7 @@
 #include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
 #include "apps/output/text_table.hpp"
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "model/event_names.hpp"
 #include "model/version.hpp"
@@ -243,6 +245,14 @@ NamedTexts curve_files(const EventCurve& curve, UnitLabels labels, std::string_v
   return {{"curve.csv", curve_csv(curve, labels)},
           {"report.html", curve_html(curve)},
           {"curve.json", to_text(curve_json(curve, deck_text, assignments), JsonLayout::lines)}};
+}
+
+void require_no_run(const std::filesystem::path& folder, Foreign foreign) {
+  std::error_code ignored;
+  if (foreign == Foreign::overwrite || !std::filesystem::exists(folder / "result.json", ignored)) return;
+  throw OutputError(folder.string() +
+                    ": is the folder of a run, whose report.html the curve's would replace: name another folder with "
+                    "--out, or write over it with --force");
 }
 
 std::string curve_text(const EventCurve& curve) {

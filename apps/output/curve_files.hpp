@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "apps/output/exit_status.hpp"
+#include "apps/output/files.hpp"
 #include "model/event_curve.hpp"
 #include "model/run_description.hpp"
 #include "model/worst_combination.hpp"
@@ -24,6 +26,10 @@ nlohmann::ordered_json curve_json(const EventCurve& curve, std::string_view deck
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 NamedTexts curve_files(const EventCurve& curve, UnitLabels labels, std::string_view deck_text,
                        const std::vector<std::string>& assignments);
+
+/// Throws OutputError if a folder is that of a run, whose report.html the curve's would replace, and that is to be
+/// refused.
+void require_no_run(const std::filesystem::path& folder, Foreign foreign);
 
 /// What the command shows: the special points as a table.
 std::string curve_text(const EventCurve& curve);

@@ -143,9 +143,9 @@ class EventCurve:
     def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> None:
         """Writes the files of ``trace-path curve``: curve.csv, curve.json and report.html.
 
-        ``force``: also into a folder that something else filled. FileError where they cannot be written.
+        ``force``: also into a folder that something else filled, as a run. FileError where they cannot be written.
         """
-        _engine.write_files(os.fspath(folder), os.path.basename(self.deck.name), force, list(self._files.items()))
+        _engine.write_curve(os.fspath(folder), os.path.basename(self.deck.name), force, list(self._files.items()))
 
     def _repr_html_(self) -> str:
         return self._picture

@@ -130,10 +130,12 @@ py::dict walls(const std::string& file, const std::string& text, const Assignmen
   return walls_at(Model(deck::read_deck_text(text, file, assignments)), lambda);
 }
 
-void write_files(const std::string& folder, const std::string& deck, bool force,
+void write_curve(const std::string& folder, const std::string& deck, bool force,
                  const std::vector<std::pair<std::string, std::string>>& files) {
   const py::gil_scoped_release released;
-  const OutputFolder output(folder, deck, force ? Foreign::overwrite : Foreign::refuse);
+  const Foreign foreign = force ? Foreign::overwrite : Foreign::refuse;
+  require_no_run(folder, foreign);
+  const OutputFolder output(folder, deck, foreign);
   FileSet set(output);
   for (const auto& [name, content] : files) set.write(name, content);
   set.put_in_place();
@@ -147,7 +149,7 @@ void bind_answers(py::module_& module) {
   module.def("event_curve", &event_curve, py::arg("file"), py::arg("text"), py::arg("assignments"));
   module.def("worst", &worst, py::arg("file"), py::arg("text"), py::arg("assignments"));
   module.def("walls", &walls, py::arg("file"), py::arg("text"), py::arg("assignments"), py::arg("lam"));
-  module.def("write_files", &write_files, py::arg("folder"), py::arg("deck"), py::arg("force"), py::arg("files"));
+  module.def("write_curve", &write_curve, py::arg("folder"), py::arg("deck"), py::arg("force"), py::arg("files"));
 }
 
 }  // namespace arcwall::python

@@ -109,6 +109,9 @@ def test_a_curve_is_that_of_the_program(sprung, program, tmp_path):
     (tmp_path / "other" / "letter.txt").write_text("dear")
     with pytest.raises(arcwall.FileError, match="is not empty"):
         mine.save(tmp_path / "other")
+    deck.trace(max_points=3).save(tmp_path / "run")
+    with pytest.raises(arcwall.FileError, match="is the folder of a run.*name another folder, or write over it with force=True"):
+        mine.save(tmp_path / "run")
 
 
 def test_a_curve_is_a_table_a_picture_and_a_pickle(sprung):
