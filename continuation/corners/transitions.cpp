@@ -16,6 +16,8 @@ namespace arcwall {
 namespace {
 
 constexpr int most_bounds_at_one_place = 50;
+constexpr double guard_slack = 1e-6;     // of guards that were near zero on the piece behind, too
+constexpr double shortened_early = 0.3;  // of its length: a span that is entered early
 
 // Of a transition that is an event.
 EventKind kind_of(Transition::Change change) {
@@ -117,13 +119,12 @@ bool is_of_mesh(const System& system, const State& state, const Direction& forwa
 
 // Whether the side conditions hold at the first point of a piece.
 bool holds(const System& system, const Transition& transition, const State& state, const Direction& forward) {
-  constexpr double slack = 1e-6;  // of guards that were near zero on the piece behind, too
   if (!system.admissible(state, -penetration_tolerance)) return false;
   if (transition.change == Transition::Change::remeshed) return true;
   const Vector guards = system.guards(state);
-  if (begins_with_length(transition)) return !(guards.array() < -slack).any();
+  if (begins_with_length(transition)) return !(guards.array() < -guard_slack).any();
   for (Index j = 0; j < guards.size(); ++j)
-    if (guards[j] < -slack && !is_of_mesh(system, state, forward, j, slack)) return false;
+    if (guards[j] < -guard_slack && !is_of_mesh(system, state, forward, j, guard_slack)) return false;
   return true;
 }
 
@@ -208,10 +209,43 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
   return begin;
 }
 
+// Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a
+// part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to pull.
+bool sinks(const PathPoint& at, double tolerance) {
+  return at.guards.size() > 0 && ((at.guards.array() < -tolerance) && (at.guard_rates.array() < 0.0)).any();
+}
+
+// Behind a transition a piece with a span at whose first length another bound is passed already: it is entered where
+// the span is shorter, and followed up to that bound. Empty where no piece begins so.
+std::optional<Entered> enter_early(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
+                                   double lambda_scale) {
+  for (const Transition& transition : transitions) {
+    if (!leads_on(transition.change)) break;
+    if (!begins_with_length(transition) || !transition.quantity) continue;
+    const Ahead ahead = ahead_of(tools, transition, lambda_scale);
+    CorrectorResult result = arrive(tools, transition, from, ahead, Effort::usual);
+    if (!result.converged() || !tools.system.admissible(result.state, -penetration_tolerance)) continue;
+    PathPoint first = entered_point(tools, transition, ahead, std::move(result), from.arc);
+    const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale);
+    const bool is_shorter =
+        transition.quantity->value(begin.state) <= shortened_early * transition.quantity->value(first.state);
+    // A bound of the new span itself may be below zero where that is short, and only there.
+    const auto contacts = static_cast<Index>(begin.state.piece.size());
+    const auto violated = begin.guards.array() < -tools.options.guard_tolerance;
+    const bool stays = !lies_back(transition, from, first) &&
+                       !(begin.guards.head(contacts).array() < -guard_slack).any() &&
+                       !(violated && (begin.guard_rates.array() <= 0.0 || first.guards.array() < 0.0)).any();
+    if (is_shorter && stays && tools.system.admissible(begin.state, -penetration_tolerance))
+      return Entered{.transition = &transition, .at = std::move(first)};
+  }
+  return std::nullopt;
+}
+
 // The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
-// again with patience where none is.
+// again with patience where none is, and then entered early. Last comes what is not sure to hold ahead.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  double lambda_scale) {
+  std::optional<Entered> sinking;
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     std::optional<Entered> back;
     for (const Transition& transition : transitions) {
@@ -219,12 +253,17 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       auto at = enter(tools, transition, from, lambda_scale, effort);
       if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
+      if (begins_with_length(transition) && sinks(entered.at, tools.options.guard_tolerance)) {
+        if (!sinking) sinking = std::move(entered);
+        continue;
+      }
       if (!lies_back(transition, from, entered.at)) return entered;
       if (!back) back = std::move(entered);
     }
     if (back) return back;
   }
-  return std::nullopt;
+  auto early = enter_early(tools, transitions, from, lambda_scale);
+  return early ? early : sinking;
 }
 
 // Bounds that are reached together are passed one after the other, and those behind the first may have been shifted
