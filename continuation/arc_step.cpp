@@ -20,7 +20,6 @@ namespace {
 // To the first point of a piece that was entered, or to where a guard vanishes before it: the pressure of a pressed
 // part that falls from its beginning, say. What is violated by no more than where pieces are entered may stay so.
 StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
-  constexpr double let_pass = 1e-6;
   StepEnd end{.point = *origin.from.known_end};
   const Vector& guards = end.point.guards;
   if (guards.size() == 0 || guards.minCoeff() >= -tools.options.guard_tolerance) return {.result = std::move(end)};
@@ -30,7 +29,7 @@ StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
     if (landed.end->landing->singular) landed.end->point.negative_eigenvalues.reset();
     return {.result = std::move(*landed.end)};
   }
-  if (guards.minCoeff() >= -let_pass) return {.result = std::move(end)};
+  if (guards.minCoeff() >= -mesh_error) return {.result = std::move(end)};
   return {.result = Rejected{.outcome = StepOutcome::not_landed, .failure = landed.failure}};
 }
 

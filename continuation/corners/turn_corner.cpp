@@ -10,7 +10,6 @@ namespace arcwall {
 namespace {
 
 constexpr int most_changes_at_one_place = 50;
-constexpr double mesh_error = 1e-6;  // of guards, by which contacts that change together miss each other
 
 // The contacts that are degenerate at a corner, the one that was landed on among them.
 std::vector<Index> degenerate_at(const TraceTools& tools, const Corner& corner, std::optional<Index> landed) {

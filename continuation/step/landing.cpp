@@ -24,10 +24,12 @@ double unsure_at_start(const StepOrigin& origin, double tolerance) {
   return origin.leaves_branch_point ? singular_point_accuracy : tolerance;
 }
 
-// A piece may be entered a little before one of its validity bounds, on the way to where it is valid.
+// A piece may be entered a little before one of its validity bounds, on the way to where it is valid; and where the
+// mesh is drawn anew just behind a change of contact the guard that was zero there is so within the error of the mesh.
 bool rises_from_below(const PathPoint& from, const PathPoint& to, Index guard, double unsure) {
-  return guard >= static_cast<Index>(to.state.piece.size()) && from.guards[guard] < -unsure &&
-         from.guard_rates[guard] > 0.0 && to.guards[guard] > from.guards[guard];
+  const bool is_contact = guard < static_cast<Index>(to.state.piece.size());
+  const double v = from.guards[guard];
+  return v < -unsure && (!is_contact || v >= -mesh_error) && from.guard_rates[guard] > 0.0 && to.guards[guard] > v;
 }
 
 // By how much guards are violated that were not before.

@@ -298,6 +298,17 @@ TEST(Tracer, AStepThatEndsWithinRoundOffOfACornerIsFollowedByTheCorner) {
   }
 }
 
+// As where a mesh is drawn anew just behind a corner. A second corner at λ = 1 would have two ways, the one forward and
+// the one that the path has come along.
+TEST(Tracer, AForceThatIsNotZeroByTheErrorOfAMeshAndGrowsIsNoSecondCorner) {
+  const auto system = test::stopped_springs(2.0);
+  const State touched{.x = Vector{{1.0, 1.5 - 2.5e-9, -5e-9}}, .lambda = 1.0 - 5e-9, .piece = {1}};
+  const Branch branch = trace(system, {.target_values = {stop_at_lambda(2.0)}}, touched);
+  EXPECT_EQ(branch.end.reason, EndReason::stop);
+  EXPECT_EQ(events_of(branch).size(), 1u);  // the start
+  EXPECT_EQ(branch.last().state.piece, Piece{1});
+}
+
 // A = −1, g = x: from (x, λ) = (1, −1) along x = −λ, which is unstable; at λ = 0 the contact closes and λ turns back
 // with p = −λ, which is stable.
 TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {
