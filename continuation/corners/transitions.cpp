@@ -16,7 +16,6 @@ namespace arcwall {
 namespace {
 
 constexpr int most_bounds_at_one_place = 50;
-constexpr double guard_slack = 1e-6;     // of guards that were near zero on the piece behind, too
 constexpr double shortened_early = 0.3;  // of its length: a span that is entered early
 
 // Of a transition that is an event.
@@ -122,9 +121,9 @@ bool holds(const System& system, const Transition& transition, const State& stat
   if (!system.admissible(state, -penetration_tolerance)) return false;
   if (transition.change == Transition::Change::remeshed) return true;
   const Vector guards = system.guards(state);
-  if (begins_with_length(transition)) return !(guards.array() < -guard_slack).any();
+  if (begins_with_length(transition)) return !(guards.array() < -mesh_error).any();
   for (Index j = 0; j < guards.size(); ++j)
-    if (guards[j] < -guard_slack && !is_of_mesh(system, state, forward, j, guard_slack)) return false;
+    if (guards[j] < -mesh_error && !is_of_mesh(system, state, forward, j, mesh_error)) return false;
   return true;
 }
 
@@ -186,9 +185,10 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
     return std::any_of(targets.begin(), targets.end(),
                        [&](const TargetValue& target) { return lies_between(target, from.state, begin.state); });
   };
+  const double whole = transition.quantity->value(first.state);
   double part = 1.0, kept = 0.5;
   while (kept < most_kept && (part > counted || (part > least && value_is_nearer()))) {
-    const double length = kept * part * transition.value;
+    const double length = kept * part * whole;
     if (length < transition.least && !value_is_nearer()) break;
     auto nearer = with_span(tools, transition, metric, begin, length);
     if (nearer && lies_back(transition, from, *nearer)) break;
@@ -215,28 +215,43 @@ bool sinks(const PathPoint& at, double tolerance) {
   return at.guards.size() > 0 && ((at.guards.array() < -tolerance) && (at.guard_rates.array() < 0.0)).any();
 }
 
-// Behind a transition a piece with a span at whose first length another bound is passed already: it is entered where
-// the span is shorter, and followed up to that bound. Empty where no piece begins so.
+// Whether a guard is one of a quantity alone: a bound of the length that a span has.
+bool is_of(const System& system, const State& state, Index guard, const Observable& quantity) {
+  const Vector of_guard = system.guard_gradient(state, guard).dx, of_quantity = quantity.gradient(state).dx;
+  return std::abs(of_guard.dot(of_quantity)) > 0.999 * of_guard.norm() * of_quantity.norm();
+}
+
+// A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
+// and holds: there but for bounds of the length of the span itself. Empty where there is none.
+std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
+                                     double lambda_scale) {
+  const Ahead ahead = ahead_of(tools, transition, lambda_scale);
+  CorrectorResult result = arrive(tools, transition, from, ahead, Effort::usual);
+  if (!result.converged() || !tools.system.admissible(result.state, -penetration_tolerance)) return std::nullopt;
+  PathPoint first = entered_point(tools, transition, ahead, std::move(result), from.arc);
+  if (lies_back(transition, from, first)) return std::nullopt;
+  const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale);
+  if (transition.quantity->value(begin.state) > shortened_early * transition.value) return std::nullopt;
+  for (Index j = 0; j < begin.guards.size(); ++j)
+    if (begin.guards[j] < -tools.options.guard_tolerance &&
+        !(begin.guard_rates[j] > 0.0 && is_of(tools.system, begin.state, j, *transition.quantity)))
+      return std::nullopt;
+  return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
+}
+
+// Behind a transition a piece with a span at whose first length another bound is passed already, or which is not found
+// with that length: it is entered where the span is shorter, and followed from there. Empty where no piece begins so.
 std::optional<Entered> enter_early(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                    double lambda_scale) {
-  for (const Transition& transition : transitions) {
-    if (!leads_on(transition.change)) break;
-    if (!begins_with_length(transition) || !transition.quantity) continue;
-    const Ahead ahead = ahead_of(tools, transition, lambda_scale);
-    CorrectorResult result = arrive(tools, transition, from, ahead, Effort::usual);
-    if (!result.converged() || !tools.system.admissible(result.state, -penetration_tolerance)) continue;
-    PathPoint first = entered_point(tools, transition, ahead, std::move(result), from.arc);
-    const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale);
-    const bool is_shorter =
-        transition.quantity->value(begin.state) <= shortened_early * transition.quantity->value(first.state);
-    // A bound of the new span itself may be below zero where that is short, and only there.
-    const auto contacts = static_cast<Index>(begin.state.piece.size());
-    const auto violated = begin.guards.array() < -tools.options.guard_tolerance;
-    const bool stays = !lies_back(transition, from, first) &&
-                       !(begin.guards.head(contacts).array() < -guard_slack).any() &&
-                       !(violated && (begin.guard_rates.array() <= 0.0 || first.guards.array() < 0.0)).any();
-    if (is_shorter && stays && tools.system.admissible(begin.state, -penetration_tolerance))
-      return Entered{.transition = &transition, .at = std::move(first)};
+  for (const double part : {1.0, 0.25}) {
+    for (const Transition& transition : transitions) {
+      if (!leads_on(transition.change)) break;
+      if (!begins_with_length(transition) || !transition.quantity) continue;
+      Transition shorter = transition;
+      shorter.value *= part;
+      if (auto first = first_early(tools, shorter, from, lambda_scale))
+        return Entered{.transition = &transition, .at = std::move(*first)};
+    }
   }
   return std::nullopt;
 }
