@@ -10,11 +10,28 @@
 #include "continuation/events/value_before_change.hpp"
 #include "continuation/known_places.hpp"
 #include "continuation/path_tolerances.hpp"
+#include "continuation/step/point_on_path.hpp"
 #include "continuation/stops.hpp"
 
 namespace arcwall {
 
 namespace {
+
+// To the first point of a piece that was entered, or to where a guard vanishes before it: the pressure of a pressed
+// part that falls from its beginning, say. What is violated by no more than where pieces are entered may stay so.
+StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
+  StepEnd end{.point = *origin.from.known_end};
+  const Vector& guards = end.point.guards;
+  if (guards.size() == 0 || guards.minCoeff() >= -tools.options.guard_tolerance) return {.result = std::move(end)};
+  LandedStep landed = land_on_first_guard(tools, origin, end);
+  if (landed.end && landed.end->landing) {
+    decide_count(tools, landed.end->point);
+    if (landed.end->landing->singular) landed.end->point.negative_eigenvalues.reset();
+    return {.result = std::move(*landed.end)};
+  }
+  if (guards.minCoeff() >= -mesh_error) return {.result = std::move(end)};
+  return {.result = Rejected{.outcome = StepOutcome::not_landed, .failure = landed.failure}};
+}
 
 // A step of length s, or to where it ends if that is known already: the bound that has been passed, the first of the
 // singular points that were located with the last one, the first point of a piece that was entered.
@@ -22,7 +39,7 @@ StepTried next_step(TraceTools& tools, const StepOrigin& origin, double s) {
   const Departure& from = origin.from;
   if (from.passed_bound) return {.result = StepEnd{.point = from.point, .landing = from.passed_bound}};
   if (!from.pending_singular.empty()) return {.result = StepEnd{.point = from.pending_singular.front().at}};
-  if (from.known_end) return {.result = StepEnd{.point = *from.known_end}};
+  if (from.known_end) return step_to_known_end(tools, origin);
   return try_step_clear_of_singular(tools, origin, s);
 }
 

@@ -9,6 +9,9 @@ inline constexpr double coincidence_tolerance = 1e-8;
 /// Penetration that is let pass between contacts [scale of guards].
 inline constexpr double penetration_tolerance = 1e-9;
 
+/// What the error of a mesh may make of a guard that is zero [scale of guards].
+inline constexpr double mesh_error = 1e-6;
+
 /// How exactly places on a path near which it is singular are known [path metric].
 inline constexpr double singular_point_accuracy = 1e-5;
 

@@ -162,8 +162,23 @@ void check_turns(const Branch& branch, const Turning& of, EventSearch search, Fi
   }
 }
 
+// What a new mesh may move λ by, of its greatest value: the error of the elements, which is seen nowhere else.
+constexpr double moved_by_mesh = 1e-3;
+
+// Whether the unknowns at a point mean something else than at the one before, though no contact has changed: the same
+// path is followed on another mesh.
+bool is_remeshed(const Branch& branch, std::size_t i) {
+  const RecordPoint &before = branch.points[i - 1], &point = branch.points[i];
+  return before.state.piece.layout() != point.state.piece.layout() &&
+         !branch.has_event(before.step, point.step, is_contact_event);
+}
+
 std::vector<double> uncertainty_of_lambda(const Branch& branch) {
   std::vector<double> uncertain(branch.points.size(), 0.0);
+  double greatest = 0.0;
+  for (const RecordPoint& point : branch.points) greatest = std::max(greatest, std::abs(point.lambda));
+  for (std::size_t i = 1; i < uncertain.size(); ++i)
+    if (is_remeshed(branch, i)) uncertain[i] = moved_by_mesh * greatest;
   for (const ListedEvent& event : branch.events)
     if (const auto i = static_cast<std::size_t>(event.step - branch.points[0].step); i < uncertain.size())
       uncertain[i] = std::max(uncertain[i], event.localised);

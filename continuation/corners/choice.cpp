@@ -22,6 +22,7 @@ Direction open_direction(const TraceTools& tools, const Metric& open_metric, con
 // How good it is to go on along a direction; the least is best.
 struct Rank {
   bool unstable, continues;  // a continuation of the old piece only where nothing else leaves
+  bool turns;                // λ, which drives a structure that arrives stable
   Index count;
   double backward;
   auto operator<=>(const Rank&) const = default;
@@ -29,7 +30,7 @@ struct Rank {
 
 // Of several directions, `incoming` being the one by which the place was reached.
 ChosenDirection best_of(TraceTools& tools, std::vector<OutgoingDirection> ways, const PathPoint& at,
-                        const Metric& open_metric, const Direction& incoming) {
+                        bool arrives_stable, const Metric& open_metric, const Direction& incoming) {
   ChosenDirection chosen;
   Rank best_rank{};
   int stable = 0;
@@ -42,6 +43,7 @@ ChosenDirection best_of(TraceTools& tools, std::vector<OutgoingDirection> ways, 
     const Direction way = open_direction(tools, open_metric, ways[i].direction, ways[i].piece);
     const Rank rank{.unstable = negative > 0,
                     .continues = negative > 0 && continues != tools.options.stay,
+                    .turns = negative == 0 && arrives_stable && way.dlambda * incoming.dlambda < 0.0,
                     .count = negative,
                     .backward = -open_metric.inner(way, incoming)};
     if (best && !(rank < best_rank)) continue;
@@ -69,8 +71,7 @@ void remember(std::vector<VisitedCorner>& visited, CornerVisit visit) {
 
 Piece holding_along(const TraceTools& tools, const OutgoingDirection& way, const State& corner) {
   Piece piece = strictly_active(tools.system, corner, tools.options.guard_tolerance);
-  for (std::size_t j = 0; j < piece.size(); ++j)
-    if (way.loading[j]) piece[j] = 1;
+  for (std::size_t j = 0; j < piece.size(); ++j) piece[j] = way.loading[j] || (piece[j] && way.piece[j]) ? 1 : 0;
   return piece;
 }
 
@@ -79,7 +80,7 @@ std::optional<Index> count_along(TraceTools& tools, const OutgoingDirection& way
 }
 
 Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std::vector<OutgoingDirection> ways,
-              const PathPoint& at, double lambda_scale) {
+              const PathPoint& at, const StabilityCount& before, double lambda_scale) {
   const Piece open = at.state.piece.all_open();
   const Metric metric = tools.metric_on(open, lambda_scale);
   const State here = tools.system.with_piece(at.state, open);
@@ -110,8 +111,9 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
               : BranchEnd{.reason = EndReason::no_ray, .detail = "no equilibrium leaves the change of contact"};
     return choice;
   }
-  ChosenDirection chosen = ways.size() == 1 ? ChosenDirection{.taken = std::move(ways.front())}
-                                            : best_of(tools, std::move(ways), at, metric, incoming);
+  ChosenDirection chosen = ways.size() == 1
+                               ? ChosenDirection{.taken = std::move(ways.front())}
+                               : best_of(tools, std::move(ways), at, before.unstable == Index{0}, metric, incoming);
   choice.visit.corner.ways.push_back(opened(chosen.taken));
   choice.result = std::move(chosen);
   return choice;

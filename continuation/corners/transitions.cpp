@@ -16,6 +16,7 @@ namespace arcwall {
 namespace {
 
 constexpr int most_bounds_at_one_place = 50;
+constexpr double shortened_early = 0.3;  // of its length: a span that is entered early
 
 // Of a transition that is an event.
 EventKind kind_of(Transition::Change change) {
@@ -117,13 +118,12 @@ bool is_of_mesh(const System& system, const State& state, const Direction& forwa
 
 // Whether the side conditions hold at the first point of a piece.
 bool holds(const System& system, const Transition& transition, const State& state, const Direction& forward) {
-  constexpr double slack = 1e-6;  // of guards that were near zero on the piece behind, too
   if (!system.admissible(state, -penetration_tolerance)) return false;
   if (transition.change == Transition::Change::remeshed) return true;
   const Vector guards = system.guards(state);
-  if (begins_with_length(transition)) return !(guards.array() < -slack).any();
+  if (begins_with_length(transition)) return !(guards.array() < -mesh_error).any();
   for (Index j = 0; j < guards.size(); ++j)
-    if (guards[j] < -slack && !is_of_mesh(system, state, forward, j, slack)) return false;
+    if (guards[j] < -mesh_error && !is_of_mesh(system, state, forward, j, mesh_error)) return false;
   return true;
 }
 
@@ -185,9 +185,10 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
     return std::any_of(targets.begin(), targets.end(),
                        [&](const TargetValue& target) { return lies_between(target, from.state, begin.state); });
   };
+  const double whole = transition.quantity->value(first.state);
   double part = 1.0, kept = 0.5;
   while (kept < most_kept && (part > counted || (part > least && value_is_nearer()))) {
-    const double length = kept * part * transition.value;
+    const double length = kept * part * whole;
     if (length < transition.least && !value_is_nearer()) break;
     auto nearer = with_span(tools, transition, metric, begin, length);
     if (nearer && lies_back(transition, from, *nearer)) break;
@@ -208,10 +209,58 @@ PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPo
   return begin;
 }
 
+// Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a
+// part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to pull.
+bool sinks(const PathPoint& at, double tolerance) {
+  return at.guards.size() > 0 && ((at.guards.array() < -tolerance) && (at.guard_rates.array() < 0.0)).any();
+}
+
+// Whether a guard is one of a quantity alone: a bound of the length that a span has.
+bool is_of(const System& system, const State& state, Index guard, const Observable& quantity) {
+  const Vector of_guard = system.guard_gradient(state, guard).dx, of_quantity = quantity.gradient(state).dx;
+  return std::abs(of_guard.dot(of_quantity)) > 0.999 * of_guard.norm() * of_quantity.norm();
+}
+
+// A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
+// and holds: there but for bounds of the length of the span itself. Empty where there is none.
+std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
+                                     double lambda_scale) {
+  const Ahead ahead = ahead_of(tools, transition, lambda_scale);
+  CorrectorResult result = arrive(tools, transition, from, ahead, Effort::usual);
+  if (!result.converged() || !tools.system.admissible(result.state, -penetration_tolerance)) return std::nullopt;
+  PathPoint first = entered_point(tools, transition, ahead, std::move(result), from.arc);
+  if (lies_back(transition, from, first)) return std::nullopt;
+  const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale);
+  if (transition.quantity->value(begin.state) > shortened_early * transition.value) return std::nullopt;
+  for (Index j = 0; j < begin.guards.size(); ++j)
+    if (begin.guards[j] < -tools.options.guard_tolerance &&
+        !(begin.guard_rates[j] > 0.0 && is_of(tools.system, begin.state, j, *transition.quantity)))
+      return std::nullopt;
+  return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
+}
+
+// Behind a transition a piece with a span at whose first length another bound is passed already, or which is not found
+// with that length: it is entered where the span is shorter, and followed from there. Empty where no piece begins so.
+std::optional<Entered> enter_early(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
+                                   double lambda_scale) {
+  for (const double part : {1.0, 0.25}) {
+    for (const Transition& transition : transitions) {
+      if (!leads_on(transition.change)) break;
+      if (!begins_with_length(transition) || !transition.quantity) continue;
+      Transition shorter = transition;
+      shorter.value *= part;
+      if (auto first = first_early(tools, shorter, from, lambda_scale))
+        return Entered{.transition = &transition, .at = std::move(*first)};
+    }
+  }
+  return std::nullopt;
+}
+
 // The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
-// again with patience where none is.
+// again with patience where none is, and then entered early. Last comes what is not sure to hold ahead.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  double lambda_scale) {
+  std::optional<Entered> sinking;
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     std::optional<Entered> back;
     for (const Transition& transition : transitions) {
@@ -219,12 +268,17 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       auto at = enter(tools, transition, from, lambda_scale, effort);
       if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
+      if (begins_with_length(transition) && sinks(entered.at, tools.options.guard_tolerance)) {
+        if (!sinking) sinking = std::move(entered);
+        continue;
+      }
       if (!lies_back(transition, from, entered.at)) return entered;
       if (!back) back = std::move(entered);
     }
     if (back) return back;
   }
-  return std::nullopt;
+  auto early = enter_early(tools, transitions, from, lambda_scale);
+  return early ? early : sinking;
 }
 
 // Bounds that are reached together are passed one after the other, and those behind the first may have been shifted

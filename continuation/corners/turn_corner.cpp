@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
+#include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
 
 namespace arcwall {
@@ -87,6 +88,77 @@ std::optional<PathPoint> point_along(TraceTools& tools, const Corner& corner, co
   return at;
 }
 
+// Contacts that are degenerate but for the error of the mesh: of contacts that symmetry lets change at one place only
+// those on equal meshes do so to the last digit.
+std::vector<Index> nearly_degenerate_at(const Corner& corner, const std::vector<Index>& degenerate) {
+  std::vector<Index> near = degenerate_contacts(corner.at.guards, corner.at.state.piece, mesh_error);
+  std::erase_if(near, [&](Index j) { return std::find(degenerate.begin(), degenerate.end(), j) != degenerate.end(); });
+  return near;
+}
+
+// The point of the piece along a direction that is nearest to the corner, where all guards hold: contacts that close or
+// open along it missed that by the error of the mesh. Empty where it is not so near.
+std::optional<PathPoint> point_beside(TraceTools& tools, const Corner& corner, const OutgoingDirection& way) {
+  constexpr double beside = singular_point_accuracy;
+  const Metric metric = tools.metric_on(way.piece, corner.lambda_scale);
+  const State here = tools.system.with_piece(corner.at.state, way.piece);
+  const Direction forward = unit(metric, way.direction);
+  double distance = 0.0;
+  for (int round = 0; round < 3; ++round) {
+    const State guess = moved(here, forward, distance);
+    const PlaneConstraint plane(metric, guess, forward, 0.0);
+    CorrectorResult result = tools.corrector.correct(guess, plane, metric, forward, beside);
+    if (!result.converged() || metric.distance(result.state, here) > beside) return std::nullopt;
+    PathPoint at = path_point(tools.system, metric, std::move(result), forward);
+    double missing = 0.0;
+    for (Index j = 0; j < at.guards.size(); ++j) {
+      if (at.guards[j] >= -tools.options.guard_tolerance) continue;
+      if (at.guard_rates[j] <= 0.0) return std::nullopt;
+      missing = std::max(missing, -at.guards[j] / at.guard_rates[j]);
+    }
+    if (missing == 0.0) return at;
+    distance += 1.01 * missing;
+  }
+  return std::nullopt;
+}
+
+// A way on from a corner that only contacts open which are nearly degenerate there, and its first point.
+struct JointWay {
+  Choice choice{};
+  PathPoint at{};
+};
+
+// Where nothing stable leaves a corner: a stable way along which contacts change, too, that missed the corner by the
+// error of the mesh. Along the path itself they change right behind it, and that way is passed by.
+std::optional<JointWay> leave_jointly(TraceTools& tools, const Corner& corner, const std::vector<Index>& degenerate,
+                                      const std::vector<VisitedCorner>& visited) {
+  const std::vector<Index> near = nearly_degenerate_at(corner, degenerate);
+  if (near.empty() || corner.begins_branch) return std::nullopt;
+  std::vector<Index> all = degenerate;
+  all.insert(all.end(), near.begin(), near.end());
+  const State& state = corner.at.state;
+  auto ways = outgoing_directions(tools.system, state, all, tools.options.corner, tools.corner_workspace);
+  std::erase_if(ways, [&](const OutgoingDirection& way) {
+    const bool changes = std::any_of(near.begin(), near.end(), [&](Index j) {
+      return way.piece[static_cast<std::size_t>(j)] != state.piece[static_cast<std::size_t>(j)];
+    });
+    return !changes || count_along(tools, way, state) != Index{0};
+  });
+  if (ways.empty()) return std::nullopt;
+  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale);
+  const auto* const chosen = std::get_if<ChosenDirection>(&choice.result);
+  if (chosen == nullptr) return std::nullopt;
+  auto at = point_beside(tools, corner, chosen->taken);
+  if (!at) return std::nullopt;
+  decide_count(tools, *at);
+  at->arc = corner.at.arc;
+  at->iterations = corner.at.iterations;
+  at->count = tools.counter.count(at->state, at->negative_eigenvalues);
+  if (at->count.unstable != Index{0}) at->count.unstable = count_along(tools, chosen->taken, at->state);
+  if (at->count.unstable != Index{0}) return std::nullopt;
+  return JointWay{.choice = std::move(choice), .at = std::move(*at)};
+}
+
 }  // namespace
 
 CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
@@ -96,21 +168,28 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
     passed.end = {.reason = EndReason::no_ray, .detail = "the contacts keep changing at one point; try a finer mesh"};
     return passed;
   }
-  auto ways = outgoing_directions(tools.system, corner.at.state, degenerate_at(tools, corner, landed),
-                                  tools.options.corner, tools.corner_workspace);
-  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.lambda_scale);
-  passed.visit = std::move(choice.visit);
-  if (const auto* const end = std::get_if<BranchEnd>(&choice.result)) {
-    passed.end = *end;
-    return passed;
+  const std::vector<Index> degenerate = degenerate_at(tools, corner, landed);
+  auto ways =
+      outgoing_directions(tools.system, corner.at.state, degenerate, tools.options.corner, tools.corner_workspace);
+  Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale);
+  const auto* const end = std::get_if<BranchEnd>(&choice.result);
+  std::optional<PathPoint> at;
+  if (!end) at = point_along(tools, corner, std::get<ChosenDirection>(choice.result));
+  if (!at || at->count.unstable != Index{0}) {
+    if (auto joint = leave_jointly(tools, corner, degenerate, visited)) {
+      choice = std::move(joint->choice);
+      at = std::move(joint->at);
+    } else if (end) {
+      passed.end = *end;
+    }
   }
-  const ChosenDirection& chosen = std::get<ChosenDirection>(choice.result);
-  auto at = point_along(tools, corner, chosen);
+  passed.visit = std::move(choice.visit);
+  if (passed.end) return passed;
   if (!at) {
     passed.end = {.reason = EndReason::singular, .detail = "behind a change of contact"};
     return passed;
   }
-  passed.events = events_at(tools, corner, *at, chosen.untaken);
+  passed.events = events_at(tools, corner, *at, std::get<ChosenDirection>(choice.result).untaken);
   passed.at = std::move(*at);
   return passed;
 }

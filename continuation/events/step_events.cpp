@@ -44,7 +44,10 @@ std::optional<EventPlace> earliest(const TraceTools& tools, const std::vector<in
 
 // The end of the arc becomes an event inside the step.
 void end_at(ArcEnd& end, const EventPlace& event, PathPoint at) {
-  if (!end.event) end.beyond = std::move(end.point);
+  if (!end.event) {
+    end.beyond = std::move(end.point);
+    end.changes_beyond = end.landing.has_value();
+  }
   end.event = event;
   end.point = std::move(at);
   end.landing.reset();
@@ -135,7 +138,7 @@ StabilityCount count_behind(TraceTools& tools, const StepOrigin& origin, const A
   if (end.singular.empty()) return end.point.count;
   const Index change = end.singular.front().change;
   const std::optional<Index>& beyond = end.beyond.negative_eigenvalues;
-  if (beyond && *beyond == *origin.from.negative_eigenvalues + change)
+  if (!end.changes_beyond && beyond && *beyond == *origin.from.negative_eigenvalues + change)
     return tools.counter.count(end.beyond.state, beyond);
   if (!origin.from.count_after.unstable) return {};
   const Index unstable = *origin.from.count_after.unstable + change;

@@ -16,6 +16,7 @@ struct ArcEnd {
   std::optional<EventPlace> event{};      ///< what ends the arc, where it is not the step alone
   std::vector<SingularPoint> singular{};  ///< the first at `point`, others just behind it
   PathPoint beyond{};                     ///< where the step led, of an arc that ends at an event
+  bool changes_beyond = false;            ///< contacts change there, so that one of them holds no more
   std::optional<Landing> landing{};       ///< contacts change at `point`
   std::optional<Landing> passed_bound{};  ///< a validity bound that lies a little before `point`, a target value
   double turn = 0.0;                      ///< of the tangent over the step that was tried [rad]

@@ -19,19 +19,37 @@ struct GuardCrossing {
   double t;
 };
 
+// Branch points are interpolated: guards that are zero there (a flat part buckles off its wall) are known no better.
+double unsure_at_start(const StepOrigin& origin, double tolerance) {
+  return origin.leaves_branch_point ? singular_point_accuracy : tolerance;
+}
+
+// A piece may be entered a little before one of its validity bounds, on the way to where it is valid; and where the
+// mesh is drawn anew just behind a change of contact the guard that was zero there is so within the error of the mesh.
+bool rises_from_below(const PathPoint& from, const PathPoint& to, Index guard, double unsure) {
+  const bool is_contact = guard < static_cast<Index>(to.state.piece.size());
+  const double v = from.guards[guard];
+  return v < -unsure && (!is_contact || v >= -mesh_error) && from.guard_rates[guard] > 0.0 && to.guards[guard] > v;
+}
+
+// By how much guards are violated that were not before.
+double slack_at(const StepOrigin& origin, double tolerance, const PathPoint& at) {
+  double slack = 0.0;
+  for (Index j = 0; j < at.guards.size(); ++j)
+    if (!rises_from_below(origin.point(), at, j, unsure_at_start(origin, tolerance)))
+      slack = std::max(slack, -at.guards[j]);
+  return slack;
+}
+
 std::optional<GuardCrossing> first_crossing(const StepOrigin& origin, double tolerance, const Segment& segment) {
   const PathPoint &from = segment.from(), &to = segment.to();
   const double L = segment.length();
-  // Branch points are interpolated: guards that are zero there (a flat part buckles off its wall) are known no better.
-  const double unsure = origin.leaves_branch_point ? singular_point_accuracy : tolerance;
-  const auto contacts = static_cast<Index>(to.state.piece.size());
+  const double unsure = unsure_at_start(origin, tolerance);
   std::optional<GuardCrossing> first;
   for (Index j = 0; j < to.guards.size(); ++j) {
     const double v0 = from.guards[j], r0 = from.guard_rates[j], v1 = to.guards[j], r1 = to.guard_rates[j];
     const bool touches = v0 <= tolerance && v0 >= -unsure;
-    // A piece may be entered a little before one of its validity bounds, on the way to where it is valid.
-    const bool rises_from_below = j >= contacts && v0 < -unsure && r0 > 0.0 && v1 > v0;
-    if (rises_from_below) continue;
+    if (rises_from_below(from, to, j, unsure)) continue;
     if (v1 >= -tolerance && least_cubic_value(touches ? 0.0 : v0, r0 * L, v1, r1 * L) >= -tolerance) continue;
     const double t = segment.first_zero(v0, r0, v1, r1, tolerance).value_or(0.0);
     if (!first || t < first->t) first = GuardCrossing{.guard = j, .t = t};
@@ -70,7 +88,7 @@ LandedStep land_on(TraceTools& tools, const StepOrigin& origin, const StepEnd& e
   CorrectedPoint at = correct_onto(tools, origin, GuardConstraint(tools.system, crossing.guard), segment, crossing.t);
   if (!at.point || lands_where_it_began(origin, tolerance, *at.point, crossing.guard))
     return {.end = std::nullopt, .failure = at.status};
-  Landing landing{.guard = crossing.guard, .slack = std::max(0.0, -at.point->guards.minCoeff())};
+  Landing landing{.guard = crossing.guard, .slack = slack_at(origin, tolerance, *at.point)};
   landing.singular = is_singular_change(tools, *at.point, landing);
   if (landing.singular && segment.length() > coincidence_tolerance)
     at.point->tangent = tangent_from(origin.metric, origin.point(), *at.point);

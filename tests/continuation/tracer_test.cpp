@@ -34,6 +34,26 @@ TargetValue stop_at_x(double value) { return {.quantity = x(), .value = value, .
 constexpr PathMethod arc_length_methods[] = {PathMethod::riks, PathMethod::normal_plane, PathMethod::cylindrical,
                                              PathMethod::spherical, PathMethod::pseudo_arclength};
 
+// A strut that its load pushes towards two stops, u = λ, and that tips aside, v: energy u²/2 − v²/4 − λ u, gaps 1 − u −
+// v and 1 + ε − u + v. On the first stop u = 2 λ − 1, v = 2 − 2 λ, p = 1 − λ, stable; at λ = 1 it is let go, ε before
+// the second stop. With ε = 0 four ways meet there: off both stops with λ falling, unstable; on the second alone, with
+// λ falling; on both with λ rising, p₁ = p₂ = (λ − 1)/2; and back.
+test::LinearContactToy strut_between_stops(double epsilon) {
+  test::LinearContactToy system;
+  system.A = Matrix{{1.0, 0.0}, {0.0, -0.5}};
+  system.f = Vector::Unit(2, 0);
+  system.G = Matrix{{-1.0, -1.0}, {-1.0, 1.0}};
+  system.gap0 = Vector{{1.0, 1.0 + epsilon}};
+  return system;
+}
+
+// Which stops are closed in the end, from where the strut is on the first one.
+Branch of_strut(double epsilon) {
+  const State leaning{.x = Vector{{0.0, 1.0, 0.5}}, .lambda = 0.5, .piece = {1, 0}};
+  const TraceOptions options{.target_values = {stop_at_lambda(0.4), stop_at_lambda(2.0)}};
+  return trace(strut_between_stops(epsilon), options, leaning);
+}
+
 }  // namespace
 
 // x² + λ = 0 from (1, −1): the fold at (0, 0), then x < 0 with one unstable direction.
@@ -278,6 +298,17 @@ TEST(Tracer, AStepThatEndsWithinRoundOffOfACornerIsFollowedByTheCorner) {
   }
 }
 
+// As where a mesh is drawn anew just behind a corner. A second corner at λ = 1 would have two ways, the one forward and
+// the one that the path has come along.
+TEST(Tracer, AForceThatIsNotZeroByTheErrorOfAMeshAndGrowsIsNoSecondCorner) {
+  const auto system = test::stopped_springs(2.0);
+  const State touched{.x = Vector{{1.0, 1.5 - 2.5e-9, -5e-9}}, .lambda = 1.0 - 5e-9, .piece = {1}};
+  const Branch branch = trace(system, {.target_values = {stop_at_lambda(2.0)}}, touched);
+  EXPECT_EQ(branch.end.reason, EndReason::stop);
+  EXPECT_EQ(events_of(branch).size(), 1u);  // the start
+  EXPECT_EQ(branch.last().state.piece, Piece{1});
+}
+
 // A = −1, g = x: from (x, λ) = (1, −1) along x = −λ, which is unstable; at λ = 0 the contact closes and λ turns back
 // with p = −λ, which is stable.
 TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {
@@ -296,6 +327,31 @@ TEST(Tracer, AContactThatMakesLambdaTurnIsALimitPoint) {
   EXPECT_EQ(limit.unstable_after, 0);
   EXPECT_TRUE(events_of(branch, EventKind::limit_point).empty());
   expect_branch_invariants(system, branch, options);
+}
+
+// A contact that is not closed to the last digit where another is let go, but for less than any mesh is sure of, closes
+// there: else only the unstable way is left.
+TEST(Tracer, AContactThatMissesACornerByTheErrorOfAMeshBelongsToIt) {
+  for (const double epsilon : {0.0, 1e-13, 1e-11, 1e-9, 5e-7}) {
+    SCOPED_TRACE(epsilon);
+    const Branch branch = of_strut(epsilon);
+    EXPECT_EQ(branch.end.reason, EndReason::stop);
+    EXPECT_EQ(branch.last().state.piece, (Piece{1, 1}));
+    EXPECT_NEAR(branch.last().state.lambda, 2.0, 1e-12);
+    EXPECT_EQ(branch.last().count.unstable, 0);
+    EXPECT_NEAR(branch.last().state.x[2] + branch.last().state.x[3], 1.0, 1e-6);  // λ − 1
+    EXPECT_EQ(only_event(branch, EventKind::contact_closes).guards, std::vector<Index>{1});
+    EXPECT_TRUE(events_of(branch, EventKind::contact_opens).empty());
+    EXPECT_NEAR(only_event(branch, EventKind::contact_closes).state.lambda, 1.0, 2.0 * epsilon + 1e-12);
+  }
+}
+
+// What is a gap on any mesh is none of the corner's: the strut falls back, unstable.
+TEST(Tracer, AContactThatIsOpenWhereAnotherIsLetGoIsNoneOfTheCorner) {
+  const Branch branch = of_strut(1e-3);
+  EXPECT_EQ(branch.last().state.piece, (Piece{0, 0}));
+  EXPECT_NEAR(branch.last().state.lambda, 0.4, 1e-12);
+  EXPECT_EQ(branch.last().count.unstable, 1);
 }
 
 TEST(Tracer, StartsOnAClosedContactWithoutForce) {

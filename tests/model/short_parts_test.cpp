@@ -1,0 +1,98 @@
+// What happens soon after a part has come to lie on a wall, before it has the length with which such parts are begun:
+// another contact spreads, too, or the part lifts off inside.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "model/session.hpp"
+
+namespace arcwall::short_parts_test {
+namespace {
+
+const std::string steel = "[material.steel]\nE = 21000.0\nnu = 0.3\n[section.s]\nshape = \"rectangle\"\n";
+
+std::string member(const std::string& theory, int elements) {
+  return ", theory = \"" + theory + "\", material = \"steel\", section = \"s\", elements = " + std::to_string(elements);
+}
+
+// Both halves of it touch a floor that rises to one side by a hundredth, so that one spreads just after the other.
+std::string toggle(int elements) {
+  return "title = \"a toggle above a floor that rises to one side\"\n" + steel +
+         "width = 4.7\nheight = 0.77\n"
+         "[point]\na = [0.0, 0.0]\ntop = [13.5, 1.88]\nb = [27.0, 0.0]\n"
+         "[support]\na = [\"x\", \"z\"]\nb = [\"x\", \"z\"]\n"
+         "[member]\nwest = { from = \"a\", to = \"top\"" +
+         member("classic", elements) + " }\neast = { from = \"top\", to = \"b\"" + member("classic", elements) +
+         " }\n"
+         "[[load]]\nat = \"top\"\nforce = [0.0, -57.0]\n"
+         "[[wall]]\nname = \"floor\"\nside = \"below\"\nprofile = { type = \"line\", z = -1.164, slope = 0.007 }\n"
+         "[path]\nstep = 0.05\nstop = { lambda = [-3.0, 3.0] }\n";
+}
+
+// Clamped on one side, uneven by three half waves, and pressed against a flat wall: so is the pressure on the part that
+// lies on it, which falls through zero inside.
+std::string column(int elements, double stop) {
+  return "title = \"a column whose axis is uneven\"\n" + steel +
+         "width = 0.12\nheight = 0.116\n"
+         "[point]\nleft = [0.0, 0.0]\nright = [12.7, 0.0]\n"
+         "[support]\nleft = [\"x\", \"z\", \"rotation\"]\nright = [\"z\"]\n"
+         "[member]\ncolumn = { from = \"left\", to = \"right\"" +
+         member("elastica", elements) +
+         ", imperfection = [{ shape = \"sine\", amplitude = 0.0054, waves = 1 }, { shape = \"sine\", amplitude = "
+         "0.0013, "
+         "waves = 3 }] }\n"
+         "[[load]]\nat = \"right\"\nforce = [-0.041, 0.0]\n"
+         "[[wall]]\nname = \"upper\"\nside = \"above\"\nprofile = { type = \"flat\", z = 1.28 }\n"
+         "[path]\nstep = 0.05\nstop = { lambda = [-1.0, " +
+         std::to_string(stop) + "] }\n";
+}
+
+struct Traced {
+  std::vector<EventKind> kinds{};  // changes of contact
+  std::vector<double> lambdas{};
+  EndReason end{};
+};
+
+Traced traced(const std::string& deck) {
+  Session run({.deck = "deck.toml", .deck_text = deck});
+  EXPECT_TRUE(run.begin()) << run.problem();
+  while (run.next() != nullptr) {
+  }
+  Traced found{.end = run.record().branches.back().end->reason};
+  for (const RecordEvent& event : run.events()) {
+    const bool changes = event.kind == EventKind::contact_closes || event.kind == EventKind::contact_opens ||
+                         event.kind == EventKind::contact_spreads || event.kind == EventKind::contact_gathers;
+    if (!changes) continue;
+    found.kinds.push_back(event.kind);
+    found.lambdas.push_back(event.lambda);
+  }
+  return found;
+}
+
+// With the length that it has at first the one part lies beyond the load at which the other begins.
+TEST(ShortParts, AreBegunShorterWhereAnotherContactSpreadsSoon) {
+  const Traced coarse = traced(toggle(28)), fine = traced(toggle(56));
+  const std::vector<EventKind> expected{EventKind::contact_closes, EventKind::contact_closes,
+                                        EventKind::contact_spreads, EventKind::contact_spreads};
+  EXPECT_EQ(coarse.end, EndReason::stop);
+  EXPECT_EQ(fine.end, EndReason::stop);
+  ASSERT_EQ(coarse.kinds, expected);
+  ASSERT_EQ(fine.kinds, expected);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(coarse.lambdas[i], fine.lambdas[i], 2e-6);
+  EXPECT_GT(coarse.lambdas[3], coarse.lambdas[2] + 0.01);
+}
+
+// With the length that it has at first the wall would have to pull at some of its nodes, by 5e-9 of what guards are
+// measured by.
+TEST(ShortParts, AreNotBegunWhereTheWallWouldPull) {
+  const Traced whole = traced(column(80, 8.0)), fine = traced(column(160, 4.2));
+  EXPECT_EQ(whole.end, EndReason::stop);
+  ASSERT_EQ(whole.kinds, (std::vector<EventKind>{EventKind::contact_closes, EventKind::contact_spreads,
+                                                 EventKind::contact_opens, EventKind::contact_gathers}));
+  ASSERT_EQ(fine.kinds.size(), 3u);
+  for (std::size_t i = 0; i < fine.kinds.size(); ++i) EXPECT_NEAR(whole.lambdas[i], fine.lambdas[i], 1e-8);
+}
+
+}  // namespace
+}  // namespace arcwall::short_parts_test
