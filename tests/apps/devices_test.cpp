@@ -100,7 +100,7 @@ Number of_pipeline(const Record& record) {
   };
   double low = 1.5 * EI * k * k, high = 8.0 * EI * k * k;
   while (high - low > 1e-3) (has_span(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-  return {event(record, EventKind::limit_point).lambda, low, 0.01};
+  return {test::event_of(record, EventKind::limit_point).lambda, low, 0.01};
 }
 
 Number of_portal(const Record& record) {  // k h tan k h = 6
