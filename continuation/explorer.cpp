@@ -98,9 +98,18 @@ BranchStart start_along(const System& system, const Event& event, const BranchPo
   return start;
 }
 
-bool is_known(const std::vector<KnownPoint>& known, const BranchPoint& point, const Metric& metric) {
+// Layouts that were made on other branches mean other unknowns, in which a place cannot be found again; it has its
+// load, its energy and its contacts, and so has its mirror image.
+bool is_same_on_another_layout(const System& system, const State& a, const State& b) {
+  return a.piece.layout() != b.piece.layout() && a.piece.closed_count() == b.piece.closed_count() &&
+         nearly_equal(a.lambda, b.lambda, 0.0) && nearly_equal(system.energy(a), system.energy(b), 0.0);
+}
+
+bool is_known(const System& system, const std::vector<KnownPoint>& known, const BranchPoint& point,
+              const Metric& metric) {
   return std::any_of(known.begin(), known.end(), [&](const KnownPoint& other) {
-    return other.state.piece == point.state.piece && metric.distance(other.state, point.state) <= same_branch_point;
+    if (other.state.piece == point.state.piece) return metric.distance(other.state, point.state) <= same_branch_point;
+    return is_same_on_another_layout(system, other.state, point.state);
   });
 }
 
@@ -149,7 +158,7 @@ void Explorer::look_at(const Event& event) {
   const BranchPoint& point = *event.branching;
   if (event.suspected) return;
   const Metric metric(system_.weights(point.state.piece), lambda_scale_);
-  if (is_known(known_, point, metric)) return;
+  if (is_known(system_, known_, point, metric)) return;
   known_.push_back({.state = point.state, .branch = current_});
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];

@@ -157,4 +157,19 @@ TEST(ExampleDevices, HaveTheNumbersThatTheySaySlow) {
   }
 }
 
+// A branch comes back to the pitchfork from which it leaves on a mesh of its own: it is the same place all the same,
+// and the path is not followed round and round.
+TEST(Pipeline, LeavesAPitchforkOnceThoughItComesBackOnAnotherMesh) {
+  const auto& devices = example_devices();
+  const auto pipeline =
+      std::find_if(devices.begin(), devices.end(), [](const ExampleDeck& device) { return device.name == "pipeline"; });
+  ASSERT_NE(pipeline, devices.end());
+  Session run({.deck = "pipeline.toml",
+               .deck_text = std::string(pipeline->text),
+               .assignments = {"path.branches=\"follow\"", "load.0.distributed=[0.0, -1.03]"}});
+  ASSERT_TRUE(run.begin()) << run.problem();
+  while (run.next() != nullptr) ASSERT_LT(run.points().size(), 300u);
+  EXPECT_EQ(run.record().branches.size(), 2u);
+}
+
 }  // namespace arcwall::devices_test
