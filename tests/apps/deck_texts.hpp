@@ -51,4 +51,21 @@ section = "s"
                      elements);
 }
 
+/// A sine arch of rise 0.1 and span 2 under a load along it, with a floor at a height z; where it falls to is asked
+/// for.
+inline std::string arch_above_a_floor(const std::string& z) {
+  return R"toml(
+title = "An arch above a floor"
+material.m = { E = 21000.0, nu = 0.29 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { l = [0.0, 0.0], r = [2.0, 0.0] }
+support = { l = ["x", "z"], r = ["x", "z"] }
+member.arch = { from = "l", to = "r", sine = { rise = 0.1, waves = 1 }, theory = "elastica", elements = 40, material = "m", section = "s" }
+load = [{ on = "arch", distributed = [0.0, -1.0] }]
+path = { step = 0.01, landing = true, stop = { lambda = [-0.05, 0.2] } }
+monitor = [{ name = "quarter", at = "arch:0.25", component = "z" }]
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = )toml" +
+         z + " } }]\n";
+}
+
 }  // namespace arcwall::test

@@ -68,21 +68,6 @@ struct Problem {
 
 std::ostream& operator<<(std::ostream& out, const Problem& problem) { return out << problem.name; }
 
-std::string arch_above(const std::string& floor) {
-  return R"toml(
-title = "An arch above a floor"
-material.m = { E = 21000.0, nu = 0.29 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { l = [0.0, 0.0], r = [2.0, 0.0] }
-support = { l = ["x", "z"], r = ["x", "z"] }
-member.arch = { from = "l", to = "r", sine = { rise = 0.1, waves = 1 }, theory = "elastica", elements = 40, material = "m", section = "s" }
-load = [{ on = "arch", distributed = [0.0, -1.0] }]
-path = { step = 0.01, landing = true, stop = { lambda = [-0.05, 0.2] } }
-monitor = [{ name = "quarter", at = "arch:0.25", component = "z" }]
-wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = )toml" +
-         floor + " } }]\n";
-}
-
 const std::string bars_above_a_stop = R"toml(
 title = "Two bars above a stop"
 material.m = { E = 1e4 }
@@ -110,10 +95,10 @@ std::vector<Problem> problems() {
       {"TwoBarsOnAStop", bars_above_a_stop, {}, 1e-5},
       {"Channel", channel, landing(), of_nodes},
       {"NarrowerChannel", channel, landing({"wall.upper.profile.z=0.19"}), of_nodes},
-      {"ArchOnALowFloor", arch_above("-0.08"), {}, 1e-5},
-      {"ArchOnAFloor", arch_above("-0.06"), {}, 1e-5},
-      {"ArchPressedOnAFloor", arch_above("-0.02"), {}, 1e-3},
-      {"ArchAlongAFloor", arch_above("0.0"), {}, 1e-3},
+      {"ArchOnALowFloor", test::arch_above_a_floor("-0.08"), {}, 1e-5},
+      {"ArchOnAFloor", test::arch_above_a_floor("-0.06"), {}, 1e-5},
+      {"ArchPressedOnAFloor", test::arch_above_a_floor("-0.02"), {}, 1e-3},
+      {"ArchAlongAFloor", test::arch_above_a_floor("0.0"), {}, 1e-3},
   };
 }
 

@@ -184,24 +184,12 @@ TEST(Landing, BeginsContactThatSlidesWhereThePathDoesNotPass) {
 // end where the floor is as high as the hinges. Where the path passes the state it is that of the path, which was
 // traced to it through every change of contact.
 TEST(Landing, OnAFloorIsThatOfThePathWhereverThatEndsSlow) {
-  const std::string arch = R"toml(
-title = "An arch above a floor"
-material.m = { E = 21000.0, nu = 0.29 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { l = [0.0, 0.0], r = [2.0, 0.0] }
-support = { l = ["x", "z"], r = ["x", "z"] }
-member.arch = { from = "l", to = "r", sine = { rise = 0.1, waves = 1 }, theory = "elastica", elements = 40, material = "m", section = "s" }
-load = [{ on = "arch", distributed = [0.0, -1.0] }]
-path = { step = 0.01, landing = true, stop = { lambda = [-0.05, 0.2] } }
-wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = -0.06 } }]
-monitor = [{ name = "quarter", at = "arch:0.25", component = "z" }]
-)toml";
   struct Floor {
     std::string z, word;
   };
   for (const Floor& floor : {Floor{"-0.06", "floor"}, Floor{"-0.02", "floor="}, Floor{"0.0", "floor="}}) {
-    const std::string set = "wall.floor.profile.z=" + floor.z;
-    const TracedDeck whole(arch, {set}), part(arch, {set, "path.max_points=10"});
+    const std::string arch = test::arch_above_a_floor(floor.z);
+    const TracedDeck whole(arch), part(arch, {"path.max_points=10"});
     const RecordEvent &on_path = event_of(whole, EventKind::limit_point), &off = event_of(part, EventKind::limit_point);
     ASSERT_TRUE(on_path.landing && off.landing);
     EXPECT_TRUE(on_path.landing->on_branch);
