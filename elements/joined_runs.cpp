@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "elements/sliding_structure.hpp"
 
@@ -45,8 +47,9 @@ SlidingStructure::Run SlidingStructure::reversed(const Run& run) {
   out.ends[1].angle = out.axis->at(out.axis->length()).angle;
   std::reverse(out.parts.begin(), out.parts.end());
   for (Part& part : out.parts) {
-    part.from = std::exchange(part.to, L - part.from);
-    part.from = L - part.from;
+    const double from = part.from;
+    part.from = L - part.to;
+    part.to = L - from;
     std::swap(part.first_fraction, part.last_fraction);
   }
   std::reverse(out.joints.begin(), out.joints.end());
@@ -110,39 +113,112 @@ SlidingStructure::Run SlidingStructure::joined(Run a, const Run& b, bool carries
   return a;
 }
 
-// A strand travels as that of its members does which comes first.
+// Joins runs where two of them meet. Each joint is asked once which runs end there, so that a chain takes time in
+// proportion to its members.
+class SlidingStructure::RunJoiner {
+ public:
+  RunJoiner(SlidingStructure& structure, const std::vector<bool>& with_terms,
+            const CarriesForceAlone& carries_force_alone, const Alike& alike)
+      : structure_(structure),
+        with_terms_(with_terms),
+        carries_force_alone_(carries_force_alone),
+        alike_(alike),
+        is_gone_(structure.runs_.size(), false) {
+    for (std::size_t r = 0; r < runs().size(); ++r)
+      for (const bool last : {false, true}) at_joint_[joint_of(runs()[r], last)].push_back({.run = r, .last = last});
+  }
+
+  // Those that continue each other come first, then those that meet head to head. A strand travels as that of its
+  // members does which comes first.
+  void join_all() {
+    for (std::size_t r = 0; r < runs().size(); ++r)
+      if (!is_gone_[r]) join_onward(r);
+    for (std::size_t r = 0; r < runs().size(); ++r)
+      if (!is_gone_[r]) join_all_at(r);
+    std::vector<Run> left;
+    for (std::size_t r = 0; r < runs().size(); ++r)
+      if (!is_gone_[r]) left.push_back(std::move(runs()[r]));
+    runs() = std::move(left);
+  }
+
+ private:
+  struct RunEnd {
+    std::size_t run;
+    bool last;
+    bool operator==(const RunEnd&) const = default;
+  };
+
+  std::vector<Run>& runs() const { return structure_.runs_; }
+  static const End& end_of(const Run& run, bool last) { return run.ends[last ? 1 : 0]; }
+  static Index joint_of(const Run& run, bool last) { return end_of(run, last).freedom[1]; }
+
+  // The end of another run that alone is at the joint where an end is.
+  std::optional<RunEnd> met_by(const RunEnd& end) const {
+    const auto found = at_joint_.find(joint_of(runs()[end.run], end.last));
+    if (found == at_joint_.end() || found->second.size() != 2) return std::nullopt;
+    const RunEnd& other = found->second[found->second[0] == end ? 1 : 0];
+    return other.run == end.run ? std::nullopt : std::optional(other);
+  }
+
+  void join_onward(std::size_t run) {
+    for (;;) {
+      const auto next = met_by({.run = run, .last = true});
+      if (!next || next->last || !join({.run = run, .last = true}, *next)) return;
+    }
+  }
+
+  // Until nothing is joined at either end of the strand that this run becomes part of.
+  void join_all_at(std::size_t run) {
+    for (bool joined = true; joined;) {
+      joined = false;
+      for (const bool last : {true, false}) {
+        const RunEnd here{.run = run, .last = last};
+        const auto other = met_by(here);
+        if (!other) continue;
+        const bool head_on = other->last == last, keeps = head_on ? run < other->run : last;
+        if (!(keeps ? join(here, *other) : join(*other, here))) continue;
+        run = keeps ? run : other->run;
+        joined = true;
+      }
+    }
+  }
+
+  // The run of the one end takes that of the other over and keeps its own direction, if a strand may pass there.
+  bool join(const RunEnd& kept, const RunEnd& taken) {
+    Run& first = runs()[kept.run];
+    if (!may_meet(first, kept.last, runs()[taken.run], taken.last)) return false;
+    Run second = kept.last == taken.last ? reversed(runs()[taken.run]) : runs()[taken.run];
+    Run &from = kept.last ? first : second, &to = kept.last ? second : first;
+    if (!structure_.passes(from, to, with_terms_, carries_force_alone_)) return false;
+    const auto node = static_cast<std::size_t>(structure_.node_of(end_of(from, true)));
+    at_joint_.erase(joint_of(from, true));
+    for (RunEnd& far : at_joint_[joint_of(second, kept.last)])
+      if (far == RunEnd{.run = taken.run, .last = !taken.last}) far = kept;
+    Run whole = structure_.joined(std::move(from), to, with_terms_[node]);
+    first = std::move(whole);
+    is_gone_[taken.run] = true;
+    return true;
+  }
+
+  // Whether nothing but what acts at the joint could keep a strand from passing.
+  bool may_meet(const Run& a, bool a_last, const Run& b, bool b_last) const {
+    const auto has_curve = [](const Run& run) { return run.perfect && curvature_of(*run.axis).has_value(); };
+    const auto member = [](const Run& run, bool last) { return (last ? run.parts.back() : run.parts.front()).member; };
+    if (end_of(a, a_last).freedom != end_of(b, b_last).freedom || !has_curve(a) || !has_curve(b)) return false;
+    return !alike_ || alike_(member(a, a_last), member(b, b_last));
+  }
+
+  SlidingStructure& structure_;
+  const std::vector<bool>& with_terms_;
+  const CarriesForceAlone& carries_force_alone_;
+  const Alike& alike_;
+  std::vector<bool> is_gone_;
+  std::unordered_map<Index, std::vector<RunEnd>> at_joint_{};  // by the joint's z
+};
+
 void SlidingStructure::join_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone,
                                  const Alike& alike) {
-  const auto has_curve = [](const Run& run) { return run.perfect && curvature_of(*run.axis).has_value(); };
-  const auto meet = [&](const Run& a, bool a_last, const Run& b, bool b_last) {
-    const End &end = a.ends[a_last ? 1 : 0], &other = b.ends[b_last ? 1 : 0];
-    if (end.freedom != other.freedom || !has_curve(a) || !has_curve(b) || ends_at(end.freedom[1]).size() != 2)
-      return false;
-    const auto member = [](const Run& run, bool last) { return (last ? run.parts.back() : run.parts.front()).member; };
-    return !alike || alike(member(a, a_last), member(b, b_last));
-  };
-  const auto try_to_join = [&](std::size_t a, std::size_t b, bool a_last, bool b_last) {
-    if (!meet(runs_[a], a_last, runs_[b], b_last)) return false;
-    const Run first = runs_[a], second = a_last == b_last ? reversed(runs_[b]) : runs_[b];
-    const Run &from = a_last ? first : second, &to = a_last ? second : first;
-    if (!passes(from, to, with_terms, carries_force_alone)) return false;
-    const Index joint = node_of(from.ends[1]);
-    runs_[a] = joined(from, to, with_terms[static_cast<std::size_t>(joint)]);
-    runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(b));
-    return true;
-  };
-  const auto join_one = [&](const auto& joins) {
-    for (std::size_t a = 0; a < runs_.size(); ++a)
-      for (std::size_t b = 0; b < runs_.size(); ++b)
-        if (a != b && joins(a, b)) return true;
-    return false;
-  };
-  const auto onward = [&](std::size_t a, std::size_t b) { return try_to_join(a, b, true, false); };
-  const auto head_on = [&](std::size_t a, std::size_t b) {
-    return a < b && (try_to_join(a, b, true, true) || try_to_join(a, b, false, false));
-  };
-  while (join_one(onward) || join_one(head_on)) {
-  }
+  RunJoiner(*this, with_terms, carries_force_alone, alike).join_all();
 }
 
 }  // namespace arcwall

@@ -168,6 +168,7 @@ class SlidingStructure final : public SlidingBody {
   SlidingStructure() = default;
   // `carries_force_alone`: of nodes with terms, given with their rotation; a strand passes those.
   using CarriesForceAlone = std::function<bool(Index node, Index rotation)>;
+  class RunJoiner;
   void join_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone, const Alike& alike);
   bool passes(const Run& a, const Run& b, const std::vector<bool>& with_terms,
               const CarriesForceAlone& carries_force_alone) const;
