@@ -63,7 +63,8 @@ std::vector<MovedStrand> moved_strands(const Model& model, const State& deck_sta
   }
   for (MovedStrand& strand : strands) {
     std::sort(strand.begin(), strand.end(), [](const MovedPlace& a, const MovedPlace& b) { return a.s < b.s; });
-    const auto same = [](const MovedPlace& a, const MovedPlace& b) { return std::abs(a.s - b.s) <= 1e-12; };
+    const double roundoff = 1e-12 * strand.back().s;
+    const auto same = [&](const MovedPlace& a, const MovedPlace& b) { return std::abs(a.s - b.s) <= roundoff; };
     strand.erase(std::unique(strand.begin(), strand.end(), same), strand.end());
   }
   return strands;
@@ -106,8 +107,10 @@ enum class Reading {
 
 // Whether no node of a strand lies between two places of nodes.
 bool are_neighbours(const MovedStrand& strand, double a, double b) {
-  const auto within = [&](const MovedPlace& place) { return place.s > a + 1e-9 && place.s < b - 1e-9; };
-  return std::none_of(strand.begin(), strand.end(), within);
+  const double roundoff = 1e-6 * (b - a);
+  const auto next = std::lower_bound(strand.begin(), strand.end(), a + roundoff,
+                                     [](const MovedPlace& place, double s) { return place.s < s; });
+  return next == strand.end() || next->s >= b - roundoff;
 }
 
 // `touching`: the gap below which a node touches, in the scale of the guards.
@@ -163,11 +166,8 @@ GivenContact given(const TouchingNodes& nodes, Reading reading) {
   constexpr double without = 1e-3;  // of the forces, inside a part without pressure
   const std::size_t n = nodes.places.size();
   const auto [all, centre] = resultant(nodes, 0, n);
-  GivenContact contact{.wall = nodes.wall, .strand = nodes.strand, .force = all};
-  if (n == 1 || (n <= few && reading == Reading::likely)) {
-    contact.from = contact.to = centre;
-    return contact;
-  }
+  GivenContact contact{.wall = nodes.wall, .strand = nodes.strand, .from = centre, .to = centre, .force_at_from = all};
+  if (n == 1 || (n <= few && reading == Reading::likely)) return contact;
   const bool is_flat =
       reading == Reading::flat || (reading == Reading::likely && resultant(nodes, 2, n - 2).first <= without * all);
   const auto [first_half, from] = resultant(nodes, 0, n / 2);
@@ -176,6 +176,7 @@ GivenContact given(const TouchingNodes& nodes, Reading reading) {
   contact.from = is_flat ? from : nodes.places.front();
   contact.to = is_flat ? to : nodes.places.back();
   contact.force_at_from = is_flat ? first_half : nodes.forces.front();
+  contact.force_at_to = is_flat ? second_half : nodes.forces.back();
   return contact;
 }
 
@@ -233,16 +234,15 @@ Vector DeckMesh::values(const State& state) const {
 }
 
 std::vector<State> DeckMesh::in_path_formulation(const State& equilibrium) const {
-  if (model_.sliding() == nullptr) return {equilibrium};
   const State deck_state{.x = equilibrium.x.head(size_), .lambda = equilibrium.lambda, .piece = {}};
   const std::vector<MovedStrand> strands = moved_strands(model_, deck_state);
   const State open = open_shape(model_, strands, equilibrium.lambda);
   std::vector<State> guesses;
   for (const double touching : {1e-7, 1e-4}) {
+    const std::vector<TouchingNodes> groups = touching_nodes(model_, equilibrium, strands, touching);
     for (const Reading reading : {Reading::likely, Reading::flat, Reading::pressed}) {
       std::vector<GivenContact> contacts;
-      for (const TouchingNodes& nodes : touching_nodes(model_, equilibrium, strands, touching))
-        contacts.push_back(given(nodes, reading));
+      for (const TouchingNodes& nodes : groups) contacts.push_back(given(nodes, reading));
       guesses.push_back(model_.sliding()->with_given_contacts(open, contacts));
     }
   }

@@ -33,9 +33,9 @@ class DeckMesh {
   /// Between the unknowns of two states, in the path metric [-].
   double distance(const Vector& a, const Vector& b) const;
 
-  /// Where Newton's method may begin in the path's own formulation, from an equilibrium of system(): that state itself,
-  /// or where contact slides several, the likeliest first, as nodes hardly tell whether contact is at a point, along a
-  /// part without pressure or along one with pressure. Each is within an element of what it is meant for.
+  /// Where Newton's method may begin in the path's own formulation where contact slides, from an equilibrium of
+  /// system(): the likeliest first, as nodes hardly tell whether contact is at a point, along a part without pressure
+  /// or along one with pressure. Each is within an element of what it is meant for.
   std::vector<State> in_path_formulation(const State& equilibrium) const;
 
  private:

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "contact/sliding/layout_edit.hpp"
+#include "contact/sliding/lying.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
@@ -53,41 +54,28 @@ class GivenLayout {
 
   void close(const GivenContact& contact) {
     const std::size_t obstacle = obstacle_of(setting_, open_, contact);
-    if (contact.between == Span::pressed && reaches_both_ends(contact)) {
-      edit_.set_lying(contact.strand, obstacle);
-      for (std::size_t j = 0; j < setting_.free_ends.size(); ++j)
-        if (setting_.free_ends[j].strand == contact.strand && setting_.free_ends[j].obstacle == obstacle)
-          edit_.ends_closed[j] = 1;
-      return;
-    }
-    const double at_to = contact.is_part() ? contact.force - contact.force_at_from : contact.force;
+    if (contact.between == Span::pressed && reaches_both_ends(contact))
+      return lay_down(setting_, contact.strand, obstacle, edit_);
     const auto from_tip = tip_at(setting_, contact.strand, contact.from, obstacle);
     const auto to_tip = tip_at(setting_, contact.strand, contact.to, obstacle);
-    if (from_tip) close_tip(*from_tip, contact.is_part() ? contact.force_at_from : contact.force);
-    if (to_tip && to_tip != from_tip) close_tip(*to_tip, at_to);
-    if (!from_tip) add_point(contact, obstacle, contact.from, contact.is_part() ? contact.force_at_from : at_to);
+    if (from_tip) close_tip(*from_tip, contact.force_at_from);
+    if (!from_tip) add_point(contact, obstacle, contact.from, contact.force_at_from);
     if (!contact.is_part()) return;
-    const auto lie_behind = [&](std::size_t point) {
-      edit_.elements_behind(point) = elements(contact, edit_.place(point), contact.to);
-      edit_.points[point].behind = contact.between;
-    };
-    if (to_tip) {
-      if (!from_tip) lie_behind(last_);
-      return;
-    }
-    const std::size_t before = last_;
-    add_point(contact, obstacle, contact.to, at_to);
-    if (from_tip) {
+    const std::size_t first = last_;
+    if (to_tip && to_tip != from_tip) close_tip(*to_tip, contact.force_at_to);
+    if (!to_tip) add_point(contact, obstacle, contact.to, contact.force_at_to);
+    if (!from_tip) {
+      edit_.elements_behind(first) = elements(contact, edit_.place(first), contact.to);
+      edit_.points[first].behind = contact.between;
+    } else if (!to_tip) {
       edit_.points[last_].before = contact.between;
-    } else {
-      lie_behind(before);
     }
   }
 
   State state() const { return mapped_onto(setting_, open_, edit_, layout_of(edit_)); }
 
  private:
-  // To within an element.
+  // But for an element at each of them.
   bool reaches_both_ends(const GivenContact& contact) const {
     const double all = setting_.body.elements_between(contact.strand, 0.0, setting_.body.length(contact.strand));
     const double some = setting_.body.elements_between(contact.strand, contact.from, contact.to);

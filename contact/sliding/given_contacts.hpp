@@ -14,8 +14,8 @@ struct SlidingState;
 struct GivenContact {
   std::string wall{};
   Index strand = 0;
-  double from = 0.0, to = 0.0;              ///< material coordinates; equal where contact is at a point [length]
-  double force_at_from = 0.0, force = 0.0;  ///< at `from`; all of it [force]
+  double from = 0.0, to = 0.0;                    ///< material coordinates; equal where contact is at a point [length]
+  double force_at_from = 0.0, force_at_to = 0.0;  ///< of a part; of a point the first is all of it [force]
   SlidingContactLayout::Span between = SlidingContactLayout::Span::free;  ///< how the body runs from `from` to `to`
 
   bool is_part() const { return to > from; }

@@ -81,14 +81,17 @@ std::optional<std::size_t> pressed_along(const SlidingSetting& setting, const Sl
 
 }  // namespace
 
+void lay_down(const SlidingSetting& setting, Index strand, std::size_t obstacle, LayoutEdit& edit) {
+  edit.set_lying(strand, obstacle);
+  for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
+    if (setting.free_ends[j].strand == strand && setting.free_ends[j].obstacle == obstacle) edit.ends_closed[j] = 1;
+}
+
 State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest, double toward) {
   LayoutEdit edit = edit_of(setting.body, rest);
   for (Index strand = 0; strand < setting.body.strands(); ++strand) {
     const auto obstacle = pressed_along(setting, rest, strand, toward);
-    if (!obstacle) continue;
-    edit.set_lying(strand, obstacle);
-    for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
-      if (setting.free_ends[j].strand == strand && setting.free_ends[j].obstacle == *obstacle) edit.ends_closed[j] = 1;
+    if (obstacle) lay_down(setting, strand, *obstacle, edit);
   }
   return edit.lying.empty() ? rest.state : mapped_onto(setting, rest, edit, layout_of(edit));
 }

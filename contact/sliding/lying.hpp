@@ -3,11 +3,15 @@
 #include <string>
 #include <vector>
 
+#include "contact/sliding/layout_edit.hpp"
 #include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
 #include "core/transition.hpp"
 
 namespace arcwall::sliding {
+
+/// Says that a strand is pressed on a straight obstacle from end to end, its free ends included.
+void lay_down(const SlidingSetting& setting, Index strand, std::size_t obstacle, LayoutEdit& edit);
 
 /// The state at rest with those strands pressed along straight obstacles that lie on them from end to end and are
 /// pressed all along as λ grows from 0 to `toward`. Nothing presses yet.
