@@ -27,6 +27,18 @@ material = "m"
 section = "s"
 )toml";
 
+/// Two bars of half-span 10 and rise 1, Green's strain, EA = 1e4, with a load and a monitor w at the top; tables may
+/// follow.
+inline const std::string low_truss = R"toml(
+title = "Two bars"
+material.m = { E = 1e4 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "top", force = [0.0, -1.0] }]
+monitor = [{ name = "w", at = "top", component = "z" }]
+)toml" + two_bars;
+
 /// A column from A to B between walls at 0.2 to both sides, of material m and section s; its imperfection has a third
 /// harmonic.
 inline std::string column_in_channel(int elements) {

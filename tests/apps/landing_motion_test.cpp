@@ -68,17 +68,16 @@ struct Problem {
 
 std::ostream& operator<<(std::ostream& out, const Problem& problem) { return out << problem.name; }
 
-const std::string bars_above_a_stop = R"toml(
-title = "Two bars above a stop"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }]
-monitor = [{ name = "w", at = "top", component = "z" }]
-wall = [{ name = "stop", side = "below", acts_on = "axis", profile = { type = "flat", z = -0.5 } }]
-path = { step = 0.3, landing = true, stop = { lambda = [-5.0, 5.0] } }
-)toml" + test::two_bars;
+const std::string bars_above_a_stop = test::low_truss + R"toml([[wall]]
+name = "stop"
+side = "below"
+acts_on = "axis"
+profile = { type = "flat", z = -0.5 }
+[path]
+step = 0.3
+landing = true
+stop = { lambda = [-5.0, 5.0] }
+)toml";
 
 // With walls nodes touch where the path has contact between them, and springs give way.
 std::vector<Problem> problems() {

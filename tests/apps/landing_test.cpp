@@ -20,16 +20,7 @@ using test::TracedDeck;
 
 // Two bars of half-span 10 and rise 1, Green strain, EA = 1e4; the path ends at a depth.
 std::string truss(const std::string& depth) {
-  return R"toml(
-title = "Two bars"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }]
-monitor = [{ name = "w", at = "top", component = "z" }]
-)toml" + test::two_bars +
-         R"toml([path]
+  return test::low_truss + R"toml([path]
 step = 0.3
 landing = true
 branches = "primary"
@@ -101,6 +92,21 @@ State slow_motion(const System& system, State state, double mu, double longest) 
   throw std::runtime_error("no rest");
 }
 
+// Shooting: the snap from two points above ends with one point above, one below, one above; mid −0.15, shortening
+// 0.357478384025, released 0.449814851283; back at 4.252069687267, loop 0.564429600789.
+void expect_the_fall_of_the_channel(const RecordEvent& snap) {
+  ASSERT_TRUE(snap.landing);
+  EXPECT_EQ(snap.landing->reason, "") << snap.landing->why;
+  EXPECT_EQ(snap.landing->word, "upper lower upper");
+  EXPECT_NEAR(snap.landing->monitors.at(0), -0.15, 1e-9);
+  EXPECT_NEAR(snap.landing->monitors.at(1), 0.357478384025, 1e-7);
+  EXPECT_NEAR(snap.landing->released, 0.449814851283, 1e-7);
+  ASSERT_TRUE(snap.landing->back);
+  EXPECT_EQ(snap.landing->back->kind, EventKind::contact_limit_point);
+  EXPECT_NEAR(snap.landing->back->lambda, 4.252069687267, 1e-7);
+  EXPECT_NEAR(snap.landing->loop.value(), 0.564429600789, 1e-6);
+}
+
 }  // namespace
 
 // The truss falls from h (1 − 1/√3) to h (1 + 2/√3) = 2.1547005383793 and releases 7.3888900263118; it comes back by
@@ -163,21 +169,13 @@ TEST(Landing, IsFoundWhereThePathDoesNotPass) {
   EXPECT_NEAR(snap.landing->back->lambda, -snap.lambda, 1e-9);
 }
 
-// The column below, traced to just behind its limit point alone: contact that slides is begun where the structure comes
-// to rest, and followed back from there. The same numbers by shooting as on the whole path.
+// The column traced to just behind its limit point alone: contact that slides is begun where the structure comes to
+// rest, and followed back from there.
 TEST(Landing, BeginsContactThatSlidesWhereThePathDoesNotPass) {
   const TracedDeck traced(channel, {"path.max_points=33"});
   const RecordEvent& snap = event_of(traced, EventKind::limit_point);
-  ASSERT_TRUE(snap.landing);
-  EXPECT_EQ(snap.landing->reason, "") << snap.landing->why;
+  expect_the_fall_of_the_channel(snap);
   EXPECT_FALSE(snap.landing->on_branch);
-  EXPECT_EQ(snap.landing->word, "upper lower upper");
-  EXPECT_NEAR(snap.landing->monitors.at(1), 0.357478384025, 1e-7);
-  EXPECT_NEAR(snap.landing->released, 0.449814851283, 1e-7);
-  ASSERT_TRUE(snap.landing->back);
-  EXPECT_EQ(snap.landing->back->kind, EventKind::contact_limit_point);
-  EXPECT_NEAR(snap.landing->back->lambda, 4.252069687267, 1e-7);
-  EXPECT_NEAR(snap.landing->loop.value(), 0.564429600789, 1e-6);
 }
 
 // An arch under a load along it snaps onto a floor: onto a point of it, along a part that is pressed, and from end to
@@ -220,21 +218,9 @@ TEST(Landing, OfLeesFrameIsThatOfShooting) {
   EXPECT_NEAR(traced.model().monitors()[1].quantity->value(rest), snap.landing->monitors.at(1), 1e-8);
 }
 
-// Shooting: the snap from two points above ends with one point above, one below, one above; mid −0.15, shortening
-// 0.357478384025, released 0.449814851283; back at 4.252069687267, loop 0.564429600789.
 TEST(Landing, OfAColumnInAChannelIsThatOfShooting) {
   const TracedDeck traced(channel);
-  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
-  ASSERT_TRUE(snap.landing);
-  EXPECT_EQ(snap.landing->reason, "") << snap.landing->why;
-  EXPECT_EQ(snap.landing->word, "upper lower upper");
-  EXPECT_NEAR(snap.landing->monitors.at(0), -0.15, 1e-9);
-  EXPECT_NEAR(snap.landing->monitors.at(1), 0.357478384025, 1e-7);
-  EXPECT_NEAR(snap.landing->released, 0.449814851283, 1e-7);
-  ASSERT_TRUE(snap.landing->back);
-  EXPECT_EQ(snap.landing->back->kind, EventKind::contact_limit_point);
-  EXPECT_NEAR(snap.landing->back->lambda, 4.252069687267, 1e-7);
-  EXPECT_NEAR(snap.landing->loop.value(), 0.564429600789, 1e-6);
+  expect_the_fall_of_the_channel(event_of(traced, EventKind::limit_point));
 }
 
 // A steep truss of rise 5 and half-span 1 sways at z = √23 above its feet, and that branch is unstable. With
