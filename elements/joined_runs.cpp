@@ -219,6 +219,9 @@ class SlidingStructure::RunJoiner {
 void SlidingStructure::join_runs(const std::vector<bool>& with_terms, const CarriesForceAlone& carries_force_alone,
                                  const Alike& alike) {
   RunJoiner(*this, with_terms, carries_force_alone, alike).join_all();
+  for (Index strand = 0; strand < strands(); ++strand)
+    for (const bool last : {false, true})
+      ends_at_joint_[at(strand).ends[last ? 1 : 0].freedom[1]].push_back({.strand = strand, .last = last});
 }
 
 }  // namespace arcwall

@@ -56,14 +56,6 @@ double SlidingStructure::natural_curvature_second(const MaterialPoint& point) co
   return (curvature_aa - curvature_a * v_a / v) / (v * v);
 }
 
-std::vector<StrandEnd> SlidingStructure::ends_at(Index freedom_z) const {
-  std::vector<StrandEnd> ends;
-  for (Index strand = 0; strand < strands(); ++strand)
-    for (const bool last : {false, true})
-      if (at(strand).ends[last ? 1 : 0].freedom[1] == freedom_z) ends.push_back({.strand = strand, .last = last});
-  return ends;
-}
-
 StrandEnd SlidingStructure::first_of_joint(Index strand, bool last, bool on_axis) const {
   constexpr double in_line = 0.05;  // [rad]
   const auto freedoms = [&](const StrandEnd& end) { return at(end.strand).ends[end.last ? 1 : 0].freedom; };
@@ -76,7 +68,7 @@ StrandEnd SlidingStructure::first_of_joint(Index strand, bool last, bool on_axis
     return on_axis || (half_height(other.strand) == half_height(strand) &&
                        std::abs(std::remainder(angle(other) - angle(here), pi)) <= in_line);
   };
-  const std::vector<StrandEnd> ends = ends_at(freedoms(here)[1]);
+  const std::vector<StrandEnd>& ends = ends_at(freedoms(here)[1]);
   return *std::find_if(ends.begin(), ends.end(), is_same);
 }
 
@@ -87,7 +79,7 @@ bool SlidingStructure::is_tip(Index strand, bool last) const {
 
 std::optional<StrandEnd> SlidingStructure::joined_end(Index strand, bool last) const {
   const End& end = at(strand).ends[last ? 1 : 0];
-  const std::vector<StrandEnd> ends = ends_at(end.freedom[1]);
+  const std::vector<StrandEnd>& ends = ends_at(end.freedom[1]);
   if (ends.size() != 2 || nodal_.is_held(end.freedom[1]) || nodal_.is_held(end.freedom[2])) return std::nullopt;
   const StrandEnd other = ends[ends[0] == StrandEnd{.strand = strand, .last = last} ? 1 : 0];
   const bool turn_together = at(other.strand).ends[other.last ? 1 : 0].freedom == end.freedom;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/observable.hpp"
@@ -176,13 +177,15 @@ class SlidingStructure final : public SlidingBody {
   Run joined(Run a, const Run& b, bool carries_force) const;
   Index node_of(const End& end) const { return freedoms_[static_cast<std::size_t>(end.freedom[0])].node; }
   PointLoad point_load(Index node) const;
-  std::vector<StrandEnd> ends_at(Index freedom_z) const;  // all ends of strands at the joint with this freedom
+  // All ends of strands at the joint with this freedom, which an end has.
+  const std::vector<StrandEnd>& ends_at(Index freedom_z) const { return ends_at_joint_.at(freedom_z); }
   double rest_value(Index freedom) const;  // of the mesh's unknown at rest: the position, where that is one
   const Run& at(Index strand) const { return runs_[static_cast<std::size_t>(strand)]; }
 
   std::vector<Run> runs_;
-  std::vector<Vec2> positions_;       // of the builder's nodes
-  std::vector<Index> first_freedom_;  // of the builder's nodes
+  std::unordered_map<Index, std::vector<StrandEnd>> ends_at_joint_{};  // by its z; filled when runs are joined
+  std::vector<Vec2> positions_;                                        // of the builder's nodes
+  std::vector<Index> first_freedom_;                                   // of the builder's nodes
   std::vector<Structure::Meaning> freedoms_;
   NodalTerms nodal_;
   Vec2 origin_ = Vec2::Zero();  // of the areas under pressure
