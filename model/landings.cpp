@@ -173,8 +173,11 @@ struct Loss {
   std::optional<std::size_t> point{};  // of the record
 };
 
-bool is_kind_of_loss(EventKind kind) {
-  return kind == EventKind::limit_point || kind == EventKind::contact_limit_point || kind == EventKind::branch_point;
+// Of an event of a record or of a tracer.
+bool loses_stability(const auto& event) {
+  const bool kind = event.kind == EventKind::limit_point || event.kind == EventKind::contact_limit_point ||
+                    event.kind == EventKind::branch_point;
+  return kind && !event.suspected && event.unstable_before == 0 && event.unstable_after.value_or(0) > 0;
 }
 
 class Falls {
@@ -194,9 +197,14 @@ class Falls {
   }
 
  private:
+  // Whether a state is so far from an event that it says where the path goes on.
+  bool is_behind(const State& state, const State& event) const {
+    constexpr double apart = 1e-6;
+    return mesh_.distance(mesh_.unknowns(state), mesh_.unknowns(event)) > apart;
+  }
+
   // An event at a point of the record, of which the points in the direction `onwards` are behind it.
   Loss recorded(const RecordEvent& event, std::size_t point, int onwards) const {
-    constexpr double is_behind = 1e-6;
     const RecordPoint& here = record_.points[point];
     Loss loss{.kind = event.kind, .at = here.state, .energy = here.energy, .point = point};
     loss.at.lambda = event.lambda;
@@ -205,7 +213,7 @@ class Falls {
       const RecordPoint& next = record_.points[static_cast<std::size_t>(i)];
       const auto& leaving = event.branches;
       if (next.branch != event.branch && std::find(leaving.begin(), leaving.end(), next.branch) == leaving.end()) break;
-      if (mesh_.distance(mesh_.unknowns(next.state), mesh_.unknowns(here.state)) <= is_behind) continue;
+      if (!is_behind(next.state, here.state)) continue;
       loss.behind = next.state;
       break;
     }
@@ -218,14 +226,13 @@ class Falls {
     std::optional<Loss> found;
     while (const auto arc = tracer.next()) {
       if (found) {
+        if (!found->behind && !is_behind(arc->to.state, found->at)) continue;
         if (!found->behind) found->behind = arc->to.state;
         return found;
       }
       if (model_.adrift(arc->to.state)) return std::nullopt;
       for (const Event& event : arc->events) {
-        if (!is_kind_of_loss(event.kind) || event.suspected || event.unstable_before != 0 ||
-            event.unstable_after.value_or(0) == 0)
-          continue;
+        if (!loses_stability(event)) continue;
         found = Loss{.kind = event.kind, .at = event.state, .energy = model_.system().energy(event.state)};
         if (event.branching && event.branching->mode.dx.size() == event.state.x.size())
           found->behind = moved(event.state, event.branching->mode, pushes[0]);
@@ -384,11 +391,6 @@ class Falls {
   const Record& record_;
   DeckMesh mesh_;
 };
-
-bool loses_stability(const RecordEvent& event) {
-  return is_kind_of_loss(event.kind) && !event.suspected && event.unstable_before == 0 &&
-         event.unstable_after.value_or(0) > 0;
-}
 
 // The number of the event's point in the record.
 std::optional<std::size_t> point_of(const Record& record, const RecordEvent& event) {
