@@ -6,9 +6,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(arcwall_warnings INTERFACE -Wno-restrict)
 endif()
 
-# Sources that are compiled together look to g++ like headers, whose types had better not use unnamed namespaces.
+# Sources that are compiled together look to g++ like headers, whose types had better not use unnamed namespaces; and what
+# one of them names for itself is shadowed by the next, which only local names had better not be.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_UNITY_BUILD)
-  target_compile_options(arcwall_warnings INTERFACE -Wno-subobject-linkage)
+  target_compile_options(arcwall_warnings INTERFACE -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
 endif()
 
 # Address and undefined-behaviour sanitizers, with assertions, for everything that is built here. -O1 and line tables compile

@@ -17,6 +17,8 @@ namespace arcwall {
 
 namespace {
 
+using Span = SlidingContactLayout::Span;
+
 // All lengths in the path metric of the deck's mesh.
 constexpr double is_elsewhere = 0.03;           // from the event, where a descent has left it
 constexpr double is_there = 0.03;               // of an equilibrium of nodes from the same of the path
@@ -110,7 +112,6 @@ std::vector<RecordStretch> stretches_of_nodes(const Model& model, const State& s
 // So are tracked points with a part on the wall between them, and a strand that lies on it from end to end. The nodes
 // that are pressed inside bear a part of the force.
 std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, const State& state) {
-  using Span = SlidingContactLayout::Span;
   const SlidingContactLayout& layout = sliding_layout(state.piece);
   std::vector<RecordStretch> stretches;
   std::vector<std::size_t> of_point(layout.points().size());

@@ -9,6 +9,8 @@ namespace arcwall::sliding {
 
 namespace {
 
+using Span = SlidingContactLayout::Span;
+
 constexpr double landed = 1e-4;  // elements by which a bound is missed
 
 template <typename T>
@@ -104,7 +106,6 @@ void LayoutEdit::set_lying(Index strand, std::optional<std::size_t> obstacle) {
 }
 
 bool LayoutEdit::lies_on_wall(Index strand, double place) const {
-  using Span = SlidingContactLayout::Span;
   if (!lying.empty() && lying[static_cast<std::size_t>(strand)]) return true;
   Span span = Span::free;
   for (std::size_t k = points.size(); k-- > 0;)

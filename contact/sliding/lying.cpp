@@ -14,6 +14,8 @@ namespace arcwall::sliding {
 
 namespace {
 
+using Span = SlidingContactLayout::Span;
+
 constexpr std::array<bool, 2> both_ends{false, true};
 
 TouchGap touch_at_end(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last,
@@ -110,7 +112,6 @@ std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at,
 }
 
 std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last) {
-  using Span = SlidingContactLayout::Span;
   const Transition none = unsupported(
       "the end of a member is lifted off the wall that it lies on, and no equilibrium "
       "was found in which it peels off");
