@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "elements/cubic_place.hpp"
+#include "elements/cubic_axis.hpp"
 #include "elements/shape_functions.hpp"
 #include "elements/unit_tangent.hpp"
 
@@ -22,20 +22,19 @@ double interpolated_angle(const std::array<double, StretchReference::samples>& v
 
 // Only the energy knows where the stretch is at rest.
 StretchLoad::Response StretchAxisLoad::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
-  Eigen::Matrix<double, 6, 1> now, rest;
-  now << r1, angle1, r2, angle2;
-  rest << Vec2::Zero(), stretch_.angles.front(), stretch_.chord, stretch_.angles.back();
+  const CubicAxis now(r1, angle1, r2, angle2);
+  const CubicAxis rest(Vec2::Zero(), stretch_.angles.front(), stretch_.chord, stretch_.angles.back());
   StretchLoad::Response out;
   const GaussRule rule = gauss_rule(3);
   for (std::size_t g = 0; g < 3; ++g) {
     const double xi = 0.5 * (1.0 + rule.xi[g]), ds = 0.5 * rule.weight[g] * stretch_.length;
-    const CubicPlace at = cubic_place(now, xi);
+    const CubicAxis::Place at = now.at(xi);
     const Vec2 t = unit_tangent(interpolated_angle(stretch_.angles, xi));
     const Vec2 q = load_.x() * t + load_.y() * perp(t);
     const StretchLoad::Vector6 gradient = at.gradient.transpose() * q;
-    out.energy -= ds * q.dot(at.position - cubic_place(rest, xi).position);
+    out.energy -= ds * q.dot(at.position - rest.at(xi).position);
     out.force -= ds * gradient;
-    out.stiffness -= ds * (q.x() * at.second[0] + q.y() * at.second[1]);
+    now.add_second(xi, -ds * q, out.stiffness);
     for (std::size_t end = 0; end < 2; ++end)
       out.force_rate[end] -=
           ds * (stretch_.length_rate[end] / stretch_.length * gradient +

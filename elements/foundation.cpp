@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "elements/cubic_place.hpp"
+#include "elements/cubic_axis.hpp"
 #include "elements/shape_functions.hpp"
 
 namespace arcwall {
@@ -13,34 +13,41 @@ namespace {
 
 constexpr int gauss_points = 3;
 
-using Ends = StretchLoad::Vector6;  // x, z and angle of the first end and of the second
-
 }  // namespace
 
 // At rest the first end is at the origin, and does not stay there when S1 moves.
-StretchLoad::Response StretchFoundation::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
-  Ends now, rest;
-  now << r1, angle1, r2, angle2;
-  rest << Vec2::Zero(), stretch_.angles.front(), stretch_.chord, stretch_.angles.back();
-  std::array<Ends, 2> rest_rate{Ends::Zero(), Ends::Zero()};
-  rest_rate[0] << -stretch_.chord_rate[0], stretch_.angle_rate[0].front(), Vec2::Zero(), stretch_.angle_rate[0].back();
-  rest_rate[1] << Vec2::Zero(), stretch_.angle_rate[1].front(), stretch_.chord_rate[1], stretch_.angle_rate[1].back();
-
-  StretchLoad::Response out;
+StretchFoundation::StretchFoundation(const StretchReference& stretch, FoundationLaw law) : law_(std::move(law)) {
+  const CubicAxis rest(Vec2::Zero(), stretch.angles.front(), stretch.chord, stretch.angles.back());
+  std::array<CubicAxis::Vector6, 2> ends_rate;
+  ends_rate[0] << -stretch.chord_rate[0], stretch.angle_rate[0].front(), Vec2::Zero(), stretch.angle_rate[0].back();
+  ends_rate[1] << Vec2::Zero(), stretch.angle_rate[1].front(), stretch.chord_rate[1], stretch.angle_rate[1].back();
   const GaussRule rule = gauss_rule(gauss_points);
   for (std::size_t g = 0; g < gauss_points; ++g) {
-    const double xi = 0.5 * (1.0 + rule.xi[g]), ds = 0.5 * rule.weight[g] * stretch_.length;
-    const CubicPlace at = cubic_place(now, xi), at_rest = cubic_place(rest, xi);
-    const FoundationLaw::Response here = law_.at(at.position - at_rest.position);
-    const StretchLoad::Vector6 gradient = at.gradient.transpose() * here.force;
-    out.energy += ds * here.energy;
-    out.force += ds * gradient;
-    out.stiffness += ds * (at.gradient.transpose() * here.stiffness.asDiagonal() * at.gradient +
-                           here.force[0] * at.second[0] + here.force[1] * at.second[1]);
+    const double xi = 0.5 * (1.0 + rule.xi[g]);
+    const CubicAxis::Place place = rest.at(xi);
+    places_[g] = {.xi = xi,
+                  .length = 0.5 * rule.weight[g] * stretch.length,
+                  .at_rest = place.position,
+                  .rest_rate = {place.gradient * ends_rate[0], place.gradient * ends_rate[1]}};
+  }
+  for (std::size_t end = 0; end < 2; ++end) growth_[end] = stretch.length_rate[end] / stretch.length;
+}
+
+StretchLoad::Response StretchFoundation::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
+  const CubicAxis now(r1, angle1, r2, angle2);
+  StretchLoad::Response out;
+  for (const Place& place : places_) {
+    const CubicAxis::Place at = now.at(place.xi);
+    const FoundationLaw::Response here = law_.at(at.position - place.at_rest);
+    out.energy += place.length * here.energy;
+    const Vec2 force = place.length * here.force, stiffness = place.length * here.stiffness;
+    const StretchLoad::Vector6 gradient = at.gradient.transpose() * force;
+    out.force += gradient;
+    out.stiffness += at.gradient.transpose() * stiffness.asDiagonal() * at.gradient;
+    now.add_second(place.xi, force, out.stiffness);
     for (std::size_t end = 0; end < 2; ++end)
       out.force_rate[end] +=
-          ds * (stretch_.length_rate[end] / stretch_.length * gradient -
-                at.gradient.transpose() * here.stiffness.cwiseProduct(at_rest.gradient * rest_rate[end]));
+          growth_[end] * gradient - at.gradient.transpose() * stiffness.cwiseProduct(place.rest_rate[end]);
   }
   return out;
 }

@@ -18,18 +18,24 @@ namespace arcwall {
 ///
 /// and ∫ ∫ F(u) du dS of springs with a law.
 ///
-/// Present places r and stress-free ones R are both the cubic that has the ends' places and tangents, over the chord c
-/// and its direction β: r1 + ξ c + c⊥ (N1 (θ1 − β) + N2 (θ2 − β)), N1 = ξ (1 − ξ)², N2 = −ξ² (1 − ξ). Of order 4 in
-/// the element's length across the axis, 2 along it.
+/// Present places r and stress-free ones R are both on the CubicAxis of the ends. Of order 4 in the element's length
+/// across the axis, 2 along it.
 class StretchFoundation {
  public:
-  StretchFoundation(const StretchReference& stretch, FoundationLaw law) : stretch_(stretch), law_(std::move(law)) {}
+  StretchFoundation(const StretchReference& stretch, FoundationLaw law);
 
   /// Places are measured from the stress-free place of the first end, angles are those of the axis' tangent.
   StretchLoad::Response respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const;
 
  private:
-  StretchReference stretch_;
+  struct Place {
+    double xi = 0.0, length = 0.0;                              // of the axis that it stands for
+    Vec2 at_rest = Vec2::Zero();                                // R
+    std::array<Vec2, 2> rest_rate{Vec2::Zero(), Vec2::Zero()};  // of R by S1 and S2
+  };
+
+  std::array<Place, 3> places_{};
+  std::array<double, 2> growth_{};  // of the stretch's length by S1 and S2, by its length
   FoundationLaw law_;
 };
 
