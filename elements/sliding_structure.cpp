@@ -104,12 +104,14 @@ Vec2 SlidingStructure::load(const MaterialPoint& point, const AxisPlace& place, 
   return load - strand.foundation.at(place.position - undeformed(point, true).position).force;
 }
 
+// A place at a joint is one of the member before it: round-off must not choose between its two names.
 std::pair<std::string, double> SlidingStructure::label(const MaterialPoint& point) const {
+  constexpr double at_joint = 1e-7;  // of a part's length
   const std::vector<Part>& parts = at(point.strand).parts;
-  const auto holds = [&](const Part& part) { return point.s <= part.to; };
-  auto part = std::find_if(parts.begin(), parts.end(), holds);
+  const auto along = [&](const Part& part) { return (point.s - part.from) / (part.to - part.from); };
+  auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& one) { return along(one) <= 1.0 + at_joint; });
   if (part == parts.end()) --part;
-  const double t = (point.s - part->from) / (part->to - part->from);
+  const double t = std::clamp(along(*part), 0.0, 1.0);
   return {part->member, part->first_fraction + t * (part->last_fraction - part->first_fraction)};
 }
 

@@ -46,16 +46,21 @@ std::size_t nearest(const SlidingContactLayout& on, const Vector& s, double plac
   return nearest;
 }
 
-// Up to the bound of the piece ahead from which the span would have grown: the nearest of its kind.
+// Up to the bound of the piece ahead from which the span at the first place would have grown: the nearest of its kind.
 template <class Bound>
-Transition back_to(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit, double place,
-                   Transition::Change change) {
+Transition back_to(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
+                   const std::vector<double>& places, Transition::Change change) {
   const auto on = layout_of(edit);
-  const std::size_t bound = nearest<Bound>(*on, edit.s, place);
   State guess = mapped_onto(setting, at, edit, on);
-  const auto guard = static_cast<Index>(guess.piece.size() + bound);
-  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, bound), change, std::move(guess));
-  transition.contacts = {named(static_cast<const Bound&>(*on->bounds()[bound]), guard)};
+  const auto contacts = static_cast<Index>(guess.piece.size());
+  const std::size_t first = nearest<Bound>(*on, edit.s, places.front());
+  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, first), change, std::move(guess));
+  for (const double place : places) {
+    const std::size_t bound = nearest<Bound>(*on, edit.s, place);
+    const Index name = named(static_cast<const Bound&>(*on->bounds()[bound]), contacts + static_cast<Index>(bound));
+    auto& named_before = transition.contacts;
+    if (std::find(named_before.begin(), named_before.end(), name) == named_before.end()) named_before.push_back(name);
+  }
   return transition;
 }
 
@@ -63,7 +68,8 @@ Transition back_to(const SlidingSetting& setting, const SlidingState& at, const 
 Transition gathered(const SlidingSetting& setting, const SlidingState& at, const Points& spans) {
   LayoutEdit edit = edit_of(setting.body, at);
   const auto middle = [&](std::size_t k) { return 0.5 * (edit.place(k) + edit.place(k + 1)); };
-  const double place = middle(spans.front());
+  std::vector<double> places;
+  for (const std::size_t k : spans) places.push_back(middle(k));
   for (auto k = spans.rbegin(); k != spans.rend(); ++k) {
     const double s = middle(*k);
     edit.points[*k].behind = edit.points[*k + 1].behind;
@@ -72,13 +78,14 @@ Transition gathered(const SlidingSetting& setting, const SlidingState& at, const
     edit.erase(*k + 1, edit.elements_behind(*k + 1));
     edit.place(*k) = s;
   }
-  return back_to<CurvatureBound>(setting, at, edit, place, Transition::Change::gathers);
+  return back_to<CurvatureBound>(setting, at, edit, places, Transition::Change::gathers);
 }
 
 // Two pressed parts become one, or a pressed part and a point contact beside it.
 Transition joined(const SlidingSetting& setting, const SlidingState& at, const Points& gaps) {
   LayoutEdit edit = edit_of(setting.body, at);
-  const double place = 0.5 * (edit.place(gaps.front()) + edit.place(gaps.front() + 1));
+  std::vector<double> places;
+  for (const std::size_t k : gaps) places.push_back(0.5 * (edit.place(k) + edit.place(k + 1)));
   for (auto k = gaps.rbegin(); k != gaps.rend(); ++k) {
     const Index strand = edit.strands[*k];
     const std::size_t obstacle = edit.points[*k].obstacle;
@@ -94,7 +101,7 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
       return unsupported("a member comes to lie on a curved wall from end to end");
     edit.set_lying(strand, obstacle);
   }
-  return back_to<PressureBound>(setting, at, edit, place, Transition::Change::joins);
+  return back_to<PressureBound>(setting, at, edit, places, Transition::Change::joins);
 }
 
 }  // namespace

@@ -73,6 +73,19 @@ ContactPoint only_contact(const test::SlidingPath& path) {
 
 }  // namespace
 
+// Two members that are alike are one strand. Contact at their joint has one name, on whichever side of it round-off is.
+TEST(SlidingJoints, ArePlacesOfTheMemberBeforeThem) {
+  const SlidingModel model =
+      Beam{.left = {1.0, 0.01}, .right = {1.0, 0.01}, .joint = 0.8, .moment = 1.0}.beside_a_wall();
+  const auto label_at = [&](double s) { return model.structure().label({.strand = 0, .s = s}); };
+  for (const double s : {0.8 - 1e-12, 0.8, 0.8 + 1e-12}) {
+    EXPECT_EQ(label_at(s).first, "left");
+    EXPECT_NEAR(label_at(s).second, 1.0, 1e-9);
+    EXPECT_LE(label_at(s).second, 1.0);
+  }
+  EXPECT_EQ(label_at(0.8 + 1e-3).first, "right");
+}
+
 // The contact at x divides the beam into two spans that are clamped there and sink by g: the left one, which has a part
 // of the right member from the joint at a on, bears M = 3 g x/[a³/EI₁ + (x³ − a³)/EI₂] there, the right one 3 EI₂ g/(L
 // − x)² less half of the moment on its other end. Both are the same at λ = 2 (3 EI₂ g/(L − x)² − M)/M₀. The contact
