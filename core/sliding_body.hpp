@@ -29,6 +29,8 @@ struct MeshSegment {
 
   int elements = 1;
   Index load = -1;  ///< at which the segment ends, by SlidingBody::point_loads; −1: elsewhere
+  bool pressed =
+      false;  ///< the nodes are pressed on an obstacle: a load inside an element acts on these, as on a bar's
 
   bool ends_at_load() const { return load >= 0; }
   bool operator==(const MeshSegment&) const = default;
@@ -183,6 +185,12 @@ class SlidingBody {
 
   /// Where point loads act inside a strand: material coordinates, ascending [length].
   virtual const std::vector<double>& point_loads(Index strand) const = 0;
+
+  /// One of them, and its rate by λ [force].
+  struct PointForce {
+    Vec2 value = Vec2::Zero(), rate = Vec2::Zero();
+  };
+  virtual PointForce point_load(Index strand, Index load, double lambda) const = 0;
 
   /// What acts along a strand at a place of it that is here now, where the axis has this stretch: loads, pressure, and
   /// the springs of a foundation [force per stress-free length].

@@ -33,7 +33,8 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
     std::vector<Index> load_nodes(strand.point_loads.size(), held);
     SegmentEnd a;
     for (std::size_t i = 0; i < segments.size(); ++i) {
-      const auto [n, load] = segments[i];
+      const int n = segments[i].elements;
+      const Index load = segments[i].load;
       assert(n >= 1);
       const bool last = i + 1 == segments.size(), at_load = segments[i].ends_at_load();
       SegmentEnd b{.breakpoint = held, .fixed = strand.length};
@@ -43,6 +44,7 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
         b.breakpoint = static_cast<Index>(breakpoints_.size());
       }
       for (int k = 0; k < n; ++k) meshed.nodes.push_back(interpolated(a, b, double(k) / n));
+      meshed.pressed.insert(meshed.pressed.end(), static_cast<std::size_t>(n), segments[i].pressed);
       meshed.elements += n;
       if (at_load) load_nodes[static_cast<std::size_t>(load)] = meshed.elements;
       if (b.breakpoint != held) breakpoints_.emplace_back(r, meshed.elements);
@@ -331,7 +333,19 @@ SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_by_ends(const Inne
   return by_ends;
 }
 
-// The potential −P·(r − r₀), r the place of the load in the shape of the element. Its second derivatives are central
+// A part that is pressed on an obstacle hands a load on to it, and is not bent by it.
+SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_on_chord(const InnerLoad& load, const Ends& at, double S1,
+                                                                       double S2, Vec2* place) {
+  const double second = (load.s - S1) / (S2 - S1), first = 1.0 - second;
+  if (place != nullptr) *place = first * at.first + second * at.second;
+  PlaceByEnds by_ends = PlaceByEnds::Zero();
+  by_ends.leftCols<2>() = first * Eigen::Matrix2d::Identity();
+  by_ends.middleCols<2>(3) = second * Eigen::Matrix2d::Identity();
+  return by_ends;
+}
+
+// The potential −P·(r − r₀), r the place of the load in the shape of the element, or between its nodes where these are
+// pressed on an obstacle. Its second derivatives are central
 // differences: they have no more than their part in K and ∂F/∂s, to which ten digits are exact.
 SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& load, Index position,
                                                              const MeshState& now, bool with_rates) const {
@@ -339,14 +353,18 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& lo
   const Index strand = load.strand;
   const Ends at = ends(strand, position, now);
   const double S1 = coordinate(strand, position, now.s), S2 = coordinate(strand, position + 1, now.s);
-  const Vec2 P = load.at(now.lambda);
+  const auto [P, P_rate] = load.load->at(now.lambda);
+  const bool pressed = mesh_of(strand).pressed[static_cast<std::size_t>(position)];
+  const auto by_ends_at = [&](const Ends& ends, double from, double to, double lambda, Vec2* place) {
+    return pressed ? place_on_chord(load, ends, from, to, place) : place_by_ends(load, ends, from, to, lambda, place);
+  };
   Vec2 place;
-  const PlaceByEnds by_ends = place_by_ends(load, at, S1, S2, now.lambda, &place);
+  const PlaceByEnds by_ends = by_ends_at(at, S1, S2, now.lambda, &place);
   Response out{.energy = -P.dot(place - load.rest),
                .force = -by_ends.transpose() * P,
-               .force_lambda = -by_ends.transpose() * load.rate()};
+               .force_lambda = -by_ends.transpose() * P_rate};
   const auto force_at = [&](const Ends& ends, double from, double to, double lambda) {
-    return Six(-place_by_ends(load, ends, from, to, lambda, nullptr).transpose() * P);
+    return Six(-by_ends_at(ends, from, to, lambda, nullptr).transpose() * P);
   };
   const auto force = [&](const Ends& ends, double from, double to) { return force_at(ends, from, to, now.lambda); };
   const double length = S2 - S1;

@@ -74,6 +74,7 @@ class SlidingStructureMesh final : public SlidingMesh {
     Index first_element = 0, elements = 0;
     Index first_inner = 0;  // unknown of the first inner node
     std::vector<Coordinate> nodes{};
+    std::vector<bool> pressed{};  // of the elements
   };
   // Where the ends of an element are, and the load that it carries with them.
   struct Ends {
@@ -132,9 +133,6 @@ class SlidingStructureMesh final : public SlidingMesh {
     double s;
     const SlidingStructure::PointLoad* load;
     Vec2 rest;  // where it acts at rest
-
-    Vec2 at(double lambda) const { return {load->force[0].at(lambda), load->force[1].at(lambda)}; }
-    Vec2 rate() const { return {load->force[0].proportional, load->force[1].proportional}; }
   };
   Index element_of(const InnerLoad& load, const MeshState& now) const {
     return element_at({.strand = load.strand, .s = load.s}, now);
@@ -142,6 +140,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   using PlaceByEnds = Eigen::Matrix<double, 2, 6>;
   PlaceByEnds place_by_ends(const InnerLoad& load, const Ends& at, double S1, double S2, double lambda,
                             Vec2* place) const;
+  static PlaceByEnds place_on_chord(const InnerLoad& load, const Ends& at, double S1, double S2, Vec2* place);
   Response respond(const InnerLoad& load, Index position, const MeshState& now, bool with_rates) const;
 
   // Adds what an element answers.

@@ -42,6 +42,9 @@ class SlidingStructure final : public SlidingBody {
   }
   Vec2 load(const MaterialPoint& point, const AxisPlace& place, double stretch, double lambda) const override;
   const std::vector<double>& point_loads(Index strand) const override { return at(strand).load_places; }
+  PointForce point_load(Index strand, Index load, double lambda) const override {
+    return at(strand).point_loads[static_cast<std::size_t>(load)].at(lambda);
+  }
   bool end_is_held(Index strand, bool last) const override {
     return nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[1]);
   }
@@ -128,6 +131,11 @@ class SlidingStructure final : public SlidingBody {
   struct PointLoad {
     std::array<Index, 2> freedom{};
     std::array<Driven, 2> force{};
+
+    PointForce at(double lambda) const {
+      return {.value = {force[0].at(lambda), force[1].at(lambda)},
+              .rate = {force[0].proportional, force[1].proportional}};
+    }
   };
   // A joint that a strand passes, by its node.
   struct InnerJoint {

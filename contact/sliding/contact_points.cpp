@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/sliding/bounds/clamp.hpp"
+#include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/clamps.hpp"
 #include "contact/sliding/pinches.hpp"
@@ -39,6 +40,14 @@ ContactPoint at_least_pressure(const SlidingSetting& setting, const SlidingState
           .place = face(setting.face_offset(node.obstacle, node.strand), at.mesh.place(least, at.now))};
 }
 
+// Where a load pulls a part off.
+ContactPoint at_load(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
+  const std::size_t obstacle = obstacle_of_part(at, load.segment);
+  const MaterialPoint here{.strand = load.strand, .s = place_of(setting, load)};
+  return {.label = label_of(setting, obstacle, here),
+          .place = face(setting.face_offset(obstacle, load.strand), at.mesh.place(here, at.now))};
+}
+
 // Of the two obstacles of a pinch each is told to push with what is positive of the force across the axis in its
 // direction. The couple that they make besides has no place of its own.
 ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std::size_t j, bool other) {
@@ -58,6 +67,8 @@ ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at
     return at_node(setting, at,
                    touch_of_end(setting, at.layout, touched_clamp(setting, at, clamp->strand(), clamp->last()).value()),
                    0.0);
+  if (const auto* on_part = dynamic_cast<const LoadOnPartBound*>(&bound))
+    return at_load(setting, at, on_part->load(at));
   return at_least_pressure(setting, at, dynamic_cast<const PressureBound&>(bound));
 }
 

@@ -31,7 +31,8 @@ Index SlidingContactLayout::add_segments(const SlidingBody& body, Index strand, 
   }
   const auto may_turn = [&](bool last) { return body.is_tip(strand, last) || body.is_hinged(strand, last); };
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const auto [elements, load] = segments[i];
+    const int elements = segments[i].elements;
+    const Index load = segments[i].load;
     const bool to_point = i + 1 < segments.size() && !segments[i].ends_at_load();
     const Index point = to_point ? next_point++ : -1;
     segments_.push_back({.strand = strand,
@@ -121,6 +122,22 @@ std::pair<double, double> SlidingContactLayout::ends(const SlidingBody& body, co
   };
   return {place(segment.first_point, segment.first_load, 0.0),
           place(segment.last_point, segment.last_load, body.length(segment.strand))};
+}
+
+void mark_pressed(ElementsPerSegment& elements, const std::vector<SlidingContactLayout::Point>& points,
+                  const SlidingContactLayout::Lying& lying) {
+  using Span = SlidingContactLayout::Span;
+  std::size_t next = 0;  // point
+  for (std::size_t strand = 0; strand < elements.size(); ++strand) {
+    std::vector<MeshSegment>& segments = elements[strand];
+    const auto ends_at_point = [&](const MeshSegment& at) { return !at.ends_at_load() && &at != &segments.back(); };
+    Span span = !lying.empty() && lying[strand] ? Span::pressed : Span::free;
+    if (std::any_of(segments.begin(), segments.end(), ends_at_point)) span = points[next].before;
+    for (MeshSegment& segment : segments) {
+      segment.pressed = span == Span::pressed;
+      if (ends_at_point(segment)) span = points[next++].behind;
+    }
+  }
 }
 
 }  // namespace arcwall

@@ -171,6 +171,10 @@ class SlidingContactLayout final : public SlidingLayout {
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;
 };
 
+/// Says of the segments of a mesh which of them points and lying strands press on obstacles.
+void mark_pressed(ElementsPerSegment& elements, const std::vector<SlidingContactLayout::Point>& points,
+                  const SlidingContactLayout::Lying& lying);
+
 /// The layout of a piece of sliding contact.
 inline const SlidingContactLayout& sliding_layout(const Piece& piece) {
   return static_cast<const SlidingContactLayout&>(*piece.layout());

@@ -204,6 +204,7 @@ void give_middles(LayoutEdit& edit) {
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
   settle_loads(edit);
   give_middles(edit);
+  mark_pressed(edit.elements, edit.points, edit.lying);
   return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s,
                                                 edit.lying);
 }

@@ -6,6 +6,7 @@
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/bounds/clamp.hpp"
+#include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
@@ -19,7 +20,23 @@ namespace {
 using Nodes = std::vector<std::size_t>;
 using Span = SlidingContactLayout::Span;
 
-// Pressed nodes where a part lifts off: of neighbours the one with the least pressure.
+// Where a part lifts off.
+struct LiftOff {
+  std::size_t segment, obstacle;
+  double place;
+  bool on_straight;  // obstacle
+};
+using LiftOffs = std::vector<LiftOff>;
+
+LiftOff lift_off_at(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
+  const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
+  return {.segment = pressed.segment,
+          .obstacle = pressed.obstacle,
+          .place = least_pressure(setting, at, node).s,
+          .on_straight = lies_on_straight(setting, at, node)};
+}
+
+// Pressed nodes where parts lift off: of neighbours the one with the least pressure.
 Nodes lifting_nodes(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
   const auto& pressed = at.layout.pressed_nodes();
   Nodes nodes;
@@ -38,19 +55,14 @@ Nodes lifting_nodes(const SlidingSetting& setting, const SlidingState& at, doubl
   return nodes;
 }
 
-const SlidingContactLayout::Segment& part_of(const SlidingState& at, std::size_t node) {
-  return at.layout.segments()[at.layout.pressed_nodes()[node].segment];
-}
-
 enum class Where { first_end, inside, last_end };
 
-// Where a part lifts off. On a curved obstacle the pressure is known between nodes no better than by them.
-Where lifts_off_at(const SlidingSetting& setting, const SlidingState& at, std::size_t node, double length) {
-  const SlidingContactLayout::Segment& part = part_of(at, node);
-  const double place = least_pressure(setting, at, node).s;
+// On a curved obstacle the pressure is known between nodes no better than by them.
+Where lifts_off_at(const SlidingSetting& setting, const SlidingState& at, const LiftOff& lift, double length) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[lift.segment];
   const auto [begin, end] = at.layout.ends(setting.body, part, at.now.s);
-  const double near = 0.5 * (lies_on_straight(setting, at, node) ? length : (end - begin) / part.elements);
-  return place - begin < near ? Where::first_end : end - place < near ? Where::last_end : Where::inside;
+  const double near = 0.5 * (lift.on_straight ? length : (end - begin) / part.elements);
+  return lift.place - begin < near ? Where::first_end : end - lift.place < near ? Where::last_end : Where::inside;
 }
 
 // From where a part is free that begins here and has been split before, or its end.
@@ -62,33 +74,32 @@ double next_edge(const LayoutEdit& edit, Index strand, double begin, double end)
   return next;
 }
 
-// Splits the part of a pressed node by a free span where its pressure is least; tells the point behind which the span
-// begins. Empty where the part is too short for that. Nodes are split from the last to the first.
-std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingState& at, std::size_t node, double length,
-                                 LayoutEdit& edit) {
-  const SlidingContactLayout::PressedNode& pressed = at.layout.pressed_nodes()[node];
-  const SlidingContactLayout::Segment& part = at.layout.segments()[pressed.segment];
+// Splits a part by a free span where it lifts off; tells the point behind which the span begins. Empty where the part
+// is too short for that. Parts are split from the last to the first.
+std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingState& at, const LiftOff& lift,
+                                 double length, LayoutEdit& edit) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[lift.segment];
+  const Index strand = part.strand;
   const bool lies = !part.has_point();                                              // from end to end
   if (!lies && (part.first_point < 0 || part.last_point < 0)) return std::nullopt;  // it reaches the end of its member
-  const double place = least_pressure(setting, at, node).s;
   const auto [begin, end] = at.layout.ends(setting.body, part, at.now.s);
-  const Where where = lifts_off_at(setting, at, node, length);
+  const Where where = lifts_off_at(setting, at, lift, length);
   const bool at_first = where == Where::first_end, at_last = where == Where::last_end;
-  const double left = at_first ? begin : at_last ? end - length : place - 0.5 * length;
-  const double next = next_edge(edit, pressed.strand, begin, end);
+  const double left = at_first ? begin : at_last ? end - length : lift.place - 0.5 * length;
+  const double next = next_edge(edit, strand, begin, end);
   if (lies && where != Where::inside) return std::nullopt;
-  const double least = where == Where::inside ? 8.0 * shortest_span(setting.body, pressed.strand) : 0.0;
+  const double least = where == Where::inside ? 8.0 * shortest_span(setting.body, strand) : 0.0;
   if (left < begin || left + length > next || length < least) return std::nullopt;
 
   const auto elements = [&](double from, double to, int fewest) {  // with room to grow before the part is meshed anew
-    return std::max(fewest, static_cast<int>(std::ceil(setting.body.elements_between(pressed.strand, from, to))));
+    return std::max(fewest, static_cast<int>(std::ceil(setting.body.elements_between(strand, from, to))));
   };
-  const int fewest = fewest_pressed(lies_on_straight(setting, at, node));
+  const int fewest = fewest_pressed(lift.on_straight);
   const int across = elements(left, left + length, 2), behind = elements(left + length, next, fewest);
-  LayoutEdit::Entry edge{.point = {.obstacle = pressed.obstacle}, .strand = pressed.strand, .s = left, .closed = true};
+  LayoutEdit::Entry edge{.point = {.obstacle = lift.obstacle}, .strand = strand, .s = left, .closed = true};
   if (lies) {
     edge.point.before = Span::pressed;
-    edit.set_lying(pressed.strand, std::nullopt);
+    edit.set_lying(strand, std::nullopt);
   }
   const std::size_t first = at_first ? static_cast<std::size_t>(part.first_point)
                                      : edit.insert(edge, elements(begin, left, fewest), at_last ? across : behind);
@@ -100,31 +111,42 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
   return first;
 }
 
-// The bounds of pressed nodes, by their numbers among the guards.
-std::vector<Index> bounds_of(const SlidingState& at, const Nodes& nodes) {
+// The bounds of a kind that are wanted, by their numbers among the guards.
+template <class Bound, class Wanted>
+std::vector<Index> bounds_of(const SlidingState& at, const Wanted& wanted) {
   std::vector<Index> numbers;
   for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
-    const auto* bound = dynamic_cast<const PressureBound*>(at.layout.bounds()[i].get());
-    if (bound != nullptr && std::find(nodes.begin(), nodes.end(), bound->node()) != nodes.end())
-      numbers.push_back(static_cast<Index>(at.contacts() + i));
+    const auto* bound = dynamic_cast<const Bound*>(at.layout.bounds()[i].get());
+    if (bound != nullptr && wanted(*bound)) numbers.push_back(static_cast<Index>(at.contacts() + i));
   }
   return numbers;
 }
 
 // Parts with free spans of one length; empty where one of them is too short for its span.
-std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingState& at, const Nodes& nodes,
+std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingState& at, const LiftOffs& lifts,
                                  double length) {
   LayoutEdit edit = edit_of(setting.body, at);
   std::size_t first = 0;  // the first of the new free spans begins behind this point
-  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-    const auto begins_behind = split(setting, at, *node, length, edit);
+  for (auto lift = lifts.rbegin(); lift != lifts.rend(); ++lift) {
+    const auto begins_behind = split(setting, at, *lift, length, edit);
     if (!begins_behind) return std::nullopt;
     first = *begins_behind;
   }
-  Transition transition = up_to(length, std::make_shared<SpanLength>(first), Transition::Change::splits,
-                                mapped_onto(setting, at, edit, layout_of(edit)));
-  transition.contacts = bounds_of(at, nodes);
-  return transition;
+  return up_to(length, std::make_shared<SpanLength>(first), Transition::Change::splits,
+               mapped_onto(setting, at, edit, layout_of(edit)));
+}
+
+// The lengths in which a free span inside a part is tried, from the shortest.
+std::vector<double> lengths_inside(const SlidingBody& body, Index strand, bool on_straight) {
+  const double shortest = shortest_span(body, strand);
+  if (!on_straight) return {2.0 * shortest, 4.0 * shortest, 8.0 * shortest, 16.0 * shortest, 32.0 * shortest};
+  const double least = std::max(1.25 * shortest_gap_on_straight(body, strand), 8.0 * shortest);
+  return {least, 2.0 * least, 4.0 * least};
+}
+
+Transition nothing_lifted() {
+  return unsupported(
+      "a part that is pressed on a wall lifts off inside, and no equilibrium with one free stretch was found");
 }
 
 // Whether nothing presses on a strand that lies on its obstacle from end to end.
@@ -183,34 +205,63 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
   const Nodes nodes = lifting_nodes(setting, at, tolerance);
   if (auto leave = strands_leave(setting, at, forward, tolerance))
     return {std::move(*leave), unsupported("a member leaves its wall, and no equilibrium was found")};
-  const SlidingContactLayout::Segment& part = part_of(at, nodes.front());
+  LiftOffs lifts;
+  for (const std::size_t node : nodes) lifts.push_back(lift_off_at(setting, at, node));
+  const auto is_one_of_them = [&](const PressureBound& bound) {
+    return std::find(nodes.begin(), nodes.end(), bound.node()) != nodes.end();
+  };
+  const std::vector<Index> bounds = bounds_of<PressureBound>(at, is_one_of_them);
+  const SlidingContactLayout::Segment& part = at.layout.segments()[lifts.front().segment];
   const double shortest = shortest_span_on_straight(setting.body, part.strand);
-  const bool at_ends_on_straight = std::all_of(nodes.begin(), nodes.end(), [&](std::size_t node) {
-    return lies_on_straight(setting, at, node) && lifts_off_at(setting, at, node, shortest) != Where::inside;
+  const bool at_ends_on_straight = std::all_of(lifts.begin(), lifts.end(), [&](const LiftOff& lift) {
+    return lift.on_straight && lifts_off_at(setting, at, lift, shortest) != Where::inside;
   });
   std::vector<Transition> transitions;
   const auto try_length = [&](double length, double least) {
-    auto transition = lifted(setting, at, nodes, length);
+    auto transition = lifted(setting, at, lifts, length);
     if (!transition) return;
     transition->least = least;
+    transition->contacts = bounds;
     transitions.push_back(std::move(*transition));
   };
   if (at_ends_on_straight) {
     const HeldAxis held = held_axis(setting, at, part);
-    const double sure = shortest_sure_arch(setting, held, least_pressure(setting, at, nodes.front()).s - held.s);
+    const double sure = shortest_sure_arch(setting, held, lifts.front().place - held.s);
     for (const double factor : {2.0, 4.0, 8.0, 16.0, 1.0, 0.5})
       if (factor * sure > shortest) try_length(factor * sure, sure);
     try_length(2.0 * shortest, sure);
-  } else if (lies_on_straight(setting, at, nodes.front())) {
-    const double least = std::max(1.25 * shortest_gap_on_straight(setting.body, part.strand),
-                                  8.0 * shortest_span(setting.body, part.strand));
-    for (const double factor : {1.0, 2.0, 4.0}) try_length(factor * least, 0.0);
   } else {
-    for (const double factor : {2.0, 4.0, 8.0, 16.0, 32.0})
-      try_length(factor * shortest_span(setting.body, part.strand), 0.0);
+    for (const double length : lengths_inside(setting.body, part.strand, lifts.front().on_straight))
+      try_length(length, 0.0);
   }
-  transitions.push_back(unsupported(
-      "a part that is pressed on a wall lifts off inside, and no equilibrium with one free stretch was found"));
+  transitions.push_back(nothing_lifted());
+  return transitions;
+}
+
+std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,
+                                       double tolerance) {
+  const auto pulls = [&](const LoadOnPartBound& bound) {
+    const PartLoad other = bound.load(at);
+    return other.segment == load.segment && is_on_part(setting, at, other) &&
+           bound.value(setting, at) <= std::max(1e-6, 10.0 * tolerance);
+  };
+  const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
+  const std::size_t obstacle = obstacle_of_part(at, load.segment);
+  const bool on_straight = setting.obstacles[obstacle].surface->knots().empty();
+  LiftOffs lifts;
+  for (const auto& bound : at.layout.bounds())
+    if (const auto* on_part = dynamic_cast<const LoadOnPartBound*>(bound.get()); on_part != nullptr && pulls(*on_part))
+      lifts.push_back({.segment = load.segment,
+                       .obstacle = obstacle,
+                       .place = place_of(setting, on_part->load(at)),
+                       .on_straight = on_straight});
+  std::vector<Transition> transitions;
+  for (const double length : lengths_inside(setting.body, part.strand, on_straight))
+    if (auto transition = lifted(setting, at, lifts, length)) {
+      transition->contacts = bounds_of<LoadOnPartBound>(at, pulls);
+      transitions.push_back(std::move(*transition));
+    }
+  transitions.push_back(nothing_lifted());
   return transitions;
 }
 

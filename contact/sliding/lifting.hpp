@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact/sliding/part_loads.hpp"
 #include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
 #include "core/transition.hpp"
@@ -14,6 +15,10 @@ namespace arcwall::sliding {
 /// them; at its end, one and a point contact. Free spans are tried in several lengths. A strand that lies on its
 /// obstacle from end to end leaves it where its pressure vanishes all along. `forward`: of the path.
 std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                                       double tolerance);
+
+/// The same where a point load inside a pressed part pulls it off: the free span has the load in its middle.
+std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,
                                        double tolerance);
 
 /// Of strands that lie on obstacles from end to end those leave theirs on which nothing presses any more: the same

@@ -45,8 +45,7 @@ bool may_lie(const SlidingSetting& setting, const SlidingState& at, Index strand
   for (const bool last : both_ends)
     if (!body.is_tip(strand, last) && !body.is_hinged(strand, last) && !body.is_clamped(strand, last)) return false;
   return setting.obstacles[obstacle].concerns(strand) && is_straight(setting, obstacle) &&
-         body.point_loads(strand).empty() && !at.layout.point_at_end(strand, false) &&
-         !moves_with_lambda(setting, at, strand, obstacle, toward);
+         !at.layout.point_at_end(strand, false) && !moves_with_lambda(setting, at, strand, obstacle, toward);
 }
 
 // Whether all nodes of a strand are on an obstacle and parallel to it.

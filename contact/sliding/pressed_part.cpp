@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/part_loads.hpp"
 
 namespace arcwall::sliding {
 
@@ -108,14 +109,18 @@ struct ByForces {
   Index first = 0;      // the first force of the part among the unknowns
   Vector weights{};     // of the forces of the part's nodes: their sum is the pressure times the length of an element
   double offset = 0.0;  // of the place from the node, in elements
+  double sum = 0.0;     // of the forces less what point loads add to them, by the weights
 };
 
-ByForces least_by_forces(const SlidingState& at, std::size_t number, const PartOfNode& part) {
+ByForces least_by_forces(const SlidingSetting& setting, const SlidingState& at, std::size_t number,
+                         const PartOfNode& part) {
   ByForces out{.first = at.index.pressed_force(number - static_cast<std::size_t>(part.node))};
+  const Vector forces = at.state.x.segment(out.first, part.nodes) - forces_of_loads(setting, at, part.pressed.segment);
   const Matrix smooth = smoothing(part.nodes);
-  const Place least = least_near(smooth * at.state.x.segment(out.first, part.nodes), part.node);
+  const Place least = least_near(smooth * forces, part.node);
   out.weights = smooth.transpose() * least.weights;
   out.offset = least.offset;
+  out.sum = out.weights.dot(forces);
   return out;
 }
 
@@ -188,21 +193,23 @@ LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& 
     const AtFraction least = least_on_straight(setting, at, part);
     return {.value = least.pressure, .s = from + least.r * length};
   }
-  const ByForces least = least_by_forces(at, node, part);
+  const ByForces least = least_by_forces(setting, at, node, part);
   const double element = length / part.segment.elements;
-  return {.value = least.weights.dot(at.state.x.segment(least.first, part.nodes)) / element,
+  return {.value = least.sum / element,
           .s = at.mesh.coordinate(part.pressed.strand, part.pressed.position, at.now.s) + least.offset * element};
 }
 
-// The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this.
+// The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this. Nor
+// have point loads that go from node to node as the part's ends move.
 Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
   if (part_is_on_straight(setting, at, part)) return gradient_on_straight(setting, at, part);
-  const ByForces least = least_by_forces(at, node, part);
+  const ByForces least = least_by_forces(setting, at, node, part);
   const double length = extent(setting, at, part).length, per_force = part.segment.elements / length;
-  const double p = least.weights.dot(at.state.x.segment(least.first, part.nodes));
+  const double p = least.sum;
   Row row = at.no_slope();
   row.dx.segment(least.first, part.nodes) = per_force * least.weights;
+  row.dlambda = -per_force * least.weights.dot(forces_of_loads_rate(setting, at, part.pressed.segment));
   const SlidingContactLayout::Segment& ends = part.segment;
   if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] = -per_force * p / length;
   if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] = per_force * p / length;

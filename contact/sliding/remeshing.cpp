@@ -123,7 +123,9 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
                                         [](const MeshSegment& segment) { return !segment.ends_at_load(); });
     if (has_points || *lying[strand] >= setting.obstacles.size()) return nullptr;
   }
-  return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin, std::move(lying));
+  ElementsPerSegment marked = elements;
+  mark_pressed(marked, points, lying);
+  return std::make_shared<SlidingContactLayout>(body, body.mesh(marked), std::move(points), origin, std::move(lying));
 }
 
 Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on) {

@@ -55,8 +55,7 @@ void add_of_inner_loads(const SlidingBody& body, const SlidingContactLayout& on,
     if (on.has_node(strand, load)) continue;
     add_if<LoadBehindBound>(true, to, strand, load);
     for (std::size_t j = 0; j < on.segments().size(); ++j)
-      add_if<LoadBesidePartBound>(on.segments()[j].strand == strand && on.segments()[j].span != Span::free, to, load,
-                                  j);
+      add_if<LoadOnPartBound>(on.segments()[j].strand == strand && on.segments()[j].span != Span::free, to, load, j);
   }
 }
 

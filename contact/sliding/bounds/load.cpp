@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/sliding/bounds/element_size.hpp"
+#include "contact/sliding/lifting.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 
@@ -49,6 +50,17 @@ Index nearest_point(const SlidingSetting& setting, const SlidingState& at, Index
   return nearest;
 }
 
+// Whether a load is inside a part that lies on a wall: it has no node there.
+bool is_on_a_part(const SlidingSetting& setting, const SlidingState& at, Index strand, Index load) {
+  for (std::size_t i = 0; i < at.layout.segments().size(); ++i) {
+    const SlidingContactLayout::Segment& segment = at.layout.segments()[i];
+    if (segment.strand == strand && segment.span != SlidingContactLayout::Span::free &&
+        is_on_part(setting, at, {.strand = strand, .load = load, .segment = i}))
+      return true;
+  }
+  return false;
+}
+
 // Loads are settled wherever a layout is made anew.
 std::vector<Transition> settled(const SlidingSetting& setting, const SlidingState& at, const Direction& forward) {
   return {remeshed(setting, at, forward, [](LayoutEdit&, const SlidingState&) {})};
@@ -70,11 +82,13 @@ std::vector<Transition> LoadAheadBound::transitions(const SlidingSetting& settin
 }
 
 double LoadBehindBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  if (is_on_a_part(setting, at, strand_, load_)) return no_point_near;
   const Index nearest = nearest_point(setting, at, strand_, load_);
   return nearest < 0 ? no_point_near : farthest_load_inside - apart(setting, at, strand_, load_, nearest);
 }
 
 Row LoadBehindBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  if (is_on_a_part(setting, at, strand_, load_)) return at.no_slope();
   const Index nearest = nearest_point(setting, at, strand_, load_);
   return nearest < 0 ? at.no_slope() : apart_gradient(setting, at, strand_, load_, nearest, -1.0);
 }
@@ -100,26 +114,60 @@ NearestEnd nearest_end(const SlidingState& at, const SlidingContactLayout::Segme
                                                 : NearestEnd{.point = last, .outwards = -1.0};
 }
 
-}  // namespace
-
-double LoadBesidePartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  const SlidingContactLayout::Segment& part = at.layout.segments()[segment_];
-  const double load = place_of(setting, part.strand, load_);
-  const auto [end, outwards] = nearest_end(at, part, load);
-  return std::copysign(apart(setting, at, part.strand, load_, end), outwards * (at.s(end) - load));
+// How far outside a part a load is, in elements; of a part without points that is none.
+double outside(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
+  if (!part.has_point()) return -infinity;
+  const double place = place_of(setting, load);
+  const auto [end, outwards] = nearest_end(at, part, place);
+  return std::copysign(apart(setting, at, part.strand, load.load, end), outwards * (at.s(end) - place));
 }
 
-Row LoadBesidePartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  const SlidingContactLayout::Segment& part = at.layout.segments()[segment_];
-  const auto [end, outwards] = nearest_end(at, part, place_of(setting, part.strand, load_));
+Row outside_gradient(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
+  const auto [end, outwards] = nearest_end(at, part, place_of(setting, load));
   Row row = at.no_slope();
   row.dx[at.index.coordinate(end)] = outwards * density(setting, at, end);
   return row;
 }
 
-std::vector<Transition> LoadBesidePartBound::transitions(const SlidingSetting&, const SlidingState&,
-                                                         const Arrival&) const {
-  return {unsupported("a part that lies on a wall reached a point load")};
+// Of the force scale: a load of zero does not pull.
+constexpr double hardly_pulls = 1e-9;
+
+double scaled_push(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
+  return push(setting, at, load) / setting.scales.force + hardly_pulls;
+}
+
+bool is_pressed(const SlidingState& at, std::size_t segment) {
+  return at.layout.segments()[segment].span == SlidingContactLayout::Span::pressed;
+}
+
+}  // namespace
+
+PartLoad LoadOnPartBound::load(const SlidingState& at) const {
+  return {.strand = at.layout.segments()[segment_].strand, .load = load_, .segment = segment_};
+}
+
+double LoadOnPartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  const double apart = outside(setting, at, load(at));
+  return is_pressed(at, segment_) ? std::max(apart, scaled_push(setting, at, load(at))) : apart;
+}
+
+Row LoadOnPartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  if (!is_pressed(at, segment_) || outside(setting, at, load(at)) > scaled_push(setting, at, load(at)))
+    return outside_gradient(setting, at, load(at));
+  Row row = push_gradient(setting, at, load(at));
+  row.dx /= setting.scales.force;
+  row.dlambda /= setting.scales.force;
+  return row;
+}
+
+std::vector<Transition> LoadOnPartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                     const Arrival& arrival) const {
+  if (is_pressed(at, segment_) && outside(setting, at, load(at)) < 0.0)
+    return load_lifts_off(setting, at, load(at), arrival.tolerance);
+  return {unsupported(is_pressed(at, segment_) ? "a part that lies on a wall reached a point load that pulls it off"
+                                               : "a part that lies on a wall without pressure reached a point load")};
 }
 
 }  // namespace arcwall::sliding

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/sliding/part_loads.hpp"
 #include "contact/sliding/validity_bound.hpp"
 
 namespace arcwall::sliding {
@@ -32,11 +33,14 @@ class LoadBehindBound final : public ValidityBound {
   Index strand_, load_;
 };
 
-/// How far a part on a wall is from a load inside an element, in elements: behind the bound the load acts on the part,
-/// which is not modelled.
-class LoadBesidePartBound final : public ValidityBound {
+/// A part on a wall and a load inside an element. Inside a pressed part the load must press, from which it is handed on
+/// to the wall; behind the bound it pulls the part off. On a part without pressure loads are not modelled: the bound is
+/// how far outside they are, in elements.
+class LoadOnPartBound final : public ValidityBound {
  public:
-  LoadBesidePartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
+  LoadOnPartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
+  std::size_t segment() const { return segment_; }
+  PartLoad load(const SlidingState& at) const;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,

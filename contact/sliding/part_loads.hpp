@@ -1,0 +1,35 @@
+#pragma once
+
+#include "contact/sliding/setting.hpp"
+#include "contact/sliding/unknowns.hpp"
+
+namespace arcwall::sliding {
+
+/// A point load inside a part that is pressed on an obstacle, from which the part hands it on to the obstacle.
+struct PartLoad {
+  Index strand, load;   ///< by SlidingBody::point_loads
+  std::size_t segment;  ///< the part
+};
+
+/// The obstacle that a part lies on.
+std::size_t obstacle_of_part(const SlidingState& at, std::size_t segment);
+
+/// Where it acts along its strand [length].
+double place_of(const SlidingSetting& setting, const PartLoad& load);
+
+/// Whether it is inside the part, ends included.
+bool is_on_part(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load);
+
+/// With how much force it presses the part on its obstacle; < 0 where it pulls it off.
+double push(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load);
+
+/// Its derivatives by all unknowns and by λ.
+Row push_gradient(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load);
+
+/// What point loads add to the forces of a part's pressed nodes, from its first to its last.
+Vector forces_of_loads(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
+
+/// Its derivative by λ, at nodes that stay.
+Vector forces_of_loads_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
+
+}  // namespace arcwall::sliding

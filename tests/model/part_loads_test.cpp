@@ -1,0 +1,178 @@
+// Point loads inside parts that are pressed on walls. The references are closed forms of the linear theory of beams,
+// which flat members follow to the square of the slope.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/text.hpp"
+#include "tests/model/traced_session.hpp"
+
+namespace arcwall::part_loads_test {
+namespace {
+
+using test::traced;
+
+constexpr double EI = 2.0, length = 1.0;
+
+// A beam of its own weight q = 1 on a floor, without supports but one along it.
+std::string strip(const std::string& rest) {
+  return R"toml(
+title = "A strip on a floor"
+material.m = { E = 1.0, nu = 0.3 }
+section.s = { shape = "general", A = 100000.0, I = 2.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x"] }
+member.beam = { from = "a", to = "b", theory = "classic", material = "m", section = "s", elements = 40 }
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = 0.0 } }]
+monitor = [
+  { name = "mid", at = "beam:0.5", component = "z" },
+  { name = "floor", wall = "floor", component = "force-z" },
+]
+)toml" + rest +
+         "\n";
+}
+
+// The same above a floor, between supports at its ends.
+std::string beam(const std::string& wall, const std::string& rest) {
+  return R"toml(
+title = "A beam above a floor"
+material.m = { E = 1.0, nu = 0.3 }
+section.s = { shape = "general", A = 100000.0, I = 2.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z"], b = ["z"] }
+member.beam = { from = "a", to = "b", theory = "classic", material = "m", section = "s", elements = 40 }
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = )toml" +
+         wall + R"toml( }]
+monitor = [
+  { name = "quarter", at = "beam:0.25", component = "z" },
+  { name = "floor", wall = "floor", component = "force-z" },
+]
+)toml" + rest +
+         "\n";
+}
+
+std::vector<double> loads_of(const Session& run, EventKind kind) {
+  std::vector<double> loads;
+  for (const RecordEvent& event : run.events())
+    if (event.kind == kind) loads.push_back(event.lambda);
+  return loads;
+}
+
+void expect_stop(const Session& run) {
+  EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop) << run.record().branches.back().end->detail;
+}
+
+}  // namespace
+
+// Lifted in its middle by P, a strip of weight q leaves the floor over 2a from the first: without slope and curvature
+// at the edges, P = 4/3 q a, the middle at q a⁴/72EI. At a = L/2 it stands on its ends, which it leaves at P = q L.
+TEST(PartLoads, AStripIsLiftedInItsMiddle) {
+  for (const std::string theory : {"classic", "elastica"}) {
+    SCOPED_TRACE(theory);
+    const Session run = traced(strip("load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }, "
+                                     "{ at = \"beam:0.5\", force = [0.0, 1.0] }]\n"
+                                     "path = { step = 0.02, stop = { lambda = [-1.0, 0.9] } }"),
+                               {"member.beam.theory = \"" + theory + "\""});
+    expect_stop(run);
+    const auto opens = loads_of(run, EventKind::contact_opens), gathers = loads_of(run, EventKind::contact_gathers);
+    ASSERT_EQ(opens.size(), 1U);
+    ASSERT_EQ(gathers.size(), 1U);
+    EXPECT_NEAR(opens[0], 0.0, 1e-3);  // the shortest free span that is looked for
+    EXPECT_NEAR(gathers[0], 2.0 / 3.0, 1e-5);
+    int lifted = 0;
+    for (const RecordPoint& point : run.points()) {
+      EXPECT_EQ(point.count.stability, Stability::stable);
+      EXPECT_NEAR(point.monitors[1], 1.0 - point.lambda, 1e-9);
+      if (point.lambda >= gathers[0]) continue;
+      const double a = 0.75 * point.lambda, middle = std::pow(a, 4) / (72.0 * EI);
+      EXPECT_NEAR(point.monitors[0], middle, 1e-4 * middle + 1e-12);
+      ++lifted;
+    }
+    EXPECT_GT(lifted, 5);
+  }
+}
+
+// A load that presses is handed on to the floor, and nothing else changes.
+TEST(PartLoads, AStripThatIsPressedStaysWhereItIs) {
+  for (const std::string place : {"0.5", "0.4875", "0.3"}) {
+    SCOPED_TRACE(place);
+    const Session run = traced(strip("load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }, "
+                                     "{ at = \"beam:" +
+                                     place +
+                                     "\", force = [0.0, -1.0] }]\n"
+                                     "path = { step = 0.2, stop = { lambda = [-1.0, 5.0] } }"),
+                               {"member.beam.elements = 80"});
+    expect_stop(run);
+    EXPECT_EQ(run.events().size(), 2U);
+    for (const RecordPoint& point : run.points()) {
+      EXPECT_NEAR(point.monitors[0], 0.0, 1e-12);
+      EXPECT_NEAR(point.monitors[1], 1.0 + point.lambda, 1e-9);
+    }
+  }
+}
+
+// Under q a beam lies on a floor at depth d but for c at both ends, d = q c⁴/24 EI. The edge passes a load there, which
+// from then on has no part in where the beam is but for the mesh, which remembers where the edge has been.
+TEST(PartLoads, TheEdgeOfAPartPassesALoad) {
+  constexpr double depth = 1e-3, force = 0.05, place = 0.7;
+  const double passes = 24.0 * EI * depth / std::pow(length - place, 4);
+  for (const std::string theory : {"classic", "elastica"})
+    for (const std::string elements : {"20", "40"}) {
+      SCOPED_TRACE(theory + " " + elements);
+      const auto run_with = [&](double load) {
+        return traced(
+            beam("{ type = \"flat\", z = " + round_trip(-depth) + " }",
+                 "load = [{ on = \"beam\", distributed = [0.0, -1.0] }, "
+                 "{ at = \"beam:0.7\", force = [0.0, " +
+                     round_trip(-load) +
+                     "], constant = true }]\n"
+                     "path = { step = 0.1, land = { lambda = [8.0, 10.0] }, stop = { lambda = [-1.0, 12.0] } }"),
+            {"member.beam.theory = \"" + theory + "\"", "member.beam.elements = " + elements});
+      };
+      const Session loaded = run_with(force), unloaded = run_with(0.0);
+      expect_stop(loaded);
+      expect_stop(unloaded);
+      EXPECT_EQ(loads_of(loaded, EventKind::contact_spreads).size(), 1U);
+      EXPECT_TRUE(loads_of(loaded, EventKind::contact_opens).empty());
+      int compared = 0;
+      for (const RecordPoint& point : loaded.points()) {
+        if (point.lambda < 1.05 * passes) continue;
+        const double c = std::pow(24.0 * EI * depth / point.lambda, 0.25);
+        EXPECT_NEAR(point.monitors[1], point.lambda * (length - c) + force, 1e-4 * point.lambda);
+        for (const RecordPoint& other : unloaded.points())
+          if (other.lambda == point.lambda) {
+            EXPECT_NEAR(point.monitors[0], other.monitors[0], 2e-7 * depth);
+            ++compared;
+          }
+      }
+      EXPECT_GE(compared, 2);
+    }
+}
+
+// On a floor that is curved, too, a load in the middle is borne by the floor below it.
+TEST(PartLoads, ACurvedFloorBearsALoadInTheMiddle) {
+  const std::string parabola = "{ type = \"parabola\", apex = [0.5, -0.002], curvature = 0.004 }";
+  const auto run_with = [&](double load) {
+    return traced(
+        beam(parabola, "load = [{ on = \"beam\", distributed = [0.0, -1.0] }, { at = \"beam:0.5\", force = [0.0, " +
+                           round_trip(-load) +
+                           "], constant = true }]\n"
+                           "path = { step = 0.1, land = { lambda = [10.0] }, stop = { lambda = [-1.0, 12.0] } }"));
+  };
+  const Session loaded = run_with(0.05), unloaded = run_with(0.0);
+  expect_stop(loaded);
+  expect_stop(unloaded);
+  EXPECT_EQ(loads_of(loaded, EventKind::contact_spreads).size(), 1U);
+  const auto at_ten = [](const Session& run) {
+    for (const RecordPoint& point : run.points())
+      if (point.lambda == 10.0) return point.monitors;
+    ADD_FAILURE() << "the path has no point there";
+    return run.points().front().monitors;
+  };
+  EXPECT_NEAR(at_ten(loaded)[0], at_ten(unloaded)[0], 1e-9);
+  EXPECT_NEAR(at_ten(loaded)[1], at_ten(unloaded)[1] + 0.05, 1e-8);
+}
+
+}  // namespace arcwall::part_loads_test
