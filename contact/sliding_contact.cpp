@@ -225,6 +225,10 @@ State SlidingContact::adopted(const State& state) const {
   return {.x = state.x, .lambda = state.lambda, .piece = sliding::with_layout(state.piece, here)};
 }
 
+State SlidingContact::with_flat_parts_loaded(const State& state, double toward) const {
+  return sliding::with_flat_parts_loaded(*setting_, SlidingState(state), toward);
+}
+
 std::optional<State> SlidingContact::taken_over(const State& state) const {
   const SlidingState at(state);
   if (at.contacts() - at.layout.points().size() != setting_->free_ends.size()) return std::nullopt;

@@ -84,6 +84,10 @@ class SlidingContact final : public System, public ContactQuery {
   /// The same state of this body, of one on another body that differs from it in its loads alone.
   State adopted(const State& state) const;
 
+  /// The state from which λ goes towards a value: parts that lie on walls without pressure, and along which a load
+  /// begins to act then, are pressed or free.
+  State with_flat_parts_loaded(const State& state, double toward) const;
+
   /// The state with the same unknowns, of a body among obstacles that differs from this one in numbers alone. Empty
   /// where other numbers make other strands, ends or bounds, so that the unknowns do not mean the same.
   std::optional<State> taken_over(const State& state) const;

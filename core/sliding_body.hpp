@@ -29,8 +29,11 @@ struct MeshSegment {
 
   int elements = 1;
   Index load = -1;  ///< at which the segment ends, by SlidingBody::point_loads; −1: elsewhere
-  bool pressed =
-      false;  ///< the nodes are pressed on an obstacle: a load inside an element acts on these, as on a bar's
+
+  /// The nodes are pressed on an obstacle, to which they hand these loads on that act inside the segment: on the two nodes
+  /// beside them, as on those of a bar. Others have no part in it, be they at its end.
+  bool pressed = false;
+  std::vector<Index> handed_on{};
 
   bool ends_at_load() const { return load >= 0; }
   bool operator==(const MeshSegment&) const = default;

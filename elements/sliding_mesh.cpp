@@ -31,6 +31,7 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
     MeshedRun meshed{.first_element = first_element};
     number_anchor(strand.ends[0]);
     std::vector<Index> load_nodes(strand.point_loads.size(), held);
+    std::vector<std::pair<Index, Index>> handed_on(strand.point_loads.size(), {held, held});  // elements
     SegmentEnd a;
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const int n = segments[i].elements;
@@ -45,6 +46,8 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
       }
       for (int k = 0; k < n; ++k) meshed.nodes.push_back(interpolated(a, b, double(k) / n));
       meshed.pressed.insert(meshed.pressed.end(), static_cast<std::size_t>(n), segments[i].pressed);
+      for (const Index inside : segments[i].handed_on)
+        handed_on[static_cast<std::size_t>(inside)] = {meshed.elements, meshed.elements + n - 1};
       meshed.elements += n;
       if (at_load) load_nodes[static_cast<std::size_t>(load)] = meshed.elements;
       if (b.breakpoint != held) breakpoints_.emplace_back(r, meshed.elements);
@@ -57,8 +60,12 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
       const SlidingStructure::PointLoad& load = strand.point_loads[i];
       const double s = strand.load_places[i];
       if (load_nodes[i] == held) {
-        inner_loads_.push_back(
-            {.strand = r, .s = s, .load = &load, .rest = structure.undeformed({.strand = r, .s = s}, true).position});
+        inner_loads_.push_back({.strand = r,
+                                .s = s,
+                                .load = &load,
+                                .rest = structure.undeformed({.strand = r, .s = s}, true).position,
+                                .first = handed_on[i].first,
+                                .last = handed_on[i].second});
         continue;
       }
       for (std::size_t j = 0; j < 2; ++j)
@@ -333,6 +340,23 @@ SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_by_ends(const Inne
   return by_ends;
 }
 
+// The nearest element that is not pressed, of a load that is not handed on though the edge of a part has just passed
+// it.
+Index SlidingStructureMesh::outside_pressed(const InnerLoad& load, Index position, const MeshState& now) const {
+  const std::vector<bool>& pressed = mesh_of(load.strand).pressed;
+  const auto is_pressed = [&](Index e) {
+    return e >= 0 && e < static_cast<Index>(pressed.size()) && pressed[static_cast<std::size_t>(e)];
+  };
+  if (!is_pressed(position)) return position;
+  Index before = position, behind = position;
+  while (is_pressed(before)) --before;
+  while (is_pressed(behind)) ++behind;
+  if (before < 0) return behind < static_cast<Index>(pressed.size()) ? behind : position;
+  if (behind == static_cast<Index>(pressed.size())) return before;
+  const double from = coordinate(load.strand, before + 1, now.s), to = coordinate(load.strand, behind, now.s);
+  return load.s - from < to - load.s ? before : behind;
+}
+
 // A part that is pressed on an obstacle hands a load on to it, and is not bent by it.
 SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_on_chord(const InnerLoad& load, const Ends& at, double S1,
                                                                        double S2, Vec2* place) {
@@ -354,7 +378,7 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& lo
   const Ends at = ends(strand, position, now);
   const double S1 = coordinate(strand, position, now.s), S2 = coordinate(strand, position + 1, now.s);
   const auto [P, P_rate] = load.load->at(now.lambda);
-  const bool pressed = mesh_of(strand).pressed[static_cast<std::size_t>(position)];
+  const bool pressed = load.first != held;
   const auto by_ends_at = [&](const Ends& ends, double from, double to, double lambda, Vec2* place) {
     return pressed ? place_on_chord(load, ends, from, to, place) : place_by_ends(load, ends, from, to, lambda, place);
   };

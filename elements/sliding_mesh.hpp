@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -132,11 +133,14 @@ class SlidingStructureMesh final : public SlidingMesh {
     Index strand;
     double s;
     const SlidingStructure::PointLoad* load;
-    Vec2 rest;  // where it acts at rest
+    Vec2 rest;                      // where it acts at rest
+    Index first = held, last = -1;  // elements of the segment that hands it on to an obstacle; held: none does
   };
   Index element_of(const InnerLoad& load, const MeshState& now) const {
-    return element_at({.strand = load.strand, .s = load.s}, now);
+    const Index e = element_at({.strand = load.strand, .s = load.s}, now);
+    return load.first == held ? outside_pressed(load, e, now) : std::clamp(e, load.first, load.last);
   }
+  Index outside_pressed(const InnerLoad& load, Index position, const MeshState& now) const;
   using PlaceByEnds = Eigen::Matrix<double, 2, 6>;
   PlaceByEnds place_by_ends(const InnerLoad& load, const Ends& at, double S1, double S2, double lambda,
                             Vec2* place) const;

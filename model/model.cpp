@@ -410,13 +410,19 @@ std::optional<State> Model::start(std::string& reason) const {
   }
   state.lambda = 0.0;
   if (!reason.empty()) return std::nullopt;
-  return sliding_ ? sliding_->adopted(state) : state;
+  return begun_from(state);
+}
+
+// λ goes from 0 on in the direction of the first step.
+State Model::begun_from(const State& state) const {
+  if (!sliding_) return state;
+  return sliding_->with_flat_parts_loaded(sliding_->adopted(state), deck_.path.step);
 }
 
 State Model::taken_over(const State& last) const {
-  State state = sliding_ ? sliding_->adopted(last) : last;
+  State state = last;
   state.lambda = 0.0;
-  return state;
+  return begun_from(state);
 }
 
 // With λ as one more unknown the second variation has the same unstable directions, and one more if the force that goes

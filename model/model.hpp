@@ -108,6 +108,7 @@ class Model {
   Index closed_contacts(const State& state) const;
 
  private:
+  State begun_from(const State& state) const;
   Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress);
   bool hold_loose_bodies();
   std::unique_ptr<Structure> held_structure(bool ramp) const;

@@ -204,8 +204,17 @@ double holding_pressure(const SlidingSetting& setting, const SlidingState& at, s
   return std::abs(q) > noise ? q : 0.0;
 }
 
+// What acts along the body is linear in λ, and exactly the same where λ does not drive it.
+double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  HeldAxis less = held_axis(setting, at, point), more = less;
+  less.lambda -= 1.0;
+  more.lambda += 1.0;
+  return 0.5 * (straight_pressure(setting, more, 0.0) - straight_pressure(setting, less, 0.0));
+}
+
 bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  return holding_pressure(setting, at, point) == 0.0 && obstacle_curvature(setting, at, point) == 0.0;
+  return holding_pressure(setting, at, point) == 0.0 && holding_pressure_rate(setting, at, point) == 0.0 &&
+         obstacle_curvature(setting, at, point) == 0.0;
 }
 
 Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {

@@ -69,7 +69,11 @@ double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, s
 /// The same at the point itself, 0 where that is round-off.
 double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
-/// Whether the body needs no pressure to lie on a straight obstacle behind a tracked point.
+/// The derivative by λ of the pressure with which a straight obstacle holds the body straight at a tracked point: that
+/// of what acts along the body.
+double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+
+/// Whether the body needs no pressure to lie on a straight obstacle behind a tracked point, at this λ and at others.
 bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// Of −t at each tracked point by its s: the axis goes on by the stretch along its tangent and turns by its curvature.

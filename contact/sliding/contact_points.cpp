@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/sliding/bounds/clamp.hpp"
+#include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/clamps.hpp"
@@ -67,8 +68,15 @@ ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at
     return at_node(setting, at,
                    touch_of_end(setting, at.layout, touched_clamp(setting, at, clamp->strand(), clamp->last()).value()),
                    0.0);
-  if (const auto* on_part = dynamic_cast<const LoadOnPartBound*>(&bound))
-    return at_load(setting, at, on_part->load(at));
+  if (const auto* stays = dynamic_cast<const EndStaysBound*>(&bound)) {
+    const std::size_t obstacle = at.layout.lies_on(stays->strand()).value();
+    return at_node(
+        setting, at,
+        touch_of_end(setting, at.layout, {.strand = stays->strand(), .last = stays->last(), .obstacle = obstacle}),
+        0.0);
+  }
+  if (const auto* presses = dynamic_cast<const LoadPressesBound*>(&bound))
+    return at_load(setting, at, presses->load(at));
   return at_least_pressure(setting, at, dynamic_cast<const PressureBound&>(bound));
 }
 

@@ -124,20 +124,11 @@ std::pair<double, double> SlidingContactLayout::ends(const SlidingBody& body, co
           place(segment.last_point, segment.last_load, body.length(segment.strand))};
 }
 
-void mark_pressed(ElementsPerSegment& elements, const std::vector<SlidingContactLayout::Point>& points,
-                  const SlidingContactLayout::Lying& lying) {
-  using Span = SlidingContactLayout::Span;
-  std::size_t next = 0;  // point
-  for (std::size_t strand = 0; strand < elements.size(); ++strand) {
-    std::vector<MeshSegment>& segments = elements[strand];
-    const auto ends_at_point = [&](const MeshSegment& at) { return !at.ends_at_load() && &at != &segments.back(); };
-    Span span = !lying.empty() && lying[strand] ? Span::pressed : Span::free;
-    if (std::any_of(segments.begin(), segments.end(), ends_at_point)) span = points[next].before;
-    for (MeshSegment& segment : segments) {
-      segment.pressed = span == Span::pressed;
-      if (ends_at_point(segment)) span = points[next++].behind;
-    }
-  }
+bool SlidingContactLayout::hands_on(std::size_t segment, Index load) const {
+  const Segment& part = segments_[segment];
+  const std::vector<Index>& loads =
+      mesh_->elements_per_segment()[static_cast<std::size_t>(part.strand)][part.place].handed_on;
+  return std::find(loads.begin(), loads.end(), load) != loads.end();
 }
 
 }  // namespace arcwall

@@ -146,6 +146,9 @@ class SlidingContactLayout final : public SlidingLayout {
   /// Whether a point load of a strand has a node; else it acts inside an element.
   bool has_node(Index strand, Index load) const;
 
+  /// Whether a pressed part hands a point load of its strand on to its obstacle.
+  bool hands_on(std::size_t segment, Index load) const;
+
   /// Whether the body lies on the wall on one side of a point.
   bool lies_beside(std::size_t point) const {
     return points_[point].behind != Span::free || span_before(point) != Span::free;
@@ -170,10 +173,6 @@ class SlidingContactLayout final : public SlidingLayout {
   Vector origin_;
   std::vector<std::unique_ptr<const sliding::ValidityBound>> bounds_;
 };
-
-/// Says of the segments of a mesh which of them points and lying strands press on obstacles.
-void mark_pressed(ElementsPerSegment& elements, const std::vector<SlidingContactLayout::Point>& points,
-                  const SlidingContactLayout::Lying& lying);
 
 /// The layout of a piece of sliding contact.
 inline const SlidingContactLayout& sliding_layout(const Piece& piece) {

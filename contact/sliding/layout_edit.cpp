@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact/sliding/spans.hpp"
 
@@ -105,14 +106,28 @@ void LayoutEdit::set_lying(Index strand, std::optional<std::size_t> obstacle) {
   lying[static_cast<std::size_t>(strand)] = obstacle;
 }
 
-bool LayoutEdit::lies_on_wall(Index strand, double place) const {
-  if (!lying.empty() && lying[static_cast<std::size_t>(strand)]) return true;
-  Span span = Span::free;
-  for (std::size_t k = points.size(); k-- > 0;)
-    if (strands[k] == strand) span = points[k].before;  // of the strand's first point, in the end
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (strands[k] == strand && s[static_cast<Index>(k)] < place) span = points[k].behind;
-  return span != Span::free;
+double LayoutEdit::depth_in_part(Index strand, double place, Span span) const {
+  if (!lying.empty() && lying[static_cast<std::size_t>(strand)]) return span == Span::pressed ? infinity : -infinity;
+  double deepest = -infinity;
+  const auto elements_to = [&](double to) {
+    return body.elements_between(strand, std::min(place, to), std::max(place, to));
+  };
+  const auto look_at = [&](Span of_part, std::optional<double> from, std::optional<double> to) {
+    if (of_part != span) return;
+    double depth = infinity;
+    if (from) depth = std::min(depth, std::copysign(elements_to(*from), place - *from));
+    if (to) depth = std::min(depth, std::copysign(elements_to(*to), *to - place));
+    deepest = std::max(deepest, depth);
+  };
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (strands[k] != strand) continue;
+    const bool is_first = k == 0 || strands[k - 1] != strand;
+    const bool is_last = k + 1 == points.size() || strands[k + 1] != strand;
+    const auto at = [&](std::size_t point) { return s[static_cast<Index>(point)]; };
+    if (is_first) look_at(points[k].before, std::nullopt, at(k));
+    look_at(points[k].behind, at(k), is_last ? std::nullopt : std::optional(at(k + 1)));
+  }
+  return deepest;
 }
 
 double LayoutEdit::elements_to_nearest_point(Index strand, double place) const {
@@ -162,6 +177,14 @@ LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
                   .points = at.layout.points(),
                   .s = at.now.s,
                   .lying = at.layout.lying()};
+  for (Index strand = 0; strand < body.strands(); ++strand) {
+    std::vector<MeshSegment>& segments = edit.elements[static_cast<std::size_t>(strand)];
+    std::vector<std::uint8_t>& loads = edit.handed_on.emplace_back(body.point_loads(strand).size());
+    for (MeshSegment& segment : segments) {
+      for (const Index load : segment.handed_on) loads[static_cast<std::size_t>(load)] = 1;
+      segment.handed_on.clear();
+    }
+  }
   for (std::size_t k = 0; k < edit.points.size(); ++k) {
     edit.strands.push_back(at.mesh.breakpoint(static_cast<Index>(k)).first);
     edit.closed.push_back(at.is_closed(k));
@@ -179,7 +202,11 @@ void settle_loads(LayoutEdit& edit) {
     const std::vector<double>& places = edit.body.point_loads(strand);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const auto load = static_cast<Index>(i);
-      const bool has_node = edit.has_node(strand, load), on_wall = edit.lies_on_wall(strand, places[i]);
+      std::uint8_t& handed_on = edit.handed_on[static_cast<std::size_t>(strand)][i];
+      const double pressed = edit.depth_in_part(strand, places[i], Span::pressed);
+      if (std::abs(pressed) > 2.0 * edge_behind_load) handed_on = pressed > 0.0;
+      const bool on_wall = handed_on || edit.depth_in_part(strand, places[i], Span::flat) > 0.0;
+      const bool has_node = edit.has_node(strand, load);
       const double apart = edit.elements_to_nearest_point(strand, places[i]);
       if (has_node && (on_wall || apart <= nearest_node_of_load + landed)) edit.take_node(strand, load);
       if (!has_node && !on_wall && apart >= farthest_load_inside - landed) edit.give_node(strand, load);
@@ -199,12 +226,38 @@ void give_middles(LayoutEdit& edit) {
   }
 }
 
+// Says of the segments which are pressed, and gives them the loads that they hand on. One at the edge of a part is near
+// the end of its segment, be it beyond.
+void hand_loads_on(LayoutEdit& edit) {
+  std::size_t next = 0;  // point
+  for (std::size_t strand = 0; strand < edit.elements.size(); ++strand) {
+    std::vector<MeshSegment>& segments = edit.elements[strand];
+    const auto ends_at_point = [&](const MeshSegment& at) { return !at.ends_at_load() && &at != &segments.back(); };
+    Span span = !edit.lying.empty() && edit.lying[strand] ? Span::pressed : Span::free;
+    if (std::any_of(segments.begin(), segments.end(), ends_at_point)) span = edit.points[next].before;
+    const std::vector<double>& places = edit.body.point_loads(static_cast<Index>(strand));
+    double from = 0.0;
+    for (MeshSegment& segment : segments) {
+      double to = edit.body.length(static_cast<Index>(strand));
+      if (segment.ends_at_load()) to = places[static_cast<std::size_t>(segment.load)];
+      if (ends_at_point(segment)) to = edit.place(next);
+      segment.pressed = span == Span::pressed;
+      const double edge = 0.5 * (to - from) / segment.elements;
+      for (std::size_t i = 0; i < places.size() && segment.pressed; ++i)
+        if (edit.handed_on[strand][i] && from - edge < places[i] && places[i] < to + edge)
+          segment.handed_on.push_back(static_cast<Index>(i));
+      if (ends_at_point(segment)) span = edit.points[next++].behind;
+      from = to;
+    }
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
   settle_loads(edit);
   give_middles(edit);
-  mark_pressed(edit.elements, edit.points, edit.lying);
+  hand_loads_on(edit);
   return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s,
                                                 edit.lying);
 }

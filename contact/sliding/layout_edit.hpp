@@ -18,6 +18,10 @@ struct LayoutEdit {
   Vector s{};                          ///< of the points
   SlidingContactLayout::Lying lying{};
 
+  /// Per strand and point load whether a pressed part hands it on to its obstacle. That of a load at the edge of a part
+  /// is left as it is when the layout is made.
+  std::vector<std::vector<std::uint8_t>> handed_on{};
+
   /// Of the free ends, in the order of SlidingSetting::free_ends.
   std::vector<std::uint8_t> ends_closed{};
   std::vector<double> end_forces{};
@@ -59,8 +63,8 @@ struct LayoutEdit {
   /// Says on which obstacle a strand without points is pressed all along; empty: on none.
   void set_lying(Index strand, std::optional<std::size_t> obstacle);
 
-  /// Whether a place is inside a part that lies on a wall.
-  bool lies_on_wall(Index strand, double s) const;
+  /// How far a place is inside a part that lies on a wall in this way, in elements; negative outside.
+  double depth_in_part(Index strand, double s, SlidingContactLayout::Span span) const;
 
   /// How many elements lie between a place and the nearest point of its strand; infinite where it has none.
   double elements_to_nearest_point(Index strand, double s) const;
@@ -74,7 +78,7 @@ struct LayoutEdit {
 LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at);
 
 /// Takes the nodes of point loads that points have come too near to, and gives one to those that they have left. Loads
-/// inside parts that lie on a wall have none: such a layout is not valid.
+/// inside parts that lie on a wall have none: pressed parts hand them on, others with such a load are not valid.
 void settle_loads(LayoutEdit& edit);
 
 /// The layout that has been made of one, with its loads settled and nodes in the middles of neutral spans.

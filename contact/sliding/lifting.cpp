@@ -200,11 +200,45 @@ std::optional<Transition> strands_leave(const SlidingSetting& setting, const Sli
   return transition;
 }
 
+namespace {
+
+// Parts between two points from which a load that λ drives lets go, from end to end, are free spans behind that: they
+// arch off their walls as soon as these would have to pull. Empty where there are none.
+std::optional<Transition> parts_leave(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                                      double tolerance) {
+  const auto all = reached<PressureBound>(setting, at, tolerance);
+  const auto& pressed = at.layout.pressed_nodes();
+  std::vector<std::size_t> leaving;
+  for (std::size_t i = 0; i < at.layout.segments().size(); ++i) {
+    const SlidingContactLayout::Segment& part = at.layout.segments()[i];
+    if (part.span != Span::pressed || part.first_point < 0 || part.last_point < 0) continue;
+    if (holding_pressure_rate(setting, at, part.end_point()) == 0.0) continue;
+    const auto of_part = [&](std::size_t node) { return pressed[node].segment == i; };
+    if (std::count_if(all.begin(), all.end(), [&](const auto* bound) { return of_part(bound->node()); }) ==
+        part.elements - 1)
+      leaving.push_back(i);
+  }
+  if (leaving.empty()) return std::nullopt;
+  Transition transition = remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
+    for (const std::size_t i : leaving)
+      edit.points[static_cast<std::size_t>(at.layout.segments()[i].first_point)].behind = Span::free;
+  });
+  transition.change = Transition::Change::splits;
+  for (const std::size_t i : leaving)
+    for (const Index point : {at.layout.segments()[i].first_point, at.layout.segments()[i].last_point})
+      transition.contacts.push_back(point);
+  return transition;
+}
+
+}  // namespace
+
 std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                                        double tolerance) {
   const Nodes nodes = lifting_nodes(setting, at, tolerance);
   if (auto leave = strands_leave(setting, at, forward, tolerance))
     return {std::move(*leave), unsupported("a member leaves its wall, and no equilibrium was found")};
+  std::vector<Transition> transitions;
+  if (auto leave = parts_leave(setting, at, forward, tolerance)) transitions.push_back(std::move(*leave));
   LiftOffs lifts;
   for (const std::size_t node : nodes) lifts.push_back(lift_off_at(setting, at, node));
   const auto is_one_of_them = [&](const PressureBound& bound) {
@@ -216,7 +250,6 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
   const bool at_ends_on_straight = std::all_of(lifts.begin(), lifts.end(), [&](const LiftOff& lift) {
     return lift.on_straight && lifts_off_at(setting, at, lift, shortest) != Where::inside;
   });
-  std::vector<Transition> transitions;
   const auto try_length = [&](double length, double least) {
     auto transition = lifted(setting, at, lifts, length);
     if (!transition) return;
@@ -240,25 +273,23 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
 
 std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,
                                        double tolerance) {
-  const auto pulls = [&](const LoadOnPartBound& bound) {
-    const PartLoad other = bound.load(at);
-    return other.segment == load.segment && is_on_part(setting, at, other) &&
-           bound.value(setting, at) <= std::max(1e-6, 10.0 * tolerance);
+  const auto pulls = [&](const LoadPressesBound& bound) {
+    return bound.load(at).segment == load.segment && bound.value(setting, at) <= std::max(1e-6, 10.0 * tolerance);
   };
   const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
   const std::size_t obstacle = obstacle_of_part(at, load.segment);
   const bool on_straight = setting.obstacles[obstacle].surface->knots().empty();
   LiftOffs lifts;
   for (const auto& bound : at.layout.bounds())
-    if (const auto* on_part = dynamic_cast<const LoadOnPartBound*>(bound.get()); on_part != nullptr && pulls(*on_part))
+    if (const auto* presses = dynamic_cast<const LoadPressesBound*>(bound.get()); presses != nullptr && pulls(*presses))
       lifts.push_back({.segment = load.segment,
                        .obstacle = obstacle,
-                       .place = place_of(setting, on_part->load(at)),
+                       .place = place_of(setting, presses->load(at)),
                        .on_straight = on_straight});
   std::vector<Transition> transitions;
   for (const double length : lengths_inside(setting.body, part.strand, on_straight))
     if (auto transition = lifted(setting, at, lifts, length)) {
-      transition->contacts = bounds_of<LoadOnPartBound>(at, pulls);
+      transition->contacts = bounds_of<LoadPressesBound>(at, pulls);
       transitions.push_back(std::move(*transition));
     }
   transitions.push_back(nothing_lifted());

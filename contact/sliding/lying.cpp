@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/layout_edit.hpp"
+#include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
@@ -28,13 +30,13 @@ bool is_straight(const SlidingSetting& setting, std::size_t obstacle) {
   return setting.obstacles[obstacle].surface->knots().empty();
 }
 
-// Whether λ, going from 0 towards a value, moves the obstacle of a strand, turns a clamped end of it, or moves an end
-// into the obstacle.
-bool moves_with_lambda(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
-                       double toward) {
-  if (setting.obstacles[obstacle].surface->greatest_speed(setting.scales.length) > 0.0) return true;
+// Whether λ, going from 0 towards a value, turns a clamped end of a strand against its obstacle, or moves an end and
+// the obstacle into each other. An end that leaves the obstacle peels off.
+bool is_driven_into(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
+                    double toward) {
   return std::any_of(both_ends.begin(), both_ends.end(), [&](bool last) {
     const TouchGap touch = touch_at_end(setting, at, strand, last, obstacle);
+    if (setting.body.is_tip(strand, last)) return false;
     return touch.gap.rate * toward < 0.0 || (setting.body.is_clamped(strand, last) && touch.tilt.rate != 0.0);
   });
 }
@@ -45,7 +47,7 @@ bool may_lie(const SlidingSetting& setting, const SlidingState& at, Index strand
   for (const bool last : both_ends)
     if (!body.is_tip(strand, last) && !body.is_hinged(strand, last) && !body.is_clamped(strand, last)) return false;
   return setting.obstacles[obstacle].concerns(strand) && is_straight(setting, obstacle) &&
-         !at.layout.point_at_end(strand, false) && !moves_with_lambda(setting, at, strand, obstacle, toward);
+         !at.layout.point_at_end(strand, false) && !is_driven_into(setting, at, strand, obstacle, toward);
 }
 
 // Whether all nodes of a strand are on an obstacle and parallel to it.
@@ -97,45 +99,80 @@ State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest
   return edit.lying.empty() ? rest.state : mapped_onto(setting, rest, edit, layout_of(edit));
 }
 
+State with_flat_parts_loaded(const SlidingSetting& setting, const SlidingState& at, double toward) {
+  LayoutEdit edit = edit_of(setting.body, at);
+  bool changed = false;
+  const auto load = [&](std::size_t point, Span& span, int& elements, double from, double to) {
+    if (span != Span::flat) return;
+    const double grows = toward * holding_pressure_rate(setting, at, point);
+    if (grows == 0.0) return;
+    span = grows > 0.0 ? Span::pressed : Span::free;
+    elements = elements_asked(setting.body, edit.strands[point], from, to, fewest_pressed(true));
+    changed = true;
+  };
+  for (std::size_t k = 0; k < edit.points.size(); ++k) {
+    const Index strand = edit.strands[k];
+    const bool is_first = k == 0 || edit.strands[k - 1] != strand;
+    const bool is_last = k + 1 == edit.points.size() || edit.strands[k + 1] != strand;
+    if (is_first) load(k, edit.points[k].before, edit.elements_before(k), 0.0, edit.place(k));
+    load(k, edit.points[k].behind, edit.elements_behind(k), edit.place(k),
+         is_last ? setting.body.length(strand) : edit.place(k + 1));
+  }
+  return changed ? mapped_onto(setting, at, edit, layout_of(edit)) : at.state;
+}
+
 std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at, double toward) {
   for (Index strand = 0; strand < setting.body.strands(); ++strand) {
     const auto obstacle = at.layout.lies_on(strand);
-    if (!obstacle || !moves_with_lambda(setting, at, strand, *obstacle, toward)) continue;
+    if (!obstacle || !is_driven_into(setting, at, strand, *obstacle, toward)) continue;
     return "member \"" + setting.body.label({.strand = strand, .s = 0.0}).first + "\" lies on wall \"" +
            setting.obstacles[*obstacle].name +
-           "\" from end to end, and λ moves the wall, turns a clamped end of the member or moves an end into the wall: "
+           "\" from end to end, and λ turns a clamped end of the member or moves an end and the wall into each other: "
            "that "
            "is not modelled; use contact.points = \"nodes\"";
   }
   return {};
 }
 
-std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last) {
+std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand,
+                                  double tolerance) {
   const Transition none = unsupported(
       "the end of a member is lifted off the wall that it lies on, and no equilibrium "
       "was found in which it peels off");
   const auto obstacle = at.layout.lies_on(strand);
   if (!obstacle) return {none};
   const double L = setting.body.length(strand);
+  std::vector<bool> ends;  // false: the first
+  std::vector<Index> named;
+  for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
+    const auto* bound = dynamic_cast<const EndStaysBound*>(at.layout.bounds()[i].get());
+    if (bound == nullptr || bound->strand() != strand) continue;
+    if (bound->value(setting, at) > std::max(1e-6, 10.0 * tolerance)) continue;
+    ends.push_back(bound->last());
+    named.push_back(static_cast<Index>(at.contacts() + i));
+  }
+  if (ends.empty()) return {none};
   std::vector<Transition> transitions;
   for (const double factor : {2.0, 8.0, 32.0}) {
-    const double length = factor * shortest_span(setting.body, strand), s = last ? L - length : length;
-    if (length > 0.5 * L) break;
+    const double length = factor * shortest_span(setting.body, strand);
+    if (length > 0.5 * L / double(ends.size())) break;
     LayoutEdit edit = edit_of(setting.body, at);
     edit.set_lying(strand, std::nullopt);
     const int rest = edit.elements[static_cast<std::size_t>(strand)].front().elements;
-    const int free = elements_asked(setting.body, strand, std::min(s, s + length), std::max(s, s + length), 2);
-    edit.insert({.point = {.obstacle = *obstacle,
-                           .behind = last ? Span::free : Span::pressed,
-                           .before = last ? Span::pressed : Span::free},
-                 .strand = strand,
-                 .s = s,
-                 .closed = true},
-                last ? rest : free, last ? free : rest);
+    const int free = elements_asked(setting.body, strand, 0.0, length, 2);
+    SlidingContactLayout::Point edge{
+        .obstacle = *obstacle, .behind = Span::pressed, .before = ends.front() ? Span::pressed : Span::free};
+    for (const bool last : ends) {
+      edge.behind = last ? Span::free : Span::pressed;
+      edit.insert({.point = edge, .strand = strand, .s = last ? L - length : length, .closed = true},
+                  last ? rest : free, last ? free : rest);
+    }
     const auto on = layout_of(edit);
+    const bool last = ends.front();
     const std::size_t point = on->point_at_end(strand, last).value();
     transitions.push_back(up_to(length, std::make_shared<TailLength>(point, last ? L : 0.0), Transition::Change::splits,
                                 mapped_onto(setting, at, edit, on)));
+    transitions.back().contacts = named;
   }
   transitions.push_back(none);
   return transitions;

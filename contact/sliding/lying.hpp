@@ -17,9 +17,14 @@ void lay_down(const SlidingSetting& setting, Index strand, std::size_t obstacle,
 /// pressed all along as λ grows from 0 to `toward`. Nothing presses yet.
 State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest, double toward);
 
-/// What may lie behind a state where an end of a strand that is pressed all along leaves its obstacle: the strand peels
-/// off from that end.
-std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand, bool last);
+/// The state in which parts that lie on straight obstacles without pressure, which a load begins to act along as λ goes
+/// from here towards a value, are pressed on them or free spans beside them, as the load says.
+State with_flat_parts_loaded(const SlidingSetting& setting, const SlidingState& at, double toward);
+
+/// What may lie behind a state where ends of a strand that is pressed all along leave its obstacle, within a tolerance:
+/// the strand peels off from them.
+std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand,
+                                  double tolerance);
 
 /// Why λ cannot go on from 0 towards a value while strands lie on obstacles from end to end; empty if it can.
 std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at, double toward);

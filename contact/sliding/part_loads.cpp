@@ -1,6 +1,7 @@
 #include "contact/sliding/part_loads.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/sliding/touch.hpp"
 
@@ -31,10 +32,10 @@ void for_each_share(const SlidingSetting& setting, const SlidingState& at, std::
   const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
   for (std::size_t i = 0; i < setting.body.point_loads(part.strand).size(); ++i) {
     const PartLoad load{.strand = part.strand, .load = static_cast<Index>(i), .segment = segment};
-    if (!is_on_part(setting, at, load)) continue;
+    if (!at.layout.hands_on(segment, load.load)) continue;
     const auto [force, rate] = setting.body.point_load(part.strand, load.load, at.now.lambda);
     const double along = (place_of(setting, load) - from) / (to - from) * part.elements;
-    const Index first = std::min<Index>(static_cast<Index>(along), part.elements - 1);
+    const Index first = std::clamp<Index>(static_cast<Index>(std::floor(along)), 0, part.elements - 1);
     for (const Index node : {first, first + 1}) {
       if (node == 0 || node == part.elements) continue;  // the ends of the part
       const double weight = 1.0 - std::abs(along - double(node));
@@ -54,11 +55,6 @@ std::size_t obstacle_of_part(const SlidingState& at, std::size_t segment) {
 
 double place_of(const SlidingSetting& setting, const PartLoad& load) {
   return setting.body.point_loads(load.strand)[static_cast<std::size_t>(load.load)];
-}
-
-bool is_on_part(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
-  const auto [from, to] = at.layout.ends(setting.body, part_of(at, load.segment), at.now.s);
-  return from <= place_of(setting, load) && place_of(setting, load) <= to;
 }
 
 double push(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {

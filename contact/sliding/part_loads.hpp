@@ -5,7 +5,7 @@
 
 namespace arcwall::sliding {
 
-/// A point load inside a part that is pressed on an obstacle, from which the part hands it on to the obstacle.
+/// A point load of a strand, and a part of that which is pressed on an obstacle.
 struct PartLoad {
   Index strand, load;   ///< by SlidingBody::point_loads
   std::size_t segment;  ///< the part
@@ -16,9 +16,6 @@ std::size_t obstacle_of_part(const SlidingState& at, std::size_t segment);
 
 /// Where it acts along its strand [length].
 double place_of(const SlidingSetting& setting, const PartLoad& load);
-
-/// Whether it is inside the part, ends included.
-bool is_on_part(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load);
 
 /// With how much force it presses the part on its obstacle; < 0 where it pulls it off.
 double push(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load);

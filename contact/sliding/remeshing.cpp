@@ -98,9 +98,11 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
     const std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(strand)];
     const std::vector<double>& loads = body.point_loads(strand);
     const double most = 1000.0 + 100.0 * body.elements_between(strand, 0.0, body.length(strand));  // of a segment
+    const auto is_none = [&](Index load) { return load < 0 || load >= static_cast<Index>(loads.size()); };
     const auto wrong = [&](const MeshSegment& segment) {
       return segment.elements < 1 || segment.elements > most || segment.load < -1 ||
-             segment.load >= static_cast<Index>(loads.size());
+             segment.load >= static_cast<Index>(loads.size()) ||
+             std::any_of(segment.handed_on.begin(), segment.handed_on.end(), is_none);
     };
     if (in_strand.empty() || in_strand.back().ends_at_load()) return nullptr;
     if (std::any_of(in_strand.begin(), in_strand.end(), wrong)) return nullptr;
@@ -123,9 +125,7 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
                                         [](const MeshSegment& segment) { return !segment.ends_at_load(); });
     if (has_points || *lying[strand] >= setting.obstacles.size()) return nullptr;
   }
-  ElementsPerSegment marked = elements;
-  mark_pressed(marked, points, lying);
-  return std::make_shared<SlidingContactLayout>(body, body.mesh(marked), std::move(points), origin, std::move(lying));
+  return std::make_shared<SlidingContactLayout>(body, body.mesh(elements), std::move(points), origin, std::move(lying));
 }
 
 Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on) {

@@ -13,6 +13,10 @@ constexpr double coarsest = 1.25, finest = 0.25;
 /// farther than the second it has one.
 constexpr double nearest_node_of_load = 0.5, farthest_load_inside = 0.75;
 
+/// Elements by which the edge of a part that hands a load on may have come back over it, so that round-off of the edge
+/// does not change what the load acts on.
+constexpr double edge_behind_load = 1e-3;
+
 /// How many elements the mesh of a strand asks for between two places.
 int elements_asked(const SlidingBody& body, Index strand, double from, double to, int fewest);
 

@@ -139,7 +139,7 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
   return with_spans(setting, at, points, edit, length);
 }
 
-// A stretch about a point, on a straight wall, in which the pressure that would hold the body there changes its sign:
+// A stretch about a point in which the pressure that would hold the body there changes its sign:
 // pressed where that is positive, it arches off where it is negative, up to an edge that stays behind as a point.
 struct HalfPressed {
   double from, lift_off, to;
@@ -151,7 +151,6 @@ struct HalfPressed {
 std::optional<HalfPressed> half_pressed(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
                                         double length) {
   constexpr double beyond = 0.6;
-  if (!obstacle_is_straight(setting, at, point)) return std::nullopt;
   const auto pressure = [&](double ahead) { return pressure_to_hold(setting, at, point, ahead); };
   double pressed = -0.5 * length, free = 0.5 * length;
   if (pressure(pressed) < pressure(free)) std::swap(pressed, free);
@@ -161,9 +160,12 @@ std::optional<HalfPressed> half_pressed(const SlidingSetting& setting, const Sli
     (pressure(edge = 0.5 * (a + b)) > 0.0 ? a : b) = edge;
   const double lift_off = free - (free - edge) / beyond;
   const double sign = free > pressed ? 1.0 : -1.0, s = at.s(static_cast<Index>(point));
+  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
+  const bool straight = obstacle_is_straight(setting, at, point);
   const double least_pressed =
-      shortest_span_on_straight(setting.body, at.mesh.breakpoint(static_cast<Index>(point)).first);
-  const double least_arch = 2.0 * shortest_sure_arch(setting, held_axis(setting, at, point), edge);
+      straight ? shortest_span_on_straight(setting.body, strand) : shortest_span(setting.body, strand);
+  const double least_arch =
+      2.0 * (straight ? shortest_sure_arch(setting, held_axis(setting, at, point), edge) : least_pressed);
   if (sign * (lift_off - pressed) < least_pressed || sign * (free - lift_off) < least_arch) return std::nullopt;
   return HalfPressed{
       .from = s - 0.5 * length, .lift_off = s + lift_off, .to = s + 0.5 * length, .pressed_first = free > pressed};
@@ -179,7 +181,8 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
     if (!stretch) return std::nullopt;
     const Index strand = edit.strands[*k];
     const auto elements = [&](double from, double to, bool pressed) {
-      return elements_asked(setting.body, strand, from, to, pressed ? fewest_pressed(true) : 2);
+      return elements_asked(setting.body, strand, from, to,
+                            pressed ? fewest_pressed(obstacle_is_straight(setting, at, *k)) : 2);
     };
     const int behind = edit.elements_behind(*k);
     const int first = elements(stretch->from, stretch->lift_off, stretch->pressed_first);
@@ -203,7 +206,9 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
 
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
 // arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
-// begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be.
+// begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be. Shorter
+// ones are tried before longer ones of any kind: far from the change a longer one may be on a part of the path that is
+// still to come.
 std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
   constexpr double shorter = 0.6;
   const Index strand = at.mesh.breakpoint(static_cast<Index>(points.front())).first;
@@ -216,16 +221,22 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
     return holding_pressure(setting, at, k) < 0.0 && obstacle_curvature(setting, at, k) == 0.0;
   };
   std::vector<Transition> transitions;
-  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
+  const bool all_flat = is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); });
+  const bool all_lift_off = is_all(lifts_off_straight);
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0}) {
     if (auto transition = spread_half_pressed(setting, at, points, factor * length))
       transitions.push_back(std::move(*transition));
-  if (is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); })) {
-    transitions.push_back(spread_to(Span::flat, 1.0));
-  } else if (is_all(lifts_off_straight)) {
-    transitions.push_back(spread_to(Span::free, 1.0));
-    transitions.push_back(spread_to(Span::pressed, 1.0));
-  } else {
-    for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0}) transitions.push_back(spread_to(Span::pressed, factor));
+    const bool shortest = factor == 1.0;
+    if (all_flat && shortest) {
+      transitions.push_back(spread_to(Span::flat, 1.0));
+    } else if (all_lift_off && shortest) {
+      transitions.push_back(spread_to(Span::free, 1.0));
+      transitions.push_back(spread_to(Span::pressed, 1.0));
+    } else if (!all_flat && !all_lift_off) {
+      transitions.push_back(spread_to(Span::pressed, factor));
+    }
+  }
+  if (!all_flat && !all_lift_off) {
     transitions.push_back(spread_to(Span::free, 1.0));
     transitions.push_back(spread_to(Span::pressed, shorter));
   }
@@ -253,9 +264,39 @@ std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, c
   return transitions;
 }
 
+// Free spans between two of the points on a straight wall on which the body comes to lie from one to the other, as a
+// load along it that λ drives vanishes: behind that it is pressed there. Empty where there are none.
+std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const SlidingState& at, const Points& points,
+                                         const Direction& forward) {
+  Points lying;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const std::size_t k = points[i];
+    const auto joins_them = [&](const SlidingContactLayout::Segment& segment) {
+      return segment.span == Span::free && segment.first_point == static_cast<Index>(k) &&
+             segment.last_point == static_cast<Index>(k + 1) && at.layout.joins_one_obstacle(segment) &&
+             holding_pressure_rate(setting, at, k) != 0.0 &&
+             obstacle_is_straight(setting, at, k, at.s(segment.last_point) - at.s(segment.first_point));
+    };
+    if (std::any_of(at.layout.segments().begin(), at.layout.segments().end(), joins_them)) lying.push_back(k);
+  }
+  if (lying.empty()) return std::nullopt;
+  Transition transition = remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
+    for (const std::size_t k : lying) {
+      edit.points[k].behind = Span::pressed;
+      int& elements = edit.elements_behind(k);
+      elements = std::max(elements, fewest_pressed(true));
+    }
+  });
+  transition.change = Transition::Change::spreads;
+  for (const std::size_t k : lying)
+    for (const std::size_t point : {k, k + 1}) transition.contacts.push_back(static_cast<Index>(point));
+  return transition;
+}
+
 }  // namespace
 
-std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                                        double tolerance) {
   const Points points = points_without_curvature(setting, at, tolerance);
   if (points.size() == 1)
     if (auto touches = tip_touches_with(setting, at, points.front()))
@@ -274,6 +315,8 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
     transitions.push_back(end_before(common));
   } else {
     transitions = spreads_with_those_near(setting, at, points);
+    if (auto lie_down = spans_lie_down(setting, at, points, forward))
+      transitions.insert(transitions.begin(), std::move(*lie_down));
   }
   if (!neutral.any()) return transitions;
   const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);

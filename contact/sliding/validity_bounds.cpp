@@ -54,8 +54,14 @@ void add_of_inner_loads(const SlidingBody& body, const SlidingContactLayout& on,
     const auto load = static_cast<Index>(i);
     if (on.has_node(strand, load)) continue;
     add_if<LoadBehindBound>(true, to, strand, load);
-    for (std::size_t j = 0; j < on.segments().size(); ++j)
-      add_if<LoadOnPartBound>(on.segments()[j].strand == strand && on.segments()[j].span != Span::free, to, load, j);
+    for (std::size_t j = 0; j < on.segments().size(); ++j) {
+      const SlidingContactLayout::Segment& part = on.segments()[j];
+      if (part.strand != strand || part.span == Span::free) continue;
+      const bool inside = on.hands_on(j, load);
+      add_if<LoadBesidePartBound>(!inside && part.has_point(), to, load, j);
+      add_if<LoadInPartBound>(inside && part.has_point(), to, load, j);
+      add_if<LoadPressesBound>(inside, to, load, j);
+    }
   }
 }
 

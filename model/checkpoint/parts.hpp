@@ -23,7 +23,7 @@ void parts(Archive& archive, SlidingContactLayout::Point& point) {
 
 template <typename Archive>
 void parts(Archive& archive, MeshSegment& segment) {
-  archive(segment.elements, segment.load);
+  archive(segment.elements, segment.load, segment.pressed, segment.handed_on);
 }
 
 template <typename Archive>

@@ -170,4 +170,70 @@ TEST(Lying, AClampThatTurnsIsRefused) {
   EXPECT_NE(run.problem().find("lies on wall \"floor\" from end to end"), std::string::npos) << run.problem();
 }
 
+// End moments M bend a beam onto a floor at depth d; between its edges, c from the supports, it lies without pressure.
+// As a load q begins to act there the floor presses: with R = M/c + q c/2 at an edge, EI d = M c²/6 + q c⁴/24, and it
+// bears q (L − c) + 2 M/c. As the load pulls, the part arches off from edge to edge, clamped there: with its length l =
+// L − 2c and m = q l²/12 there, EI d = (m/3 + M/6) c² − q c⁴/24, and its middle is q l⁴/384EI high.
+TEST(Lying, APartWithoutPressureIsPressedOrArchesOffAsALoadBeginsToAct) {
+  constexpr double depth = 1e-3, M = 0.3;
+  const auto run_with = [](const std::string& down, const std::string& theory) {
+    return traced(
+        beam("load = [{ at = \"a\", moment = -0.3, constant = true }, { at = \"b\", moment = 0.3, constant = true }, "
+             "{ on = \"beam\", distributed = [0.0, " +
+             down +
+             "] }]\n"
+             "path = { step = 0.05, stop = { lambda = [-1.0, 2.0] } }"),
+        {"wall.floor.profile.z = -1e-3", "member.beam.theory = \"" + theory + "\""});
+  };
+  for (const std::string theory : {"classic", "elastica"}) {
+    SCOPED_TRACE(theory);
+    const Session pressed = run_with("-1.0", theory), lifted = run_with("1.0", theory);
+    expect_stop(pressed);
+    expect_stop(lifted);
+    for (const RecordPoint& point : pressed.points()) {
+      const double q = point.lambda;
+      const double root = std::sqrt(M * M / 36.0 + q * EI * depth / 6.0);
+      const double c = std::sqrt(2.0 * EI * depth / (M / 6.0 + root));
+      EXPECT_NEAR(point.monitors[0], -depth, 1e-9 * depth) << q;
+      EXPECT_NEAR(point.monitors[1], q * (length - c) + 2.0 * M / c, 1e-3) << q;
+    }
+    for (const RecordPoint& point : lifted.points()) {
+      const double q = point.lambda;
+      double c = 0.2;
+      for (int i = 0; i < 100; ++i) {
+        const double l = length - 2.0 * c;
+        c = std::sqrt((EI * depth + q * std::pow(c, 4) / 24.0) / (q * l * l / 36.0 + M / 6.0));
+      }
+      const double middle = q * std::pow(length - 2.0 * c, 4) / (384.0 * EI);
+      EXPECT_NEAR(point.monitors[0] + depth, middle, 1e-3 * middle + 1e-9 * depth) << q;
+    }
+    EXPECT_GT(lifted.points().back().monitors[0], -0.5 * depth);
+  }
+}
+
+// A floor that sinks by δ leaves a beam of weight q from both of its hinged ends: with q c⁴ = 24 EI δ it bears q (L −
+// c). The part has gathered to a point at δ = q L⁴/384EI, and the floor is left at five times that.
+TEST(Lying, ABeamIsLeftByAFloorThatSinks) {
+  for (const std::string theory : {"classic", "elastica"}) {
+    SCOPED_TRACE(theory);
+    const Session run = traced(beam("load = [{ on = \"beam\", distributed = [0.0, -1.0], constant = true }]\n"
+                                    "path = { step = 0.1, stop = { lambda = [-1.0, 8.0] } }"),
+                               {"wall.floor.motion = { z = -1e-3 }", "member.beam.theory = \"" + theory + "\""});
+    expect_stop(run);
+    const double gathered = 1.0 / (384.0 * EI) / 1e-3;
+    const auto gathers = loads_of(run, EventKind::contact_gathers), opens = loads_of(run, EventKind::contact_opens);
+    ASSERT_EQ(gathers.size(), 1U);
+    ASSERT_EQ(opens.size(), 2U);
+    EXPECT_NEAR(opens[0], 0.0, 1e-6);
+    EXPECT_NEAR(gathers[0], gathered, 1e-4 * gathered);
+    EXPECT_NEAR(opens[1], 5.0 * gathered, 1e-4 * gathered);
+    for (const RecordPoint& point : run.points()) {
+      if (point.lambda <= 0.0 || point.lambda >= gathers[0]) continue;
+      const double sunk = 1e-3 * point.lambda, c = std::pow(24.0 * EI * sunk, 0.25);
+      EXPECT_NEAR(point.monitors[0], -sunk, 1e-9) << point.lambda;
+      EXPECT_NEAR(point.monitors[1], length - c, 1e-3) << point.lambda;
+    }
+  }
+}
+
 }  // namespace arcwall::lying_test

@@ -60,6 +60,13 @@ std::vector<double> loads_of(const Session& run, EventKind kind) {
   return loads;
 }
 
+std::vector<double> monitors_at(const Session& run, double lambda) {
+  for (const RecordPoint& point : run.points())
+    if (point.lambda == lambda) return point.monitors;
+  ADD_FAILURE() << "the path has no point at " << lambda;
+  return run.points().front().monitors;
+}
+
 void expect_stop(const Session& run) {
   EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop) << run.record().branches.back().end->detail;
 }
@@ -151,6 +158,26 @@ TEST(PartLoads, TheEdgeOfAPartPassesALoad) {
     }
 }
 
+// A force that is large beside the weight presses the beam down first; the edge of the part comes to it with nearly all
+// of its force, and goes on behind it many times as fast.
+TEST(PartLoads, TheEdgeOfAPartPassesALoadThatIsLarge) {
+  for (const double force : {0.5, 5.0}) {
+    SCOPED_TRACE(force);
+    const auto run_with = [&](double load) {
+      return traced(beam("{ type = \"flat\", z = -0.001 }",
+                         "load = [{ on = \"beam\", distributed = [0.0, -1.0] }, { at = \"beam:0.7\", force = [0.0, " +
+                             round_trip(-load) +
+                             "], constant = true }]\n"
+                             "path = { step = 0.1, land = { lambda = [10.0] }, stop = { lambda = [-1.0, 12.0] } }"));
+    };
+    const Session loaded = run_with(force), unloaded = run_with(0.0);
+    expect_stop(loaded);
+    expect_stop(unloaded);
+    EXPECT_NEAR(monitors_at(loaded, 10.0)[0], monitors_at(unloaded, 10.0)[0], 1e-9);
+    EXPECT_NEAR(monitors_at(loaded, 10.0)[1], monitors_at(unloaded, 10.0)[1] + force, 1e-5);
+  }
+}
+
 // On a floor that is curved, too, a load in the middle is borne by the floor below it.
 TEST(PartLoads, ACurvedFloorBearsALoadInTheMiddle) {
   const std::string parabola = "{ type = \"parabola\", apex = [0.5, -0.002], curvature = 0.004 }";
@@ -165,14 +192,8 @@ TEST(PartLoads, ACurvedFloorBearsALoadInTheMiddle) {
   expect_stop(loaded);
   expect_stop(unloaded);
   EXPECT_EQ(loads_of(loaded, EventKind::contact_spreads).size(), 1U);
-  const auto at_ten = [](const Session& run) {
-    for (const RecordPoint& point : run.points())
-      if (point.lambda == 10.0) return point.monitors;
-    ADD_FAILURE() << "the path has no point there";
-    return run.points().front().monitors;
-  };
-  EXPECT_NEAR(at_ten(loaded)[0], at_ten(unloaded)[0], 1e-9);
-  EXPECT_NEAR(at_ten(loaded)[1], at_ten(unloaded)[1] + 0.05, 1e-8);
+  EXPECT_NEAR(monitors_at(loaded, 10.0)[0], monitors_at(unloaded, 10.0)[0], 1e-9);
+  EXPECT_NEAR(monitors_at(loaded, 10.0)[1], monitors_at(unloaded, 10.0)[1] + 0.05, 1e-8);
 }
 
 }  // namespace arcwall::part_loads_test

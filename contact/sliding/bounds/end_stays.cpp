@@ -28,8 +28,8 @@ Row EndStaysBound::gradient(const SlidingSetting& setting, const SlidingState& a
 }
 
 std::vector<Transition> EndStaysBound::transitions(const SlidingSetting& setting, const SlidingState& at,
-                                                   const Arrival&) const {
-  return peels_off(setting, at, strand_, last_);
+                                                   const Arrival& arrival) const {
+  return peels_off(setting, at, strand_, arrival.tolerance);
 }
 
 }  // namespace arcwall::sliding

@@ -50,14 +50,10 @@ Index nearest_point(const SlidingSetting& setting, const SlidingState& at, Index
   return nearest;
 }
 
-// Whether a load is inside a part that lies on a wall: it has no node there.
-bool is_on_a_part(const SlidingSetting& setting, const SlidingState& at, Index strand, Index load) {
-  for (std::size_t i = 0; i < at.layout.segments().size(); ++i) {
-    const SlidingContactLayout::Segment& segment = at.layout.segments()[i];
-    if (segment.strand == strand && segment.span != SlidingContactLayout::Span::free &&
-        is_on_part(setting, at, {.strand = strand, .load = load, .segment = i}))
-      return true;
-  }
+// Whether a pressed part hands a load on: it has no node there.
+bool is_handed_on(const SlidingState& at, Index strand, Index load) {
+  for (std::size_t i = 0; i < at.layout.segments().size(); ++i)
+    if (at.layout.segments()[i].strand == strand && at.layout.hands_on(i, load)) return true;
   return false;
 }
 
@@ -82,13 +78,13 @@ std::vector<Transition> LoadAheadBound::transitions(const SlidingSetting& settin
 }
 
 double LoadBehindBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  if (is_on_a_part(setting, at, strand_, load_)) return no_point_near;
+  if (is_handed_on(at, strand_, load_)) return no_point_near;
   const Index nearest = nearest_point(setting, at, strand_, load_);
   return nearest < 0 ? no_point_near : farthest_load_inside - apart(setting, at, strand_, load_, nearest);
 }
 
 Row LoadBehindBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  if (is_on_a_part(setting, at, strand_, load_)) return at.no_slope();
+  if (is_handed_on(at, strand_, load_)) return at.no_slope();
   const Index nearest = nearest_point(setting, at, strand_, load_);
   return nearest < 0 ? at.no_slope() : apart_gradient(setting, at, strand_, load_, nearest, -1.0);
 }
@@ -114,21 +110,32 @@ NearestEnd nearest_end(const SlidingState& at, const SlidingContactLayout::Segme
                                                 : NearestEnd{.point = last, .outwards = -1.0};
 }
 
-// How far outside a part a load is, in elements; of a part without points that is none.
+// How far outside a part a load is, in elements, and the derivative.
 double outside(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
   const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
-  if (!part.has_point()) return -infinity;
   const double place = place_of(setting, load);
   const auto [end, outwards] = nearest_end(at, part, place);
   return std::copysign(apart(setting, at, part.strand, load.load, end), outwards * (at.s(end) - place));
 }
 
-Row outside_gradient(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
+Row outside_gradient(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load, double factor) {
   const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
   const auto [end, outwards] = nearest_end(at, part, place_of(setting, load));
   Row row = at.no_slope();
-  row.dx[at.index.coordinate(end)] = outwards * density(setting, at, end);
+  row.dx[at.index.coordinate(end)] = factor * outwards * density(setting, at, end);
   return row;
+}
+
+PartLoad part_load(const SlidingState& at, Index load, std::size_t segment) {
+  return {.strand = at.layout.segments()[segment].strand, .load = load, .segment = segment};
+}
+
+// The same state, in which a part hands a load on or does not.
+Transition handed_on(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                     const PartLoad& load, bool is_handed_on) {
+  return remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
+    edit.handed_on[static_cast<std::size_t>(load.strand)][static_cast<std::size_t>(load.load)] = is_handed_on;
+  });
 }
 
 // Of the force scale: a load of zero does not pull.
@@ -138,36 +145,55 @@ double scaled_push(const SlidingSetting& setting, const SlidingState& at, const 
   return push(setting, at, load) / setting.scales.force + hardly_pulls;
 }
 
-bool is_pressed(const SlidingState& at, std::size_t segment) {
-  return at.layout.segments()[segment].span == SlidingContactLayout::Span::pressed;
-}
-
 }  // namespace
 
-PartLoad LoadOnPartBound::load(const SlidingState& at) const {
-  return {.strand = at.layout.segments()[segment_].strand, .load = load_, .segment = segment_};
+double LoadBesidePartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  return outside(setting, at, part_load(at, load_, segment_));
 }
 
-double LoadOnPartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  const double apart = outside(setting, at, load(at));
-  return is_pressed(at, segment_) ? std::max(apart, scaled_push(setting, at, load(at))) : apart;
+Row LoadBesidePartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  return outside_gradient(setting, at, part_load(at, load_, segment_), 1.0);
 }
 
-Row LoadOnPartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  if (!is_pressed(at, segment_) || outside(setting, at, load(at)) > scaled_push(setting, at, load(at)))
-    return outside_gradient(setting, at, load(at));
+std::vector<Transition> LoadBesidePartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                         const Arrival& arrival) const {
+  const PartLoad load = part_load(at, load_, segment_);
+  const bool is_pressed = at.layout.segments()[segment_].span == SlidingContactLayout::Span::pressed;
+  if (!is_pressed) return {unsupported("a part that lies on a wall without pressure reached a point load")};
+  if (scaled_push(setting, at, load) < 0.0)
+    return {unsupported("a part that lies on a wall reached a point load that pulls it off")};
+  return {handed_on(setting, at, arrival.forward, load, true)};
+}
+
+double LoadInPartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  return edge_behind_load - outside(setting, at, part_load(at, load_, segment_));
+}
+
+Row LoadInPartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  return outside_gradient(setting, at, part_load(at, load_, segment_), -1.0);
+}
+
+std::vector<Transition> LoadInPartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                     const Arrival& arrival) const {
+  return {handed_on(setting, at, arrival.forward, part_load(at, load_, segment_), false)};
+}
+
+PartLoad LoadPressesBound::load(const SlidingState& at) const { return part_load(at, load_, segment_); }
+
+double LoadPressesBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  return scaled_push(setting, at, load(at));
+}
+
+Row LoadPressesBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = push_gradient(setting, at, load(at));
   row.dx /= setting.scales.force;
   row.dlambda /= setting.scales.force;
   return row;
 }
 
-std::vector<Transition> LoadOnPartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
-                                                     const Arrival& arrival) const {
-  if (is_pressed(at, segment_) && outside(setting, at, load(at)) < 0.0)
-    return load_lifts_off(setting, at, load(at), arrival.tolerance);
-  return {unsupported(is_pressed(at, segment_) ? "a part that lies on a wall reached a point load that pulls it off"
-                                               : "a part that lies on a wall without pressure reached a point load")};
+std::vector<Transition> LoadPressesBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                      const Arrival& arrival) const {
+  return load_lifts_off(setting, at, load(at), arrival.tolerance);
 }
 
 }  // namespace arcwall::sliding

@@ -33,13 +33,40 @@ class LoadBehindBound final : public ValidityBound {
   Index strand_, load_;
 };
 
-/// A part on a wall and a load inside an element. Inside a pressed part the load must press, from which it is handed on
-/// to the wall; behind the bound it pulls the part off. On a part without pressure loads are not modelled: the bound is
-/// how far outside they are, in elements.
-class LoadOnPartBound final : public ValidityBound {
+/// The elements between the edge of a part that lies on a wall and a load that acts inside an element beside it. Behind
+/// the bound a pressed part hands the load on to the wall; what a load does to a part without pressure is not modelled.
+class LoadBesidePartBound final : public ValidityBound {
  public:
-  LoadOnPartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
-  std::size_t segment() const { return segment_; }
+  LoadBesidePartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  Index load_;
+  std::size_t segment_;
+};
+
+/// The reverse: the elements between a load that a pressed part hands on and the nearest edge of the part. A little behind
+/// the edge, where the bound is, the load acts on the member.
+class LoadInPartBound final : public ValidityBound {
+ public:
+  LoadInPartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  Index load_;
+  std::size_t segment_;
+};
+
+/// The force with which a load presses a part that hands it on. Behind the bound it would pull, and the part lifts off.
+class LoadPressesBound final : public ValidityBound {
+ public:
+  LoadPressesBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
   PartLoad load(const SlidingState& at) const;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
