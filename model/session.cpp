@@ -23,7 +23,7 @@ namespace {
 // What was traced. The rest of a record follows from the deck.
 template <typename Archive>
 void keep_traced(Archive& archive, Record& record) {
-  archive(record.branches, record.points, record.events, record.branch_points, record.steps);
+  archive(record.branches, record.points, record.events, record.branch_points, record.searches, record.steps);
 }
 
 // Whether all that a landing refers to is in the record. One that was not found has no monitors.

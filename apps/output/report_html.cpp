@@ -22,6 +22,7 @@
 #include "apps/output/report_parts.hpp"
 #include "apps/output/roundoff.hpp"
 #include "apps/output/run_warnings.hpp"
+#include "apps/output/search_rows.hpp"
 #include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
@@ -385,6 +386,7 @@ std::string branch_tree(const Record& record, std::optional<Index> parent) {
       items += fmt::format(" leaves at <span data-point=\"{}\">event {}</span>, λ = {};", point_of(origin, first),
                            origin.id, shown_lambda(origin, 10));
     }
+    if (branch.found) items += " begins " + escaped(found_at(record, branch)) + ";";
     items += fmt::format(" {}", counted(static_cast<std::size_t>(branch.points), "point", "points"));
     if (branch.end) items += "; ended: " + escaped(plain(how_it_ended(*branch.end), 400));
     if (branch.mirrored) items += "; its mirror image is not traced";
