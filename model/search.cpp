@@ -1,7 +1,6 @@
 #include "model/search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 #include <utility>

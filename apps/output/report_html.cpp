@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/output/atlas_page.hpp"
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/exit_status.hpp"
@@ -409,7 +410,8 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
                         .warning = warning_of_start(model, record),
                         .loads = driven_by_lambda(model.whole_deck()),
                         .deck_text = deck::to_toml(model.whole_deck()),
-                        .shapes = draw(drawn, setting_of(model))};
+                        .shapes = draw(drawn, setting_of(model)),
+                        .atlas = atlas_section(record, atlas_of(model, record))};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);
   for (const std::string& assignment : model.deck().source.assignments) add("--set", assignment);
@@ -468,6 +470,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
               {"event_note", event_note(record)},
               {"sensitivities", sensitivities(record)},
               {"branches", branch_tree(record, std::nullopt)},
+              {"atlas", content.atlas},
               {"deck", escaped(plain(content.deck_text))},
               {"facts", facts(content)},
               {"data", script_json(data_of(record, content))}} {
