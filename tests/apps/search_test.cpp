@@ -224,6 +224,18 @@ TEST(Search, SurvivesTheCheckpoint) {
   EXPECT_EQ(all_of(taken_up(truss, 7)), all_of(whole));
 }
 
+// What a checkpoint says of a find must fit the run.
+TEST(Search, IsReadOnlyWhereItFitsTheRun) {
+  Session run({.deck = "deck.toml", .deck_text = truss});
+  ASSERT_TRUE(run.begin());
+  while (run.next() != nullptr) {
+  }
+  Session other = Session::from(run.checkpoint(), "checkpoint", Session::Resume::as_ended);
+  EXPECT_EQ(all_of(other.record()), all_of(run.record()));
+  const_cast<Record&>(run.record()).searches[0].found[0].monitors.push_back(0.0);
+  EXPECT_THROW(Session::from(run.checkpoint(), "checkpoint", Session::Resume::as_ended), OutputError);
+}
+
 // A stage begins where the one before has ended, beside which nothing counts.
 TEST(Search, IsRefusedOfADeckWithStages) {
   try {
