@@ -230,8 +230,9 @@ class Maker {
     }
     std::sort(bounds.begin(), bounds.end());
     const double apart = bounds.empty() ? 0.0 : same_value * (bounds.back() - bounds.front());
+    const auto is_one = [&](double a, double b) { return b - a <= apart; };
+    bounds.erase(std::unique(bounds.begin(), bounds.end(), is_one), bounds.end());
     for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
-      if (bounds[i + 1] - bounds[i] <= apart) continue;
       AtlasRange range{.low = bounds[i], .high = bounds[i + 1]};
       const double middle = 0.5 * (range.low + range.high);
       for (std::size_t k = 0; k < atlas_.nodes.size(); ++k) {

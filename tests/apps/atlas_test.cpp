@@ -132,6 +132,7 @@ TEST(Atlas, TellsContacts) {
   for (const AtlasNode& node : atlas.nodes)
     if (words.empty() || words.back() != node.word) words.push_back(node.word);
   EXPECT_EQ(words, (std::vector<std::string>{"", "upper", "upper upper", "upper lower upper"}));
+  for (std::size_t i = 0; i + 1 < atlas.ranges.size(); ++i) EXPECT_EQ(atlas.ranges[i].high, atlas.ranges[i + 1].low);
   const auto json = atlas_json(traced.record(), atlas);
   EXPECT_EQ(json["nodes"].size(), atlas.nodes.size());
   EXPECT_EQ(json["nodes"][1]["word"], "upper");
