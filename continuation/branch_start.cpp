@@ -32,7 +32,7 @@ CorrectorResult correct_start(TraceTools& tools, const Metric& metric, const Sta
 
 // Its forward tangent, and the contacts that already touch.
 BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
-  const double first = tools.options.step.first;
+  const double first = state.start.sense * tools.options.step.first;
   const State& start = state.start.state;
   const Metric metric = tools.metric_on(start.piece, state.lambda_scale);
   const Direction forward{.dx = Vector::Zero(start.x.size()), .dlambda = first > 0.0 ? 1.0 : -1.0};

@@ -133,7 +133,7 @@ std::optional<Explorer::Step> Explorer::next() {
       queued.record.id = current_;
       queued.start.known = known_;
       branches_.push_back(queued.record);
-      tracer_ = std::make_unique<Tracer>(system_, std::move(queued.start), trace_, watched_);
+      tracer_ = make_tracer(std::move(queued.start));
       lambda_scale_ = tracer_->lambda_scale();
     }
     if (auto arc = tracer_->next()) {
@@ -146,6 +146,18 @@ std::optional<Explorer::Step> Explorer::next() {
       drop_arrived_at(*end->partner);
     tracer_.reset();
   }
+}
+
+void Explorer::begin_at(State found, int sense) {
+  queue_.push_back(
+      {.start = {.state = std::move(found), .sense = sense, .lambda_scale = lambda_scale_}, .record = {.found = true}});
+}
+
+// Of the branch under way.
+std::unique_ptr<Tracer> Explorer::make_tracer(BranchStart start) const {
+  TraceOptions options = trace_;
+  options.stay = options.stay || branches_[static_cast<std::size_t>(current_)].found;
+  return std::make_unique<Tracer>(system_, std::move(start), std::move(options), watched_);
 }
 
 void Explorer::stop(const BranchEnd& end) {
@@ -162,7 +174,8 @@ void Explorer::look_at(const Event& event) {
   known_.push_back({.state = point.state, .branch = current_});
   if (tracer_->end() && tracer_->end()->reason == EndReason::stop) return;
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
-  if (options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
+  const bool stays = here.found && options_.policy == BranchPolicy::follow;
+  if (stays || options_.policy == BranchPolicy::primary || point.multiplicity > 1 || point.discretisation) return;
   if (point.ways.empty() && point.mode.dx.size() == 0) return;
   if (options_.policy == BranchPolicy::all && here.depth >= options_.depth) return;
   const bool mirror_ahead = point.ends_its_own_branch();

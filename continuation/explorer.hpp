@@ -33,6 +33,7 @@ struct BranchRecord {
   int depth = 0;
   int sign = 1;           ///< side of its branch point's mode
   bool mirrored = false;  ///< the other side is its mirror image and not traced
+  bool found = false;     ///< it leaves no branch: it begins at a state that was found
   std::optional<BranchEnd> end{};
 };
 
@@ -50,10 +51,20 @@ class Explorer {
   /// The next arc of the branch under way, or the first of the next branch. Empty when all have ended.
   std::optional<Step> next();
 
+  /// A branch more, from a state that no other one passes through, with λ growing or falling (`sense`). It does not
+  /// change over to branches that leave it, whatever is done on the others.
+  void begin_at(State found, int sense);
+
   const std::vector<BranchRecord>& branches() const { return branches_; }
+
+  /// Ends the branch under way where it is, unless it has ended.
+  void end_branch(const BranchEnd& end) {
+    if (tracer_ && !tracer_->end()) tracer_->stop(end);
+  }
 
   /// Ends everything where it is.
   void stop(const BranchEnd& end);
+  bool is_stopped() const { return stopped_; }
 
   /// Visits all that changes, as Tracer::serialize().
   template <typename Archive>
@@ -67,9 +78,7 @@ class Explorer {
     if (!under_way) return;
     archive.require(current_ >= 0 && static_cast<std::size_t>(current_) < branches_.size());
     if constexpr (Archive::reads)
-      tracer_ = std::make_unique<Tracer>(
-          system_, BranchStart{.state = {.piece = system_.open_piece()}, .lambda_scale = lambda_scale_}, trace_,
-          watched_);
+      tracer_ = make_tracer({.state = {.piece = system_.open_piece()}, .lambda_scale = lambda_scale_});
     tracer_->serialize(archive);
   }
 
@@ -84,6 +93,7 @@ class Explorer {
     }
   };
 
+  std::unique_ptr<Tracer> make_tracer(BranchStart start) const;
   void look_at(const Event& event);
   void enqueue(const Event& event, BranchStart start, int sign, bool mirrored);
   void drop_arrived_at(int other);

@@ -74,9 +74,11 @@ struct KnownPoint {
   int branch = 0;
 };
 
-/// Where a branch begins: at a state alone, forward with λ; or at a branch point, along one of its tangents.
+/// Where a branch begins: at a state alone, forward with λ or against it; or at a branch point, along one of its
+/// tangents.
 struct BranchStart {
   State state{};
+  int sense = 1;                         ///< of a state alone: −1 against StepOptions::first
   std::optional<Direction> forward{};    ///< unit tangent at a branch point
   Direction mode{};                      ///< the first step keeps its component along this
   double distance = 0.02;                ///< of the first step off a branch point [path metric]

@@ -20,6 +20,7 @@ struct MovedPlace {
   double s = 0.0;
   Vec2 moved = Vec2::Zero();
   double turned = 0.0;
+  double angle = 0.0;         // of the axis' tangent, as far as sections stay normal to it
   Vec2 slope = Vec2::Zero();  // of `moved` by s, if the axis keeps its length
 };
 
@@ -56,8 +57,8 @@ std::vector<MovedStrand> moved_strands(const Model& model, const State& deck_sta
                      value(structure.freedom(member.nodes[k], Freedom::z))};
       if (member.rotations[k]) place.turned = value(*member.rotations[k]);
       const double angle = sliding.undeformed(point, true).angle;
-      place.slope = {std::cos(angle + place.turned) - std::cos(angle),
-                     std::sin(angle + place.turned) - std::sin(angle)};
+      place.angle = angle + place.turned;
+      place.slope = {std::cos(place.angle) - std::cos(angle), std::sin(place.angle) - std::sin(angle)};
       strands[static_cast<std::size_t>(point.strand)].push_back(place);
     }
   }
@@ -96,6 +97,7 @@ struct TouchingNodes {
   std::string wall{};
   Index strand = 0;
   std::vector<double> places{}, forces{};
+  Vec2 force = Vec2::Zero();  // of the wall on the first
 };
 
 // What nodes that touch one after the other are taken for.
@@ -122,6 +124,7 @@ std::vector<TouchingNodes> touching_nodes(const Model& model, const State& state
     std::string wall;
     MaterialPoint at;
     double force;
+    Vec2 force_vector;
   };
   std::vector<Node> nodes;
   for (Index j = 0; j < contact.contact_count(); ++j) {
@@ -130,7 +133,8 @@ std::vector<TouchingNodes> touching_nodes(const Model& model, const State& state
     const ContactPoint point = contact.contact(state, j);
     nodes.push_back({.wall = point.label.wall,
                      .at = model.sliding_structure()->find(point.label.member, point.label.fraction),
-                     .force = closed ? point.force : 0.0});
+                     .force = closed ? point.force : 0.0,
+                     .force_vector = point.force_vector});
   }
   std::stable_sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
     return std::tie(a.wall, a.at.strand, a.at.s) < std::tie(b.wall, b.at.strand, b.at.s);
@@ -140,7 +144,7 @@ std::vector<TouchingNodes> touching_nodes(const Model& model, const State& state
     const bool goes_on =
         !groups.empty() && groups.back().wall == node.wall && groups.back().strand == node.at.strand &&
         are_neighbours(strands[static_cast<std::size_t>(node.at.strand)], groups.back().places.back(), node.at.s);
-    if (!goes_on) groups.push_back({.wall = node.wall, .strand = node.at.strand});
+    if (!goes_on) groups.push_back({.wall = node.wall, .strand = node.at.strand, .force = node.force_vector});
     groups.back().places.push_back(node.at.s);
     groups.back().forces.push_back(node.force);
   }
@@ -160,13 +164,31 @@ std::pair<double, double> resultant(const TouchingNodes& nodes, std::size_t firs
   return {sum, sum > 0.0 ? moment / sum : nodes.places[first]};
 }
 
+// Where the axis is parallel to the wall beside a node that alone touches it: a node may be half an element from where
+// contact that slides would be.
+double tangent_place(const TouchingNodes& node, const MovedStrand& strand) {
+  const double s = node.places.front(), roundoff = 1e-9 * strand.back().s;
+  const auto here = std::lower_bound(strand.begin(), strand.end(), s - roundoff,
+                                     [](const MovedPlace& place, double there) { return place.s < there; });
+  const auto inclined = [&](const MovedPlace& place) {
+    return std::cos(place.angle) * node.force.x() + std::sin(place.angle) * node.force.y();
+  };
+  if (here == strand.end() || here == strand.begin() || here + 1 == strand.end()) return s;
+  const double at = inclined(*here);
+  for (const auto beside : {here - 1, here + 1})
+    if (const double there = inclined(*beside); at * there < 0.0)
+      return here->s + (beside->s - here->s) * at / (at - there);
+  return s;
+}
+
 // A part without pressure bears forces at its ends alone, each of which one or two nodes have.
-GivenContact given(const TouchingNodes& nodes, Reading reading) {
+GivenContact given(const TouchingNodes& nodes, const MovedStrand& strand, Reading reading) {
   constexpr std::size_t few = 5;    // nodes, of which a part that they are hardly has one inside
   constexpr double without = 1e-3;  // of the forces, inside a part without pressure
   const std::size_t n = nodes.places.size();
   const auto [all, centre] = resultant(nodes, 0, n);
   GivenContact contact{.wall = nodes.wall, .strand = nodes.strand, .from = centre, .to = centre, .force_at_from = all};
+  if (n == 1) contact.from = contact.to = tangent_place(nodes, strand);
   if (n == 1 || (n <= few && reading == Reading::likely)) return contact;
   const bool is_flat =
       reading == Reading::flat || (reading == Reading::likely && resultant(nodes, 2, n - 2).first <= without * all);
@@ -215,10 +237,10 @@ Vector DeckMesh::unknowns(const State& of_model) const {
   return values(of_model) - rest_;
 }
 
-State DeckMesh::state(const State& of_model, double lambda) const {
+State DeckMesh::state(const Vector& unknowns, double lambda) const {
   const Piece piece = model_.contact() != nullptr ? model_.contact()->open_piece() : Piece();
   State state{.x = Vector::Zero(system().size(piece)), .lambda = lambda, .piece = piece};
-  state.x.head(size_) = unknowns(of_model);
+  state.x.head(size_) = unknowns;
   return state;
 }
 
@@ -238,11 +260,15 @@ std::vector<State> DeckMesh::in_path_formulation(const State& equilibrium) const
   const std::vector<MovedStrand> strands = moved_strands(model_, deck_state);
   const State open = open_shape(model_, strands, equilibrium.lambda);
   std::vector<State> guesses;
+  std::vector<std::vector<GivenContact>> guessed;
   for (const double touching : {1e-7, 1e-4}) {
     const std::vector<TouchingNodes> groups = touching_nodes(model_, equilibrium, strands, touching);
     for (const Reading reading : {Reading::likely, Reading::flat, Reading::pressed}) {
       std::vector<GivenContact> contacts;
-      for (const TouchingNodes& nodes : groups) contacts.push_back(given(nodes, reading));
+      for (const TouchingNodes& nodes : groups)
+        contacts.push_back(given(nodes, strands[static_cast<std::size_t>(nodes.strand)], reading));
+      if (std::find(guessed.begin(), guessed.end(), contacts) != guessed.end()) continue;
+      guessed.push_back(contacts);
       guesses.push_back(model_.sliding()->with_given_contacts(open, contacts));
     }
   }

@@ -13,6 +13,10 @@ namespace arcwall {
 /// other unknowns; there is a way to and fro.
 class DeckMesh {
  public:
+  /// Equilibria that are nearer than this are the same [path metric]: one of nodes and one of the path, and two of the
+  /// path on meshes of their own.
+  static constexpr double same_of_nodes = 0.03, same_on_path = 0.003;
+
   /// `model` must outlive this.
   explicit DeckMesh(const Model& model);
 
@@ -27,8 +31,8 @@ class DeckMesh {
   /// The unknowns of the structure in a state of the model, whichever mesh that has.
   Vector unknowns(const State& of_model) const;
 
-  /// The same as a state of system(), without contact forces.
-  State state(const State& of_model, double lambda) const;
+  /// These as a state of system(), without contact forces.
+  State state(const Vector& unknowns, double lambda) const;
 
   /// Between the unknowns of two states, in the path metric [-].
   double distance(const Vector& a, const Vector& b) const;

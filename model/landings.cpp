@@ -10,149 +10,31 @@
 #include "continuation/answers/descent.hpp"
 #include "continuation/answers/equilibrium_at.hpp"
 #include "continuation/tracer.hpp"
+#include "model/contact_words.hpp"
 #include "model/deck_mesh.hpp"
 #include "model/event_names.hpp"
+#include "model/path_at_lambda.hpp"
 
 namespace arcwall {
 
 namespace {
 
-using Span = SlidingContactLayout::Span;
-
 // All lengths in the path metric of the deck's mesh.
 constexpr double is_elsewhere = 0.03;           // from the event, where a descent has left it
-constexpr double is_there = 0.03;               // of an equilibrium of nodes from the same of the path
-constexpr double is_same = 0.003;               // of two equilibria of the path on meshes of their own
 constexpr double pushes[] = {0.01, 0.03, 0.1};  // off the event, along the path behind it
 
-// --- the traced path at a λ -----------------------------------------------------------------------------------------
-
-// A stable equilibrium of the path at a λ.
-struct OnPath {
-  State state{};
-  std::size_t point = 0;  // of the record: the last one before it
-  double arc = 0.0;
-  std::optional<Index> unstable{};
-};
-
-// What to trace a path with that begins with λ towards a value and ends there.
-TraceOptions up_to(const Model& model, const State& from, double lambda) {
-  TraceOptions options = model.options();
-  options.target_values = {{.quantity = std::make_shared<ParameterValue>(), .value = lambda, .stops = true}};
-  options.stop_contacts.reset();
-  options.stop_events.clear();
-  options.detectors.clear();
-  options.max_points = TraceOptions{}.max_points;
-  options.step.first = std::copysign(std::abs(options.step.first), lambda - from.lambda);
-  return options;
-}
-
-// From a point of the path to the λ, along the path.
-std::optional<OnPath> at_lambda(const Model& model, const State& from, double lambda) {
-  TraceOptions options = up_to(model, from, lambda);
-  options.events = EventSearch::none;
-  options.max_points = 100;
-  Tracer tracer(model.system(), from, options);
-  OnPath found;
-  while (const auto arc = tracer.next()) {
-    found.state = arc->to.state;
-    found.arc = arc->to.arc;
-    found.unstable = arc->to.count.unstable;
-  }
-  const bool met = tracer.end() && tracer.end()->reason == EndReason::stop && found.state.lambda == lambda;
-  return met ? std::optional(std::move(found)) : std::nullopt;
-}
-
-// Those of a record, but not beside the event at point `but` if it is one of the record's.
+// Stable equilibria of a record at a λ, but not beside the event at point `but` if it is one of the record's.
 std::vector<OnPath> stable_at(const Model& model, const Record& record, double lambda,
                               const std::optional<std::size_t>& but) {
   std::vector<OnPath> found;
-  for (std::size_t i = 0; i + 1 < record.points.size(); ++i) {
+  for (const std::size_t i : crossings(record, lambda)) {
     const RecordPoint &a = record.points[i], &b = record.points[i + 1];
-    if (a.branch != b.branch || (but && (i == *but || i + 1 == *but))) continue;
-    const bool between = (a.lambda - lambda) * (b.lambda - lambda) <= 0.0 && a.lambda != b.lambda;
     const bool stable = a.count.stability == Stability::stable || b.count.stability == Stability::stable;
-    if (!between || !stable) continue;
-    // From the end that is no event: beside one the path may be singular.
-    const bool backwards = a.event.has_value() && !b.event.has_value();
-    auto there = at_lambda(model, backwards ? b.state : a.state, lambda);
-    if (!there || there->unstable != 0) continue;
-    there->point = i;
-    there->arc = backwards ? b.arc - there->arc : a.arc + there->arc;
-    found.push_back(std::move(*there));
+    if (!stable || (but && (i == *but || i + 1 == *but))) continue;
+    auto there = at_crossing(model, record, i, lambda);
+    if (there && there->unstable == 0) found.push_back(std::move(*there));
   }
   return found;
-}
-
-// --- what is told of a state ----------------------------------------------------------------------------------------
-
-// Closed nodes that follow each other are one stretch on a wall.
-std::vector<RecordStretch> stretches_of_nodes(const Model& model, const State& state) {
-  std::vector<RecordStretch> stretches;
-  std::optional<ContactLabel> last;
-  const auto follows = [&](const ContactLabel& label) {
-    if (!last || last->wall != label.wall || last->member != label.member) return false;
-    const double apart = std::abs(last->fraction - label.fraction) * 0.999;
-    for (const MemberMesh& mesh : model.structure().members())
-      if (mesh.name == label.member) return apart <= 1.0 / double(mesh.nodes.size() - 1);
-    return false;
-  };
-  for (const ContactPoint& contact : model.contacts()->closed_contacts(state)) {
-    if (follows(contact.label)) {
-      stretches.back().is_line = true;
-      stretches.back().force += contact.force;
-    } else {
-      stretches.push_back({.label = contact.label, .force = contact.force});
-    }
-    last = contact.label;
-  }
-  return stretches;
-}
-
-// So are tracked points with a part on the wall between them, and a strand that lies on it from end to end. The nodes
-// that are pressed inside bear a part of the force.
-std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, const State& state) {
-  const SlidingContactLayout& layout = sliding_layout(state.piece);
-  std::vector<RecordStretch> stretches;
-  std::vector<std::size_t> of_point(layout.points().size());
-  for (std::size_t k = 0; k < state.piece.size(); ++k) {
-    if (state.piece[k] == 0) continue;
-    const ContactPoint here = contact.contact(state, static_cast<Index>(k));
-    const bool is_point = k < layout.points().size();
-    if (is_point && k > 0 && layout.points()[k - 1].behind != Span::free) {
-      stretches.back().is_line = true;
-      stretches.back().force += here.force;
-    } else {
-      stretches.push_back({.label = here.label, .force = here.force});
-    }
-    if (is_point) of_point[k] = stretches.size() - 1;
-  }
-  std::vector<std::optional<std::size_t>> lying(static_cast<std::size_t>(contact.body().strands()));
-  const std::vector<ContactPoint> pressed = contact.pressed_nodes(state);
-  for (std::size_t i = 0; i < pressed.size(); ++i) {
-    const SlidingContactLayout::Segment& part = layout.segments()[layout.pressed_nodes()[i].segment];
-    std::optional<std::size_t>& whole = lying[static_cast<std::size_t>(part.strand)];
-    if (!part.has_point() && !whole) {
-      whole = stretches.size();
-      stretches.push_back({.label = pressed[i].label});
-    }
-    RecordStretch& stretch = stretches[part.has_point() ? of_point[part.end_point()] : *whole];
-    stretch.is_line = true;
-    stretch.force += pressed[i].force;
-  }
-  return stretches;
-}
-
-std::vector<RecordStretch> stretches_of(const Model& model, const State& state) {
-  if (model.contacts() == nullptr) return {};
-  return model.sliding() != nullptr ? stretches_that_slide(*model.sliding(), state) : stretches_of_nodes(model, state);
-}
-
-std::string word_of(const std::vector<RecordStretch>& stretches) {
-  std::string word;
-  for (const RecordStretch& one : stretches)
-    word += (word.empty() ? "" : " ") + one.label.wall + (one.is_line ? "=" : "");
-  return word;
 }
 
 void tell_state(const Model& model, const State& state, RecordLanding& landing) {
@@ -223,7 +105,7 @@ class Falls {
 
   // The first one on the way from a stable state to a λ.
   std::optional<Loss> traced(const State& from, double lambda) const {
-    Tracer tracer(model_.system(), from, up_to(model_, from, lambda));
+    Tracer tracer(model_.system(), from, options_towards(model_, from, lambda));
     std::optional<Loss> found;
     while (const auto arc = tracer.next()) {
       if (found) {
@@ -252,7 +134,8 @@ class Falls {
     bool left = false;
     for (const double push : pushes) {
       const Vector pushed = start + std::max(1.0, push / far) * behind;
-      const Descent descent = descend(mesh_.system(), mesh_.state(loss.at, loss.at.lambda), pushed);
+      const Descent descent =
+          descend(mesh_.system(), mesh_.state(pushed, loss.at.lambda), model_.options().factorization);
       if (descent.end == DescentEnd::falls_away) {
         landing->reason = "falls_away";
         landing->why = "nothing holds the structure at this load";
@@ -273,18 +156,13 @@ class Falls {
     return left ? landing : nullptr;
   }
 
-  Descent descend(const UnilateralSystem& system, State start, const Vector& x) const {
-    start.x.head(mesh_.size()) = x;
-    return arcwall::descend(system, start, model_.options().factorization);
-  }
-
   // The state at rest in the path's own formulation, counted.
   void settle(const Loss& loss, State& rest, RecordLanding& landing) const {
     const std::optional<State> found = in_path_formulation(rest);
     const Vector x = found ? mesh_.unknowns(*found) : rest.x.head(mesh_.size());
     const OnPath* nearest = nullptr;
     const std::vector<OnPath> stable = stable_at(model_, record_, loss.at.lambda, loss.point);
-    double least = found ? is_same : is_there;
+    double least = found ? DeckMesh::same_on_path : DeckMesh::same_of_nodes;
     for (const OnPath& one : stable) {
       const double far = mesh_.distance(mesh_.unknowns(one.state), x);
       if (far > least) continue;
@@ -314,7 +192,8 @@ class Falls {
     const Vector x = rest.x.head(mesh_.size());
     for (const State& guess : mesh_.in_path_formulation(rest)) {
       const auto found = equilibrium_at_lambda(model_.system(), guess, model_.options());
-      if (found && found->count.unstable == 0 && mesh_.distance(mesh_.unknowns(found->state), x) <= is_there)
+      if (found && found->count.unstable == 0 &&
+          mesh_.distance(mesh_.unknowns(found->state), x) <= DeckMesh::same_of_nodes)
         return found->state;
     }
     return std::nullopt;

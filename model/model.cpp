@@ -9,6 +9,7 @@
 #include "model/build_contact.hpp"
 #include "model/build_path.hpp"
 #include "model/build_structure.hpp"
+#include "model/deck_mesh.hpp"
 #include "model/event_curve.hpp"
 #include "model/sensitivities.hpp"
 
@@ -152,6 +153,13 @@ void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, 
                "move the wall or the member apart");
 }
 
+// What is looked for beside the path is looked for on the deck's mesh.
+void check_search(const Model& model, DeckProblems& problems) {
+  if (model.deck().path.search && !DeckMesh(model).is_complete())
+    problems.add(model.deck().path.position, "path.search", "the deck's mesh has unknowns that its contact does not",
+                 "leave out search, or write contact.points = \"nodes\"");
+}
+
 // Whether increments can be taken where the deck wants them.
 bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
   if (!increments_of(deck)) return false;
@@ -239,6 +247,7 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   structure_->nodal_terms().for_each_moved_support(
       [&](Index freedom, double rate) { moved_.push_back({.rate = rate, .reaction = body_->reaction(freedom)}); });
   options_ = trace_options(deck_, read_off, monitors_, problems);
+  if (problems.empty()) check_search(*this, problems);
   if (stage_ == 0) check_sensitivity(whole_deck_, problems);
   if (stage_ == 0) check_curve(whole_deck_, problems);
   problems.raise();

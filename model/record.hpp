@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -117,12 +118,51 @@ struct RecordEvent {
   std::shared_ptr<const RecordLanding> landing{};  ///< null: the structure does not fall, or that was not asked for
 };
 
+/// What became of a try to find an equilibrium that no traced branch passes.
+enum class SearchOutcome {
+  found,         ///< it led to one
+  mirror_image,  ///< it began at the image of an equilibrium, which is one, too: not traced
+  known,         ///< it led to one that a traced branch passes, or that was found before
+  nodes_only,    ///< to one of contact at nodes, near which none of contact that slides was found
+  not_found,     ///< to none
+};
+
+inline constexpr std::size_t search_outcomes = static_cast<std::size_t>(SearchOutcome::not_found) + 1;
+
+/// What becomes of an equilibrium that was found.
+enum class FoundFate {
+  pending,      ///< it is to be traced
+  traced,       ///< as a branch, or two
+  on_branch,    ///< a branch passes it that was found with another one
+  beyond_stop,  ///< it is beyond a bound of path.stop
+  not_traced,   ///< no step leads off it
+};
+
+/// An equilibrium that was found at some λ.
+struct RecordFound {
+  std::string word{};  ///< its contacts, as of a landing
+  std::vector<double> monitors{};
+  double energy = 0.0;
+  std::optional<Index> unstable{};
+  FoundFate fate = FoundFate::pending;
+  std::vector<Index> branches{};  ///< that begin there, or the one that passes it
+};
+
+/// What was looked for at one λ, besides the traced branches.
+struct RecordSearch {
+  double lambda = 0.0;
+  Index known = 0;                                ///< equilibria of traced branches
+  std::array<Index, search_outcomes> outcomes{};  ///< of the tries, by SearchOutcome
+  std::vector<RecordFound> found{};
+};
+
 struct RecordBranch {
   Index id = 0;
   Index stage = 0;                ///< counts from 0
   std::optional<Index> parent{};  ///< the branch it leaves
   std::optional<Index> origin{};  ///< the event at which it does
   bool mirrored = false;          ///< its mirror image leaves there too and is not traced
+  bool found = false;             ///< it begins at an equilibrium that was found beside the other branches
   Index points = 0;
   double least_lambda = infinity, greatest_lambda = -infinity;  ///< of its points
   std::optional<BranchEnd> end{};                               ///< empty while it goes on
@@ -146,6 +186,7 @@ struct Record {
   std::vector<RecordPoint> points{};
   std::vector<RecordEvent> events{};
   std::vector<RecordBranchPoint> branch_points{};
+  std::vector<RecordSearch> searches{};
 
   /// The number of the stage that a branch is of.
   Index stage_number(Index branch) const {

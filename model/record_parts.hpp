@@ -78,8 +78,22 @@ void parts(Archive& archive, RecordBranchPoint& point) {
 
 template <typename Archive>
 void parts(Archive& archive, RecordBranch& branch) {
-  archive(branch.id, branch.stage, branch.parent, branch.origin, branch.mirrored, branch.points, branch.least_lambda,
-          branch.greatest_lambda, branch.end);
+  archive(branch.id, branch.stage, branch.parent, branch.origin, branch.mirrored, branch.found, branch.points,
+          branch.least_lambda, branch.greatest_lambda, branch.end);
+}
+
+constexpr std::int64_t greatest(FoundFate) { return static_cast<std::int64_t>(FoundFate::not_traced); }
+
+template <typename Archive>
+void parts(Archive& archive, RecordFound& found) {
+  archive(found.word, found.monitors, found.energy, found.unstable, found.fate, found.branches);
+}
+
+template <typename Archive>
+void parts(Archive& archive, RecordSearch& search) {
+  archive(search.lambda, search.known);
+  for (Index& tries : search.outcomes) archive(tries);
+  archive(search.found);
 }
 
 }  // namespace arcwall

@@ -68,8 +68,10 @@ Recorder::Recorder(const System& system, Record& record, const BranchRecord& bra
 }
 
 void Recorder::begin(const BranchRecord& branch) {
-  RecordBranch added{
-      .id = static_cast<Index>(branch_), .stage = model_ == nullptr ? 0 : model_->stage(), .mirrored = branch.mirrored};
+  RecordBranch added{.id = static_cast<Index>(branch_),
+                     .stage = model_ == nullptr ? 0 : model_->stage(),
+                     .mirrored = branch.mirrored,
+                     .found = branch.found};
   if (branch.parent) added.parent = *branch.parent;
   const auto same = [&](const RecordBranchPoint& known) { return known.point == branch.origin; };
   const auto origin = std::find_if(record_.branch_points.begin(), record_.branch_points.end(), same);

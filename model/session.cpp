@@ -1,5 +1,6 @@
 #include "model/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -23,7 +24,7 @@ namespace {
 // What was traced. The rest of a record follows from the deck.
 template <typename Archive>
 void keep_traced(Archive& archive, Record& record) {
-  archive(record.branches, record.points, record.events, record.branch_points, record.steps);
+  archive(record.branches, record.points, record.events, record.branch_points, record.searches, record.steps);
 }
 
 // Whether all that a landing refers to is in the record. One that was not found has no monitors.
@@ -36,6 +37,16 @@ bool is_whole(const Record& record, const std::shared_ptr<const RecordLanding>& 
       (*landing->on_branch < 0 || *landing->on_branch >= static_cast<Index>(record.branches.size())))
     return false;
   return !landing->back || (are_all(landing->back->monitors) && is_whole(record, landing->back->landing));
+}
+
+bool is_whole(const Record& record, const RecordSearch& search) {
+  return std::all_of(search.found.begin(), search.found.end(), [&](const RecordFound& found) {
+    const auto is_there = [&](Index branch) {
+      return branch >= 0 && branch < static_cast<Index>(record.branches.size());
+    };
+    return found.monitors.size() == record.columns.size() &&
+           std::all_of(found.branches.begin(), found.branches.end(), is_there);
+  });
 }
 
 // Whether all that a record refers to is in it.
@@ -55,7 +66,8 @@ bool is_whole(const Record& record, std::size_t ended_stages) {
       return false;
   for (const RecordBranchPoint& point : record.branch_points)
     if (!has_event(point.event)) return false;
-  return true;
+  return std::all_of(record.searches.begin(), record.searches.end(),
+                     [&](const RecordSearch& search) { return is_whole(record, search); });
 }
 
 ArchiveModel model_of(const Model& model) {

@@ -9,6 +9,7 @@
 #include "model/build_path.hpp"
 #include "model/record_parts.hpp"
 #include "model/recorder.hpp"
+#include "model/search.hpp"
 #include "model/sensitivities.hpp"
 #include "model/step_ledger.hpp"
 
@@ -26,16 +27,18 @@ class PathTracing final : public Tracing {
         record_(record),
         sensitivities_(model, std::move(ended_stages)),
         first_(static_cast<int>(record.branches.size())),
-        explorer_(model.system(), start, options(ledger), model.watched(), model.explore()) {}
+        explorer_(model.system(), start, options(ledger), model.watched(), model.explore()),
+        search_(model, record) {}
 
   bool advance() override {
-    const std::optional<Explorer::Step> step = explorer_.next();
+    std::optional<Explorer::Step> step = explorer_.next();
+    while (!step && begins_found_branch()) step = explorer_.next();
     if (!step) {
       finish();
       return false;
     }
     if (step->branch != branch_) {
-      if (recorder_) end_branch();
+      close_branch();
       branch_ = step->branch;
       BranchRecord begun = branch();
       if (begun.parent) *begun.parent += first_;
@@ -45,6 +48,7 @@ class PathTracing final : public Tracing {
     const std::size_t first_event = record_.events.size() - step->arc.events.size();
     for (std::size_t i = 0; i < step->arc.events.size(); ++i)
       record_.events[first_event + i].sensitivity = sensitivities_.of(step->arc, step->arc.events[i]);
+    if (const auto end = end_of_found_branch(model_, record_)) explorer_.end_branch(*end);
     if (auto why = model_.adrift(step->arc.to.state))
       explorer_.stop({.reason = EndReason::adrift, .detail = std::move(*why)});
     return true;
@@ -67,7 +71,7 @@ class PathTracing final : public Tracing {
  private:
   template <typename Archive>
   void visit(Archive& archive) {
-    archive(first_, branch_, finished_, explorer_);
+    archive(first_, branch_, finished_, explorer_, search_);
   }
 
   TraceOptions options(StepLedger ledger) {
@@ -80,21 +84,33 @@ class PathTracing final : public Tracing {
   }
 
   const BranchRecord& branch() const { return explorer_.branches()[static_cast<std::size_t>(branch_)]; }
-  void end_branch() {
+
+  // Where all branches have ended, one more may begin at an equilibrium beside them.
+  bool begins_found_branch() {
+    if (finished_ || branch_ < 0 || explorer_.is_stopped()) return false;
+    close_branch();
+    std::optional<Search::Start> start = search_.next();
+    if (start) explorer_.begin_at(std::move(start->state), start->sense);
+    return start.has_value();
+  }
+
+  void close_branch() {
+    if (!recorder_) return;
     BranchEnd end = branch().end.value();
     if (end.partner) *end.partner += first_;
     if (first_ > 0 && end.reason == EndReason::branched)
       end.detail = "goes on as branch " + std::to_string(*end.partner);
     recorder_->end(end);
+    recorder_.reset();
   }
 
   void finish() {
     if (std::exchange(finished_, true)) return;
-    if (!recorder_) {  // not even a start: the branch has no points, but an end
+    if (branch_ < 0) {  // not even a start: the branch has no points, but an end
       recorder_.emplace(model_, record_);
       branch_ = 0;
     }
-    end_branch();
+    close_branch();
   }
 
   const Model& model_;
@@ -102,6 +118,7 @@ class PathTracing final : public Tracing {
   Sensitivities sensitivities_;
   int first_;  // of the branches that the explorer counts from 0
   Explorer explorer_;
+  Search search_;
   std::optional<Recorder> recorder_;
   int branch_ = -1;
   bool finished_ = false;

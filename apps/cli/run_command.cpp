@@ -36,7 +36,7 @@ ExitStatus dry_run(const RunRequest& request, const Session& run) {
   if (request.call.report != CallOptions::Report::table) return ExitStatus::success;
   std::cout << summary(run.model()) << "\nwould write into " << request.folder.string() << ": path.csv, "
             << (run.record().has_walls ? "contacts.csv, " : "")
-            << "events.json, events.txt, deck.toml, checkpoint, result.json"
+            << "events.json, events.txt, atlas.json, deck.toml, checkpoint, result.json"
             << (request.call.pictures == CallOptions::Pictures::written ? ", report.html, shapes.pvd, shapes/" : "")
             << "\n";
   return ExitStatus::success;

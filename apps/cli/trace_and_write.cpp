@@ -8,6 +8,7 @@
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/json_lines.hpp"
 #include "apps/converge/convergence_files.hpp"
+#include "apps/output/atlas_page.hpp"
 #include "apps/output/contacts_csv.hpp"
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
@@ -163,6 +164,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
   files.write("events.txt", report_of_events(folder, run));
+  files.write("atlas.json", to_text(atlas_json(record, atlas_of(run.model(), record)), JsonLayout::lines));
   if (pictures) files.write("report.html", ReportPage(record, report_content(run.model(), record, drawn)).pieces());
   if (description.ledger == StepLedger::kept) files.write("steps.jsonl", record.steps);
   files.write("deck.toml", deck::to_toml(run.model().whole_deck()));

@@ -51,7 +51,7 @@ OrderedJson branch(const Record& record, const RecordBranch& branch) {
   json["id"] = branch.id;
   if (!record.stages.empty()) json["stage"] = record.stage_of(branch.id);
   json["parent"] = count(branch.parent);
-  json["origin"] = count(branch.origin);
+  json["origin"] = branch.found ? OrderedJson("found") : count(branch.origin);
   json["mirrored"] = branch.mirrored;
   json["points"] = branch.points;
   json["lambda"] = OrderedJson::array({number(branch.least_lambda), number(branch.greatest_lambda)});

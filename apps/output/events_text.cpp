@@ -8,6 +8,7 @@
 
 #include "apps/output/landing_rows.hpp"
 #include "apps/output/roundoff.hpp"
+#include "apps/output/search_rows.hpp"
 #include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/text_table.hpp"
@@ -77,6 +78,7 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
     if (branch.origin)
       text += fmt::format("at λ = {} (event {}): ",
                           shown_lambda(record.events[static_cast<std::size_t>(*branch.origin)], 10), *branch.origin);
+    if (branch.found) text += found_at(record, branch) + ": ";
     text += ending(branch);
     if (branch.mirrored)
       text +=
@@ -84,6 +86,14 @@ std::string tree(const Record& record, std::optional<Index> parent, int depth) {
     text += tree(record, branch.id, depth + 1);
   }
   return text;
+}
+
+std::string search_text(const Record& record) {
+  const auto rows = search_rows(record);
+  if (rows.empty()) return "";
+  std::string text = "\nEquilibria that were looked for beside the branches\n\n" + text_table(search_columns(), rows);
+  if (const auto found = found_rows(record); !found.empty()) text += "\n" + text_table(found_columns(record), found);
+  return text + "\n" + search_note() + "\n";
 }
 
 }  // namespace
@@ -149,7 +159,7 @@ std::string events_text(const Record& record, const std::vector<std::string>& la
   if (const auto rows = landing_rows(record); !rows.empty())
     text += "\nWhere the structure falls to, λ held: energy released, and λ back at which it falls again\n\n" +
             text_table(landing_columns(record), rows);
-  return printable(text, LineBreaks::kept);
+  return printable(text + search_text(record), LineBreaks::kept);
 }
 
 }  // namespace arcwall

@@ -49,9 +49,10 @@ std::string filled_by(const fs::path& folder) {
 }
 
 // What is written into the folder of a run or of a study of meshes, besides shapes.
-constexpr std::array output_names{"path.csv",    "contacts.csv",     "events.json",     "events.txt",  "deck.toml",
-                                  "result.json", "report.html",      "shapes.pvd",      "steps.jsonl", "checkpoint",
-                                  "probe",       "convergence.json", "convergence.txt", "curve.json",  "curve.csv"};
+constexpr std::array output_names{"atlas.json",       "path.csv",        "contacts.csv", "events.json",
+                                  "events.txt",       "deck.toml",       "result.json",  "report.html",
+                                  "shapes.pvd",       "steps.jsonl",     "checkpoint",   "probe",
+                                  "convergence.json", "convergence.txt", "curve.json",   "curve.csv"};
 
 // Whether a file is one that a killed process was writing, see StagedFile, or its lock.
 bool is_leftover(const fs::path& file) {

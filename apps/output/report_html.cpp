@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/output/atlas_page.hpp"
 #include "apps/output/event_marks.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/exit_status.hpp"
@@ -22,6 +23,7 @@
 #include "apps/output/report_parts.hpp"
 #include "apps/output/roundoff.hpp"
 #include "apps/output/run_warnings.hpp"
+#include "apps/output/search_rows.hpp"
 #include "apps/output/sensitivity_rows.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
@@ -385,6 +387,7 @@ std::string branch_tree(const Record& record, std::optional<Index> parent) {
       items += fmt::format(" leaves at <span data-point=\"{}\">event {}</span>, λ = {};", point_of(origin, first),
                            origin.id, shown_lambda(origin, 10));
     }
+    if (branch.found) items += " begins " + escaped(found_at(record, branch)) + ";";
     items += fmt::format(" {}", counted(static_cast<std::size_t>(branch.points), "point", "points"));
     if (branch.end) items += "; ended: " + escaped(plain(how_it_ended(*branch.end), 400));
     if (branch.mirrored) items += "; its mirror image is not traced";
@@ -407,7 +410,8 @@ ReportContent report_content(const Model& model, const Record& record, const Dra
                         .warning = warning_of_start(model, record),
                         .loads = driven_by_lambda(model.whole_deck()),
                         .deck_text = deck::to_toml(model.whole_deck()),
-                        .shapes = draw(drawn, setting_of(model))};
+                        .shapes = draw(drawn, setting_of(model)),
+                        .atlas = atlas_section(record, atlas_of(model, record))};
   const auto add = [&](const std::string& name, const std::string& value) { content.facts.emplace_back(name, value); };
   add("deck", record.deck);
   for (const std::string& assignment : model.deck().source.assignments) add("--set", assignment);
@@ -466,6 +470,7 @@ ReportPage::ReportPage(const Record& record, const ReportContent& content)
               {"event_note", event_note(record)},
               {"sensitivities", sensitivities(record)},
               {"branches", branch_tree(record, std::nullopt)},
+              {"atlas", content.atlas},
               {"deck", escaped(plain(content.deck_text))},
               {"facts", facts(content)},
               {"data", script_json(data_of(record, content))}} {

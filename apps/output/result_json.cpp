@@ -6,6 +6,7 @@
 #include "apps/output/events_json.hpp"
 #include "apps/output/library_versions.hpp"
 #include "apps/output/run_warnings.hpp"
+#include "apps/output/search_rows.hpp"
 #include "model/version.hpp"
 
 namespace arcwall {
@@ -60,6 +61,7 @@ OrderedJson result_json(const Model& model, std::string_view deck_text, const Re
   json["status"] = status;
   json["warnings"] = run_warnings(model, record);
   json["branches"] = std::move(branches);
+  if (model.deck().path.search) json["search"] = search_json(record);
   return json;
 }
 

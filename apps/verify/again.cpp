@@ -107,11 +107,16 @@ class Comparer {
 
   Comparison compare() {
     const std::size_t branches = std::max(stored_.branches.size(), again_.branches.size());
-    for (std::size_t id = 0; id < branches; ++id) compare_branch(static_cast<Index>(id));
+    for (std::size_t id = 0; id < branches; ++id)
+      if (!is_found(id)) compare_branch(static_cast<Index>(id));
+    if (stored_.branches.back().found)
+      comparison_.reservations.emplace_back("branches that were found by a search are not traced again");
     return std::move(comparison_);
   }
 
  private:
+  bool is_found(std::size_t id) const { return id < stored_.branches.size() && stored_.branches[id].found; }
+
   void compare_branch(Index id) {
     EventsOfBranch first = events_of_branch(stored_, id), second = events_of_branch(again_, id);
     sort_at_one_lambda(first.events, allowed_);
@@ -178,6 +183,8 @@ std::optional<Session> traced_again(const Session& run) {
   shorter.assignments.push_back("path.step=" + toml_number(0.25 * path.step));
   shorter.assignments.push_back("path.max_step=" + toml_number(greatest));
   shorter.assignments.push_back("path.max_points=" + std::to_string(points));
+  // What was found began at states that Newton's method came to, which nothing else leads to.
+  shorter.assignments.emplace_back("path.search=false");
   std::optional<Session> again(std::in_place, std::move(shorter));
   if (!again->begin()) return std::nullopt;
   while (again->next() != nullptr) {

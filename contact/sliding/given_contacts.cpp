@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "contact/sliding/bending.hpp"
 #include "contact/sliding/layout_edit.hpp"
 #include "contact/sliding/lying.hpp"
 #include "contact/sliding/pressed_part.hpp"
@@ -106,13 +107,29 @@ class GivenLayout {
   std::size_t last_ = 0;  // the point that was added last
 };
 
+State closed(const SlidingSetting& setting, const SlidingState& open, const std::vector<GivenContact>& contacts) {
+  GivenLayout layout(setting, open);
+  for (const GivenContact& contact : contacts) layout.close(contact);
+  return layout.state();
+}
+
+bool flat_parts_lie_by_themselves(const SlidingSetting& setting, const SlidingState& at) {
+  const auto& points = at.layout.points();
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (points[k].behind == Span::flat && !lies_by_itself(setting, at, k)) return false;
+  return true;
+}
+
 }  // namespace
 
 State with_given_contacts(const SlidingSetting& setting, const SlidingState& open,
                           const std::vector<GivenContact>& contacts) {
-  GivenLayout layout(setting, open);
-  for (const GivenContact& contact : contacts) layout.close(contact);
-  return layout.state();
+  State state = closed(setting, open, contacts);
+  if (flat_parts_lie_by_themselves(setting, SlidingState(state))) return state;
+  std::vector<GivenContact> pressed = contacts;
+  for (GivenContact& contact : pressed)
+    if (contact.between == Span::flat) contact.between = Span::pressed;
+  return closed(setting, open, pressed);
 }
 
 }  // namespace arcwall::sliding

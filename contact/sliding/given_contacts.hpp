@@ -19,13 +19,14 @@ struct GivenContact {
   SlidingContactLayout::Span between = SlidingContactLayout::Span::free;  ///< how the body runs from `from` to `to`
 
   bool is_part() const { return to > from; }
+  bool operator==(const GivenContact&) const = default;
 };
 
 namespace sliding {
 
 /// The state with these contacts closed, of one in which all are open and whose shape is nearly theirs: a start for
 /// Newton's method. Contacts that follow each other on a strand are given in their order. What is so near a tip that it
-/// is a contact of the tip closes that.
+/// is a contact of the tip closes that. A flat part on which the body does not lie by itself is pressed.
 State with_given_contacts(const SlidingSetting& setting, const SlidingState& open,
                           const std::vector<GivenContact>& contacts);
 

@@ -103,14 +103,17 @@ void parts(Archive& archive, KnownPoint& known) {
 
 template <typename Archive>
 void parts(Archive& archive, BranchStart& start) {
-  archive(start.state, start.forward, start.mode, start.distance, start.unstable, start.lambda_scale, start.known);
+  archive(start.state, start.sense, start.forward, start.mode, start.distance, start.unstable, start.lambda_scale,
+          start.known);
+  archive.require(start.sense == 1 || start.sense == -1);
   archive.require(!start.forward || start.forward->dx.size() == start.state.x.size());
   archive.require(start.mode.dx.size() == 0 || start.mode.dx.size() == start.state.x.size());
 }
 
 template <typename Archive>
 void parts(Archive& archive, BranchRecord& record) {
-  archive(record.id, record.parent, record.origin, record.depth, record.sign, record.mirrored, record.end);
+  archive(record.id, record.parent, record.origin, record.depth, record.sign, record.mirrored, record.found,
+          record.end);
 }
 
 }  // namespace arcwall

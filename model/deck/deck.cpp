@@ -138,6 +138,8 @@ PointsOfContact points_of_contact(const Deck& deck) {
 Deck without_answers(Deck deck) {
   deck.path.sensitivity.clear();
   deck.path.landing = false;
+  deck.path.search = false;
+  deck.path.search_at.clear();
   deck.curve.reset();
   return deck;
 }

@@ -512,6 +512,10 @@ struct Path {
   ContinuumChoice continuum = ContinuumChoice::symmetric;
   bool landing = false;                    ///< where the structure falls to behind events is looked for
   std::vector<std::string> sensitivity{};  ///< keys of numbers, as in `--set`, by which events have derivatives
+  bool search = false;                     ///< equilibria are looked for that no traced branch passes
+  std::vector<double> search_at{};         ///< values of λ; empty: five, chosen by the events
+  int search_tries = 50;                   ///< at each of them
+  int search_seed = 1;
   Stop stop{};
 
   bool operator==(const Path&) const = default;

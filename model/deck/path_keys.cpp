@@ -116,6 +116,37 @@ bool land_key(Keys& keys, const Key& land_of, std::vector<Landing>& list, const 
   return lands_on_lambda;
 }
 
+void search_keys(Keys& keys, Path& path) {
+  keys.flag(optional("search"), path.search,
+            "equilibria are looked for that are on no traced branch, and traced: see [answers.md](answers.md)");
+  keys.numbers(optional("search_at", "five values over the range of the events"), path.search_at, unit::none,
+               "values of λ at which this is done");
+  keys.integer(optional("search_tries"), path.search_tries, {.low = 1, .high = 1000000},
+               "guesses at each of these values");
+  keys.integer(optional("search_seed"), path.search_seed, {.low = 0},
+               "another number makes other guesses; the same one the same, to the last bit");
+}
+
+void check_search(Keys& keys, const Path& path) {
+  for (const char* key : {"search_at", "search_tries", "search_seed"})
+    if (!keys.has("search") && keys.has(key)) {
+      keys.report(key, "is given, but nothing is looked for", "add search = true, or leave it out");
+      return;
+    }
+  if (!path.search) return;
+  if (path.method == PathMethod::incremental)
+    keys.report("search", "method \"incremental\" leaves no equilibria to look beside", "use method \"spherical\"");
+  const StopBounds* const bounds = find(path.stop.bounds, "lambda");
+  for (const double value : path.search_at)
+    if (bounds != nullptr && (value < bounds->low || value > bounds->high)) {
+      keys.report("search_at",
+                  round_trip(value) + " is outside stop.lambda = [" + round_trip(bounds->low) + ", " +
+                      round_trip(bounds->high) + "]",
+                  "give values between these bounds, or wider bounds");
+      return;
+    }
+}
+
 void path_keys(Keys& keys, Path& path) {
   path.position = keys.position();
   keys.word(
@@ -154,8 +185,10 @@ void path_keys(Keys& keys, Path& path) {
   keys.any_texts(optional("sensitivity", "none"), path.sensitivity,
                  "numbers of the deck, as in `--set`, by which each located event has a derivative: "
                  "`[\"wall.upper.profile.z\", \"material.m.E\"]`, see [answers.md](answers.md)");
+  search_keys(keys, path);
   keys.table(
       optional("stop"), Form::header, [&](Keys& stop) { stop_keys(stop, path.stop); }, "");
+  if (keys.reads()) check_search(keys, path);
   check_method(keys, path, lands_on_lambda);
   check_stop_events(keys, path);
 }
@@ -207,6 +240,8 @@ void check_stages(Keys& root, const Deck& deck) {
                   "stage " + in_quotes(deck.stages[i].name) + " traces all branches, and the next one begins on one",
                   "give it branches = \"follow\" or \"primary\"");
   }
+  if (deck.path.search)
+    root.report("path", "search = true belongs to a deck without stages", "leave out search or [[stage]]");
   if (deck.path.method == PathMethod::incremental)
     root.report("path", "method \"incremental\" has no stages", "use method \"spherical\"");
   if (find(deck.monitors, std::string("stage")) != nullptr)

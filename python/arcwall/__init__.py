@@ -15,7 +15,7 @@ from .curves import Curve
 from .deck import Deck
 from .errors import ArcwallError, DeckError, Diagnostic, FileError, NoAnswer, NoStart, NotFinite
 from .event_curves import CurveSpecial, EventCurve, WorstCombination
-from .events import Branch, Contact, Continuum, End, Event, Events, Landing, LandingContact, Point, WayBack
+from .events import Branch, Contact, Continuum, End, Event, Events, Found, Landing, LandingContact, Point, Search, WayBack
 from .path import Path, State, Tracing, load
 from .shapes import ContactMark, MemberShape, Shape, WallShape
 from .studies import ConvergedEvent, Convergence
@@ -40,6 +40,7 @@ __all__ = [
     "EventCurve",
     "Events",
     "FileError",
+    "Found",
     "Landing",
     "LandingContact",
     "MemberShape",
@@ -48,6 +49,7 @@ __all__ = [
     "NotFinite",
     "Path",
     "Point",
+    "Search",
     "Shape",
     "State",
     "System",

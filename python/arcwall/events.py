@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 __all__ = [
-    "Branch", "Contact", "Continuum", "End", "Event", "Events", "Landing", "LandingContact", "Point", "WayBack",
+    "Branch", "Contact", "Continuum", "End", "Event", "Events", "Found", "Landing", "LandingContact", "Point", "Search", "WayBack",
 ]  # fmt: skip
 
 
@@ -94,6 +94,29 @@ class WayBack(Value):
 
 
 @dataclass(frozen=True, repr=False)
+class Found(Value):
+    """An equilibrium that no traced branch passed when it was found."""
+
+    word: str  #: its contacts, as of a landing
+    monitors: Mapping[str, float]
+    energy: float  #: total potential [force·length]
+    unstable: int | None  #: as of points
+    became: str  #: ``traced``, ``on_branch``, ``beyond_stop``, ``not_traced`` or ``pending``
+    branches: tuple[int, ...]  #: that begin there, or the one that passes it
+
+
+@dataclass(frozen=True, repr=False)
+class Search(Value):
+    """What was looked for beside the traced branches at one λ. What was not found may be there all the same."""
+
+    lam: float
+    known: int  #: equilibria of traced branches
+    tries: int
+    outcomes: Mapping[str, int]  #: how many tries ended how: ``found``, ``mirror_image``, ``known``, ``nodes_only``, ``not_found``
+    found: tuple[Found, ...]
+
+
+@dataclass(frozen=True, repr=False)
 class Event(Value):
     """A located point of a path at which something happens, as in ``events.json``."""
 
@@ -141,6 +164,7 @@ class Branch(Value):
     lam: tuple[float, float]  #: least and greatest λ of its points
     end: End | None  #: None while it goes on
     stage: str | None = None
+    found: bool = False  #: it leaves no branch: ``path.search`` has found where it begins
 
 
 @dataclass(frozen=True, repr=False)
@@ -282,6 +306,23 @@ def _way_back_of(json: Mapping[str, Any] | None) -> WayBack | None:
     return WayBack(_float(json["lambda"]), json["kind"], _floats(json["monitors"]), _landing_of(json.get("landing")))
 
 
+def searches_of(json: Mapping[str, Any] | None) -> tuple[Search, ...]:
+    """Those of result.json."""
+    return tuple(
+        Search(
+            lam=_float(at["lambda"]),
+            known=at["known"],
+            tries=at["tries"],
+            outcomes=at["outcomes"],
+            found=tuple(
+                Found(f["word"], _floats(f["monitors"]), _float(f["energy"]), f["unstable"], f["became"], tuple(f["branches"]))
+                for f in at["found"]
+            ),
+        )
+        for at in (json or {}).get("at", ())
+    )
+
+
 def event_of(json: Mapping[str, Any], point: int, mode: np.ndarray | None = None) -> Event:
     """An event as in events.json, on that point of its path."""
     return Event(
@@ -319,12 +360,13 @@ def branch_of(json: Mapping[str, Any]) -> Branch:
     return Branch(
         id=json["id"],
         parent=json["parent"],
-        origin=json["origin"],
+        origin=None if json["origin"] == "found" else json["origin"],
         mirrored=json["mirrored"],
         points=json["points"],
         lam=(_float(json["lambda"][0]), _float(json["lambda"][1])),
         end=end_of(json["end"]),
         stage=json.get("stage"),
+        found=json["origin"] == "found",
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from . import _engine
 from .curves import Curve, row_of
 from .deck import Deck
-from .events import Point, point_of
+from .events import Point, Search, point_of, searches_of
 from .shapes import Shape, shape_of
 
 if TYPE_CHECKING:
@@ -70,6 +70,11 @@ class Path(Curve):
     def warnings(self) -> list[str]:
         """What one should know of the deck though it is no error."""
         return self._run.warnings()
+
+    @property
+    def search(self) -> tuple[Search, ...]:
+        """What was looked for beside the traced branches and found, at one λ after the other; empty without ``path.search``."""
+        return searches_of(self._run.search())
 
     @property
     def units(self) -> dict[str, str]:

@@ -8,6 +8,7 @@
 #include "apps/output/events_json.hpp"
 #include "apps/output/load_text.hpp"
 #include "apps/output/report_html.hpp"
+#include "apps/output/search_rows.hpp"
 #include "model/session.hpp"
 #include "python/engine/columns.hpp"
 #include "python/engine/interrupt_watch.hpp"
@@ -166,6 +167,7 @@ void bind_runs(py::module_& module) {
       .def("save", &Run::save, py::arg("folder"), py::arg("force"), py::arg("pictures"))
       .def("checkpoint", &Run::checkpoint)
       .def("warnings", [](const Run& self) { return self.session().model().warnings(); })
+      .def("search", [](const Run& self) { return to_python(search_json(self.record())); })
       .def("description",
            [](const Run& self) {
              const RunDescription& of = self.session().description();

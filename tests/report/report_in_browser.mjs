@@ -433,6 +433,28 @@ test('hostile texts inject nothing', async () => {
   console.log(`${texts} hostile texts in ${decks.length} pages`);
 });
 
+test('the atlas has a line a state and says which are stable', async () => {
+  for (const viewport of [desktop, phone]) {
+    const { page, finish } = await open(channel, { viewport });
+    const found = await page.evaluate(() => {
+      const boxes = [...document.querySelectorAll('#atlas g text')].map((text) => text.getBoundingClientRect());
+      return {
+        states: [...document.querySelectorAll('#atlas g text')].map((text) => text.textContent),
+        apart: boxes.every((box, i) => i === 0 || box.top > boxes[i - 1].top),
+        rows: [...document.querySelectorAll('#stable tbody tr')].map((row) => row.cells[3].textContent),
+        width: document.documentElement.scrollWidth,
+      };
+    });
+    assert.deepEqual(found.states, ['0: no contact (0)', '1: upper (0)', '2: upper upper (0)', '3: upper upper (1)',
+      '4: upper lower upper (0)']);
+    assert.ok(found.apart, 'one below the other');
+    assert.deepEqual(found.rows, ['0: no contact', '1: upper', '2: upper upper', '2: upper upper', '4: upper lower upper',
+      '4: upper lower upper']);
+    assert.ok(found.width <= viewport.width, `${found.width} wide`);
+    await finish();
+  }
+});
+
 test('a long run stays usable', async () => {
   const file = join(folder, 'long.toml');
   writeFileSync(file, readFileSync(join(examples, 'lee.toml'), 'utf8')

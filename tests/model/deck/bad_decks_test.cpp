@@ -340,6 +340,14 @@ TEST(BadDecks, Path) {
       {"watch = [\"mid\", \"end\"]", "watch = [\"mid\", \"ned\"]", "path.watch", "\"ned\" is not a monitor"},
       {"watch = [\"mid\", \"end\"]", "watch = [\"mid\", \"mid\"]", "path.watch.1", "named twice"},
       {"events = \"detect\"", "events = \"find\"", "path.events", "known are locate, detect, none"},
+      {"search = true", "search = 1", "path.search", "wrong type"},
+      {"search = true", "", "path.search_at", "add search = true", 1},
+      {"search_at = [0.3, 4.0]", "search_at = [0.3, 40.0]", "path.search_at", "40 is outside stop.lambda = [-1, 10]"},
+      {"search_at = [0.3, 4.0]", "search_at = [nan]", "path.search_at.0", "nan is not a finite number"},
+      {"search_at = [0.3, 4.0]", "search_at = 0.3", "path.search_at", "wrong type"},
+      {"search_tries = 7", "search_tries = 0", "path.search_tries", "at least 1"},
+      {"search_tries = 7", "search_tries = 2.5", "path.search_tries", "wrong type"},
+      {"search_seed = 3", "search_seed = -1", "path.search_seed", "at least 0"},
       {"mid = [-0.16, 0.16]", "mid = [0.16, -0.16]", "path.stop.mid", "low less than high"},
       {"mid = [-0.16, 0.16]", "mid = [0.16, 0.16]", "path.stop.mid", "[0.16, 0.16] are no bounds"},
       {"mid = [-0.16, 0.16]", "mid = [0.16]", "path.stop.mid", "[0.16] are no bounds"},
@@ -391,8 +399,11 @@ TEST(BadDecks, NamesOfOtherColumnsAreNoMonitors) {
 }
 
 TEST(BadDecks, IncrementalNeedsTheLoadsToLandOn) {
-  const std::string text = replaced(full_deck, "method = \"displacement\"", "method = \"incremental\"");
+  const std::string searched = replaced(full_deck, "method = \"displacement\"", "method = \"incremental\"");
+  const std::string text = replaced(searched, "search = true", "search = false");
 
+  EXPECT_NE(all_of(diagnostics_of(searched)).find("path.search: method \"incremental\" leaves no equilibria"),
+            std::string::npos);
   EXPECT_TRUE(diagnostics_of(text).empty());
   EXPECT_NE(all_of(diagnostics_of(replaced(text, ", lambda = [0.4, 0.4475]", ""))).find("path.land: lambda is missing"),
             std::string::npos);

@@ -222,6 +222,10 @@ depth = 3
 watch = ["mid", "end"]
 events = "detect"
 continuum = "stop"
+search = true
+search_at = [0.3, 4.0]
+search_tries = 7
+search_seed = 3
 [path.stop]
 mid = [-0.16, 0.16]
 lambda = [-1, 10.0]
