@@ -25,6 +25,8 @@ constexpr double spring_length = 0.05, spring_width = 0.012;
 constexpr double wall_band = 0.025;
 constexpr double moment_radius = 0.035;
 constexpr double thinnest_band = 0.006;
+// Deflections between these can be drawn larger: twice at least, and what is below is round-off.
+constexpr double greatest_enlarged = 0.25, least_enlarged = 1e-8;
 
 struct Box {
   Vec2 low = Vec2::Constant(infinity), high = Vec2::Constant(-infinity);
@@ -134,6 +136,9 @@ class Frame {
     return (Vec2(offset.x(), -offset.y()).array() + margin * longer_side).round();
   }
 
+  // Of a displacement.
+  Vec2 way(const Vec2& move) const { return scale_ * Vec2(move.x(), -stretch_ * move.y()); }
+
   // In the picture too a force stands upright on its wall.
   Vec2 wall_arrow(const Vec2& force, double greatest) const {
     return arrow({stretch_ * force.x(), -force.y()}, force.norm() / greatest, longest_force);
@@ -173,6 +178,29 @@ std::string member_data(const Frame& frame, const MemberShape& member) {
   for (const ShapePoint& point : member.points)
     if (point.position.allFinite()) places.push_back(frame.place(point.position));
   return path_data(places);
+}
+
+// The displacements of the same points, in a unit that keeps their digits where they are small.
+std::string moves_data(const Frame& frame, const MemberShape& member, double unit) {
+  std::vector<Vec2> moves;
+  for (const ShapePoint& point : member.points)
+    if (point.position.allFinite()) moves.push_back((frame.way(point.displacement) / unit).array().round());
+  return path_data(moves);
+}
+
+double greatest_move(const Frame& frame, const std::vector<Scene>& scenes) {
+  double greatest = 0.0;
+  for (const Scene& scene : scenes)
+    for (const MemberShape& member : scene.shape.members)
+      for (const ShapePoint& point : member.points)
+        if (point.position.allFinite()) greatest = std::max(greatest, frame.way(point.displacement).norm());
+  return greatest;
+}
+
+double unit_of_moves(double greatest) {
+  constexpr double steps = 2000.0;
+  const double part = greatest / longer_side;
+  return part > least_enlarged && part <= greatest_enlarged ? greatest / steps : 0.0;
 }
 
 std::string arrow_data(const Vec2& from, const Vec2& way) {
@@ -456,7 +484,7 @@ std::vector<double> section_heights(const deck::Deck& deck) {
 std::vector<DrawnMember> drawn_members(const deck::Deck& deck) {
   std::vector<DrawnMember> members;
   for (const deck::Member& member : deck.members) {
-    DrawnMember& drawn = members.emplace_back(DrawnMember{.name = member.name});
+    DrawnMember& drawn = members.emplace_back(DrawnMember{.name = member.name, .from = member.from, .to = member.to});
     const deck::Section* section = find(deck.sections, member.section);
     const deck::Material* material = find(deck.materials, member.material);
     if (section == nullptr || material == nullptr) continue;
@@ -551,7 +579,9 @@ ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
                        .height = frame.size().y(),
                        .stretch = stretch_of(box.size()),
                        .greatest_force = greatest.wall,
+                       .greatest_move = greatest_move(frame, scenes),
                        .classes = classes_of(scenes.front())};
+  result.move_unit = unit_of_moves(result.greatest_move);
   result.thickness.resize(result.classes.size(), 0.0);
   for (std::size_t m = 0; m < setting.heights.size(); ++m) result.thickness[m] = frame.thickness(setting.heights[m]);
   for (const WallShape& wall : setting.walls) draw_wall(frame, wall, result);
@@ -561,6 +591,9 @@ ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     ShapePicture& added = result.pictures.emplace_back(picture_of(frame, greatest, points[i], scenes[i]));
     if (samples >= coarsest) added.forces = sampled_forces(scenes[i].shape, samples);
+    if (result.move_unit > 0.0)
+      for (const MemberShape& member : scenes[i].shape.members)
+        added.moves.push_back(moves_data(frame, member, result.move_unit));
   }
   result.members = setting.members;
   for (const WallShape& wall : setting.walls) result.walls.push_back(wall.name);
