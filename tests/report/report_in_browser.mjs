@@ -7,6 +7,7 @@ import { test } from 'node:test';
 import { channel, desktop, examples, folder, has_plotly, open, phone, report_of, trace_path } from './browser.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
 import './shape_in_browser.mjs';
+import './sweep_in_browser.mjs';
 
 const shape = (page) => page.$eval('#shown .member:not(.band)', (path) => path.getAttribute('d'));
 const lambda = (page) => page.$eval('#values td', (cell) => Number(cell.textContent));
