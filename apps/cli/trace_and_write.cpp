@@ -114,31 +114,6 @@ std::optional<BranchEnd> trace(Session& run, CheckpointKeeper& checkpoints, cons
   return stopped;
 }
 
-// The branch whose end decides the status: an interrupt, then a limit, then an early end.
-const RecordBranch& decisive_branch(const Record& record) {
-  const auto severity = [](const RecordBranch& branch) {
-    switch (exit_status(branch.end->reason)) {
-      case ExitStatus::interrupted:
-        return 3;
-      case ExitStatus::limit_met:
-        return 2;
-      case ExitStatus::success:
-        return 0;
-      case ExitStatus::internal_error:
-      case ExitStatus::wrong_input:
-      case ExitStatus::ended_early:
-      case ExitStatus::no_start:
-      case ExitStatus::file_error:
-      case ExitStatus::not_confirmed:
-      case ExitStatus::out_of_memory:
-        return 1;
-    }
-    return 1;
-  };
-  return *std::max_element(record.branches.begin(), record.branches.end(),
-                           [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); });
-}
-
 // Those of an earlier run would show another path than the tables.
 void remove_pictures(const OutputFolder& folder) {
   for (const char* name : {"report.html", "shapes.pvd"}) {
@@ -245,6 +220,8 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
     std::cerr << "error: there is no equilibrium at the start: " << explanation(reason) << "\n";
     return ExitStatus::no_start;
   }
+  if (const std::string warning = warning_of_units(run.model(), record); !warning.empty())
+    std::cerr << "warning: " << warning << "\n";
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
   if (!stopped && options.scratch) checkpoints.drop();
@@ -259,7 +236,7 @@ void write_run(Session& run, const OutputFolder& folder, const CallOptions& opti
   const std::string checkpoint = run.checkpoint(ended ? std::nullopt : std::optional(stopped));
   folder.write_durably("checkpoint", checkpoint);
   if (ended) {
-    const ExitStatus status = exit_status(decisive_branch(run.record()).end->reason);
+    const ExitStatus status = exit_status(run.record());
     return write_files(folder, run, options, seconds, status);
   }
   const Session as_ended =

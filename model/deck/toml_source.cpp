@@ -59,6 +59,7 @@ bool stands_before(const Value& a, const Value& b) {
 Value converted(const toml::node& node) {
   Value value{.position = position_of(node.source())};
   if (const auto* table = node.as_table()) {
+    value.items.reserve(table->size());
     for (const auto& [key, child] : *table) {
       Value& item = value.items.emplace_back(converted(child));
       item.key = key.str();
