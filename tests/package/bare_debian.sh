@@ -8,7 +8,7 @@
 set -euo pipefail
 
 build=$(cd "${1:?the build folder}" && pwd)
-mapfile -t made < <(find "$build/packages" -name 'arcwall_*.deb')
+mapfile -t made < <(find "$build/packages" -maxdepth 1 -name 'arcwall_*.deb')
 [[ ${#made[@]} == 1 ]] || { echo "error: $build/packages has no package arcwall; tests/package/run.sh makes it" >&2; exit 1; }
 skip() {
   echo "note: the package is not tried in a bare Debian: $1"
@@ -21,7 +21,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cp "${made[0]}" "$scratch/arcwall.deb"
 mirror=$(sed -nE 's/^URIs: *([^ ]*debian)\/?$/\1/p; s/^deb (\[[^]]*\] )?(http[^ ]*debian)\/? .*/\2/p' \
-  /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1)
+  /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1 || true)
 mirror=${mirror:-http://deb.debian.org/debian}
 curl --silent --fail --max-time 20 --output /dev/null "$mirror/dists/bookworm/Release" 2>/dev/null ||
   skip "$mirror cannot be reached"
@@ -32,7 +32,7 @@ trace='trace-path examples channel --out channel.toml && trace-path run channel.
 mmdebstrap --quiet --variant=apt --mode=root \
   --customize-hook="copy-in '$scratch/arcwall.deb' /tmp" \
   --customize-hook='chroot "$1" apt-get install --quiet --yes /tmp/arcwall.deb >/dev/null' \
-  --customize-hook="chroot \"\$1\" sh -c 'cd /tmp && $trace'" \
+  --customize-hook="chroot \"\$1\" sh -c 'cd /srv && $trace'" \
   bookworm "$scratch/system" "$mirror"
-[[ -e $scratch/system/tmp/results/report.html ]]
+[[ -e $scratch/system/srv/results/report.html ]]
 echo "installed in a bare Debian 12, the program traces and verifies an example"
