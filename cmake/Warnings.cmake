@@ -10,6 +10,8 @@ endif()
 # one of them names for itself is shadowed by the next, which only local names had better not be.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_UNITY_BUILD)
   target_compile_options(arcwall_warnings INTERFACE -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
+elseif(CMAKE_UNITY_BUILD)
+  target_compile_options(arcwall_warnings INTERFACE -Wno-shadow)  # clang cannot look at local names alone
 endif()
 
 # Address and undefined-behaviour sanitizers, with assertions, for everything that is built here. -O1 and line tables compile

@@ -1,13 +1,21 @@
 # Makes a C++ source of report.html's parts:
 #
-#   cmake -DFOLDER=… -DPLOTLY_SCRIPT=… -DPLOTLY_LICENCE=… -DOUTPUT=… -P embed_report.cmake
+#   cmake -DFOLDER=… -DSCRIPTS=data,curve -DPLOTLY_SCRIPT=… -DPLOTLY_LICENCE=… -DOUTPUT=… -P embed_report.cmake
 #
 # Without plotly its two files are empty words.
-foreach(part page.html page.css page.js)
+foreach(part page.html page.css)
   file(READ "${FOLDER}/${part}" text)
   string(REPLACE "." "_" name ${part})
   set(${name} "${text}")
 endforeach()
+# The files of the script are one script with one scope, in this order.
+string(REPLACE "," ";" names "${SCRIPTS}")
+set(page_js "'use strict';\n(() => {\n")
+foreach(name IN LISTS names)
+  file(READ "${FOLDER}/script/${name}.js" text)
+  string(APPEND page_js "${text}\n")
+endforeach()
+string(APPEND page_js "})();\n")
 set(library "")
 if(PLOTLY_SCRIPT)
   file(READ "${PLOTLY_SCRIPT}" script)

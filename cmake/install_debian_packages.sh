@@ -15,7 +15,7 @@ packages_of() {
       echo g++ cmake ninja-build libeigen3-dev libsuitesparse-dev libopenblas0-serial \
         libboost-program-options-dev libboost-math-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libpugixml-dev zlib1g-dev
       ;;
-    test) echo libgtest-dev librapidcheck-dev python3 python3-meshio parallel groff-base dpkg-dev ;;
+    test) echo libgtest-dev librapidcheck-dev python3 python3-meshio parallel groff-base dpkg-dev curl mmdebstrap ;;
     python)
       echo python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib python3-scipy python3-pytest \
         python3-nbclient python3-ipykernel mypy

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "apps/cli/commands.hpp"
+#include "apps/cli/program.hpp"
 #include "apps/cli/progress.hpp"
 #include "apps/output/files.hpp"
 #include "apps/output/text_table.hpp"
@@ -62,7 +63,7 @@ void check_passed_on(const std::vector<std::string>& words) {
 }
 
 // `I/N`: of N equal shares the one with number I, counted from 0.
-std::vector<sweep::Case> share(const std::vector<sweep::Case>& cases, const std::string& part) {
+sweep::Part share(const std::string& part) {
   const std::size_t slash = part.find('/');
   const auto number = [&](const std::string& text) {
     const bool digits = !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
@@ -72,33 +73,27 @@ std::vector<sweep::Case> share(const std::vector<sweep::Case>& cases, const std:
                     parts = slash == std::string::npos ? std::string::npos : number(part.substr(slash + 1));
   if (first == std::string::npos || parts == std::string::npos || first >= parts)
     throw InputError(fmt::format("--part is {}; write I/N with I from 0 to N − 1, as in 0/4", part));
-  std::vector<sweep::Case> result;
-  for (std::size_t i = first; i < cases.size(); i += parts) result.push_back(cases[i]);
-  return result;
+  return {.number = first, .parts = parts};
 }
 
-std::vector<sweep::Case> chosen(const std::vector<sweep::Case>& cases, const Options& options) {
+// How many cases the options choose, of all.
+std::size_t chosen(std::size_t cases, const Options& options) {
   const std::optional<int> number = options.number("case");
   const std::optional<std::string> part = options.text("part");
   if (number && part) throw InputError("--case and --part are given; keep one of them");
-  if (part) return share(cases, *part);
-  if (!number) return cases;
-  if (static_cast<std::size_t>(*number) >= cases.size())
-    throw InputError(fmt::format("--case is {}; the sweep has the cases 0 to {}", *number, cases.size() - 1));
-  return {cases[static_cast<std::size_t>(*number)]};
+  if (number && static_cast<std::size_t>(*number) >= cases)
+    throw InputError(fmt::format("--case is {}; the sweep has the cases 0 to {}", *number, cases - 1));
+  if (number) return 1;
+  const sweep::Part of = part ? share(*part) : sweep::Part();
+  return cases / of.parts + (of.number < cases % of.parts ? 1 : 0);
 }
 
-void forget_results(const Options& options, const fs::path& folder, const std::vector<sweep::Case>& cases) {
-  for (const sweep::Case& one : cases) {
-    if (options.has("force")) {
-      sweep::forget(folder, one.number);
-    } else if (options.has("failed")) {
-      const sweep::CaseResult result = sweep::read_result(folder, one.number);
-      if (result.there && result.reason == to_text(EndReason::max_time) && result.status)
-        sweep::reopen(folder, one.number);
-      else if (result.failed())
-        sweep::forget(folder, one.number);
-    }
+// As the program itself would end.
+int run_as_program(const std::vector<std::string>& words) {
+  try {
+    return static_cast<int>(run_program(words));
+  } catch (const std::exception& problem) {
+    return static_cast<int>(report(problem));
   }
 }
 
@@ -111,20 +106,28 @@ std::string text(const sweep::RunCounts& counts, std::size_t cases) {
 }
 
 ExitStatus run_sweep(const Options& options) {
-  sweep::RunRequest request{.folder = options.words().front(),
-                            .program = this_program,
-                            .jobs = options.count("jobs").value_or(1),
-                            .options = options.passed_on(),
-                            .most_seconds = options.seconds("max-time")};
+  const fs::path& folder = options.words().front();
+  const std::size_t all = sweep::count_cases(folder), cases = chosen(all, options);
+  const bool records = options.has("records") || all > static_cast<std::size_t>(sweep::most_folders);
+  const sweep::RunRequest request{.folder = folder,
+                                  .program = this_program,
+                                  .body = run_as_program,
+                                  .jobs = options.count("jobs").value_or(1),
+                                  .options = options.passed_on(),
+                                  .most_seconds = options.seconds("max-time"),
+                                  .keep = records ? sweep::Keep::records : sweep::Keep::folders,
+                                  .part = options.text("part") ? share(*options.text("part")) : sweep::Part()};
   check_passed_on(request.options);
-  const auto cases = chosen(sweep::read_cases(request.folder), options);
-  forget_results(options, request.folder, cases);
+  const sweep::Rerun rerun = options.has("force")    ? sweep::Rerun::all
+                             : options.has("failed") ? sweep::Rerun::failed
+                                                     : sweep::Rerun::none;
   sweep::RunCounts counts;
   {
     ProgressLine line(options.has("quiet") ? Progress::hidden : progress_wanted());
-    counts = sweep::run_cases(request, cases, [&](const sweep::RunCounts& now) { line.show(text(now, cases.size())); });
+    counts = sweep::run_cases(request, options.number("case"), rerun,
+                              [&](const sweep::RunCounts& now) { line.show(text(now, cases)); });
   }
-  if (!options.has("quiet")) std::cout << text(counts, cases.size()) << "\n";
+  if (!options.has("quiet")) std::cout << text(counts, cases) << "\n";
   if (counts.interrupted) {
     std::cerr << "note: interrupted; the same command goes on\n";
     return ExitStatus::interrupted;
@@ -134,29 +137,24 @@ ExitStatus run_sweep(const Options& options) {
 
 // --- status
 
-void print_failures(const sweep::Collection& collection) {
+void print_failures(const sweep::Overview& of_all) {
   std::vector<std::vector<std::string>> rows;
-  for (const sweep::Failure& failure : sweep::failures(collection))
-    rows.push_back({failure.reason, std::to_string(failure.cases.size()), sweep::listed(failure.cases)});
+  for (const sweep::Failure& failure : of_all.failures)
+    rows.push_back({failure.reason, std::to_string(failure.count), sweep::listed(failure)});
   if (!rows.empty())
     std::cout << "\n" << text_table({{"reason"}, {"cases", TableColumn::Side::right}, {"which"}}, rows);
 }
 
 ExitStatus show_status(const Options& options) {
-  const fs::path folder = options.words().front();
-  sweep::Collection collection{.cases = sweep::read_cases(folder)};
-  int ran = 0, failed = 0, begun = 0;
-  for (const sweep::Case& one : collection.cases) {
-    const sweep::CaseResult& result = collection.results.emplace_back(sweep::read_result(folder, one.number));
-    ran += result.there ? 1 : 0;
-    failed += result.there && result.failed() ? 1 : 0;
-    begun += !result.there && sweep::is_begun(folder, one.number) ? 1 : 0;
-  }
-  std::cout << fmt::format("{} of {} cases have results, {} of them as their deck says\n", ran, collection.cases.size(),
-                           ran - failed);
-  std::cout << fmt::format("{} more are being run or were begun, {} were not\n", begun,
-                           static_cast<int>(collection.cases.size()) - ran - begun);
-  print_failures(collection);
+  const sweep::Collection collection(options.words().front());
+  const sweep::Overview of_all = sweep::overview(collection);
+  std::size_t not_run = collection.size() - of_all.ran, begun = 0;
+  for (const int number : sweep::begun_cases(collection.folder()))
+    if (static_cast<std::size_t>(number) < collection.size() && !collection.results().has(number)) ++begun;
+  std::cout << fmt::format("{} of {} cases have results, {} of them as their deck says\n", of_all.ran,
+                           collection.size(), collection.size() - of_all.failed);
+  std::cout << fmt::format("{} more are being run or were begun, {} were not\n", begun, not_run - begun);
+  print_failures(of_all);
   return ExitStatus::success;
 }
 
@@ -183,16 +181,17 @@ ExitStatus emit(const Options& options) {
   if (!engine)
     throw InputError(fmt::format("there is no engine {}{}; there are {}", *name, suggestion(*name, engines),
                                  fmt::join(engines, " and ")));
-  const fs::path& folder = options.words().front();
+  const fs::path folder = options.words().front();
   std::cout << sweep::script(*engine, {.program = fs::read_symlink(this_program),
                                        .folder = fs::absolute(folder),
-                                       .cases = static_cast<int>(sweep::read_cases(folder).size()),
+                                       .cases = static_cast<int>(sweep::count_cases(folder)),
                                        .jobs = options.count("jobs"),
                                        .tasks = options.count("tasks"),
                                        .time = directive(options, "time"),
                                        .memory = directive(options, "memory"),
                                        .partition = directive(options, "partition"),
                                        .log = directive(options, "log"),
+                                       .records = options.has("records"),
                                        .options = options.passed_on()});
   return ExitStatus::success;
 }
@@ -214,18 +213,19 @@ std::vector<std::string> map_keys(const sweep::Sweep& sweep, const std::vector<s
 }
 
 ExitStatus collect(const Options& options) {
-  const fs::path folder = options.words().front();
-  const sweep::Collection collection = sweep::collect(folder);
-  const std::vector<std::string> keys = map_keys(collection.sweep, options.texts("over"));
-  write_whole(folder / "cases.csv", sweep::cases_csv(collection));
-  write_whole(folder / "sweep.csv", sweep::sweep_csv(collection));
-  write_whole(folder / "report.html", sweep::report_html(collection, keys));
-  const auto failed = std::count_if(collection.results.begin(), collection.results.end(),
-                                    [](const sweep::CaseResult& result) { return result.failed(); });
+  const sweep::Collection collection(options.words().front());
+  const sweep::Overview of_all = sweep::overview(collection);
+  sweep::DrawnCases drawn(collection, of_all, map_keys(collection.sweep(), options.texts("over")));
+  sweep::Tables tables(collection, of_all);
+  collection.visit([&](const sweep::Case& one, const sweep::CaseResult& result) {
+    tables.add(one, result);
+    drawn.add(one, result);
+  });
+  tables.finish();
+  write_whole(collection.folder() / "report.html", sweep::report_html(collection, of_all, drawn));
   std::cout << fmt::format("{} cases, {} as their deck says; written: cases.csv, sweep.csv, report.html in {}\n",
-                           collection.cases.size(), collection.cases.size() - static_cast<std::size_t>(failed),
-                           folder.string());
-  print_failures(collection);
+                           collection.size(), collection.size() - of_all.failed, collection.folder().string());
+  print_failures(of_all);
   return ExitStatus::success;
 }
 
@@ -252,6 +252,7 @@ std::vector<Command> sweep_commands() {
                                    {"max-time", "SECONDS", "end a case after that time; it counts as failed"},
                                    {"failed", "", "run the cases that failed again"},
                                    {"force", "", "run all cases again"},
+                                   {"records", "", "keep results as lines of one file, without a folder for each case"},
                                    {"tolerant", "", "status 0 though cases failed: what they came to is a result"},
                                    {"quiet", "", "no progress and no counts"}},
                        .least_words = 1,
@@ -275,7 +276,8 @@ std::vector<Command> sweep_commands() {
                                    {"time", "LIMIT", "of a task of Slurm, as in 0:30:00"},
                                    {"memory", "SIZE", "of a task of Slurm, as in 2G"},
                                    {"partition", "NAME", "of Slurm"},
-                                   {"log", "FILE", "what tasks of Slurm print, as in logs/%A_%a.txt"}},
+                                   {"log", "FILE", "what tasks of Slurm print, as in logs/%A_%a.txt"},
+                                   {"records", "", "keep results as lines of a file for each task"}},
                        .least_words = 1,
                        .most_words = 1,
                        .passes_on = true},

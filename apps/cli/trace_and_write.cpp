@@ -47,6 +47,12 @@ class CheckpointKeeper {
     }
   }
 
+  void drop() {
+    std::error_code error;
+    std::filesystem::remove(folder_.path() / "checkpoint", error);
+    if (error) throw OutputError((folder_.path() / "checkpoint").string() + ": cannot be removed: " + error.message());
+  }
+
   void keep(const std::optional<BranchEnd>& stopped) {
     constexpr double part = 0.05;  // of the time, at most
     const Clock::time_point before = Clock::now();
@@ -100,38 +106,13 @@ std::optional<BranchEnd> trace(Session& run, CheckpointKeeper& checkpoints, cons
     if (stopped) break;
     checkpoints.keep_now_and_then();
   }
-  if (!run.record().points.empty()) checkpoints.keep(stopped);
+  if (!run.record().points.empty() && (stopped || !options.scratch)) checkpoints.keep(stopped);
   if (stopped) {
     run.stop(*stopped);
     run.next();
   }
   if (options.report == Report::json_lines) lines.print_new(run.record());
   return stopped;
-}
-
-// The branch whose end decides the status: an interrupt, then a limit, then an early end.
-const RecordBranch& decisive_branch(const Record& record) {
-  const auto severity = [](const RecordBranch& branch) {
-    switch (exit_status(branch.end->reason)) {
-      case ExitStatus::interrupted:
-        return 3;
-      case ExitStatus::limit_met:
-        return 2;
-      case ExitStatus::success:
-        return 0;
-      case ExitStatus::internal_error:
-      case ExitStatus::wrong_input:
-      case ExitStatus::ended_early:
-      case ExitStatus::no_start:
-      case ExitStatus::file_error:
-      case ExitStatus::not_confirmed:
-      case ExitStatus::out_of_memory:
-        return 1;
-    }
-    return 1;
-  };
-  return *std::max_element(record.branches.begin(), record.branches.end(),
-                           [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); });
 }
 
 // Those of an earlier run would show another path than the tables.
@@ -159,7 +140,7 @@ void write_files(const OutputFolder& folder, const Session& run, const CallOptio
   const Record& record = run.record();
   const RunDescription& description = run.description();
   const DrawnScenes drawn = pictures ? scenes_to_draw(run.model(), record) : DrawnScenes();
-  FileSet files(folder);
+  FileSet files(folder, options.scratch ? Flush::left_to_the_system : Flush::to_the_disk);
   files.write("path.csv", path_csv(record, description.units));
   if (record.has_walls) files.write("contacts.csv", contacts_csv(record, description.units));
   files.write("events.json", to_text(events_json(record), JsonLayout::lines));
@@ -210,6 +191,8 @@ std::vector<OptionDescription> call_options() {
   return {{"max-points", "N", "end after N points (status 6)"},
           {"max-time", "SECONDS", "end after that time (status 6)"},
           {"checkpoint-pause", "SECONDS", "time between two checkpoints, 0 for one at each point (default: 5)"},
+          {"scratch", "",
+           "for files that a program reads at once: no checkpoint once the run has ended, nothing flushed to the disk"},
           {"json", "", "points, events and end on standard output, one JSON object a line"},
           {"no-pictures", "", "write neither report.html nor the shapes (trace-path report writes the one later)"},
           {"quiet", "", "no progress and no table of events"}};
@@ -219,6 +202,7 @@ CallOptions call_options(const Options& options) {
   CallOptions call{.max_points = options.count("max-points"), .max_seconds = options.seconds("max-time")};
   if (const auto pause = options.pause("checkpoint-pause"))
     call.checkpoint_pause = std::chrono::duration<double>(*pause);
+  call.scratch = options.has("scratch");
   if (options.has("no-pictures")) call.pictures = CallOptions::Pictures::left_out;
   if (options.has("quiet")) call.report = Report::none;
   if (options.has("json")) call.report = Report::json_lines;
@@ -238,8 +222,11 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
     std::cerr << "error: there is no equilibrium at the start: " << explanation(reason) << "\n";
     return ExitStatus::no_start;
   }
+  if (const std::string warning = warning_of_units(run.model(), record); !warning.empty())
+    std::cerr << "warning: " << warning << "\n";
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
+  if (!stopped && options.scratch) checkpoints.drop();
   if (options.report == Report::table) std::cout << report_of_events(folder, run);
   say_how_it_ended(stopped, run, folder.path().string());
   return status;
@@ -251,7 +238,7 @@ void write_run(Session& run, const OutputFolder& folder, const CallOptions& opti
   const std::string checkpoint = run.checkpoint(ended ? std::nullopt : std::optional(stopped));
   folder.write_durably("checkpoint", checkpoint);
   if (ended) {
-    const ExitStatus status = exit_status(decisive_branch(run.record()).end->reason);
+    const ExitStatus status = exit_status(run.record());
     return write_files(folder, run, options, seconds, status);
   }
   const Session as_ended =

@@ -18,6 +18,7 @@ struct CallOptions {
   std::optional<int> max_points{};                    ///< of this call
   std::optional<double> max_seconds{};                ///< of this call
   std::chrono::duration<double> checkpoint_pause{5};  ///< at least, between two checkpoints
+  bool scratch = false;  ///< no checkpoint is kept of a run that has ended, and its files are not flushed to the disk
   enum class Report { table, json_lines, none } report = Report::table;
   Progress progress = Progress::hidden;
   enum class Pictures { written, left_out } pictures = Pictures::written;  ///< report.html and the shapes

@@ -3,6 +3,7 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/verify/again.hpp"
+#include "apps/verify/copies.hpp"
 #include "apps/verify/verify.hpp"
 #include "core/error.hpp"
 #include "model/regular_file.hpp"
@@ -44,8 +45,11 @@ ExitStatus verify_folder(const Options& options) {
   const Session run = stored_session(folder, Session::Resume::as_ended);
   const verify::StoredFiles files{.path_csv = text_of(folder / "path.csv"),
                                   .contacts_csv = run.record().has_walls ? text_of(folder / "contacts.csv") : "",
-                                  .events_json = text_of(folder / "events.json")};
-  const verify::Verdict verdict = verify::verify(run.model(), run.record(), files, "checkpoint");
+                                  .events_json = text_of(folder / "events.json"),
+                                  .result_json = text_of(folder / "result.json"),
+                                  .deck_toml = text_of(folder / "deck.toml")};
+  verify::Verdict verdict = verify::verify(run.model(), run.record(), files, "checkpoint");
+  verify::check_copies(run.model(), run.record(), run.description().deck_text, files, verdict.findings);
   if (const auto& first = verdict.findings.first()) {
     std::cerr << "error: " << folder.string() << "/" << to_text(*first) << "\n";
     if (const Index more = verdict.findings.failures() - 1; more > 0)

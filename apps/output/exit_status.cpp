@@ -1,5 +1,6 @@
 #include "apps/output/exit_status.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace arcwall {
@@ -30,5 +31,31 @@ ExitStatus exit_status(EndReason reason) {
   assert(false);
   return ExitStatus::internal_error;
 }
+
+const RecordBranch& decisive_branch(const Record& record) {
+  const auto severity = [](const RecordBranch& branch) {
+    switch (exit_status(branch.end->reason)) {
+      case ExitStatus::interrupted:
+        return 3;
+      case ExitStatus::limit_met:
+        return 2;
+      case ExitStatus::success:
+        return 0;
+      case ExitStatus::internal_error:
+      case ExitStatus::wrong_input:
+      case ExitStatus::ended_early:
+      case ExitStatus::no_start:
+      case ExitStatus::file_error:
+      case ExitStatus::not_confirmed:
+      case ExitStatus::out_of_memory:
+        return 1;
+    }
+    return 1;
+  };
+  return *std::max_element(record.branches.begin(), record.branches.end(),
+                           [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); });
+}
+
+ExitStatus exit_status(const Record& record) { return exit_status(decisive_branch(record).end->reason); }
 
 }  // namespace arcwall

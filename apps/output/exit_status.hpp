@@ -1,6 +1,7 @@
 #pragma once
 
 #include "continuation/path_point.hpp"
+#include "model/record.hpp"
 
 namespace arcwall {
 
@@ -20,5 +21,11 @@ enum class ExitStatus {
 
 /// The status of a run whose branch ended so.
 ExitStatus exit_status(EndReason reason);
+
+/// The branch whose end decides the status of a run that has ended: an interrupt, then a limit, then an early end.
+const RecordBranch& decisive_branch(const Record& record);
+
+/// The status of a run that has ended.
+ExitStatus exit_status(const Record& record);
 
 }  // namespace arcwall

@@ -221,7 +221,7 @@ void OutputFolder::write_durably(const std::string& name, std::string_view text)
 void FileSet::write(const std::string& name, const Pieces& text) {
   StagedFile& file = files_.emplace_back(folder_ / name);
   file.write(text);
-  file.flush_to_disk();
+  if (flush_ == Flush::to_the_disk) file.flush_to_disk();
   file.close();
 }
 

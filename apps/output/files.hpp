@@ -94,11 +94,15 @@ class OutputFolder {
   bool made_ = false;
 };
 
+/// Whether files are on the disk before they are put in place, whatever happens to the machine then.
+enum class Flush { to_the_disk, left_to_the_system };
+
 /// Files of a folder that belong together: none is put in place before all are written, so a disk that is full leaves
 /// those of an earlier run as they were.
 class FileSet {
  public:
-  explicit FileSet(const OutputFolder& folder) : folder_(folder.path()) {}
+  explicit FileSet(const OutputFolder& folder, Flush flush = Flush::to_the_disk)
+      : folder_(folder.path()), flush_(flush) {}
 
   /// Throws OutputError.
   void write(const std::string& name, std::string_view text) { write(name, Pieces{text}); }
@@ -109,6 +113,7 @@ class FileSet {
 
  private:
   std::filesystem::path folder_;
+  Flush flush_;
   std::list<StagedFile> files_{};
 };
 

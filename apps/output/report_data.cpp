@@ -168,6 +168,8 @@ OrderedJson members_json(const ShapePictures& shapes) {
   OrderedJson list = OrderedJson::array();
   for (const DrawnMember& member : shapes.members)
     list.push_back({{"name", shown_name(member.name)},
+                    {"from", shown_name(member.from)},
+                    {"to", shown_name(member.to)},
                     {"A", member.A},
                     {"I", member.I},
                     {"EI", member.EI},
@@ -190,6 +192,7 @@ OrderedJson shapes_json(const ShapePictures& shapes) {
       contacts.push_back(contact_json(contact, shapes.greatest_force));
     list.push_back({{"point", picture.point},
                     {"paths", picture.paths},
+                    {"moves", picture.moves},
                     {"contacts", std::move(contacts)},
                     {"forces", forces_json(picture.forces, greatest)}});
   }
@@ -259,6 +262,8 @@ OrderedJson report_data(const Record& record, const ShapePictures& shapes) {
           {"uncertain", uncertain_json(record)},
           {"members", members_json(shapes)},
           {"walls", walls_json(shapes)},
+          {"greatest_move", number(shapes.greatest_move, 4)},
+          {"move_unit", number(shapes.move_unit)},
           {"shapes", shapes_json(shapes)}};
 }
 

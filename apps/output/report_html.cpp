@@ -245,7 +245,8 @@ std::string first_members(const ShapePictures& shapes) {
   std::string text;
   for (std::size_t i = 0; i < shapes.classes.size(); ++i)
     if (shapes.classes[i] == "member")
-      text += fmt::format("<path class=\"first member\" d=\"{}\"/>", shapes.pictures.front().paths[i]);
+      text += fmt::format("<path class=\"first member\" data-member=\"{}\" d=\"{}\"/>", i,
+                          shapes.pictures.front().paths[i]);
   return text;
 }
 
@@ -253,8 +254,9 @@ std::string first_members(const ShapePictures& shapes) {
 std::string stage(const ShapePictures& shapes) {
   if (shapes.pictures.empty()) return "";
   return fmt::format(
-      "<svg id=\"stage\" class=\"shape\" viewBox=\"{}\" role=\"img\" aria-label=\"Deformed shape\">{}<g>{}</g>"
-      "<g id=\"drawn-forces\"></g><g id=\"shown\">{}</g></svg>",
+      "<svg id=\"stage\" class=\"shape\" viewBox=\"{0}\" data-whole=\"{0}\" role=\"img\" aria-label=\"Deformed "
+      "shape\">{1}<g>{2}</g>"
+      "<g id=\"drawn-forces\"></g><g id=\"shown\">{3}</g><g id=\"named-points\"></g></svg>",
       view_box(shapes), walls(shapes), first_members(shapes), shape_paths(shapes, shapes.pictures.front()));
 }
 

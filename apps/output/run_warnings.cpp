@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "apps/output/exit_status.hpp"
+#include "model/shape.hpp"
 
 namespace arcwall {
 
@@ -30,9 +34,69 @@ std::string warning_of_start(const Model& model, const Record& record) {
          "them";
 }
 
+namespace {
+
+// Of any point of a member, from its stress-free place.
+double greatest_displacement(const Model& model, const Record& record, const RecordPoint& point) {
+  double greatest = 0.0;
+  for (const MemberShape& member : shape_of(model.at_stage(record.stage_number(point.branch)), point.state).members)
+    for (const ShapePoint& place : member.points)
+      if (place.displacement.allFinite()) greatest = std::max(greatest, place.displacement.norm());
+  return greatest;
+}
+
+// At some of the points of the paths.
+double greatest_displacement(const Model& model, const Record& record) {
+  constexpr std::size_t most = 20;
+  const std::size_t count = record.points.size(), looked_at = std::min(count, most);
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < looked_at; ++i)
+    greatest =
+        std::max(greatest, greatest_displacement(model, record, record.points[i * (count - 1) / (looked_at - 1)]));
+  return greatest;
+}
+
+// Steps are limited by their length, so that what is too soft moves no further than others, and λ hardly at all.
+double displacement_of_first_step(const Model& model, const Record& record) {
+  const RecordPoint &first = record.points[0], &second = record.points[1];
+  const double moved = greatest_displacement(model, record, second) - greatest_displacement(model, record, first);
+  const double gone = std::abs(second.lambda - first.lambda);
+  return second.branch == first.branch && gone > 0.0 ? std::abs(moved) * std::abs(model.deck().path.step) / gone : 0.0;
+}
+
+bool has_ended_by_itself(const Record& record) {
+  return std::all_of(record.branches.begin(), record.branches.end(), [](const RecordBranch& branch) {
+    if (!branch.end) return false;
+    const ExitStatus status = exit_status(branch.end->reason);
+    return status == ExitStatus::success || status == ExitStatus::ended_early;
+  });
+}
+
+}  // namespace
+
+std::string warning_of_units(const Model& model, const Record& record) {
+  constexpr double small = 1e-6, large = 1e6;  // of the size
+  const std::string advice =
+      ": the units of the deck hardly fit together. Lengths, forces and stresses have to be of one system, as mm, N "
+      "and "
+      "N/mm², or m, kN and kN/m²";
+  if (record.points.size() < 2) return {};
+  const double size = model.structure().length_scale();
+  const double step = displacement_of_first_step(model, record) / size;
+  if (step > large)
+    return fmt::format("a first step of λ as the deck has it would move the structure by {:.1e} times its size", step) +
+           advice;
+  if (!has_ended_by_itself(record)) return {};
+  const double part = greatest_displacement(model, record) / size;
+  return part >= small
+             ? ""
+             : fmt::format("the structure has moved by no more than {:.1e} times its size, all along", part) + advice;
+}
+
 std::vector<std::string> run_warnings(const Model& model, const Record& record) {
   std::vector<std::string> all = model.warnings();
-  if (std::string start = warning_of_start(model, record); !start.empty()) all.push_back(std::move(start));
+  for (std::string warning : {warning_of_start(model, record), warning_of_units(model, record)})
+    if (!warning.empty()) all.push_back(std::move(warning));
   return all;
 }
 

@@ -12,7 +12,12 @@ namespace arcwall {
 /// stability already. Empty where it has not, or where that is not known.
 std::string warning_of_start(const Model& model, const Record& record);
 
-/// The warnings of the deck and of the start.
+/// What a reader of a run that has ended has to know where the structure has moved by less than a millionth of its
+/// size, or by more than a million times its size, all along its paths: the units of lengths, forces and stiffnesses
+/// hardly fit together. Empty else, and of runs that a limit or a signal cut off.
+std::string warning_of_units(const Model& model, const Record& record);
+
+/// The warnings of the deck, of the start and of the units.
 std::vector<std::string> run_warnings(const Model& model, const Record& record);
 
 }  // namespace arcwall

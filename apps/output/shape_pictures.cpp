@@ -1,30 +1,27 @@
 #include "apps/output/shape_pictures.hpp"
 
-#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
 #include <utility>
 
 #include "apps/output/path_lines.hpp"
+#include "apps/output/picture_signs.hpp"
 
 namespace arcwall {
 
 namespace {
 
-constexpr double longer_side = 1e5;  // units: coordinates are whole numbers of five digits
-constexpr double margin = 0.08;      // of the longer side
+constexpr double longer_side = longer_side_of_pictures;
+constexpr double margin = 0.08;  // of the longer side
 // Parts of the longer side. What is drawn outwards from the structure stays in the margin.
 constexpr double longest_force = 0.14, longest_load = 0.07;
-constexpr double arrow_head = 0.018;
-constexpr double support_size = 0.02;
-constexpr double spring_length = 0.05, spring_width = 0.012;
 constexpr double wall_band = 0.025;
-constexpr double moment_radius = 0.035;
 constexpr double thinnest_band = 0.006;
+// Deflections between these can be drawn larger: twice at least, and what is below is round-off.
+constexpr double greatest_enlarged = 0.25, least_enlarged = 1e-8;
 
 struct Box {
   Vec2 low = Vec2::Constant(infinity), high = Vec2::Constant(-infinity);
@@ -134,6 +131,9 @@ class Frame {
     return (Vec2(offset.x(), -offset.y()).array() + margin * longer_side).round();
   }
 
+  // Of a displacement.
+  Vec2 way(const Vec2& move) const { return scale_ * Vec2(move.x(), -stretch_ * move.y()); }
+
   // In the picture too a force stands upright on its wall.
   Vec2 wall_arrow(const Vec2& force, double greatest) const {
     return arrow({stretch_ * force.x(), -force.y()}, force.norm() / greatest, longest_force);
@@ -155,19 +155,6 @@ class Frame {
   Vec2 corner_, size_;
 };
 
-// `M10 20l5-3`: the first point, then the ways from each to the next.
-std::string path_data(const std::vector<Vec2>& places) {
-  std::string data;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Vec2 way = i == 0 ? places[0] : Vec2(places[i] - places[i - 1]);
-    const bool apart = i > 1 && way.x() >= 0.0;
-    data += i == 0 ? "M" : i == 1 ? "l" : apart ? " " : "";
-    fmt::format_to(std::back_inserter(data), FMT_COMPILE("{}{}{}"), std::lround(way.x()), way.y() < 0.0 ? "" : " ",
-                   std::lround(way.y()));
-  }
-  return data;
-}
-
 std::string member_data(const Frame& frame, const MemberShape& member) {
   std::vector<Vec2> places;
   for (const ShapePoint& point : member.points)
@@ -175,80 +162,27 @@ std::string member_data(const Frame& frame, const MemberShape& member) {
   return path_data(places);
 }
 
-std::string arrow_data(const Vec2& from, const Vec2& way) {
-  const double length = way.norm();
-  if (length < 1.0) return "";
-  const Vec2 along = way / length, tip = from + way;
-  const double head = std::min(arrow_head * longer_side, length);
-  const Vec2 across = 0.4 * head * perp(along), neck = tip - head * along;
-  const Vec2 one = neck + across, other = neck - across;
-  return fmt::format("M{:.0f} {:.0f}L{:.0f} {:.0f}M{:.0f} {:.0f}L{:.0f} {:.0f}L{:.0f} {:.0f}Z", from.x(), from.y(),
-                     neck.x(), neck.y(), one.x(), one.y(), tip.x(), tip.y(), other.x(), other.y());
+// The displacements of the same points, in a unit that keeps their digits where they are small.
+std::string moves_data(const Frame& frame, const MemberShape& member, double unit) {
+  std::vector<Vec2> moves;
+  for (const ShapePoint& point : member.points)
+    if (point.position.allFinite()) moves.push_back((frame.way(point.displacement) / unit).array().round());
+  return path_data(moves);
 }
 
-// A part of a circle about the point, from its right side on, with an arrow's head: three quarters for the greatest.
-std::string moment_data(const Vec2& at, double part) {
-  if (!(std::abs(part) > 0.0) || !std::isfinite(part)) return "";
-  const double radius = moment_radius * longer_side, angle = 1.5 * pi * part;
-  const Vec2 outwards(std::cos(angle), -std::sin(angle));
-  const Vec2 end = at + radius * outwards;
-  const Vec2 along = (part > 0.0 ? -1.0 : 1.0) * perp(outwards);
-  const double head = arrow_head * longer_side;
-  const auto arc = [&](bool clockwise, const Vec2& to) {
-    return fmt::format("A{:.0f} {:.0f} 0 {} {} {:.0f} {:.0f}", radius, radius, std::abs(angle) > pi ? 1 : 0,
-                       clockwise ? 1 : 0, to.x(), to.y());
-  };
-  const Vec2 begin = at + Vec2(radius, 0.0);  // there and back, or the arc would be filled
-  return fmt::format("M{:.0f} {:.0f}", begin.x(), begin.y()) + arc(part < 0.0, end) + arc(part > 0.0, begin) +
-         arrow_data(end - 0.5 * head * along, head * along);
+double greatest_move(const Frame& frame, const std::vector<Scene>& scenes) {
+  double greatest = 0.0;
+  for (const Scene& scene : scenes)
+    for (const MemberShape& member : scene.shape.members)
+      for (const ShapePoint& point : member.points)
+        if (point.position.allFinite()) greatest = std::max(greatest, frame.way(point.displacement).norm());
+  return greatest;
 }
 
-// A square where the rotation is held, else a triangle with its tip at the point; a line behind it where it can roll.
-std::string support_data(const Vec2& at, const HeldPoint& held) {
-  const double size = support_size * longer_side;
-  if (held.rotation)
-    return fmt::format("M{:.0f} {:.0f}h{:.0f}v{:.0f}h{:.0f}z", at.x() - 0.5 * size, at.y() - 0.5 * size, size, size,
-                       -size);
-  const bool upright = held.z;  // else it lies on its side
-  const auto place = [&](double across, double away) {
-    return upright ? Vec2(at.x() + across * size, at.y() + away * size)
-                   : Vec2(at.x() - away * size, at.y() + across * size);
-  };
-  const Vec2 one = place(-0.6, 1.0), other = place(0.6, 1.0);
-  std::string data = fmt::format("M{:.0f} {:.0f}L{:.0f} {:.0f}L{:.0f} {:.0f}Z", at.x(), at.y(), one.x(), one.y(),
-                                 other.x(), other.y());
-  if (held.x && held.z) return data;
-  const Vec2 first = place(-0.8, 1.35), last = place(0.8, 1.35);
-  return data + fmt::format("M{:.0f} {:.0f}L{:.0f} {:.0f}", first.x(), first.y(), last.x(), last.y());
-}
-
-// A line that goes to and fro.
-std::string zigzag_data(const Vec2& from, const Vec2& to) {
-  const Vec2 way = to - from;
-  if (way.norm() < 1.0) return "";
-  const Vec2 across = spring_width * longer_side * perp(way.normalized());
-  std::vector<Vec2> places{from};
-  constexpr int turns = 6;
-  for (int i = 0; i <= turns; ++i) {
-    const double side = i == 0 || i == turns ? 0.0 : i % 2 == 0 ? -0.5 : 0.5;
-    places.push_back((from + (0.2 + 0.6 * i / turns) * way + side * across).array().round());
-  }
-  places.push_back(to);
-  return path_data(places);
-}
-
-// Down and to the left into the ground, or to the other point; a circle where it resists rotation.
-std::string spring_data(const Frame& frame, const DrawnSpring& spring) {
-  const Vec2 at = frame.place(spring.at);
-  std::string data;
-  if (spring.to && (spring.x || spring.z)) data += zigzag_data(at, frame.place(*spring.to));
-  const double length = spring_length * longer_side;
-  if (!spring.to && spring.x) data += zigzag_data(at, at - Vec2(length, 0.0));
-  if (!spring.to && spring.z) data += zigzag_data(at, at + Vec2(0.0, length));
-  if (!spring.rotation) return data;
-  const double radius = spring_width * longer_side;
-  return data + fmt::format("M{0:.0f} {1:.0f}a{2:.0f} {2:.0f} 0 1 0 {3:.0f} 0a{2:.0f} {2:.0f} 0 1 0 -{3:.0f} 0",
-                            at.x() - radius, at.y(), radius, 2.0 * radius);
+double unit_of_moves(double greatest) {
+  constexpr double steps = 2000.0;
+  const double part = greatest / longer_side;
+  return part > least_enlarged && part <= greatest_enlarged ? greatest / steps : 0.0;
 }
 
 std::vector<std::string> classes_of(const Scene& scene) {
@@ -300,7 +234,10 @@ std::vector<std::vector<ForceSample>> sampled_forces(const Shape& shape, std::si
 ShapePicture picture_of(const Frame& frame, const Greatest& greatest, std::size_t point, const Scene& scene) {
   std::string moving, springs, supports, loads, forces, touches;
   for (const WallShape& wall : scene.walls) moving += path_data(wall_band_of(frame, wall));
-  for (const DrawnSpring& spring : scene.springs) springs += spring_data(frame, spring);
+  for (const DrawnSpring& spring : scene.springs) {
+    const auto to = spring.to ? std::optional(frame.place(*spring.to)) : std::nullopt;
+    springs += spring_data(frame.place(spring.at), to, spring);
+  }
   for (const HeldPoint& held : scene.supports) supports += support_data(frame.place(held.at), held);
   for (const AppliedLoad& load : scene.loads) {
     const Vec2 place = frame.place(load.at), way = frame.load_arrow(load.force, greatest.load);
@@ -456,7 +393,7 @@ std::vector<double> section_heights(const deck::Deck& deck) {
 std::vector<DrawnMember> drawn_members(const deck::Deck& deck) {
   std::vector<DrawnMember> members;
   for (const deck::Member& member : deck.members) {
-    DrawnMember& drawn = members.emplace_back(DrawnMember{.name = member.name});
+    DrawnMember& drawn = members.emplace_back(DrawnMember{.name = member.name, .from = member.from, .to = member.to});
     const deck::Section* section = find(deck.sections, member.section);
     const deck::Material* material = find(deck.materials, member.material);
     if (section == nullptr || material == nullptr) continue;
@@ -551,7 +488,9 @@ ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
                        .height = frame.size().y(),
                        .stretch = stretch_of(box.size()),
                        .greatest_force = greatest.wall,
+                       .greatest_move = greatest_move(frame, scenes),
                        .classes = classes_of(scenes.front())};
+  result.move_unit = unit_of_moves(result.greatest_move);
   result.thickness.resize(result.classes.size(), 0.0);
   for (std::size_t m = 0; m < setting.heights.size(); ++m) result.thickness[m] = frame.thickness(setting.heights[m]);
   for (const WallShape& wall : setting.walls) draw_wall(frame, wall, result);
@@ -561,6 +500,9 @@ ShapePictures draw(const DrawnScenes& drawn, const Setting& setting) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     ShapePicture& added = result.pictures.emplace_back(picture_of(frame, greatest, points[i], scenes[i]));
     if (samples >= coarsest) added.forces = sampled_forces(scenes[i].shape, samples);
+    if (result.move_unit > 0.0)
+      for (const MemberShape& member : scenes[i].shape.members)
+        added.moves.push_back(moves_data(frame, member, result.move_unit));
   }
   result.members = setting.members;
   for (const WallShape& wall : setting.walls) result.walls.push_back(wall.name);

@@ -56,6 +56,7 @@ DrawnScenes scenes_to_draw(const Model& model, const Record& record);
 /// What stresses and curvatures follow from.
 struct DrawnMember {
   std::string name{};
+  std::string from{}, to{};           ///< points of the deck
   double A = 0.0, I = 0.0, EI = 0.0;  ///< EI and I of bars are 0
   double half_height = 0.0;           ///< 0 if unknown [length]
 };
@@ -80,6 +81,7 @@ struct ForceSample {
 struct ShapePicture {
   std::size_t point = 0;                           ///< of the record
   std::vector<std::string> paths{};                ///< as many as the pictures have classes
+  std::vector<std::string> moves{};                ///< of the points of each member's path, from rest; see `move_unit`
   std::vector<ContactMark> contacts{};             ///< closed
   std::vector<std::vector<ForceSample>> forces{};  ///< of each member; empty where they would be too much for a page
 };
@@ -89,6 +91,8 @@ struct ShapePictures {
   double width = 0.0, height = 0.0;
   double stretch = 1.0;                 ///< heights are drawn so many times as large as lengths along x
   double greatest_force = 0.0;          ///< of a wall: that of the longest arrow [force]
+  double greatest_move = 0.0;           ///< of a point of a member, from rest
+  double move_unit = 0.0;               ///< of `moves`; 0: there are none, as deflections fill the picture as they are
   std::vector<std::string> surfaces{};  ///< of the walls: an open path each
   std::vector<std::string> bodies{};    ///< bands behind the surfaces: a closed path each
   std::vector<double> thickness{};      ///< of the paths; 0: a mere line

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -78,9 +79,17 @@ void reopen(const fs::path& sweep_folder, int number) {
   if (error) fail(draft, "cannot be made", error.message());
 }
 
-bool is_begun(const fs::path& sweep_folder, int number) {
+std::vector<int> begun_cases(const fs::path& sweep_folder) {
+  std::vector<int> numbers;
   std::error_code ignored;
-  return fs::exists(draft_folder(sweep_folder, number), ignored);
+  for (const auto& entry : fs::directory_iterator(sweep_folder / "cases", ignored)) {
+    const std::string name = entry.path().filename().string();
+    int number = 0;
+    const char* const end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + 1, end, number);
+    if (name.front() == '.' && read.ec == std::errc() && read.ptr == end) numbers.push_back(number);
+  }
+  return numbers;
 }
 
 std::optional<CaseDraft> CaseDraft::claim(const fs::path& sweep_folder, int number) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace arcwall::sweep {
 
@@ -18,8 +19,8 @@ void forget(const std::filesystem::path& sweep_folder, int number);
 /// OutputError.
 void reopen(const std::filesystem::path& sweep_folder, int number);
 
-/// Whether a draft of the case is there: it is being run, or was begun and can go on.
-bool is_begun(const std::filesystem::path& sweep_folder, int number);
+/// Of which cases drafts are there: they are being run, or were begun and can go on.
+std::vector<int> begun_cases(const std::filesystem::path& sweep_folder);
 
 /// The folder of a case that is being run: hidden, held by this process alone, and gone in the end unless it was
 /// published or left for another process to go on with.

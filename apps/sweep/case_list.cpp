@@ -1,11 +1,8 @@
 #include "apps/sweep/case_list.hpp"
 
-#include <sstream>
-
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "model/deck/value.hpp"
-#include "model/regular_file.hpp"
 
 namespace arcwall::sweep {
 
@@ -75,26 +72,52 @@ std::string to_text(const std::vector<Case>& cases) {
   return text;
 }
 
-std::vector<Case> read_cases(const std::filesystem::path& folder) {
-  const std::string file = (folder / case_list_name).string();
+namespace {
+
+std::filesystem::path list_of(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / case_list_name;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     throw InputError({Diagnostic{.file = folder.string(),
                                  .message = "is no planned sweep: it has no " + std::string(case_list_name),
                                  .cure = "plan one with trace-path sweep plan SWEEP.toml --out " + folder.string()}});
-  std::vector<Case> result;
-  std::istringstream stream(bytes_of_regular_file(file));
-  for (std::string line; std::getline(stream, line);) {
-    Case one;
-    if (!read_case(line, one) || one.number != static_cast<int>(result.size()))
-      throw InputError({Diagnostic{.file = file,
-                                   .line = static_cast<int>(result.size()) + 1,
-                                   .message = "is not the line of case " + std::to_string(result.size()),
-                                   .cure = "plan the sweep again in a new folder"}});
-    result.push_back(std::move(one));
-  }
-  if (result.empty()) throw OutputError(file + ": holds no case; plan the sweep again in a new folder");
-  return result;
+  return file;
+}
+
+[[noreturn]] void fail_as_empty(const std::filesystem::path& folder) {
+  throw OutputError((folder / case_list_name).string() + ": holds no case; plan the sweep again in a new folder");
+}
+
+}  // namespace
+
+CaseReader::CaseReader(const std::filesystem::path& folder) : lines_(list_of(folder)), file_(folder / case_list_name) {}
+
+std::optional<Case> CaseReader::next() {
+  std::string line;
+  if (!lines_.next(line)) return std::nullopt;
+  Case one;
+  if (!read_case(line, one) || one.number != number_)
+    throw InputError({Diagnostic{.file = file_.string(),
+                                 .line = number_ + 1,
+                                 .message = "is not the line of case " + std::to_string(number_),
+                                 .cure = "plan the sweep again in a new folder"}});
+  ++number_;
+  return one;
+}
+
+bool CaseReader::skip() {
+  std::string line;
+  if (!lines_.next(line)) return false;
+  ++number_;
+  return true;
+}
+
+std::size_t count_cases(const std::filesystem::path& folder) {
+  CaseReader reader(folder);
+  std::size_t count = 0;
+  while (reader.skip()) ++count;
+  if (count == 0) fail_as_empty(folder);
+  return count;
 }
 
 }  // namespace arcwall::sweep

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "apps/output/exit_status.hpp"
-#include "apps/sweep/case_folder.hpp"
 #include "apps/sweep/runner.hpp"
 #include "core/error.hpp"
 #include "model/event_names.hpp"
@@ -74,30 +73,6 @@ std::string signal_text(int signal) {
   return "signal " + std::to_string(signal) + (description == nullptr ? "" : " (" + std::string(description) + ")");
 }
 
-CaseResult read_folder(const fs::path& folder) {
-  CaseResult result{.there = true};
-  const Json record = parsed(folder / case_file_name);
-  std::error_code ignored;
-  if (record.at("status").is_null()) {
-    const bool overdue = record.at("overdue").get<bool>();
-    result.reason = overdue ? std::string(to_text(EndReason::max_time)) : "crash";
-    result.detail = overdue ? "did not stop and was killed" : signal_text(record.at("signal").get<int>());
-    return result;
-  }
-  result.status = record.at("status").get<int>();
-  if (fs::exists(folder / "result.json", ignored)) {
-    const Json outputs = parsed(folder / "result.json");
-    result.counts = outputs.at("counts");
-    add_end(outputs, result);
-    const Json record_of_events = parsed(folder / "events.json");
-    for (const Json& event : record_of_events.at("events")) result.events.push_back(event);
-  } else {
-    result.reason = reason_without_results(*result.status);
-    result.detail = first_line(content(folder / messages_file_name));
-  }
-  return result;
-}
-
 bool is_limit(const Json& event) {
   const std::string kind = event.value("kind", "");
   return kind == to_text(EventKind::limit_point) || kind == to_text(EventKind::contact_limit_point);
@@ -115,23 +90,78 @@ bool CaseResult::failed() const {
   return !there || (status != 0 && !(early && snap_load(*this)));
 }
 
-CaseResult read_result(const fs::path& sweep_folder, int number) {
-  if (!is_complete(sweep_folder, number)) return {.reason = "not_run"};
-  const fs::path folder = case_folder(sweep_folder, number);
-  try {
-    return read_folder(folder);
-  } catch (const Json::exception&) {
-    fail_as_damaged(folder);
-  }
+Json CaseEnd::json() const {
+  Json json;
+  json["case"] = number;
+  json["set"] = set;
+  json["options"] = options;
+  json["max_time"] = most_seconds ? Json(*most_seconds) : Json(nullptr);
+  json["status"] = status ? Json(*status) : Json(nullptr);
+  json["signal"] = signal == 0 ? Json(nullptr) : Json(signal);
+  json["overdue"] = overdue;
+  return json;
 }
 
-bool was_hindered(const fs::path& sweep_folder, int number) {
-  const Json record = Json::parse(content(case_folder(sweep_folder, number) / case_file_name), nullptr, false);
-  if (!record.is_object()) return false;  // told where it is collected
-  const Json status = record.value("status", Json());
-  if (status.is_number_integer())
-    return status == static_cast<int>(ExitStatus::file_error) || status == static_cast<int>(ExitStatus::out_of_memory);
-  return record.value("signal", Json()) == SIGKILL && !record.value("overdue", false);
+bool CaseEnd::was_hindered() const {
+  if (!status) return signal == SIGKILL && !overdue;
+  const auto as = static_cast<ExitStatus>(*status);
+  return as == ExitStatus::file_error || as == ExitStatus::out_of_memory;
+}
+
+std::optional<CaseEnd> read_case_end(const Json& json) {
+  if (!json.is_object()) return std::nullopt;
+  const Json status = json.value("status", Json()), signal = json.value("signal", Json());
+  if (!status.is_number_integer() && !signal.is_number_integer()) return std::nullopt;
+  CaseEnd end{.overdue = json.value("overdue", Json()) == Json(true)};
+  if (status.is_number_integer()) end.status = status.get<int>();
+  if (signal.is_number_integer()) end.signal = signal.get<int>();
+  return end;
+}
+
+CaseResult read_folder(const fs::path& folder, const CaseEnd& end) {
+  CaseResult result{.there = true, .status = end.status};
+  std::error_code ignored;
+  if (!end.status) {
+    result.reason = end.overdue ? std::string(to_text(EndReason::max_time)) : "crash";
+    result.detail = end.overdue ? "did not stop and was killed" : signal_text(end.signal);
+  } else if (fs::exists(folder / "result.json", ignored)) {
+    const Json outputs = parsed(folder / "result.json");
+    result.counts = outputs.at("counts");
+    add_end(outputs, result);
+    const Json record_of_events = parsed(folder / "events.json");
+    for (const Json& event : record_of_events.at("events")) result.events.push_back(event);
+  } else {
+    result.reason = reason_without_results(*result.status);
+    result.detail = first_line(content(folder / messages_file_name));
+  }
+  return result;
+}
+
+// Of an event what tables and maps need.
+Json record_of(const CaseEnd& end, const CaseResult& result) {
+  Json record = end.json();
+  for (const char* of_the_list : {"case", "set"}) record.erase(of_the_list);
+  record["reason"] = result.reason;
+  record["detail"] = result.detail;
+  record["counts"] = result.counts;
+  Json& events = record["events"] = Json::array();
+  for (const Json& event : result.events) {
+    Json& kept = events.emplace_back(Json::object());
+    for (const char* key :
+         {"id", "kind", "branch", "step", "arc", "lambda", "monitors", "unstable_before", "unstable_after", "reason"})
+      if (event.contains(key)) kept[key] = event.at(key);
+  }
+  return record;
+}
+
+CaseResult result_of_record(const Json& record) {
+  CaseResult result{.there = true,
+                    .reason = record.at("reason").get<std::string>(),
+                    .detail = record.at("detail").get<std::string>(),
+                    .counts = record.at("counts")};
+  if (!record.at("status").is_null()) result.status = record.at("status").get<int>();
+  for (const Json& event : record.at("events")) result.events.push_back(event);
+  return result;
 }
 
 std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds) {

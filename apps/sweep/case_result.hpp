@@ -22,12 +22,32 @@ struct CaseResult {
   bool failed() const;
 };
 
-/// Reads a case's results. OutputError if they are there but damaged.
-CaseResult read_result(const std::filesystem::path& sweep_folder, int number);
+/// What the process of a case came to besides its outputs, as it stands in case.json.
+struct CaseEnd {
+  int number = 0;
+  Json set{};                            ///< values of the keys
+  std::vector<std::string> options{};    ///< of `trace-path run`
+  std::optional<double> most_seconds{};  ///< that it was given
+  std::optional<int> status{};           ///< empty if a signal ended it
+  int signal = 0;                        ///< 0: none
+  bool overdue = false;                  ///< it was killed because it did not stop in time
 
-/// Whether something outside hindered a case that has results: a full disk, too little memory, or somebody who killed
-/// it. It may succeed another time.
-bool was_hindered(const std::filesystem::path& sweep_folder, int number);
+  Json json() const;
+
+  /// Whether something outside hindered it: a full disk, too little memory, or somebody who killed it. It may succeed
+  /// another time.
+  bool was_hindered() const;
+};
+
+/// The same of case.json; empty if it is none.
+std::optional<CaseEnd> read_case_end(const Json& json);
+
+/// Reads what a case wrote into a folder, and how its process ended. OutputError if files are damaged.
+CaseResult read_folder(const std::filesystem::path& folder, const CaseEnd& end);
+
+/// The members of a case's record, and the result that such members tell. Throws Json::exception of others.
+Json record_of(const CaseEnd& end, const CaseResult& result);
+CaseResult result_of_record(const Json& record);
 
 /// λ of the first event of one of these kinds.
 std::optional<double> first_load(const CaseResult& result, const std::vector<std::string>& kinds);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <ctime>
+#include <iostream>
 
 #include "core/error.hpp"
 
@@ -15,7 +16,7 @@ namespace arcwall::sweep {
 
 namespace {
 
-// What the child needs, made before the fork: behind it nothing may be allocated.
+// What the child needs, made before the fork. This program has one thread, so that a body may allocate behind it.
 struct Prepared {
   std::vector<char*> arguments{};
   const char* program = nullptr;
@@ -23,6 +24,7 @@ struct Prepared {
   const char* messages = nullptr;
   pid_t parent = 0;
   int kept_open = -1;
+  const ChildCommand* command = nullptr;
 };
 
 [[noreturn]] void become(const Prepared& prepared) {
@@ -40,6 +42,11 @@ struct Prepared {
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (prepared.command->body) {
+    const int status = prepared.command->body(prepared.command->arguments);
+    std::cout.flush();
+    ::_exit(status);
+  }
   ::execv(prepared.program, prepared.arguments.data());
   ::_exit(not_started);
 }
@@ -53,7 +60,8 @@ pid_t start(const ChildCommand& command) {
                     .folder = command.folder.c_str(),
                     .messages = command.messages.c_str(),
                     .parent = ::getpid(),
-                    .kept_open = command.kept_open};
+                    .kept_open = command.kept_open,
+                    .command = &command};
   for (std::string& word : words) prepared.arguments.push_back(word.data());
   prepared.arguments.push_back(nullptr);
   const pid_t child = ::fork();

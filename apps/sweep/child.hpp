@@ -3,14 +3,19 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace arcwall::sweep {
 
+/// What a process does in place of another program: it takes arguments and gives its exit status.
+using ChildBody = std::function<int(const std::vector<std::string>&)>;
+
 /// A program to be started, with its arguments, in a folder. It reads nothing, and writes its messages into a file.
 struct ChildCommand {
   std::filesystem::path program{};
+  ChildBody body{};  ///< in place of the program: a process of this one, which need not be loaded anew
   std::vector<std::string> arguments{};
   std::filesystem::path folder{};
   std::filesystem::path messages{};

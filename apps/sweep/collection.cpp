@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "model/deck/reader.hpp"
+#include "model/event_names.hpp"
 
 namespace arcwall::sweep {
 
@@ -18,27 +19,16 @@ std::string cell(const std::optional<double>& value) { return value ? round_trip
 
 Json member(const Json& object, const char* key) { return object.is_object() ? object.value(key, Json()) : Json(); }
 
-std::string case_cells(const Collection& collection, std::size_t i) {
-  std::string text = std::to_string(collection.cases[i].number);
-  for (const Key& key : collection.sweep.keys) text += "," + cell(value_of(collection.cases[i], key.name));
+std::string case_cells(const Sweep& sweep, const Case& one) {
+  std::string text = std::to_string(one.number);
+  for (const Key& key : sweep.keys) text += "," + cell(value_of(one, key.name));
   return text;
 }
 
-std::string case_titles(const Collection& collection) {
+std::string case_titles(const Sweep& sweep) {
   std::string text = "case";
-  for (const Key& key : collection.sweep.keys) text += "," + csv_cell(key.name);
+  for (const Key& key : sweep.keys) text += "," + csv_cell(key.name);
   return text;
-}
-
-// Of all cases, in the order in which they turn up.
-std::vector<std::string> monitors(const Collection& collection) {
-  std::vector<std::string> names;
-  for (const CaseResult& result : collection.results) {
-    if (result.events.empty()) continue;
-    for (const auto& [name, value] : result.events.front().at("monitors").items())
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  return names;
 }
 
 // A copy of the deck may have been changed since.
@@ -50,14 +40,30 @@ deck::Deck deck_of(const Case& one, const std::filesystem::path& folder) {
   }
 }
 
+Case first_case(const std::filesystem::path& folder) { return CaseReader(folder).next().value(); }
+
+template <class Value>
+void add_once(std::vector<Value>& list, const Value& value) {
+  if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
+}
+
+constexpr std::size_t most_listed = 10;
+
 }  // namespace
 
-Collection collect(const std::filesystem::path& folder) {
-  Collection collection{.cases = read_cases(folder)};
-  collection.sweep = read_sweep((folder / sweep_file_name).string());
-  collection.deck = deck_of(collection.cases.front(), folder);
-  for (const Case& one : collection.cases) collection.results.push_back(read_result(folder, one.number));
-  return collection;
+Collection::Collection(std::filesystem::path folder)
+    : folder_(std::move(folder)),
+      size_(count_cases(folder_)),
+      sweep_(read_sweep((folder_ / sweep_file_name).string(), Rows::left_out)),
+      results_(folder_, size_) {
+  const Case first = first_case(folder_);
+  deck_ = deck_of(first, folder_);
+  deck_file_ = first.deck;
+}
+
+void Collection::visit(const std::function<void(const Case&, const CaseResult&)>& each) const {
+  CaseReader cases(folder_);
+  while (const auto one = cases.next()) each(*one, results_.read(one->number));
 }
 
 const Json& value_of(const Case& one, const std::string& key) {
@@ -66,61 +72,110 @@ const Json& value_of(const Case& one, const std::string& key) {
   return found == one.set.end() ? nothing : found->second;
 }
 
-std::string sweep_csv(const Collection& collection) {
-  const std::vector<std::string> names = monitors(collection);
-  std::string text = case_titles(collection) + ",event,kind,branch,step,arc,lambda";
-  for (const std::string& name : names) text += "," + csv_cell(name);
-  text += ",unstable_before,unstable_after,reason\n";
-  for (std::size_t i = 0; i < collection.cases.size(); ++i) {
-    const std::string begin = case_cells(collection, i);
-    for (const Json& event : collection.results[i].events) {
-      text += begin;
-      for (const char* key : {"id", "kind", "branch", "step", "arc", "lambda"}) text += "," + cell(member(event, key));
-      const Json values = member(event, "monitors");
-      for (const std::string& name : names) text += "," + cell(member(values, name.c_str()));
-      for (const char* key : {"unstable_before", "unstable_after", "reason"}) text += "," + cell(member(event, key));
-      text += "\n";
-    }
+// --- Overview
+// ---------------------------------------------------------------------------------------------------------
+
+void KeyRange::add(const Json& value) {
+  if (!value.is_number()) numbers = false;
+  if (value.is_number()) {
+    low = std::min(low, value.get<double>());
+    high = std::max(high, value.get<double>());
   }
-  return text;
+  if (distinct.size() <= most_distinct) add_once(distinct, value);
 }
 
-std::string cases_csv(const Collection& collection) {
-  std::string text = case_titles(collection) +
-                     ",status,reason,detail,first_contact,limit_loads,snap_load,branches,points,events,iterations\n";
-  for (std::size_t i = 0; i < collection.cases.size(); ++i) {
-    const CaseResult& result = collection.results[i];
-    std::string limits;
-    for (const double load : limit_loads(result)) limits += (limits.empty() ? "" : " ") + round_trip(load);
-    text += case_cells(collection, i) + "," + (result.status ? std::to_string(*result.status) : "") + "," +
-            result.reason + "," + csv_cell(result.detail) + "," + cell(first_load(result, {"contact-closes"})) + "," +
-            limits + "," + cell(snap_load(result));
-    for (const char* key : {"branches", "points", "events", "iterations"})
-      text += "," + cell(member(result.counts, key));
-    text += "\n";
-  }
-  return text;
-}
-
-std::vector<Failure> failures(const Collection& collection) {
-  std::vector<Failure> list;
-  for (std::size_t i = 0; i < collection.cases.size(); ++i) {
-    const CaseResult& result = collection.results[i];
-    if (!result.failed()) continue;
+void Overview::add(const Case& one, const CaseResult& result) {
+  for (const auto& [key, value] : one.set) keys[key].add(value);
+  if (result.there) ++ran;
+  if (result.failed()) {
+    ++failed;
     const auto same = [&](const Failure& failure) { return failure.reason == result.reason; };
-    auto found = std::find_if(list.begin(), list.end(), same);
-    if (found == list.end()) found = list.insert(list.end(), Failure{.reason = result.reason});
-    found->cases.push_back(collection.cases[i].number);
+    auto found = std::find_if(failures.begin(), failures.end(), same);
+    if (found == failures.end()) found = failures.insert(found, Failure{.reason = result.reason});
+    ++found->count;
+    if (found->first.size() <= most_listed) found->first.push_back(one.number);
   }
-  return list;
+  if (result.events.empty()) return;
+  for (const auto& [name, value] : result.events.front().at("monitors").items()) add_once(monitors, name);
+  for (const Json& event : result.events) add_once(event_kinds, event.value("kind", std::string()));
+  has_snaps = has_snaps || snap_load(result).has_value();
 }
 
-std::string listed(const std::vector<int>& numbers) {
-  constexpr std::size_t most = 10;
+Overview overview(const Collection& collection) {
+  Overview all;
+  collection.visit([&](const Case& one, const CaseResult& result) { all.add(one, result); });
+  std::vector<std::string> in_order;
+  for (const EventKind kind :
+       {EventKind::contact_closes, EventKind::contact_opens, EventKind::contact_spreads, EventKind::contact_gathers,
+        EventKind::contact_passes, EventKind::limit_point, EventKind::contact_limit_point,
+        EventKind::displacement_limit, EventKind::branch_point}) {
+    const std::string name(to_text(kind));
+    if (std::find(all.event_kinds.begin(), all.event_kinds.end(), name) != all.event_kinds.end())
+      in_order.push_back(name);
+  }
+  all.event_kinds = std::move(in_order);
+  return all;
+}
+
+std::string listed(const Failure& failure) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(numbers.size(), most); ++i)
-    text += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
-  return text + (numbers.size() > most ? ", …" : "");
+  for (std::size_t i = 0; i < std::min(failure.first.size(), most_listed); ++i)
+    text += (i > 0 ? ", " : "") + std::to_string(failure.first[i]);
+  return text + (failure.count > most_listed ? ", …" : "");
+}
+
+// --- Tables
+// -----------------------------------------------------------------------------------------------------------
+
+void Tables::Buffered::add(const std::string& more) {
+  constexpr std::size_t enough = std::size_t{1} << 18;
+  text += more;
+  if (text.size() < enough) return;
+  file.write(text);
+  text.clear();
+}
+
+void Tables::Buffered::finish() {
+  file.write(text);
+  file.close();
+}
+
+Tables::Tables(const Collection& collection, const Overview& of_all)
+    : collection_(collection),
+      monitors_(of_all.monitors),
+      cases_{.file = StagedFile(collection.folder() / "cases.csv")},
+      events_{.file = StagedFile(collection.folder() / "sweep.csv")} {
+  const std::string titles = case_titles(collection.sweep());
+  cases_.add(titles + ",status,reason,detail,first_contact,limit_loads,snap_load,branches,points,events,iterations\n");
+  std::string text = titles + ",event,kind,branch,step,arc,lambda";
+  for (const std::string& name : monitors_) text += "," + csv_cell(name);
+  events_.add(text + ",unstable_before,unstable_after,reason\n");
+}
+
+void Tables::add(const Case& one, const CaseResult& result) {
+  const std::string begin = case_cells(collection_.sweep(), one);
+  std::string limits;
+  for (const double load : limit_loads(result)) limits += (limits.empty() ? "" : " ") + round_trip(load);
+  std::string text = begin + "," + (result.status ? std::to_string(*result.status) : "") + "," + result.reason + "," +
+                     csv_cell(result.detail) + "," + cell(first_load(result, {"contact-closes"})) + "," + limits + "," +
+                     cell(snap_load(result));
+  for (const char* key : {"branches", "points", "events", "iterations"}) text += "," + cell(member(result.counts, key));
+  cases_.add(text + "\n");
+  for (const Json& event : result.events) {
+    text = begin;
+    for (const char* key : {"id", "kind", "branch", "step", "arc", "lambda"}) text += "," + cell(member(event, key));
+    const Json values = member(event, "monitors");
+    for (const std::string& name : monitors_) text += "," + cell(member(values, name.c_str()));
+    for (const char* key : {"unstable_before", "unstable_after", "reason"}) text += "," + cell(member(event, key));
+    events_.add(text + "\n");
+  }
+}
+
+void Tables::finish() {
+  cases_.finish();
+  events_.finish();
+  cases_.file.put_in_place();
+  events_.file.put_in_place();
 }
 
 }  // namespace arcwall::sweep

@@ -11,7 +11,10 @@ namespace {
 
 // A task has a share of the cases. The command itself names no file: GNU parallel would see its own signs in a name,
 // and shells theirs. The options stand behind `set --`, for which any text is a word.
-constexpr const char* one_task = R"("$TRACE_PATH" sweep run "$SWEEP" --quiet --tolerant --part)";
+std::string one_task(const JobScript& job) {
+  return std::string(R"("$TRACE_PATH" sweep run "$SWEEP" --quiet --tolerant)") + (job.records ? " --records" : "") +
+         " --part";
+}
 
 // Clusters limit the size of an array, mostly to 1001 tasks.
 int tasks_of(const JobScript& job) {
@@ -39,7 +42,8 @@ std::string parallel(const JobScript& job) {
       "# Runs the cases of a sweep with GNU parallel. Cases that have results are not run again.\n"
       "set -eu\n{}PARALLEL_SHELL=/bin/sh\nOPTIONS={}\nexport PARALLEL_SHELL OPTIONS\n"
       "seq 0 {} | parallel{} 'eval \"set --$OPTIONS\"; {} {{}}/{} -- \"$@\"'\n",
-      names(job), shell_word(words), tasks - 1, job.jobs ? fmt::format(" --jobs {}", *job.jobs) : "", one_task, tasks);
+      names(job), shell_word(words), tasks - 1, job.jobs ? fmt::format(" --jobs {}", *job.jobs) : "", one_task(job),
+      tasks);
 }
 
 std::string directive(const char* name, const std::string& value) {
@@ -63,7 +67,7 @@ std::string slurm(const JobScript& job) {
              "# Runs the cases of a sweep as an array of Slurm. Cases that have results are not run again.\n"
              "set -u\n{}set --{}\n"
              "exec {} \"$SLURM_ARRAY_TASK_ID/{}\" -- \"$@\"\n",
-             names(job), options(job), one_task, tasks);
+             names(job), options(job), one_task(job), tasks);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct JobScript {
   std::optional<int> jobs{};   ///< at a time; empty: what the engine takes by itself
   std::optional<int> tasks{};  ///< among which the cases are shared; empty: as many as cases, at most 1000
   std::string time{}, memory{}, partition{}, log{};  ///< of a task, as Slurm takes them; empty: what it takes by itself
+  bool records = false;                              ///< results are kept as records
   std::vector<std::string> options{};                ///< of `trace-path run`
 };
 

@@ -3,51 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
-#include "apps/output/markup.hpp"
-#include "apps/sweep/case_list.hpp"
+#include "apps/output/svg_chart.hpp"
+#include "apps/sweep/contour.hpp"
 #include "apps/sweep/map_axis.hpp"
+#include "apps/sweep/plot_frame.hpp"
 
 namespace arcwall::sweep {
 
 namespace {
 
-// Pixels. The plot's corner is at (left, top).
-constexpr double left = 90.0, top = 16.0, plot_width = 520.0, plot_height = 380.0;
-constexpr double bar_left = left + plot_width + 30.0, bar_width = 16.0;
-constexpr double width = bar_left + bar_width + 90.0, height = top + plot_height + 60.0;
-
-using Colour = std::array<double, 3>;  // 0 … 255
-
-// Viridis, by Nathaniel Smith and Stéfan van der Walt (public domain), at nine places.
-constexpr std::array<Colour, 9> viridis{{{68, 1, 84},
-                                         {72, 40, 120},
-                                         {62, 74, 137},
-                                         {49, 104, 142},
-                                         {38, 130, 142},
-                                         {31, 158, 137},
-                                         {53, 183, 121},
-                                         {109, 205, 89},
-                                         {253, 231, 37}}};
-
-Colour colour_at(double fraction) {
-  const double at = std::clamp(fraction, 0.0, 1.0) * (viridis.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
-  Colour mixed{};
-  for (std::size_t k = 0; k < 3; ++k)
-    mixed[k] = viridis[i][k] + (at - static_cast<double>(i)) * (viridis[i + 1][k] - viridis[i][k]);
-  return mixed;
-}
-
-std::string text_of(const Colour& colour) {
-  return fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(std::lround(colour[0])),
-                     static_cast<int>(std::lround(colour[1])), static_cast<int>(std::lround(colour[2])));
-}
-
-bool is_light(const Colour& colour) { return 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2] > 128.0; }
+constexpr double bar_width = 16.0;
 
 std::vector<Json> values(const LoadMap& map, Json MapPoint::*which) {
   std::vector<Json> result;
@@ -61,19 +29,6 @@ std::vector<Json> loads(const LoadMap& map) {
   for (const MapPoint& point : map.points)
     if (point.load) result.emplace_back(*point.load);
   return result.empty() ? std::vector<Json>{0.0} : result;
-}
-
-std::string text(double x, double y, const std::string& anchor, const std::string& content) {
-  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
-                     escaped(plain(content))) +
-         "\n";
-}
-
-std::string tip(const LoadMap& map, const MapPoint& point) {
-  std::string content = fmt::format("case {}\n{} = {}", point.number, map.x_title, label(point.x));
-  if (!map.y_title.empty()) content += fmt::format("\n{} = {}", map.y_title, label(point.y));
-  content += "\n" + (point.load ? map.load_title + " " + short_number(*point.load) : "no such event");
-  return "<title>" + escaped(plain(content) + (point.failed ? "\nfailed" : "")) + "</title>";
 }
 
 struct Extent {
@@ -94,27 +49,26 @@ class Drawing {
   explicit Drawing(const LoadMap& map)
       : map_(map),
         x_(values(map, &MapPoint::x), AxisScale::by_extent),
-        y_(map.y_title.empty() ? MapAxis(loads(map), AxisScale::linear)
-                               : MapAxis(values(map, &MapPoint::y), AxisScale::by_extent)),
+        y_(map.titles.y.empty() ? MapAxis(loads(map), AxisScale::linear)
+                                : MapAxis(values(map, &MapPoint::y), AxisScale::by_extent)),
         loads_(range_of(loads(map))) {}
 
   std::string svg() const {
-    std::string body = frame();
-    if (map_.y_title.empty()) {
-      for (const MapPoint& point : map_.points) body += mark(point, point.load ? Json(*point.load) : Json());
-    } else {
-      const bool cells = is_grid();
-      for (const MapPoint& point : map_.points) body += cells ? cell(point) : mark(point, point.y);
-      body += colour_bar();
-    }
-    return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {:.0f} {:.0f}" role="img" fill="none">)",
-                       width, height) +
-           "\n<title>" + escaped(plain(map_.load_title)) + "</title>\n" + body + "</svg>\n";
+    const bool over_one_key = map_.titles.y.empty();
+    std::string body = frame(
+        area_, x_, y_, {.x_title = map_.titles.x, .y_title = over_one_key ? load_axis(map_.titles) : map_.titles.y});
+    const bool cells = !over_one_key && is_grid();
+    for (const MapPoint& point : map_.points)
+      body += cells          ? cell(point)
+              : over_one_key ? mark(point, point.load ? Json(*point.load) : Json())
+                             : mark(point, point.y);
+    if (cells) body += contours();
+    if (!over_one_key) body += colour_bar();
+    return picture(bar_left() + bar_width + 90.0, area_.top + area_.height + 60.0, map_.titles.load, body);
   }
 
  private:
-  double x_at(double fraction) const { return left + fraction * plot_width; }
-  double y_at(double fraction) const { return top + (1.0 - fraction) * plot_height; }
+  double bar_left() const { return area_.left + area_.width + 30.0; }
 
   // Every combination of the values once, and few enough to be seen.
   bool is_grid() const {
@@ -130,29 +84,6 @@ class Drawing {
     return colour_at(loads_.high > loads_.low ? (load - loads_.low) / (loads_.high - loads_.low) : 0.5);
   }
 
-  std::string frame() const {
-    std::string result;
-    for (const Tick& tick : x_.ticks())
-      result += fmt::format(R"(<path d="M{0:.1f} {1:.1f}v5" stroke="currentColor"/>)", x_at(tick.at), y_at(0.0)) +
-                text(x_at(tick.at), y_at(0.0) + 20.0, "middle", tick.text);
-    for (const Tick& tick : y_.ticks())
-      result += fmt::format(R"(<path d="M{:.1f} {:.1f}h-5" stroke="currentColor"/>)", left, y_at(tick.at)) +
-                text(left - 9.0, y_at(tick.at) + 4.0, "end", tick.text);
-    result += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" stroke="currentColor"/>)", left, top,
-                          plot_width, plot_height) +
-              "\n" + text(left + plot_width / 2.0, height - 12.0, "middle", map_.x_title);
-    return result + upright(16.0, map_.y_title.empty() ? load_axis() : map_.y_title);
-  }
-
-  std::string load_axis() const {
-    return map_.load_title + (map_.load_unit.empty() ? "" : ", times " + map_.load_unit);
-  }
-
-  static std::string upright(double x, const std::string& title) {
-    return fmt::format(R"svg(<g transform="translate({:.0f} {:.1f}) rotate(-90)">)svg", x, top + plot_height / 2.0) +
-           text(0.0, 0.0, "middle", title) + "</g>\n";
-  }
-
   // From half way to the neighbour before to half way to the one behind.
   static Extent extent(const MapAxis& axis, const Json& value) {
     const std::vector<Json>& all = axis.distinct();
@@ -164,50 +95,80 @@ class Drawing {
 
   std::string cell(const MapPoint& point) const {
     const Extent across = extent(x_, point.x), up = extent(y_, point.y);
-    const double cell_width = x_at(across.high) - x_at(across.low), cell_height = y_at(up.low) - y_at(up.high);
-    const double x = x_at(across.low), y = y_at(up.high), middle = x + cell_width / 2.0, centre = y + cell_height / 2.0;
-    std::string result = "<g>" + tip(map_, point);
-    result += fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}" stroke="#8884"/>)", x,
-                          y, cell_width, cell_height, point.load ? text_of(colour(*point.load)) : "#8882");
-    if (point.failed) result += cross(middle, centre);
+    const double cell_width = area_.x_at(across.high) - area_.x_at(across.low),
+                 cell_height = area_.y_at(up.low) - area_.y_at(up.high);
+    const double x = area_.x_at(across.low), y = area_.y_at(up.high), middle = x + cell_width / 2.0,
+                 centre = y + cell_height / 2.0;
+    std::string drawn =
+        fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}" stroke="#8884"/>)", x, y,
+                    cell_width, cell_height, point.load ? text_of(colour(*point.load)) : "#8882");
+    if (point.failed) drawn += cross(middle, centre);
     if (point.load && !point.failed && cell_width > 46.0 && cell_height > 16.0)
-      result += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill="{}">{:.4g}</text>)", middle,
-                            centre + 4.0, is_light(colour(*point.load)) ? "#000" : "#fff", *point.load);
-    return result + "</g>\n";
+      drawn += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill="{}">{:.4g}</text>)", middle,
+                           centre + 4.0, is_light(colour(*point.load)) ? "#000" : "#fff", *point.load);
+    return pointed_at(tip(map_.titles, point), point.link, drawn);
+  }
+
+  // Lines of equal load at round values, named on the bar of colours by the same ticks.
+  std::string contours() const {
+    constexpr std::size_t least = 4;
+    const std::vector<Json>&xs = x_.distinct(), &ys = y_.distinct();
+    if (!x_.has_numbers() || !y_.has_numbers() || xs.size() < least || ys.size() < least) return "";
+    GridValues grid{.values = std::vector<std::optional<double>>(xs.size() * ys.size())};
+    for (const Json& x : xs) grid.x.push_back(x_.place(x));
+    for (const Json& y : ys) grid.y.push_back(y_.place(y));
+    for (const MapPoint& point : map_.points) {
+      const auto i = std::find(xs.begin(), xs.end(), point.x) - xs.begin();
+      const auto j = std::find(ys.begin(), ys.end(), point.y) - ys.begin();
+      if (!point.failed)
+        grid.values[static_cast<std::size_t>(i) * ys.size() + static_cast<std::size_t>(j)] = point.load;
+    }
+    std::string ways;
+    for (const double level : levels())
+      for (const ContourPart& part : contour(grid, level))
+        ways += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", area_.x_at(part.from.x()), area_.y_at(part.from.y()),
+                            area_.x_at(part.to.x()), area_.y_at(part.to.y()));
+    if (ways.empty()) return "";
+    return "<path class=\"contour\" d=\"" + ways +
+           "\" stroke=\"#000a\" stroke-width=\"1.2\" pointer-events=\"none\"/>\n";
+  }
+
+  std::vector<double> levels() const {
+    return loads_.high > loads_.low ? arcwall::ticks(loads_.low, loads_.high) : std::vector<double>{};
   }
 
   // A case at its place; where a load is drawn over one key and there is none, on the lower edge.
   std::string mark(const MapPoint& point, const Json& y) const {
-    const double x = x_at(x_.place(point.x)), z = y.is_null() ? y_at(0.0) : y_at(y_.place(y));
-    std::string result = "<g>" + tip(map_, point);
-    result +=
+    const double x = area_.x_at(x_.place(point.x)), z = y.is_null() ? area_.y_at(0.0) : area_.y_at(y_.place(y));
+    std::string drawn =
         fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="5" fill="{}" stroke="currentColor" stroke-width="0.5"/>)", x,
                     z, point.load ? text_of(colour(*point.load)) : "#8882");
-    if (point.failed) result += cross(x, z);
-    return result + "</g>\n";
-  }
-
-  static std::string cross(double x, double y) {
-    return fmt::format(R"(<path d="M{:.1f} {:.1f}l10 10m0 -10l-10 10" stroke="#d33" stroke-width="2"/>)", x - 5.0,
-                       y - 5.0);
+    if (point.failed) drawn += cross(x, z);
+    return pointed_at(tip(map_.titles, point), point.link, drawn);
   }
 
   std::string colour_bar() const {
     constexpr int steps = 40;
     std::string result;
     for (int i = 0; i < steps; ++i)
-      result += fmt::format(R"(<rect x="{}" y="{:.2f}" width="{}" height="{:.2f}" fill="{}"/>)", bar_left,
-                            y_at((i + 1.0) / steps), bar_width, plot_height / steps + 0.5,
+      result += fmt::format(R"(<rect x="{}" y="{:.2f}" width="{}" height="{:.2f}" fill="{}"/>)", bar_left(),
+                            area_.y_at((i + 1.0) / steps), bar_width, area_.height / steps + 0.5,
                             text_of(colour_at((i + 0.5) / steps)));
-    for (const double fraction : {0.0, 0.25, 0.5, 0.75, 1.0})
-      result += text(bar_left + bar_width + 6.0, y_at(fraction) + 4.0, "start",
-                     short_number(loads_.low + fraction * (loads_.high - loads_.low)));
-    return result + upright(width - 8.0, load_axis());
+    const double range = loads_.high - loads_.low;
+    if (range <= 0.0)
+      return result + text(bar_left() + bar_width + 6.0, area_.y_at(0.5) + 4.0, "start", short_number(loads_.low));
+    for (const double level : levels()) {
+      const double y = area_.y_at((level - loads_.low) / range);
+      result += fmt::format(R"(<path d="M{:.1f} {:.1f}h{:.1f}" stroke="#000a"/>)", bar_left(), y, bar_width) +
+                text(bar_left() + bar_width + 6.0, y + 4.0, "start", short_number(level));
+    }
+    return result + upright(bar_left() + bar_width + 82.0, area_.top + area_.height / 2.0, load_axis(map_.titles));
   }
 
   const LoadMap& map_;
   MapAxis x_, y_;
   Extent loads_;
+  PlotArea area_{};
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ std::string short_label(const Json& value) {
 
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
-MapAxis::MapAxis(const std::vector<Json>& values, AxisScale scale) {
+MapAxis::MapAxis(const std::vector<Json>& values, AxisScale scale) : scale_(scale) {
   numbers_ = std::all_of(values.begin(), values.end(), [](const Json& value) { return value.is_number(); });
   if (!numbers_) {
     for (const Json& value : values)
@@ -56,7 +56,7 @@ double MapAxis::place(const Json& value) const {
 }
 
 std::vector<Tick> MapAxis::ticks() const {
-  if (numbers_ && distinct_.size() > most_named) return round_ticks();
+  if (numbers_ && (scale_ == AxisScale::linear || distinct_.size() > most_named)) return round_ticks();
   std::vector<Tick> result;
   for (const Json& value : distinct_) result.push_back({.at = place(value), .text = short_label(value)});
   return result;

@@ -26,10 +26,13 @@ class MapAxis {
   /// Along the axis, 0 … 1; the value is one of those it was made with.
   double place(const Json& value) const;
 
+  /// Whether the values are numbers.
+  bool has_numbers() const { return numbers_; }
+
   /// The values, each once, in the order of their places.
   const std::vector<Json>& distinct() const { return distinct_; }
 
-  /// The values themselves where they are few, else round numbers.
+  /// The values themselves where they are few and the scale is that of a key, else round numbers.
   std::vector<Tick> ticks() const;
 
  private:
@@ -37,6 +40,7 @@ class MapAxis {
   std::vector<Tick> round_ticks() const;
 
   std::vector<Json> distinct_;
+  AxisScale scale_;
   bool numbers_ = false;
   bool logarithmic_ = false;
   double low_ = 0.0, high_ = 1.0;  // scaled

@@ -11,9 +11,10 @@
 #include "apps/output/files.hpp"
 #include "apps/sweep/case_folder.hpp"
 #include "apps/sweep/case_result.hpp"
-#include "apps/sweep/child.hpp"
+#include "apps/sweep/results.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "model/event_names.hpp"
 #include "model/regular_file.hpp"
 
 namespace arcwall::sweep {
@@ -28,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* begun_file_name = "begun.json";
 
 struct RunningCase {
-  const Case* one = nullptr;
+  Case one;
   CaseDraft draft;
   pid_t child = 0;
   std::optional<Clock::time_point> deadline{};  // to be killed
@@ -45,10 +46,33 @@ bool was_stopped(const ChildEnd& how, bool interrupted) {
   return how.status == static_cast<int>(ExitStatus::interrupted);
 }
 
+// The cases that a request names, one after the other.
+class Chosen {
+ public:
+  Chosen(const RunRequest& request, std::optional<int> one) : reader_(request.folder), part_(request.part), one_(one) {}
+
+  std::optional<Case> next() {
+    for (std::size_t number = seen_;; ++number) {
+      const bool wanted = one_ ? number == static_cast<std::size_t>(*one_) : part_.has(number);
+      seen_ = number + 1;
+      if (wanted) return reader_.next();
+      if (!reader_.skip()) return std::nullopt;
+    }
+  }
+
+ private:
+  CaseReader reader_;
+  Part part_;
+  std::optional<int> one_;
+  std::size_t seen_ = 0;
+};
+
 class Pool {
  public:
   Pool(const RunRequest& request, const std::function<void(const RunCounts&)>& progress)
-      : request_(request), progress_(progress) {}
+      : request_(request), progress_(progress), results_(request.folder, count_cases(request.folder), request.part) {
+    if (request.keep == Keep::records) writer_.emplace(request.folder, request.part);
+  }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
@@ -60,32 +84,59 @@ class Pool {
     }
   }
 
-  RunCounts run(const std::vector<Case>& cases) {
-    auto next = cases.begin();
+  // What is to be run again has no results any more, or is a draft that can go on.
+  void forget_results(Chosen cases, Rerun rerun) {
+    if (rerun == Rerun::none) return;
+    const auto round = static_cast<std::uint16_t>(results_.records().last_round() + 1);
+    while (const auto one = cases.next()) {
+      const int number = one->number;
+      if (!results_.has(number)) continue;
+      if (rerun == Rerun::failed) {
+        const CaseResult result = results_.read(number);
+        if (!result.failed()) continue;
+        if (result.reason == to_text(EndReason::max_time) && result.status && results_.folder(number)) {
+          reopen(request_.folder, number);
+          continue;
+        }
+      }
+      forget_result(number, round);
+    }
+  }
+
+  RunCounts run(Chosen cases) {
+    auto next = cases.next();
     while (true) {
-      while (next != cases.end() && !counts_.interrupted && static_cast<int>(running_.size()) < request_.jobs)
-        begin(*next++);
+      for (; next && !counts_.interrupted && static_cast<int>(running_.size()) < request_.jobs; next = cases.next())
+        begin(std::move(*next));
       if (running_.empty()) return counts_;
       wait();
     }
   }
 
  private:
-  void begin(const Case& one) {
-    if (is_complete(request_.folder, one.number)) {
-      if (!was_hindered(request_.folder, one.number)) {
+  void forget_result(int number, std::uint16_t round) {
+    if (results_.folder(number)) forget(request_.folder, number);
+    if (!results_.records().has(number)) return;
+    if (!writer_) writer_.emplace(request_.folder, request_.part);
+    writer_->append(number, round, RecordKind::forgotten);
+    results_.records().forget(number, round);
+  }
+
+  void begin(Case one) {
+    if (results_.has(one.number)) {
+      if (!results_.was_hindered(one.number)) {
         ++counts_.complete;
         return;
       }
-      forget(request_.folder, one.number);
+      if (results_.folder(one.number)) forget(request_.folder, one.number);
     }
     auto draft = CaseDraft::claim(request_.folder, one.number);
     if (!draft) {
       ++counts_.busy;
       return;
     }
-    RunningCase& added = running_.emplace_back(RunningCase{.one = &one, .draft = std::move(*draft)});
-    const ChildCommand anew = command(one, added.draft);
+    RunningCase& added = running_.emplace_back(RunningCase{.one = std::move(one), .draft = std::move(*draft)});
+    const ChildCommand anew = command(added.one, added.draft);
     const std::string text = Json(anew.arguments).dump(-1, ' ', false, Json::error_handler_t::replace);
     const bool goes_on = can_go_on(added.draft.path(), text);
     if (!goes_on) {
@@ -102,11 +153,13 @@ class Pool {
     const fs::path& draft = claimed.path();
     const std::string folder = fs::path(draft.parent_path().filename() / draft.filename()).string();
     ChildCommand result{.program = request_.program,
+                        .body = request_.body,
                         .arguments = {"run", "./" + one.deck, "--out", folder, "--force", "--quiet", "--no-pictures"},
                         .folder = request_.folder,
                         .messages = fs::absolute(draft / messages_file_name),
                         .kept_open = claimed.lock_descriptor()};
     std::vector<std::string>& words = result.arguments;
+    if (request_.keep == Keep::records) words.emplace_back("--scratch");
     words.insert(words.end(), request_.options.begin(), request_.options.end());
     for (const std::string& assignment : assignments(one)) words.insert(words.end(), {"--set", assignment});
     return result;
@@ -135,6 +188,7 @@ class Pool {
     ChildCommand command = anew;
     command.arguments = {"resume", fs::path(draft.parent_path().filename() / draft.filename()).string(), "--quiet",
                          "--no-pictures"};
+    if (request_.keep == Keep::records) command.arguments.emplace_back("--scratch");
     return command;
   }
 
@@ -191,31 +245,43 @@ class Pool {
       if (fs::exists(one.draft.path() / "checkpoint", ignored)) one.draft.leave();
       return;
     }
-    const bool may_go_on = how.signal == 0 && how.status == static_cast<int>(ExitStatus::limit_met);
-    if (!may_go_on) fs::remove(one.draft.path() / begun_file_name);
-    write_whole(one.draft.path() / case_file_name, case_json(one, how));
-    const fs::path messages = one.draft.path() / messages_file_name;
-    if (fs::is_empty(messages)) fs::remove(messages);
-    one.draft.publish();
+    keep(one, end_of(one, how));
     ++counts_.ran;
     if (how.signal != 0 || how.status != 0) ++counts_.failed;
   }
 
-  std::string case_json(const RunningCase& one, const ChildEnd& how) const {
-    Json json;
-    json["case"] = one.one->number;
-    json["set"] = Json::object();
-    for (const auto& [key, value] : one.one->set) json["set"][key] = value;
-    json["options"] = request_.options;
-    json["max_time"] = request_.most_seconds ? Json(*request_.most_seconds) : Json(nullptr);
-    json["status"] = how.signal == 0 ? Json(how.status) : Json(nullptr);
-    json["signal"] = how.signal == 0 ? Json(nullptr) : Json(how.signal);
-    json["overdue"] = one.overdue;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  // A folder appears whole, a record is a line; the draft of what is recorded goes away.
+  void keep(RunningCase& one, const CaseEnd& end) {
+    const fs::path& draft = one.draft.path();
+    if (request_.keep == Keep::records) {
+      const RecordKind kind = end.was_hindered() ? RecordKind::hindered : RecordKind::result;
+      writer_->append(end.number, results_.records().round_of(end.number), kind,
+                      record_of(end, read_folder(draft, end)));
+      return;
+    }
+    if (end.status != static_cast<int>(ExitStatus::limit_met)) fs::remove(draft / begun_file_name);
+    write_whole(draft / case_file_name, end.json().dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    const fs::path messages = draft / messages_file_name;
+    if (fs::is_empty(messages)) fs::remove(messages);
+    one.draft.publish();
+  }
+
+  CaseEnd end_of(const RunningCase& one, const ChildEnd& how) const {
+    CaseEnd end{.number = one.one.number,
+                .set = Json::object(),
+                .options = request_.options,
+                .most_seconds = request_.most_seconds,
+                .signal = how.signal,
+                .overdue = one.overdue};
+    for (const auto& [key, value] : one.one.set) end.set[key] = value;
+    if (how.signal == 0) end.status = how.status;
+    return end;
   }
 
   const RunRequest& request_;
   const std::function<void(const RunCounts&)>& progress_;
+  Results results_;
+  std::optional<RecordWriter> writer_{};
   SignalQueue signals_;
   std::list<RunningCase> running_;
   RunCounts counts_;
@@ -223,9 +289,11 @@ class Pool {
 
 }  // namespace
 
-RunCounts run_cases(const RunRequest& request, const std::vector<Case>& cases,
+RunCounts run_cases(const RunRequest& request, std::optional<int> one, Rerun rerun,
                     const std::function<void(const RunCounts&)>& progress) {
-  return Pool(request, progress).run(cases);
+  Pool pool(request, progress);
+  pool.forget_results(Chosen(request, one), rerun);
+  return pool.run(Chosen(request, one));
 }
 
 }  // namespace arcwall::sweep

@@ -7,18 +7,29 @@
 #include <vector>
 
 #include "apps/sweep/case_list.hpp"
+#include "apps/sweep/case_records.hpp"
+#include "apps/sweep/child.hpp"
 
 namespace arcwall::sweep {
+
+/// Where results are kept: in a folder for each case, or as records.
+enum class Keep { folders, records };
 
 /// How the cases of a planned sweep are run.
 struct RunRequest {
   std::filesystem::path folder{};        ///< of the sweep
   std::filesystem::path program{};       ///< trace-path
+  ChildBody body{};                      ///< in place of the program, where it is given
   int jobs = 1;                          ///< processes at a time
   std::vector<std::string> options{};    ///< of `trace-path run`, besides those of the case
   std::optional<double> most_seconds{};  ///< of one case
   double patience = 10.0;                ///< a case that does not stop is killed that long after it should have [s]
+  Keep keep = Keep::folders;
+  Part part{};  ///< the share of the cases that is run
 };
+
+/// Which cases are run though they have results.
+enum class Rerun { none, failed, all };
 
 /// How far a sweep has got.
 struct RunCounts {
@@ -29,11 +40,11 @@ struct RunCounts {
   bool interrupted = false;
 };
 
-/// Runs the cases that have no results yet, each in a process of its own, so that a crash costs one case. SIGINT and
-/// SIGTERM end it: what is being run stops with a checkpoint, and goes on from there in the next call with the same
-/// options. Cases that a full disk, too little memory or a kill has hindered are run again. `progress` is called when
-/// something has changed. Throws OutputError.
-RunCounts run_cases(const RunRequest& request, const std::vector<Case>& cases,
+/// Runs the cases of the request's part, or one of them, that have no results yet, each in a process of its own, so
+/// that a crash costs one case. SIGINT and SIGTERM end it: what is being run stops with a checkpoint, and goes on from
+/// there in the next call with the same options. Cases that a full disk, too little memory or a kill has hindered are
+/// run again. `progress` is called when something has changed. Throws OutputError, InputError.
+RunCounts run_cases(const RunRequest& request, std::optional<int> one, Rerun rerun,
                     const std::function<void(const RunCounts&)>& progress);
 
 /// What is known of a case's run besides its outputs; in the case's folder.

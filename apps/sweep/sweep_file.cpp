@@ -131,7 +131,7 @@ std::vector<Json> grid_values(const Entry& entry, const std::string& path, Findi
   return result;
 }
 
-void read_grid(Cursor& table, Sweep& sweep) {
+void read_grid(Cursor& table, Rows rows, Sweep& sweep) {
   std::vector<std::vector<Json>> values;
   double cases = 1.0;
   for (const Entry& entry : entries_of(table, has_value("from"))) {
@@ -143,7 +143,7 @@ void read_grid(Cursor& table, Sweep& sweep) {
   if (cases > most_cases) {
     table.findings().add(table.position(), table.path(), "has more than " + std::to_string(most_cases) + " cases",
                          "give fewer values, or use [latin_hypercube]");
-  } else {
+  } else if (rows == Rows::made) {
     sweep.rows = grid(values);
   }
 }
@@ -177,7 +177,7 @@ void read_list(std::vector<Cursor>& tables, Sweep& sweep) {
     tables.front().findings().add(tables.front().position(), tables.front().path(), "varies no key", "name one");
 }
 
-void read_latin_hypercube(Cursor& table, Sweep& sweep) {
+void read_latin_hypercube(Cursor& table, Rows rows, Sweep& sweep) {
   int samples = 0, seed = 0;
   const bool counted = table.integer("samples", Presence::required, {.low = 2, .high = most_cases}, samples);
   const bool seeded = table.integer("seed", Presence::required, {}, seed);
@@ -200,7 +200,7 @@ void read_latin_hypercube(Cursor& table, Sweep& sweep) {
     if (sweep.keys.empty()) keys->findings().add(keys->position(), keys->path(), "varies no key", "name one");
   }
   table.finish();
-  if (right) sweep.rows = latin_hypercube(ranges, samples, static_cast<std::uint64_t>(seed));
+  if (right && rows == Rows::made) sweep.rows = latin_hypercube(ranges, samples, static_cast<std::uint64_t>(seed));
 }
 
 bool all_numbers(const Sweep& sweep, std::size_t key) {
@@ -239,7 +239,7 @@ void read_ties(Cursor& table, Sweep& sweep) {
   }
 }
 
-void read_design(Cursor& root, Sweep& sweep) {
+void read_design(Cursor& root, Rows rows, Sweep& sweep) {
   auto grid = root.table("grid", Presence::optional);
   auto list = root.tables("list");
   auto hypercube = root.table("latin_hypercube", Presence::optional);
@@ -248,16 +248,16 @@ void read_design(Cursor& root, Sweep& sweep) {
     root.findings().add(root.position(), "", designs == 0 ? "no key is varied" : "more than one way to vary keys",
                         "give one of [grid], [[list]] and [latin_hypercube]");
   if (designs > 1) return;
-  if (grid) read_grid(*grid, sweep);
+  if (grid) read_grid(*grid, rows, sweep);
   read_list(list, sweep);
-  if (hypercube) read_latin_hypercube(*hypercube, sweep);
+  if (hypercube) read_latin_hypercube(*hypercube, rows, sweep);
 }
 
 }  // namespace
 
-Sweep read_sweep(const std::string& file) { return read_sweep_text(deck::read_text_file(file), file); }
+Sweep read_sweep(const std::string& file, Rows rows) { return read_sweep_text(deck::read_text_file(file), file, rows); }
 
-Sweep read_sweep_text(std::string_view text, const std::string& file_name) {
+Sweep read_sweep_text(std::string_view text, const std::string& file_name, Rows rows) {
   const Value value = deck::parse_toml(text, file_name);
   Sweep sweep{.source = {.file = file_name}};
   Findings findings(sweep.source);
@@ -268,7 +268,7 @@ Sweep read_sweep_text(std::string_view text, const std::string& file_name) {
     sweep.deck = deck_file.text;
     sweep.deck_position = deck_file.position;
   }
-  read_design(root, sweep);
+  read_design(root, rows, sweep);
   if (auto ties = root.table("tie", Presence::optional)) read_ties(*ties, sweep);
   root.finish();
   findings.throw_if_any();

@@ -33,13 +33,16 @@ struct Sweep {
   std::vector<Tie> ties{};
 };
 
-/// No sweep has more cases.
-inline constexpr int most_cases = 20000;
+/// No sweep has more cases, and none of more than `most_folders` has a folder for each.
+inline constexpr int most_cases = 1'000'000, most_folders = 20'000;
+
+/// Whether a sweep is read with the values of its cases, which a planned one has in its list of cases.
+enum class Rows { made, left_out };
 
 /// Reads and checks a sweep. Everything that is wrong with it is in one InputError.
-Sweep read_sweep(const std::string& file);
+Sweep read_sweep(const std::string& file, Rows rows = Rows::made);
 
 /// The same for a text in memory; `file_name` is only named in messages.
-Sweep read_sweep_text(std::string_view text, const std::string& file_name);
+Sweep read_sweep_text(std::string_view text, const std::string& file_name, Rows rows = Rows::made);
 
 }  // namespace arcwall::sweep

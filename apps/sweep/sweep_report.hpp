@@ -1,18 +1,13 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "apps/sweep/collection.hpp"
-#include "apps/sweep/load_map.hpp"
+#include "apps/sweep/drawn_cases.hpp"
 
 namespace arcwall::sweep {
 
-/// One map for each load that a case has: that of the snap, of the first contact, and of the first event of each kind.
-/// `keys`: one or two of the varied keys.
-std::vector<LoadMap> load_maps(const Collection& collection, const std::vector<std::string>& keys);
-
-/// report.html: one page that needs no network and, but for the choice of the map, no script.
-std::string report_html(const Collection& collection, const std::vector<std::string>& keys);
+/// report.html: one page that needs no network and, but for the choice of the load, no script. For each load that a
+/// case has there are a map over one or two keys, lines of cases that differ in one key, and the same as parts of λ₀.
+std::string report_html(const Collection& collection, const Overview& of_all, const DrawnCases& drawn);
 
 }  // namespace arcwall::sweep

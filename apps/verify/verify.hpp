@@ -13,7 +13,7 @@ namespace arcwall::verify {
 
 /// The files of a run as texts; contacts_csv is empty of decks without walls.
 struct StoredFiles {
-  std::string path_csv{}, contacts_csv{}, events_json{};
+  std::string path_csv{}, contacts_csv{}, events_json{}, result_json{}, deck_toml{};
 };
 
 struct Verdict {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -88,6 +91,26 @@ std::string meant_by(const std::string& word, const std::vector<std::string>& ca
   return {};
 }
 
+// `2,5` and `2.5` as texts: the number that is meant; empty if none is.
+std::string number_in_quotes(const Value& value) {
+  if (value.kind != Value::Kind::string || value.string.empty()) return {};
+  std::string text = value.string;
+  std::replace(text.begin(), text.end(), ',', '.');
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  return read.ec == std::errc() && read.ptr == end && std::isfinite(number) ? text : std::string();
+}
+
+// `[2,0, 0,5]`: the two numbers that are meant; empty if these are not four whole ones.
+std::string without_decimal_commas(const Value& array) {
+  if (array.items.size() != 4) return {};
+  for (std::size_t i = 0; i < array.items.size(); ++i)
+    if (array.items[i].kind != Value::Kind::integer || (i % 2 == 1 && array.items[i].integer < 0)) return {};
+  const auto part = [&](std::size_t i) { return std::to_string(array.items[i].integer); };
+  return "[" + part(0) + "." + part(1) + ", " + part(2) + "." + part(3) + "]";
+}
+
 std::string range_words(const IntegerRange& range) {
   const std::string from = "an integer of at least " + std::to_string(range.low);
   return range.high == std::numeric_limits<int>::max() ? from : from + " and at most " + std::to_string(range.high);
@@ -113,16 +136,71 @@ void Findings::add_first(const Position& position, std::string key, std::string 
   first_.push_back(diagnostic_at(source_, position, std::move(key), std::move(message), std::move(cure)));
 }
 
+void Findings::add_for_all_of(const std::string& table, const Position& position, std::string key, std::string message,
+                              std::string cure) {
+  explained_.push_back(table + ".");
+  add_first(position, std::move(key), std::move(message), std::move(cure));
+}
+
+namespace {
+
+std::string last_word(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// A value that is wrong wherever it stands: a name that nothing has, a word that is none.
+bool is_same_cause(const Diagnostic& a, const Diagnostic& b) {
+  return a.message.starts_with('"') && a.file == b.file && a.message == b.message && a.cure == b.cure &&
+         last_word(a.key) == last_word(b.key);
+}
+
+// Of several with one cause the first, with the lines of the others.
+std::vector<Diagnostic> one_for_each_cause(const std::vector<Diagnostic>& all) {
+  constexpr std::size_t most_lines = 5;
+  struct Cause {
+    Diagnostic first{};
+    std::vector<int> lines{};  // of the others
+  };
+  std::vector<Cause> causes;
+  std::map<std::string, std::size_t> of_message;  // of the causes: there can be as many errors as members
+  for (const Diagnostic& one : all) {
+    const auto [known, is_new] = of_message.try_emplace(last_word(one.key) + one.message, causes.size());
+    if (is_new || !is_same_cause(causes[known->second].first, one))
+      causes.push_back({.first = one});
+    else
+      causes[known->second].lines.push_back(one.line);
+  }
+  std::vector<Diagnostic> result;
+  for (Cause& cause : causes) {
+    const std::vector<int>& lines = cause.lines;
+    if (!lines.empty()) {
+      std::string where;
+      for (std::size_t i = 0; i < std::min(lines.size(), most_lines); ++i)
+        where += (i == 0 ? "" : ", ") + std::to_string(lines[i]);
+      cause.first.message += lines.size() == 1 ? " (in line " + where + ", too)"
+                                               : " (in " + std::to_string(lines.size()) + " more places, too: lines " +
+                                                     where + (lines.size() > most_lines ? ", …)" : ")");
+    }
+    result.push_back(std::move(cause.first));
+  }
+  return result;
+}
+
+}  // namespace
+
 void Findings::throw_if_any() const {
   if (first_.empty() && diagnostics_.empty()) return;
   const auto stands_before = [](const Diagnostic& a, const Diagnostic& b) {
     return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
   };
+  const auto is_explained = [&](const Diagnostic& one) {
+    return std::any_of(explained_.begin(), explained_.end(),
+                       [&](const std::string& table) { return one.key.starts_with(table); });
+  };
   std::vector<Diagnostic> in_order = first_, others = diagnostics_;
+  std::erase_if(others, is_explained);
   std::stable_sort(in_order.begin(), in_order.end(), stands_before);
   std::stable_sort(others.begin(), others.end(), stands_before);
   in_order.insert(in_order.end(), others.begin(), others.end());
-  throw InputError(std::move(in_order));
+  throw InputError(one_for_each_cause(in_order));
 }
 
 Cursor::Cursor(const Value& table, std::string path, Findings& findings)
@@ -149,7 +227,8 @@ bool Cursor::accept(const Value& value, Value::Kind kind, const std::string& pat
 }
 
 bool Cursor::accept_number(const Value& value, const std::string& path, const Requirement& requirement) {
-  const std::string cure = std::string("give ") + requirement.words;
+  std::string cure = std::string("give ") + requirement.words;
+  if (const std::string number = number_in_quotes(value); !number.empty()) cure = "write " + number + " without quotes";
   if (value.kind != Value::Kind::integer && value.kind != Value::Kind::number) {
     findings_.add(value.position, path, shown(value) + " is of the wrong type", cure);
   } else if (!std::isfinite(value.number)) {
@@ -219,7 +298,9 @@ bool Cursor::vector(std::string_view key, Presence presence, Vector& target) {
   const Value* found = find_of_kind(key, presence, Value::Kind::array, wanted);
   if (found == nullptr) return false;
   if (found->items.size() != 2) {
-    findings_.add(found->position, path_of(key), shown(*found) + " has the wrong length", "give " + wanted);
+    const std::string numbers = without_decimal_commas(*found);
+    findings_.add(found->position, path_of(key), shown(*found) + " has the wrong length",
+                  numbers.empty() ? "give " + wanted : "a decimal comma parts two numbers; write " + numbers);
     return false;
   }
   const bool x = accept_number(found->items[0], path_of(key) + ".0", any_number);

@@ -25,15 +25,21 @@ class Findings {
 
   std::size_t count() const { return diagnostics_.size(); }
 
-  /// InputError with all that was added, by their order in the text; returns if there is nothing.
+  /// InputError with all that was added, by their order in the text; returns if there is nothing. What is wrong in the
+  /// same words in several places, as a name that nothing has, is one error, which names the lines of the others.
   void throw_if_any() const;
 
   /// The same of what others follow from: it comes before all others.
   void add_first(const Position& position, std::string key, std::string message, std::string cure);
 
+  /// The same of a table, whose own keys then have no errors: they would follow from this one.
+  void add_for_all_of(const std::string& table, const Position& position, std::string key, std::string message,
+                      std::string cure);
+
  private:
   const Source& source_;
   std::vector<Diagnostic> first_{}, diagnostics_{};
+  std::vector<std::string> explained_{};  // tables
 };
 
 /// What a finite number must satisfy, in code and in words.

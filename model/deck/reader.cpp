@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -83,6 +84,41 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 42> said_oth
     {"phase", "parts of a run are [[stage]], with name and drives"},
 }};
 
+// Whether a table says that its wall stands upright, which no profile does.
+bool is_upright(const Value& wall) {
+  constexpr std::array<std::string_view, 6> words{"left", "right", "vertical", "upright", "wall", "x"};
+  const auto is_word_for_it = [&](const Value* value) {
+    return value != nullptr && value->kind == Value::Kind::string &&
+           std::find(words.begin(), words.end(), value->string) != words.end();
+  };
+  const auto is_number = [](const Value* value) {
+    return value != nullptr && (value->kind == Value::Kind::integer || value->kind == Value::Kind::number);
+  };
+  if (wall.kind != Value::Kind::table || find(wall, "outline") != nullptr) return false;
+  if (is_word_for_it(find(wall, "side"))) return true;
+  const Value* profile = find(wall, "profile");
+  if (profile == nullptr || profile->kind != Value::Kind::table) return false;
+  if (is_word_for_it(find(*profile, "type"))) return true;
+  if (is_number(find(*profile, "x")) && find(*profile, "z") == nullptr) return true;
+  const Value* slope = find(*profile, "slope");
+  return is_number(slope) && std::isinf(slope->number);
+}
+
+void report_upright_walls(const Value& root, Findings& findings) {
+  const Value* walls = find(root, "wall");
+  if (walls == nullptr || walls->kind != Value::Kind::array) return;
+  for (std::size_t i = 0; i < walls->items.size(); ++i) {
+    const Value& wall = walls->items[i];
+    if (!is_upright(wall)) continue;
+    const std::string table = "wall." + std::to_string(i);
+    const Value* profile = find(wall, "profile");
+    findings.add_for_all_of(table, profile == nullptr ? wall.position : profile->key_position, table,
+                            "a profile z = ψ(x) with a side above or below cannot stand upright",
+                            "give the wall, in place of profile and side, outline = { type = \"half-plane\", point = "
+                            "[2.0, 0.0], normal = [-1.0, 0.0] }, with a point of it and its normal out of the wall");
+  }
+}
+
 // A part under another name leaves others without what they refer to, so this is said first.
 void report_unknown_parts(const Value& root, Findings& findings) {
   std::vector<std::string> known, all;
@@ -117,6 +153,7 @@ Deck read_root(const Value& value, Source source) {
   KeyReader reader(root, names, deck);
   declare_keys(reader, deck);
   report_unknown_parts(value, findings);
+  report_upright_walls(value, findings);
   findings.throw_if_any();
   return deck;
 }

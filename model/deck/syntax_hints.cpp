@@ -129,6 +129,29 @@ std::optional<Diagnostic> missing_bracket(std::string_view text, const TextPlace
       array ? "add ]" : "add }");
 }
 
+bool is_decimal_comma(std::string_view value) {
+  const std::size_t comma = value.find(',');
+  if (comma == std::string_view::npos || comma == 0 || comma + 1 == value.size()) return false;
+  return is_digit(value[comma - 1]) && is_digit(value[comma + 1]) &&
+         value.find_first_not_of("+-0123456789eE", comma + 1) == std::string_view::npos &&
+         value.find_first_not_of("+-0123456789") == comma;
+}
+
+// In a table on one line the comma of `a = 2,5` ends the value, and what follows is refused as a key without a value.
+std::optional<Diagnostic> decimal_comma_before(std::string_view text, std::size_t at) {
+  constexpr std::string_view parts = "+-0123456789eE,";
+  std::size_t end = std::min(at, text.size());
+  while (end > 0 && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;
+  std::size_t begin = end;
+  while (begin > 0 && parts.find(text[begin - 1]) != std::string_view::npos) --begin;
+  while (end < text.size() && parts.substr(0, parts.size() - 1).find(text[end]) != std::string_view::npos) ++end;
+  const std::string_view value = text.substr(begin, end - begin);
+  if (!is_decimal_comma(value)) return std::nullopt;
+  std::string meant(value);
+  meant[meant.find(',')] = '.';
+  return hint_at(position_in(text, begin), "a decimal comma in " + std::string(value), "write " + meant);
+}
+
 // The value or the part of it at which the parser stopped: to the line's end where it is not in brackets.
 std::string_view refused_value(std::string_view text, const TextPlace& place) {
   const std::string_view line = text.substr(place.line_begin, place.line_end - place.line_begin);
@@ -142,14 +165,6 @@ std::string_view refused_value(std::string_view text, const TextPlace& place) {
   }
   const std::size_t equals = line.find('=');
   return equals == std::string_view::npos ? std::string_view{} : without_comment(line.substr(equals + 1));
-}
-
-bool is_decimal_comma(std::string_view value) {
-  const std::size_t comma = value.find(',');
-  if (comma == std::string_view::npos || comma == 0 || comma + 1 == value.size()) return false;
-  return is_digit(value[comma - 1]) && is_digit(value[comma + 1]) &&
-         value.find_first_not_of("+-0123456789eE", comma + 1) == std::string_view::npos &&
-         value.find_first_not_of("+-0123456789") == comma;
 }
 
 // A number and what follows it.
@@ -233,6 +248,8 @@ std::optional<Diagnostic> syntax_hint(std::string_view text, const Position& ref
   if (auto found = missing_bracket(text, *place, refused)) return found;
   if (auto found = repeated_header(line, refused)) return found;
   if (auto found = missing_equals(line, refused); found && open_brackets(text, place->line_begin).empty()) return found;
+  if (const auto open = open_brackets(text, place->at); !open.empty() && text[open.back()] == '{')
+    if (auto found = decimal_comma_before(text, place->at)) return found;
   const std::string_view value = refused_value(text, *place);
   const Position begin =
       value.empty() ? refused : position_in(text, static_cast<std::size_t>(value.data() - text.data()));

@@ -55,19 +55,22 @@ bool stands_before(const Value& a, const Value& b) {
   return std::pair(a.key_position.line, a.key_position.column) < std::pair(b.key_position.line, b.key_position.column);
 }
 
-// Depth is bounded by the limits of precheck().
-Value converted(const toml::node& node) {
+// Depth is bounded by the limits of precheck(). What has been converted goes away: of a large deck both would be
+// hundreds of megabytes.
+Value converted(toml::node& node) {
   Value value{.position = position_of(node.source())};
-  if (const auto* table = node.as_table()) {
-    for (const auto& [key, child] : *table) {
-      Value& item = value.items.emplace_back(converted(child));
-      item.key = key.str();
-      item.key_position = position_of(key.source());
+  if (auto* table = node.as_table()) {
+    value.items.reserve(table->size());
+    for (auto entry = table->begin(); entry != table->end(); entry = table->erase(entry)) {
+      Value& item = value.items.emplace_back(converted(entry->second));
+      item.key = entry->first.str();
+      item.key_position = position_of(entry->first.source());
     }
     std::stable_sort(value.items.begin(), value.items.end(), stands_before);
-  } else if (const auto* array = node.as_array()) {
+  } else if (auto* array = node.as_array()) {
     value.kind = Value::Kind::array;
-    for (const toml::node& child : *array) value.items.push_back(converted(child));
+    value.items.reserve(array->size());
+    for (toml::node& child : *array) value.items.push_back(converted(child));
   } else if (const auto* string = node.as_string()) {
     value.kind = Value::Kind::string;
     value.string = string->get();
@@ -165,10 +168,10 @@ std::optional<Assignment> taken_apart(const std::string& text, const std::string
   const std::size_t begin = text.find_first_not_of(" \t");
   const bool is_header = begin != std::string::npos && text[begin] == '[';
   if (is_header || text.find('\n') != std::string::npos) return std::nullopt;
-  const toml::table document = parsed_assignment(text, origin);
+  toml::table document = parsed_assignment(text, origin);
   Assignment result;
-  const toml::node* node = &document;
-  while (const auto* table = node->as_table()) {
+  toml::node* node = &document;
+  while (auto* table = node->as_table()) {
     if (table != &document && table->is_inline()) break;
     if (table->size() != 1) return std::nullopt;
     result.key.emplace_back(table->begin()->first.str());
@@ -205,7 +208,10 @@ const Value* element_of(const Value& array, const std::string& part) {
   return named == array.items.end() ? nullptr : &*named;
 }
 
-Value parse_toml(std::string_view text, const std::string& file) { return converted(parsed(text, file)); }
+Value parse_toml(std::string_view text, const std::string& file) {
+  toml::table table = parsed(text, file);
+  return converted(table);
+}
 
 std::string read_text_file(const std::string& file) {
   namespace fs = std::filesystem;

@@ -66,6 +66,7 @@ look_at_packages() {
   # SuiteSparse brings BLAS, LAPACK and METIS.
   depends arcwall libcholmod3
   depends arcwall libumfpack5
+  dpkg-deb --field "$scratch/arcwall.deb" Recommends | grep -qF libopenblas0 || fail "arcwall does not recommend OpenBLAS"
   depends libarcwall-dev libsuitesparse-dev
   depends libarcwall-dev libeigen3-dev
   depends libarcwall-dev zlib1g-dev

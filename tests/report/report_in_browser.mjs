@@ -1,70 +1,16 @@
 // Drives Chromium through pages that trace-path writes: node report_in_browser.mjs TRACE_PATH EXAMPLES CHROMIUM
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { test, before, after } from 'node:test';
-import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { test } from 'node:test';
+import { channel, desktop, examples, folder, has_plotly, open, phone, report_of, trace_path } from './browser.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
-
-const [trace_path, examples, executable] = process.argv.slice(2);
-const desktop = { width: 1280, height: 900 }, phone = { width: 375, height: 740 };
-
-let folder, browser, channel;
-
-// Runs a deck and gives the page; 3 and 6 are ends that leave results.
-const report_of = (deck, name, more = []) => {
-  const out = join(folder, name);
-  try {
-    execFileSync(trace_path, ['run', deck, '--out', out, '--quiet', ...more], { stdio: ['ignore', 'ignore', 'pipe'] });
-  } catch (failure) {
-    if (![3, 6].includes(failure.status)) throw new Error(`${deck}: ${failure.stderr}`);
-  }
-  return join(out, 'report.html');
-};
-
-before(async () => {
-  folder = mkdtempSync(join(tmpdir(), 'report-'));
-  browser = await chromium.launch({
-    executablePath: executable,
-    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync'],
-  });
-  channel = report_of(join(examples, 'channel.toml'), 'channel');
-});
-
-after(async () => {
-  await browser?.close();
-  rmSync(folder, { recursive: true, force: true });
-});
-
-// A page, and what it complains about or asks for.
-const open = async (file, options = {}, fragment = '') => {
-  const context = await browser.newContext({ viewport: desktop, ...options });
-  context.setDefaultTimeout(120_000);  // a bound on hanging, on busy machines too
-  const page = await context.newPage();
-  const complaints = [], requests = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
-  });
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('dialog', (dialog) => { complaints.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
-  page.on('request', (request) => requests.push(request.url()));
-  const address = pathToFileURL(file).href;
-  await page.goto(address + fragment);
-  const finish = async () => {
-    assert.deepEqual(complaints, [], 'the console is quiet');
-    assert.deepEqual(requests.filter((url) => url !== address && !/^(data|blob):/.test(url)), [], 'nothing is fetched');
-    await context.close();
-  };
-  return { page, finish };
-};
+import './shape_in_browser.mjs';
+import './sweep_in_browser.mjs';
 
 const shape = (page) => page.$eval('#shown .member:not(.band)', (path) => path.getAttribute('d'));
 const lambda = (page) => page.$eval('#values td', (cell) => Number(cell.textContent));
-const has_plotly = (page) => page.evaluate(() => typeof Plotly !== 'undefined');
 
 // Where a point of the curve is on the screen.
 const place_of = (page, point) => page.evaluate((index) => {
@@ -166,62 +112,6 @@ test('any column over any other', async () => {
     await page.locator('#up').selectOption({ index: 0 });
     assert.match(await page.textContent('#plot .ytitle'), /λ/);
   }
-  await finish();
-});
-
-test('section forces along a member and on the shape', async () => {
-  const { page, finish } = await open(channel, {}, '#point=20');
-  const curve = () => page.$eval('#diagram .line', (path) => path.getAttribute('d'));
-  const of_moment = await curve();
-  assert.match(await page.textContent('#diagram-note'), /greatest .* kN·cm at .*least/);
-  await page.locator('#slider').fill('30');
-  assert.notEqual(await curve(), of_moment, 'they go with the point');
-  for (const force of ['axial force', 'shear force', 'curvature', 'left face', 'right face']) {
-    const label = await page.$$eval('#force option', (options, part) => options.map((one) => one.textContent).find((text) => text.includes(part)), force);
-    await page.locator('#force').selectOption({ label });
-    assert.ok((await curve()).length > 100, force);
-  }
-  assert.equal(await page.locator('#drawn-forces path').count(), 0);
-  await page.locator('#on-shape').check();
-  assert.equal(await page.locator('#drawn-forces path').count(), 1);
-  await finish();
-});
-
-test('the shape comes nearer, moves, and is saved with the curve and the points', async () => {
-  const { page, finish } = await open(channel);
-  const box = () => page.$eval('#stage', (stage) => stage.getAttribute('viewBox').split(' ').map(Number));
-  const whole = await box();
-  await page.click('#nearer');
-  const near = await box();
-  assert.ok(near[2] < whole[2]);
-  const { x, y, width, height } = await page.locator('#stage').boundingBox();
-  await page.mouse.move(x + width / 2, y + height / 2);
-  await page.mouse.down();
-  await page.mouse.move(x + width / 2 + 40, y + height / 2);
-  await page.mouse.up();
-  assert.ok((await box())[0] < near[0], 'dragged to the right');
-  await page.click('#whole');
-  assert.deepEqual(await box(), whole);
-  const names = await page.$$eval('#stage title', (titles) => titles.map((title) => title.textContent));
-  assert.ok(names.includes('member column') && names.includes('wall upper'), names.join());
-  const saved = async (button) => {
-    const download = page.waitForEvent('download');
-    await page.click(button);
-    const file = await download;
-    return [file.suggestedFilename(), readFileSync(await file.path())];
-  };
-  const [svg_name, picture] = await saved('#shape-svg');
-  assert.equal(svg_name, 'shape.svg');
-  assert.match(picture.toString(), /^<svg[^]*<path[^]*stroke="rgb\(0, 114, 178\)"/);
-  const [png_name, pixels] = await saved('#shape-png');
-  assert.equal(png_name, 'shape.png');
-  assert.equal(pixels.subarray(1, 4).toString(), 'PNG');
-  const [csv_name, table] = await saved('#table-csv');
-  assert.equal(csv_name, 'points.csv');
-  const lines = table.toString().trim().split('\n');
-  assert.match(lines[0], /^branch,step,lambda,mid \[cm\],/);
-  assert.equal(lines.length - 1, await page.evaluate(() => JSON.parse(document.getElementById('data').textContent).points.lambda.length));
-  if (await has_plotly(page)) assert.equal((await saved('#curve-svg'))[0], 'curve.svg');
   await finish();
 });
 

@@ -39,6 +39,36 @@ TEST_F(ProgramTest, ResumeGoesOnBehindALimit) {
     EXPECT_EQ(content(work() / "truss" / name), content(work() / "whole" / name)) << name;
 }
 
+// The C library and OpenBLAS are told that the processor is an old one. What differs by more than 1e-12 of its column's
+// greatest value would be more than last bits.
+TEST_F(ProgramTest, ResumeOnAnotherProcessorAgreesToTwelveDigits) {
+  const std::string other =
+      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2_Usable,-AVX2,-AVX512F OPENBLAS_CORETYPE=Prescott ";
+  for (const std::string deck : {"lee", "lattice"}) {
+    ASSERT_EQ(run("examples " + deck + " --out deck.toml").status, 0);
+    ASSERT_EQ(run("run deck.toml --out whole --quiet --no-pictures").status, 0);
+    EXPECT_EQ(run("run deck.toml --out part --quiet --no-pictures --max-points 20").status, 6);
+    EXPECT_EQ(shell(other + "\"$PROGRAM\" resume part --quiet --no-pictures").status, 0);
+    const auto whole = table(content(work() / "whole" / "path.csv")),
+               part = table(content(work() / "part" / "path.csv"));
+    ASSERT_EQ(whole.size(), part.size()) << deck;
+    for (std::size_t column = 0; column < whole[0].size(); ++column) {
+      double greatest = 0.0;
+      for (std::size_t i = 1; i < whole.size(); ++i)
+        greatest = std::max(greatest, std::abs(std::strtod(whole[i][column].c_str(), nullptr)));
+      for (std::size_t i = 1; i < whole.size(); ++i) {
+        const std::string &a = whole[i][column], &b = part[i][column];
+        if (a != b) {
+          EXPECT_NEAR(std::stod(a), std::stod(b), 1e-12 * greatest) << deck << " " << whole[0][column] << " " << i;
+        }
+      }
+    }
+    fs::remove_all(work() / "whole");
+    fs::remove_all(work() / "part");
+    fs::remove(work() / "deck.toml");
+  }
+}
+
 TEST_F(ProgramTest, ResumeWithoutAWholeCheckpointGivesStatus5) {
   expect_in("no such folder", run("resume nowhere").err);
   EXPECT_EQ(run("resume nowhere").status, 5);

@@ -50,6 +50,42 @@ TEST(RunWarnings, AnUnstableStartUnderConstantLoadsIsTold) {
   EXPECT_EQ(result["warnings"].back(), warning_of_start(above.model(), above.record()));
 }
 
+// A bar of length 2 cm and EA = 1e-8 kN under 0.5 kN is 1e8 cm longer; the column bends by 2e-12 cm.
+TEST(RunWarnings, UnitsThatDoNotFitAreTold) {
+  std::string stiff = column(0.4);
+  stiff.replace(stiff.find("2.1e4"), 5, "2.1e13");
+  const test::TracedDeck still(stiff), right(column(0.4)), soft(R"(
+title = "A bar"
+units = { length = "cm", force = "kN" }
+material.steel = { E = 1.0e-8 }
+section.square = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [0.0, 0.0], right = [2.0, 0.0] }
+support = { left = ["x", "z"], right = ["z"] }
+[member.bar]
+from = "left"
+to = "right"
+theory = "truss"
+strain = "engineering"
+material = "steel"
+section = "square"
+elements = 1
+[[load]]
+at = "right"
+force = [1.0, 0.0]
+[path]
+step = 0.5
+max_points = 5
+)");
+  EXPECT_EQ(warning_of_units(right.model(), right.record()), "");
+  EXPECT_TRUE(warning_of_units(still.model(), still.record()).starts_with("the structure has moved by no more than "));
+  EXPECT_TRUE(
+      warning_of_units(soft.model(), soft.record())
+          .starts_with("a first step of λ as the deck has it would move the structure by 5.0e+07 times its size"))
+      << warning_of_units(soft.model(), soft.record());
+  const auto result = result_json(still.model(), "", still.record(), {}, 0);
+  EXPECT_EQ(result["warnings"].back(), warning_of_units(still.model(), still.record()));
+}
+
 class RunWarningsTest : public ProgramTest {};
 
 TEST_F(RunWarningsTest, RunPrintsItOnce) {

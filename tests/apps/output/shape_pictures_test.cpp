@@ -46,6 +46,32 @@ TEST(ShapePictures, FlatOnesAreStretchedAndSaySo) {
   EXPECT_EQ(path(pictures, 0, "member"), "M8000 24800l84000-16800");
 }
 
+Scene moved_line(double down) {
+  Scene scene = scene_of_line({{0.0, 1.0 - down}, {1.0, 1.0 - down}, {1.0, 0.0}});
+  for (ShapePoint& point : scene.shape.members.front().points) point.displacement = {0.0, -down};
+  scene.shape.members.front().points.back().displacement = Vec2::Zero();
+  return scene;
+}
+
+// Whoever draws them larger needs their digits, which whole numbers of places have lost. In a unit of a 2000th of the
+// greatest: z points up, and so down by the way.
+TEST(ShapePictures, SmallDeflectionsAreKeptInAUnitOfTheirOwn) {
+  const auto pictures = draw({{0, 1}, {moved_line(0.5e-6), moved_line(1e-6)}}, {});
+  EXPECT_NEAR(pictures.greatest_move, 1e-6 * 84'000.0, 1e-6);
+  EXPECT_NEAR(pictures.move_unit, pictures.greatest_move / 2000.0, 1e-12);
+  EXPECT_EQ(pictures.pictures[0].moves, std::vector<std::string>{"M0 1000l0 0 0-1000"});
+  EXPECT_EQ(pictures.pictures[1].moves, std::vector<std::string>{"M0 2000l0 0 0-2000"});
+}
+
+// Such fill the picture as they are, or are round-off.
+TEST(ShapePictures, OtherDeflectionsHaveNoOtherScale) {
+  for (const double down : {0.5, 1e-12, 0.0}) {
+    const auto pictures = draw({{0}, {moved_line(down)}}, {});
+    EXPECT_EQ(pictures.move_unit, 0.0) << down;
+    EXPECT_TRUE(pictures.pictures[0].moves.empty()) << down;
+  }
+}
+
 // A force of a wall stands on it; the greatest of all pictures has the longest arrow, 14 % of the longer side.
 TEST(ShapePictures, ArrowsOfWallsAreToOneScale) {
   Scene weak = scene_of_line({{0.0, 0.0}, {1.0, 1.0}}), strong = weak;

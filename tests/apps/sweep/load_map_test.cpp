@@ -43,7 +43,7 @@ TEST(MapAxis, ManyValuesHaveRoundTicks) {
 }
 
 LoadMap map_of(int nx, int ny) {
-  LoadMap map{.x_title = "x", .y_title = "y", .load_title = "load"};
+  LoadMap map{.titles = {.x = "x", .y = "y", .load = "load"}};
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j) map.points.push_back({.number = i * ny + j, .x = i, .y = j, .load = i + j});
   return map;
@@ -59,7 +59,7 @@ TEST(LoadMap, AFullGridHasCellsAndAnythingElsePoints) {
 
 TEST(LoadMap, OneKeyHasTheLoadsOverIt) {
   LoadMap map = map_of(5, 1);
-  map.y_title.clear();
+  map.titles.y.clear();
   map.points.back().load.reset();
   EXPECT_EQ(count("<circle", svg(map)), 5u);
   EXPECT_EQ(count("no such event", svg(map)), 1u);
@@ -74,7 +74,7 @@ TEST(LoadMap, FailedCasesAreCrossed) {
 
 TEST(LoadMap, NoTextOfTheSweepIsMarkup) {
   LoadMap map = map_of(2, 2);
-  map.x_title = "</title><script>alert('&')</script>";
+  map.titles.x = "</title><script>alert('&')</script>";
   map.points[0].x = "<b>";
   EXPECT_EQ(count("<script", svg(map)), 0u);
   EXPECT_EQ(count("<b>", svg(map)), 0u);
@@ -88,11 +88,11 @@ TEST(LoadMap, EqualLoadsAreDrawn) {
 }
 
 TEST(LoadMap, SaysWhatItsLoadsAreTimes) {
-  LoadMap map{.x_title = "k", .load_title = "λ of the snap", .load_unit = "2 kN"};
+  LoadMap map{.titles = {.x = "k", .load = "λ of the snap", .unit = "2 kN"}};
   map.points.push_back({.x = 1.0, .load = 3.0});
   map.points.push_back({.number = 1, .x = 2.0, .load = 4.0});
   EXPECT_EQ(count("λ of the snap, times 2 kN</text>", svg(map)), 1u);  // the axis
-  map.y_title = "l";
+  map.titles.y = "l";
   for (MapPoint& point : map.points) point.y = 1.0;
   EXPECT_EQ(count("λ of the snap, times 2 kN</text>", svg(map)), 1u);  // the bar of colours
 }

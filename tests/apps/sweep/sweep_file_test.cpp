@@ -75,7 +75,7 @@ TEST(SweepFile, EveryErrorIsReportedAtOnceWithItsLine) {
             "s.toml:4:7: grid.a.b: 5 does not say which values; give a list, or { from, to, count }\n"
             "s.toml:5:5: grid.c: the list is empty; give at least one value\n"
             "s.toml:6:22: grid.e.to: is the same as from; give two ends that differ\n"
-            "s.toml:6:33: grid.e.count: 1 is out of range; give an integer of at least 2 and at most 20000\n"
+            "s.toml:6:33: grid.e.count: 1 is out of range; give an integer of at least 2 and at most 1000000\n"
             "s.toml:7:47: grid.f.spacing: \"log\" needs two ends of one sign, other than 0; use \"linear\"\n"
             "s.toml:7:54: grid.f.step: \"step\" is not a key of this table; known are from, to, spacing, count\n"
             "s.toml:9:12: tie.g.to: \"a.d\" is not varied; did you mean a.b?\n"
@@ -108,8 +108,8 @@ TEST(SweepFile, WhatCannotBeAValueIsRefused) {
 
 TEST(SweepFile, NoSweepIsLargerThanCanBeMeant) {
   EXPECT_NE(
-      problems_of(head + "[grid]\na = { from = 0, to = 1, count = 1000 }\nb = { from = 0, to = 1, count = 1000 }\n")
-          .find("more than 20000 cases"),
+      problems_of(head + "[grid]\na = { from = 0, to = 1, count = 1000 }\nb = { from = 0, to = 1, count = 1001 }\n")
+          .find("more than 1000000 cases"),
       std::string::npos);
 }
 

@@ -39,7 +39,7 @@ class SweepProgramTest : public ProgramTest {
   RunCounts run_by(const std::string& script, std::optional<double> most_seconds = {}) const {
     const RunRequest request{
         .folder = study(), .program = stand_in(script), .jobs = 2, .most_seconds = most_seconds, .patience = 0.2};
-    return run_cases(request, read_cases(study()), [](const RunCounts&) {});
+    return run_cases(request, {}, Rerun::none, [](const RunCounts&) {});
   }
 };
 
@@ -150,7 +150,7 @@ TEST_F(SweepProgramTest, ACaseThatDoesNotStopIsKilled) {
 TEST_F(SweepProgramTest, AProgramThatCannotBeStartedIsAnError) {
   plan(stiffness_sweep);
   const RunRequest request{.folder = study(), .program = work() / "gone"};
-  EXPECT_THROW(run_cases(request, read_cases(study()), [](const RunCounts&) {}), OutputError);
+  EXPECT_THROW(run_cases(request, {}, Rerun::none, [](const RunCounts&) {}), OutputError);
   EXPECT_EQ(names_in(study() / "cases"), std::set<std::string>{});
 }
 
@@ -244,8 +244,8 @@ TEST_F(SweepProgramTest, ACaseThatAnotherProcessRunsIsLeftToIt) {
       "until [ -e study/cases/.00000/messages.txt ]; do sleep 0.05; done; "
       "\"$PROGRAM\" sweep run study; "
       // The process of the case holds it as well.
-      "grep -l cases/.00000 --include=cmdline -r /proc/[0-9]*/cmdline 2>/dev/null | while read -r cmdline; do "
-      "readlink ${cmdline%cmdline}fd/* | grep 'cases/.00000$' | sed 's/.*study/held: study/'; done; "
+      "for pid in $(cat /proc/$child/task/$child/children); do readlink /proc/$pid/fd/* | "
+      "grep 'cases/.00000$' | sed 's/.*study/held: study/'; done; "
       "kill -TERM $child; wait $child");
   expect_in("0 of 1 cases have results, 0 of them new; another process is running 1", outcome.out);
   expect_in("held: study/cases/.00000", outcome.out);
@@ -273,7 +273,7 @@ TEST_F(SweepProgramTest, TheReportIsOnePageWithoutNetworkThatTrustsNoText) {
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org/2000/svg"));
   EXPECT_EQ(page.find("https://"), std::string::npos);
-  expect_in("<figcaption>λ of the snap</figcaption>", page);
+  expect_in("<h2>λ of the snap</h2>", page);
   // The policy knows the script by its hash.
   const Outcome hash = shell(
       "python3 -c 'import re, hashlib, base64; page = open(\"study/report.html\").read(); "

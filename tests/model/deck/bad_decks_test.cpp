@@ -88,6 +88,8 @@ TEST(BadDecks, RootMaterialsAndPoints) {
       {"A = [0.0, 0.0]", "A = [0.0]", "point.A", "two numbers"},
       {"A = [0.0, 0.0]", "A = [0.0, 0.0, 0.0]", "point.A", "an array of 3 has the wrong length"},
       {"A = [0.0, 0.0]", "A = [0.0, \"0\"]", "point.A.1", "wrong type"},
+      {"A = [0.0, 0.0]", "A = [0,5, -1,25]", "point.A", "a decimal comma parts two numbers; write [0.5, -1.25]"},
+      {"E = 2.1e4", "E = \"2,1e4\"", "material.steel.E", "write 2.1e4 without quotes"},
       {"A = [0.0, 0.0]", "A = [inf, 0.0]", "point.A.0", "not a finite number"},
       {"A = [0.0, 0.0]", "A = 0.0", "point.A", "wrong type"},
       {"A = [0.0, 0.0]", "\"a:b\" = [0.0, 0.0]", "\"a:b\"", "is no name"},

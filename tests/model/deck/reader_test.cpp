@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -218,6 +219,44 @@ TEST(DeckReader, DoesNotReportOneErrorTwice) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].key, "point.B.1");
   EXPECT_EQ(found[1].key, "member.column.elements");
+}
+
+// A name that nothing has is one error, however many members have it.
+TEST(DeckReader, OneCauseIsOneError) {
+  std::string text(column_deck);
+  text = replaced(text, "[material.steel]", "[material.stahl]");
+  const std::string member =
+      text.substr(text.find("[member.column]"), text.find("[support]") - text.find("[member.column]"));
+  for (const char* name : {"second", "third"})
+    text += replaced(member, "[member.column]", "[member." + std::string(name) + "]");
+  const auto found = diagnostics_of(text);
+  const auto of_material =
+      std::count_if(found.begin(), found.end(), [](const Diagnostic& one) { return one.key.ends_with(".material"); });
+  ASSERT_EQ(of_material, 1);
+  const auto first =
+      std::find_if(found.begin(), found.end(), [](const Diagnostic& one) { return one.key.ends_with(".material"); });
+  EXPECT_EQ(first->key, "member.column.material");
+  EXPECT_TRUE(first->message.starts_with("\"steel\" is not a material of this deck (in 2 more places, too: lines "))
+      << first->message;
+}
+
+TEST(DeckReader, UprightWallsAreToldOnceWithTheOutlineThatTheyAre) {
+  const auto said_of_wall = [](const std::string& keys) {
+    const auto found = diagnostics_of(std::string(column_deck) + "[[wall]]\nname = \"stop\"\n" + keys);
+    EXPECT_EQ(found.size(), 1u) << keys;
+    return found.empty() ? std::string() : to_text(found.front());
+  };
+  for (const char* keys : {"side = \"above\"\nprofile = { type = \"flat\", x = 2.0 }\n",
+                           "side = \"left\"\nprofile = { type = \"flat\", z = 2.0 }\n",
+                           "side = \"above\"\nprofile = { type = \"vertical\", x = 2.0 }\n",
+                           "side = \"above\"\nprofile = { type = \"line\", z = 0.0, slope = inf }\n"}) {
+    const std::string said = said_of_wall(keys);
+    EXPECT_NE(
+        said.find("a profile z = ψ(x) with a side above or below cannot stand upright; give the wall, in place of "
+                  "profile and side, outline = { type = \"half-plane\""),
+        std::string::npos)
+        << said;
+  }
 }
 
 // The second moments are those of every handbook; a tube of full thickness is a circle.

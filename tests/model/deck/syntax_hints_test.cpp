@@ -37,6 +37,13 @@ TEST(TomlSlips, TextWithoutQuotes) {
   EXPECT_EQ(said_of_value("\"classic"), "s.toml:2:5: a text without its closing quote; add \"");
 }
 
+// In a table on one line the comma ends the value.
+TEST(TomlSlips, DecimalCommasInTables) {
+  EXPECT_EQ(said_of_value("{ z = 2,5 }"), "s.toml:2:11: a decimal comma in 2,5; write 2.5");
+  EXPECT_EQ(said_of_value("{ z = -2,5e-3, n = 1 }"), "s.toml:2:11: a decimal comma in -2,5e-3; write -2.5e-3");
+  EXPECT_EQ(said_of_value("{ z = 2, n = 1 }"), "");
+}
+
 TEST(TomlSlips, WordsForTrueAndFalse) {
   EXPECT_EQ(said_of_value("True"), "s.toml:2:5: True is no value; write true");
   EXPECT_EQ(said_of_value("no"), "s.toml:2:5: no is no value; write false");

@@ -1,0 +1,127 @@
+// The chart: plotly's where the page carries it, else the pictures of the page.
+const plotly_chart = (picked) => {
+  const plot = element('plot');
+  const here_trace = () => ({ type: 'scatter', mode: 'markers', x: [], y: [], hoverinfo: 'skip',
+    marker: { size: 20, symbol: 'circle-open', color: colour('force'), line: { width: 3 } } });
+  const axis = (title) => ({ title: { text: as_text(title), standoff: 8 }, zeroline: false, gridcolor: colour('grid'),
+    linecolor: colour('edge'), automargin: true });
+  // The area under a part of the curve; the first of the traces, so that the others stand on it.
+  const area_trace = () => {
+    const [first, last] = shaded ? [Math.min(...shaded), Math.max(...shaded) + 1] : [0, 0];
+    return { type: 'scatter', mode: 'lines', hoverinfo: 'skip', fill: 'tozeroy', fillcolor: `${colour('accent')}33`, line: { width: 0 },
+      x: shown.across.values.slice(first, last), y: shown.up.values.slice(first, last) };
+  };
+  let shown = { across: first_across, up: load }, marked = 0, traces = 0, marks = -1, shaded = null;
+  const sizes = () => [plot.clientWidth - 80, plot.clientHeight - 80];
+  const whole = () => [shown.across, shown.up].map(({ values }) => {
+    const finite = values.filter((value) => value !== null);
+    return [finite.reduce((a, b) => Math.min(a, b), Infinity), finite.reduce((a, b) => Math.max(a, b), -Infinity)];
+  });
+  const say_what_is_drawn = (drawn, cut) => {
+    const notes = [];
+    if (cut) notes.push('The curve goes on beyond this view, which shows the events; a double click shows all of it, another one goes back.');
+    if (drawn.length < events.length) notes.push(`${drawn.length} of ${events.length} events are marked; the others appear where the curve is enlarged.`);
+    element('plot-note').textContent = notes.join(' ');
+  };
+  const draw = () => {
+    const view = view_of_events(shown);
+    const drawn = drawn_events(shown, view ?? whole(), sizes());
+    const lines = line_traces(shown), others = overlay_traces(shown);
+    const all = [area_trace(), ...lines, ...others, event_trace(shown, drawn), here_trace()];
+    traces = all.length;
+    marks = 1 + lines.length + others.length;
+    const narrow = window.matchMedia('(max-width: 860px)').matches;
+    const [x, y] = view ? view.map((range) => ({ range, autorange: false })) : [{}, {}];
+    const layout = { autosize: true, xaxis: { ...axis(shown.across.title), ...x }, yaxis: { ...axis(shown.up.title), ...y },
+      margin: { l: 10, r: 12, t: narrow ? 34 : 28, b: 10 }, showlegend: false, hovermode: 'closest', dragmode: narrow ? false : 'zoom',
+      hoverlabel: { align: 'left', bgcolor: colour('paper'), bordercolor: colour('edge'), font: { color: colour('ink'), size: 13 } },
+      font: { family: 'system-ui, "Segoe UI", Roboto, Arial, sans-serif', size: 13, color: colour('ink') },
+      modebar: { bgcolor: 'rgba(0,0,0,0)', color: colour('soft'), activecolor: colour('accent') },
+      paper_bgcolor: colour('paper'), plot_bgcolor: colour('paper'),
+      annotations: fall_arrows(shown) };
+    const config = { responsive: true, displaylogo: false, doubleClick: 'reset+autosize',
+      modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', 'resetScale2d']],
+      toImageButtonOptions: { filename: 'load', scale: 2 } };
+    Plotly.newPlot(plot, all, layout, config);
+    listen();
+    say_what_is_drawn(drawn, view !== null);
+    mark(marked);
+  };
+  // Where the reader has enlarged the curve there is room for more marks.
+  const mark_events_again = () => {
+    const { xaxis, yaxis } = plot._fullLayout;
+    const drawn = drawn_events(shown, [xaxis.range, yaxis.range].map((range) => range.map(Number)), sizes());
+    if (drawn.length === plot.data[marks].x.length) return;
+    const { x, y, customdata, hovertext, marker } = event_trace(shown, drawn);
+    Plotly.restyle(plot, { x: [x], y: [y], customdata: [customdata], hovertext: [hovertext], marker: [marker] }, [marks]);
+    say_what_is_drawn(drawn, false);
+  };
+  const mark = (point) => {
+    marked = point;
+    const here = { x: [shown.across.values[point]], y: [shown.up.values[point]] };
+    const at_once = { mode: 'immediate', transition: { duration: 0 }, frame: { duration: 0, redraw: false } };
+    Plotly.animate(plot, { data: [here], traces: [traces - 1] }, at_once);
+  };
+  const listen = () => {
+    plot.on('plotly_click', (click) => {
+      const point = click.points[0]?.customdata;
+      if (Number.isInteger(point)) picked(point);
+    });
+    plot.on('plotly_relayout', (changed) => {
+      if (Object.keys(changed).some((key) => /axis\.(range|autorange)/.test(key))) mark_events_again();
+    });
+  };
+  draw();
+  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
+  const shade = (ends) => {
+    shaded = ends;
+    const { x, y } = area_trace();
+    Plotly.restyle(plot, { x: [x], y: [y] }, [0]);
+  };
+  return { choose: (across, up) => { shown = { across, up }; draw(); }, mark, shade };
+};
+
+const picture_chart = (picked) => {
+  element('plot').remove();
+  element('up').remove();
+  const pictured = columns.length > 0 ? quantities.slice(1, 1 + columns.length) : [first_across];
+  const figures = [...element('charts').children];
+  const scale = (text) => {
+    const [low, high, low_place, high_place] = text.split(' ').map(Number);
+    return (value) => low_place + (value - low) / (high - low) * (high_place - low_place);
+  };
+  const pictures = figures.map((figure, monitor) => {
+    const chart = figure.firstElementChild, here = svg('circle');
+    const to_x = scale(chart.dataset.across), to_y = scale(chart.dataset.up);
+    const place = (point) => [to_x(pictured[monitor].values[point]), to_y(points.lambda[point])];
+    here.setAttribute('class', 'here');
+    here.setAttribute('r', '9');
+    chart.append(here);
+    chart.addEventListener('click', (click) => {
+      const at = new DOMPoint(click.clientX, click.clientY).matrixTransform(chart.getScreenCTM().inverse());
+      let nearest = -1, least = 30;
+      for (let point = 0; point < points.lambda.length; ++point) {
+        const [x, y] = place(point);
+        const distance = Math.hypot(x - at.x, y - at.y);
+        if (distance < least) [nearest, least] = [point, distance];
+      }
+      if (nearest >= 0) picked(nearest);
+    });
+    return { here, place };
+  });
+  element('charts').classList.add('chosen-only');
+  const choose = (across) => figures.forEach((figure, i) => figure.classList.toggle('chosen', pictured[i] === across));
+  choose(first_across);
+  const mark = (point) => {
+    for (const { here, place } of pictures) {
+      const [x, y] = place(point);
+      const drawn = Number.isFinite(x) && Number.isFinite(y);
+      here.setAttribute('visibility', drawn ? 'visible' : 'hidden');
+      if (drawn) {
+        here.setAttribute('cx', x.toFixed(1));
+        here.setAttribute('cy', y.toFixed(1));
+      }
+    }
+  };
+  return { choose, mark, shade: () => {} };
+};

@@ -1,0 +1,132 @@
+// The curve as plotly draws it: what is drawn, and where.
+// Colours of the page, which follow whether it is light or dark.
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const of_branch = (own) => own === '#000000' ? colour('ink') : own;
+
+// plotly reads <b>, <a href=…>, <br> and entities in its texts.
+const as_text = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
+
+const stability = (point) => {
+  const unstable = points.unstable[point];
+  return points.stability[point] + (unstable > 0 ? ` in ${unstable} direction${unstable > 1 ? 's' : ''}` : '');
+};
+
+const describe = (point) => {
+  const said = (events_at.get(point) ?? []).map((event) => `${without_hyphens(event.kind)} ${event.what}`.trim());
+  const values = columns.map((column, i) => `${column.name} = ${round(points.monitors[i][point], 6)}`);
+  return [...said, `λ = ${load_factor(point, 8)}`, ...values,
+    stability(point),
+    `branch ${points.branch[point]}, step ${points.step[point]}`];
+};
+const hover_text = (point) => describe(point).map(as_text).join('<br>');
+
+// One trace for all lines of a branch with the same stability; gaps part them.
+const line_traces = ({ across, up }) => {
+  const traces = new Map();
+  const dashes = { stable: 'solid', unstable: 'dash', undecided: 'dot' };
+  for (const line of data.lines) {
+    const key = `${line.branch} ${line.stability}`;
+    if (!traces.has(key)) {
+      traces.set(key, { type: 'scatter', mode: 'lines', x: [], y: [], customdata: [], hovertext: [], hoverinfo: 'text',
+        connectgaps: false, line: { color: of_branch(line.colour), width: 2.2, dash: dashes[line.stability] } });
+    }
+    const trace = traces.get(key);
+    for (let i = line.first; i <= line.last; ++i) {
+      trace.x.push(across.values[i]);
+      trace.y.push(up.values[i]);
+      trace.customdata.push(i);
+      trace.hovertext.push(hover_text(i));
+    }
+    trace.x.push(null);
+    trace.y.push(null);
+    trace.customdata.push(null);
+    trace.hovertext.push('');
+  }
+  return [...traces.values()];
+};
+
+// Where the structure falls to from a loss of stability, λ held: over monitors alone, of which landings tell.
+const fall_arrows = ({ across, up }) => {
+  const monitor = columns.findIndex(({ name }) => name === across.key);
+  if (up !== load || monitor < 0) return [];
+  return data.jumps.map((jump) => ({ x: jump.to[monitor], y: jump.lambda, ax: jump.from[monitor], ay: jump.lambda,
+    xref: 'x', yref: 'y', axref: 'x', ayref: 'y', text: '', showarrow: true, arrowhead: 2, arrowwidth: 2,
+    arrowcolor: colour('force') }));
+};
+
+// Where the events are, if the rest of the curve would leave them a small part of the picture; else null. It goes from
+// the start to the last event of each branch that has one.
+const view_of_events = ({ across, up }) => {
+  const last = new Map();
+  for (const event of events)
+    if (event.kind !== 'start' && event.kind !== 'end') last.set(points.branch[event.point], event.point);
+  if (last.size === 0) return null;
+  const seen = (i) => i <= (last.get(points.branch[i]) ?? -1);
+  const range = (values, is_in) => {
+    let low = Infinity, high = -Infinity;
+    values.forEach((value, i) => {
+      if (value === null || !is_in(i)) return;
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    });
+    return [low, high];
+  };
+  const ranges = [across.values, up.values].map((values) => [range(values, seen), range(values, () => true)]);
+  const small = 0.4;
+  const width = ([low, high]) => high - low;
+  if (!ranges.some(([near, all]) => width(near) < small * width(all))) return null;
+  return ranges.map(([near, all]) => {
+    const margin = 0.12 * (width(near) || width(all) || 1);
+    return [near[0] - margin, near[1] + margin];
+  });
+};
+
+// Marks of hundreds of changes of contact would cover each other and the curve: of those that stand closer than their
+// size one is drawn. Other events always are.
+const drawn_events = ({ across, up }, view, size) => {
+  const [x, y] = [[across.values, view[0], size[0]], [up.values, view[1], size[1]]].map(([values, [low, high], pixels]) =>
+    (point) => (values[point] - low) / (high - low || 1) * pixels);
+  const least = 13;
+  const cells = new Map();
+  const is_free = (event) => {
+    const [column, row] = [x(event.point), y(event.point)].map((place) => Math.floor(place / least));
+    for (let i = column - 1; i <= column + 1; ++i)
+      for (let j = row - 1; j <= row + 1; ++j) {
+        const near = cells.get(`${i} ${j}`);
+        if (near && Math.hypot(x(near.point) - x(event.point), y(near.point) - y(event.point)) < least) return false;
+      }
+    cells.set(`${column} ${row}`, event);
+    return true;
+  };
+  const few = 40;
+  const is_contact = ({ kind }) => /^contact-(closes|opens|spreads|gathers|passes)$/.test(kind);
+  if (events.filter(is_contact).length <= few) return events;
+  return events.filter((event) => !is_contact(event) || is_free(event));
+};
+
+const event_trace = ({ across, up }, drawn) => {
+  const marked = [...drawn].sort((a, b) => b.size - a.size);  // a small mark stands on a large one
+  return {
+    type: 'scatter', mode: 'markers', hoverinfo: 'text',
+    x: marked.map((event) => across.values[event.point]),
+    y: marked.map((event) => up.values[event.point]),
+    customdata: marked.map((event) => event.point),
+    hovertext: marked.map((event) => hover_text(event.point)),
+    marker: { opacity: 1, size: marked.map((event) => event.size), symbol: marked.map((event) => event.symbol),
+      color: marked.map((event) => event.filled ? colour('ink') : colour('paper')), line: { color: colour('ink'), width: 1.4 } },
+  };
+};
+
+// Other runs and measured points, where they have both quantities.
+const overlay_traces = ({ across, up }) => data.overlays.filter(({ values }) => values[across.key] && values[up.key]).map((other) => {
+  const [x, y] = [across, up].map(({ key }) => values_with_gaps(other, key));
+  return { type: 'scatter', mode: other.measured ? 'markers' : 'lines', hoverinfo: 'text', connectgaps: false, x, y,
+    hovertext: y.map((value, i) => as_text(`${other.name}: ${up.name} = ${round(value, 8)}, ${across.name} = ${round(x[i], 8)}`)),
+    line: { color: other.colour, width: 1.6 },
+    marker: { color: other.colour, size: 7, symbol: 'x-thin', line: { color: other.colour, width: 1.6 } } };
+});
+const values_with_gaps = (other, key) => {
+  const values = [...other.values[key]];
+  for (const first of [...other.firsts].reverse()) if (first > 0) values.splice(first, 0, null);
+  return values;
+};

@@ -1,0 +1,30 @@
+// What the page knows of the run.
+const data = JSON.parse(document.getElementById('data').textContent);
+const { points, shapes, events, columns } = data;
+const element = (id) => document.getElementById(id);
+const svg = (name) => document.createElementNS('http://www.w3.org/2000/svg', name);
+const round = (value, digits) => value === null ? '–' : String(Number(value.toPrecision(digits)));
+const without_hyphens = (word) => word.replaceAll('-', ' ');
+
+const events_at = new Map();  // of a point
+for (const event of events) {
+  if (!events_at.has(event.point)) events_at.set(event.point, []);
+  events_at.get(event.point).push(event);
+}
+
+// Load factors as text; at events in no more digits than are sure.
+const uncertain = new Map(data.uncertain);
+const load_factor = (point, digits) => uncertain.get(point) ?? round(points.lambda[point], digits);
+
+// What a point has to be drawn over, or under: λ, the monitors, and what every point has.
+const quantities = [
+  { key: 'lambda', name: 'λ', title: data.load_title, values: points.lambda },
+  ...columns.map((column, i) => ({ key: column.name, name: column.name, title: column.title, values: points.monitors[i] })),
+  { key: 'arc', name: 'arc length', title: 'arc length of the branch', values: points.arc },
+  { key: 'energy', name: 'energy', title: data.energy_unit === '' ? 'energy' : `energy [${data.energy_unit}]`, values: points.energy },
+  { key: 'contacts', name: 'contacts', title: 'closed contacts', values: points.contacts },
+  { key: 'unstable', name: 'unstable', title: 'unstable directions', values: points.unstable },
+  { key: 'step', name: 'step', title: 'step of the branch', values: points.step },
+];
+const load = quantities[0];
+const first_across = columns.length > 0 ? quantities[1] : quantities.find(({ key }) => key === 'arc');

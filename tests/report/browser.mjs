@@ -1,0 +1,73 @@
+// A browser, pages that trace-path writes, and what a page complains about.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { before, after } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+export const [trace_path, examples, executable] = process.argv.slice(2);
+export const desktop = { width: 1280, height: 900 }, phone = { width: 375, height: 740 };
+
+let browser;
+export let folder, channel;
+
+// Runs a deck and gives the page; 3 and 6 are ends that leave results.
+export const report_of = (deck, name, more = []) => {
+  const out = join(folder, name);
+  try {
+    execFileSync(trace_path, ['run', deck, '--out', out, '--quiet', ...more], { stdio: ['ignore', 'ignore', 'pipe'] });
+  } catch (failure) {
+    if (![3, 6].includes(failure.status)) throw new Error(`${deck}: ${failure.stderr}`);
+  }
+  return join(out, 'report.html');
+};
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'report-'));
+  browser = await chromium.launch({
+    executablePath: executable,
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+      '--disable-component-update', '--disable-sync'],
+  });
+  channel = report_of(join(examples, 'channel.toml'), 'channel');
+});
+
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+// A page, and what it complains about or asks for.
+export const open = async (file, options = {}, fragment = '') => {
+  const context = await browser.newContext({ viewport: desktop, ...options });
+  context.setDefaultTimeout(120_000);  // a bound on hanging, on busy machines too
+  const page = await context.newPage();
+  const complaints = [], requests = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('dialog', (dialog) => { complaints.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
+  page.on('request', (request) => requests.push(request.url()));
+  const address = pathToFileURL(file).href;
+  await page.goto(address + fragment);
+  const finish = async () => {
+    assert.deepEqual(complaints, [], 'the console is quiet');
+    assert.deepEqual(requests.filter((url) => url !== address && !/^(data|blob):/.test(url)), [], 'nothing is fetched');
+    await context.close();
+  };
+  return { page, finish };
+};
+
+export const has_plotly = (page) => page.evaluate(() => typeof Plotly !== 'undefined');
+
+// What a button lets the reader save: its name, and its bytes.
+export const saved = async (page, button) => {
+  const download = page.waitForEvent('download');
+  await page.click(button);
+  const file = await download;
+  return [file.suggestedFilename(), readFileSync(await file.path())];
+};
