@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "contact/sliding/bending.hpp"
-#include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/layout_edit.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
@@ -135,23 +134,13 @@ std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at,
 }
 
 std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand,
-                                  double tolerance) {
+                                  const std::vector<bool>& ends) {
   const Transition none = unsupported(
       "the end of a member is lifted off the wall that it lies on, and no equilibrium "
       "was found in which it peels off");
   const auto obstacle = at.layout.lies_on(strand);
   if (!obstacle) return {none};
   const double L = setting.body.length(strand);
-  std::vector<bool> ends;  // false: the first
-  std::vector<Index> named;
-  for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
-    const auto* bound = dynamic_cast<const EndStaysBound*>(at.layout.bounds()[i].get());
-    if (bound == nullptr || bound->strand() != strand) continue;
-    if (bound->value(setting, at) > std::max(1e-6, 10.0 * tolerance)) continue;
-    ends.push_back(bound->last());
-    named.push_back(static_cast<Index>(at.contacts() + i));
-  }
-  if (ends.empty()) return {none};
   std::vector<Transition> transitions;
   for (const double factor : {2.0, 8.0, 32.0}) {
     const double length = factor * shortest_span(setting.body, strand);
@@ -172,7 +161,6 @@ std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingSt
     const std::size_t point = on->point_at_end(strand, last).value();
     transitions.push_back(up_to(length, std::make_shared<TailLength>(point, last ? L : 0.0), Transition::Change::splits,
                                 mapped_onto(setting, at, edit, on)));
-    transitions.back().contacts = named;
   }
   transitions.push_back(none);
   return transitions;

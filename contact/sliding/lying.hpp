@@ -21,10 +21,10 @@ State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest
 /// from here towards a value, are pressed on them or free spans beside them, as the load says.
 State with_flat_parts_loaded(const SlidingSetting& setting, const SlidingState& at, double toward);
 
-/// What may lie behind a state where ends of a strand that is pressed all along leave its obstacle, within a tolerance:
-/// the strand peels off from them.
+/// What may lie behind a state where ends of a strand that is pressed all along leave its obstacle: the strand peels off
+/// from them. `ends`: true for its last one.
 std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand,
-                                  double tolerance);
+                                  const std::vector<bool>& ends);
 
 /// Why λ cannot go on from 0 towards a value while strands lie on obstacles from end to end; empty if it can.
 std::string why_not_lying(const SlidingSetting& setting, const SlidingState& at, double toward);

@@ -1,6 +1,7 @@
 #include "contact/sliding/spreading.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -146,15 +147,22 @@ struct HalfPressed {
   bool pressed_first;
 };
 
+// Whether the pressure that would hold the body on the wall changes its sign within a stretch about a point.
+bool pressure_changes_sign(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double length) {
+  const double before = pressure_to_hold(setting, at, point, -0.5 * length);
+  const double behind = pressure_to_hold(setting, at, point, 0.5 * length);
+  return std::min(before, behind) < 0.0 && std::max(before, behind) > 0.0;
+}
+
 // With the pressure p̄′ (S − S₀) the arch has EI g⁗ = −p̄′ (S − S₀), g = g′ = 0 at both ends and g″ = 0 where the part is
 // pressed: 3/5 of it lie beyond S₀ (8.7a). Empty where the pressure has one sign, or a span would be too short.
 std::optional<HalfPressed> half_pressed(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
                                         double length) {
   constexpr double beyond = 0.6;
+  if (!pressure_changes_sign(setting, at, point, length)) return std::nullopt;
   const auto pressure = [&](double ahead) { return pressure_to_hold(setting, at, point, ahead); };
   double pressed = -0.5 * length, free = 0.5 * length;
   if (pressure(pressed) < pressure(free)) std::swap(pressed, free);
-  if (!(pressure(pressed) > 0.0 && pressure(free) < 0.0)) return std::nullopt;
   double edge = free;
   for (double a = pressed, b = free; std::abs(b - a) > 1e-6 * length;)
     (pressure(edge = 0.5 * (a + b)) > 0.0 ? a : b) = edge;
@@ -207,8 +215,8 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
 // arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
 // begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be. Shorter
-// ones are tried before longer ones of any kind: far from the change a longer one may be on a part of the path that is
-// still to come.
+// ones are tried before longer ones, half pressed ones included unless the pressure changes its sign at once: far from
+// the change a longer one may be on a part of the path that is still to come.
 std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
   constexpr double shorter = 0.6;
   const Index strand = at.mesh.breakpoint(static_cast<Index>(points.front())).first;
@@ -221,11 +229,17 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
     return holding_pressure(setting, at, k) < 0.0 && obstacle_curvature(setting, at, k) == 0.0;
   };
   std::vector<Transition> transitions;
-  const bool all_flat = is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); });
-  const bool all_lift_off = is_all(lifts_off_straight);
-  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0}) {
+  const auto try_half_pressed = [&](double factor) {
     if (auto transition = spread_half_pressed(setting, at, points, factor * length))
       transitions.push_back(std::move(*transition));
+  };
+  constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0};
+  const bool changes_at_once = is_all([&](std::size_t k) { return pressure_changes_sign(setting, at, k, length); });
+  if (changes_at_once) std::for_each(factors.begin(), factors.end(), try_half_pressed);
+  const bool all_flat = is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); });
+  const bool all_lift_off = is_all(lifts_off_straight);
+  for (const double factor : factors) {
+    if (!changes_at_once) try_half_pressed(factor);
     const bool shortest = factor == 1.0;
     if (all_flat && shortest) {
       transitions.push_back(spread_to(Span::flat, 1.0));

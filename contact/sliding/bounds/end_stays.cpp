@@ -27,9 +27,21 @@ Row EndStaysBound::gradient(const SlidingSetting& setting, const SlidingState& a
   return row;
 }
 
+// Both ends stay where the obstacle is as long as neither leaves it.
 std::vector<Transition> EndStaysBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                    const Arrival& arrival) const {
-  return peels_off(setting, at, strand_, arrival.tolerance);
+  std::vector<bool> ends;
+  std::vector<Index> numbers;  // of their bounds among the guards
+  for (std::size_t i = 0; i < at.layout.bounds().size(); ++i) {
+    const auto* bound = dynamic_cast<const EndStaysBound*>(at.layout.bounds()[i].get());
+    if (bound == nullptr || bound->strand() != strand_) continue;
+    if (bound != this && !(apply(bound->gradient(setting, at), arrival.forward) < 0.0)) continue;
+    ends.push_back(bound->last());
+    numbers.push_back(static_cast<Index>(at.contacts() + i));
+  }
+  std::vector<Transition> transitions = peels_off(setting, at, strand_, ends);
+  for (Transition& transition : transitions) transition.contacts = numbers;
+  return transitions;
 }
 
 }  // namespace arcwall::sliding

@@ -21,7 +21,7 @@ std::vector<Transition> HoldingMomentBound::transitions(const SlidingSetting& se
                                                         const Arrival& arrival) const {
   if (auto leave = strands_leave(setting, at, arrival.forward, arrival.tolerance)) return {std::move(*leave)};
   const SlidingContactLayout::PressedTip& end = at.layout.pressed_tips()[tip_];
-  return peels_off(setting, at, end.strand, end.position > 0);
+  return peels_off(setting, at, end.strand, {end.position > 0});
 }
 
 }  // namespace arcwall::sliding
