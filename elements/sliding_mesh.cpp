@@ -4,11 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "elements/axis_load.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/elastica_beam.hpp"
-#include "elements/foundation.hpp"
-#include "elements/pressure.hpp"
 #include "elements/unit_tangent.hpp"
 
 namespace arcwall {
@@ -240,88 +237,6 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond_unloaded(Index stra
   return out;
 }
 
-// Adds the part of the load along the strand.
-void SlidingStructureMesh::add_load(const SlidingStructure::Run& strand, const StretchReference& stretch,
-                                    const Ends& at, double lambda, Response& out) {
-  const auto add = [&](const Vec2& load, double factor) {
-    const auto response = StretchLoad(stretch, load).respond(at.first, at.angle1, at.second, at.angle2);
-    out.energy += factor * response.energy;
-    out.force += factor * response.force;
-    out.stiffness += factor * response.stiffness;
-    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
-    return response.force;
-  };
-  out.force_lambda += add(strand.load, lambda);
-  add(strand.constant_load, 1.0);
-}
-
-void SlidingStructureMesh::add_axis_load(Index strand, Index position, const StretchReference& stretch, const Ends& at,
-                                         const MeshState& now, Response& out) const {
-  const SlidingStructure::Run& described = structure_.at(strand);
-  const MaterialPoint start{.strand = strand, .s = coordinate(strand, position, now.s)};
-  const Vec2 rest = structure_.undeformed(start, true).position;
-  const auto add = [&](const Vec2& load, double factor) {
-    const auto response =
-        StretchAxisLoad(stretch, load).respond(at.first - rest, at.angle1, at.second - rest, at.angle2);
-    out.energy += factor * response.energy;
-    out.force += factor * response.force;
-    out.stiffness += factor * response.stiffness;
-    for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += factor * response.force_rate[end];
-    return response.force;
-  };
-  out.force_lambda += add(described.axis_load, now.lambda);
-  add(described.constant_axis_load, 1.0);
-}
-
-void SlidingStructureMesh::add_pressure(Index strand, Index position, const Ends& at, const MeshState& now,
-                                        Response& out) const {
-  const Vec2& origin = structure_.origin_;
-  const auto at_rest = [&](Index node) {
-    return structure_.undeformed({.strand = strand, .s = coordinate(strand, node, now.s)}, true);
-  };
-  const AxisPlace first = at_rest(position), second = at_rest(position + 1);
-  const auto rest = pressure_on_stretch(first.position - origin, first.angle, second.position - origin, second.angle);
-  const auto response = pressure_on_stretch(at.first - origin, at.angle1, at.second - origin, at.angle2);
-  const Driven& pressure = structure_.at(strand).pressure;
-  const double p = pressure.at(now.lambda);
-  out.energy += p * (response.energy - rest.energy);
-  out.force += p * response.force;
-  out.stiffness += p * response.stiffness;
-  out.force_lambda += pressure.proportional * response.force;
-}
-
-// With the forces on the ends of this element alone: what pressure on the next one cancels in their sum makes the
-// stiffness unsymmetric.
-SlidingStructureMesh::Response SlidingStructureMesh::with_end_forces(Response response, Index strand, Index position,
-                                                                     const MeshState& now) const {
-  const Driven& pressure = structure_.at(strand).pressure;
-  if (pressure.is_zero()) return response;
-  const Ends at = ends(strand, position, now);
-  const Six rates = end_rates(strand, position);
-  const double p = pressure.at(now.lambda);
-  Eigen::Matrix2d turn;
-  turn << 0.0, -1.0, 1.0, 0.0;
-  for (const Index end : {0, 3}) {
-    const double sign = end == 0 ? -1.0 : 1.0;
-    const Vec2 force = sign * pressure_at_end((end == 0 ? at.first : at.second) - structure_.origin_);
-    response.force.segment<2>(end) += p * force;
-    response.force_lambda.segment<2>(end) +=
-        pressure.proportional * force + 0.5 * sign * p * turn * rates.segment<2>(end);
-    response.stiffness.block<2, 2>(end, end) += 0.5 * sign * p * turn;
-  }
-  return response;
-}
-
-void SlidingStructureMesh::add_foundation(const SlidingStructure::Run& strand, const StretchReference& stretch,
-                                          const Vec2& first_at_rest, const Ends& at, Response& out) {
-  const auto response = StretchFoundation(stretch, strand.foundation)
-                            .respond(at.first - first_at_rest, at.angle1, at.second - first_at_rest, at.angle2);
-  out.energy += response.energy;
-  out.force += response.force;
-  out.stiffness += response.stiffness;
-  for (std::size_t end = 0; end < 2; ++end) out.force_rate[end] += response.force_rate[end];
-}
-
 // Derivatives of the place of a load by x1, z1, angle1, x2, z2, angle2 of the element between S1 and S2 that it is in.
 SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_by_ends(const InnerLoad& load, const Ends& at, double S1,
                                                                       double S2, double lambda, Vec2* place) const {
@@ -369,8 +284,8 @@ SlidingStructureMesh::PlaceByEnds SlidingStructureMesh::place_on_chord(const Inn
 }
 
 // The potential −P·(r − r₀), r the place of the load in the shape of the element, or between its nodes where these are
-// pressed on an obstacle. Its second derivatives are central
-// differences: they have no more than their part in K and ∂F/∂s, to which ten digits are exact.
+// pressed on an obstacle. Its second derivatives are central differences: they have no more than their part in K and
+// ∂F/∂s, to which ten digits are exact.
 SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& load, Index position,
                                                              const MeshState& now, bool with_rates) const {
   constexpr double step = 1e-5;
