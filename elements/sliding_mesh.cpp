@@ -292,7 +292,8 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& lo
   const Index strand = load.strand;
   const Ends at = ends(strand, position, now);
   const double S1 = coordinate(strand, position, now.s), S2 = coordinate(strand, position + 1, now.s);
-  const auto [P, P_rate] = load.load->at(now.lambda);
+  const SlidingBody::PointForce driven = load.load->at(now.lambda);
+  const Vec2& P = driven.value;
   const bool pressed = load.first != held;
   const auto by_ends_at = [&](const Ends& ends, double from, double to, double lambda, Vec2* place) {
     return pressed ? place_on_chord(load, ends, from, to, place) : place_by_ends(load, ends, from, to, lambda, place);
@@ -301,7 +302,7 @@ SlidingStructureMesh::Response SlidingStructureMesh::respond(const InnerLoad& lo
   const PlaceByEnds by_ends = by_ends_at(at, S1, S2, now.lambda, &place);
   Response out{.energy = -P.dot(place - load.rest),
                .force = -by_ends.transpose() * P,
-               .force_lambda = -by_ends.transpose() * P_rate};
+               .force_lambda = -by_ends.transpose() * driven.rate};
   const auto force_at = [&](const Ends& ends, double from, double to, double lambda) {
     return Six(-by_ends_at(ends, from, to, lambda, nullptr).transpose() * P);
   };

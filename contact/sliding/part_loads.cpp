@@ -68,13 +68,13 @@ Row push_gradient(const SlidingSetting& setting, const SlidingState& at, const P
   constexpr double step = 1e-5;  // of the length scale, and of λ
   const std::size_t obstacle = obstacle_of_part(at, load.segment);
   const AxisPlace axis = at.mesh.place(here(setting, load), at.now);
-  const auto [force, rate] = setting.body.point_load(load.strand, load.load, at.now.lambda);
+  const SlidingBody::PointForce driven = setting.body.point_load(load.strand, load.load, at.now.lambda);
   const auto slope = [&](const Vec2& by_place, double by_angle, double by_lambda, double size) {
     const auto moved = [&](double way) {
       const AxisPlace there{.position = axis.position + way * by_place, .angle = axis.angle + way * by_angle};
       return normal_at(setting, obstacle, load.strand, there, at.now.lambda + way * by_lambda);
     };
-    return -force.dot(moved(1.0) - moved(-1.0)) / (2.0 * size);
+    return -driven.value.dot(moved(1.0) - moved(-1.0)) / (2.0 * size);
   };
   const double length = step * setting.scales.length;
   const Eigen::RowVector3d by_axis(slope({length, 0.0}, 0.0, 0.0, length), slope({0.0, length}, 0.0, 0.0, length),
@@ -84,7 +84,7 @@ Row push_gradient(const SlidingSetting& setting, const SlidingState& at, const P
   row.dx.head(at.index.nodes) = (by_axis * moves.dx).transpose();
   row.dx.tail(at.index.points) = (by_axis * moves.ds).transpose();
   row.dlambda = by_axis * moves.dlambda + slope({0.0, 0.0}, 0.0, step, step);
-  row.dlambda -= rate.dot(normal_at(setting, obstacle, load.strand, axis, at.now.lambda));
+  row.dlambda -= driven.rate.dot(normal_at(setting, obstacle, load.strand, axis, at.now.lambda));
   return row;
 }
 
