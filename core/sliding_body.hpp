@@ -30,8 +30,8 @@ struct MeshSegment {
   int elements = 1;
   Index load = -1;  ///< at which the segment ends, by SlidingBody::point_loads; −1: elsewhere
 
-  /// The nodes are pressed on an obstacle, to which they hand these loads on that act inside the segment: on the two nodes
-  /// beside them, as on those of a bar. Others have no part in it, be they at its end.
+  /// The nodes are pressed on an obstacle, to which they hand these loads on that act inside the segment: on the two
+  /// nodes beside them, as on those of a bar. Others have no part in it, be they at its end.
   bool pressed = false;
   std::vector<Index> handed_on{};
 

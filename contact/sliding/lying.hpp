@@ -21,8 +21,8 @@ State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest
 /// from here towards a value, are pressed on them or free spans beside them, as the load says.
 State with_flat_parts_loaded(const SlidingSetting& setting, const SlidingState& at, double toward);
 
-/// What may lie behind a state where ends of a strand that is pressed all along leave its obstacle: the strand peels off
-/// from them. `ends`: true for its last one.
+/// What may lie behind a state where ends of a strand that is pressed all along leave its obstacle: the strand peels
+/// off from them. `ends`: true for its last one.
 std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingState& at, Index strand,
                                   const std::vector<bool>& ends);
 

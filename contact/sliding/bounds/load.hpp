@@ -48,8 +48,8 @@ class LoadBesidePartBound final : public ValidityBound {
   std::size_t segment_;
 };
 
-/// The reverse: the elements between a load that a pressed part hands on and the nearest edge of the part. A little behind
-/// the edge, where the bound is, the load acts on the member.
+/// The reverse: the elements between a load that a pressed part hands on and the nearest edge of the part. A little
+/// behind the edge, where the bound is, the load acts on the member.
 class LoadInPartBound final : public ValidityBound {
  public:
   LoadInPartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
