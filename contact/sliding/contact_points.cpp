@@ -75,8 +75,7 @@ ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at
         touch_of_end(setting, at.layout, {.strand = stays->strand(), .last = stays->last(), .obstacle = obstacle}),
         0.0);
   }
-  if (const auto* presses = dynamic_cast<const LoadPressesBound*>(&bound))
-    return at_load(setting, at, presses->load(at));
+  if (const auto* presses = dynamic_cast<const LoadPressesBound*>(&bound)) return at_load(setting, at, presses->load());
   return at_least_pressure(setting, at, dynamic_cast<const PressureBound&>(bound));
 }
 

@@ -273,23 +273,24 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
 
 std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,
                                        double tolerance) {
-  const auto pulls = [&](const LoadPressesBound& bound) {
-    return bound.load(at).segment == load.segment && bound.value(setting, at) <= std::max(1e-6, 10.0 * tolerance);
-  };
+  auto pulling = reached<LoadPressesBound>(setting, at, tolerance);
+  std::erase_if(pulling, [&](const LoadPressesBound* bound) { return bound->load().segment != load.segment; });
   const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
   const std::size_t obstacle = obstacle_of_part(at, load.segment);
   const bool on_straight = setting.obstacles[obstacle].surface->knots().empty();
   LiftOffs lifts;
-  for (const auto& bound : at.layout.bounds())
-    if (const auto* presses = dynamic_cast<const LoadPressesBound*>(bound.get()); presses != nullptr && pulls(*presses))
-      lifts.push_back({.segment = load.segment,
-                       .obstacle = obstacle,
-                       .place = place_of(setting, presses->load(at)),
-                       .on_straight = on_straight});
+  for (const LoadPressesBound* bound : pulling)
+    lifts.push_back({.segment = load.segment,
+                     .obstacle = obstacle,
+                     .place = place_of(setting, bound->load()),
+                     .on_straight = on_straight});
+  const std::vector<Index> bounds = bounds_of<LoadPressesBound>(at, [&](const LoadPressesBound& bound) {
+    return std::find(pulling.begin(), pulling.end(), &bound) != pulling.end();
+  });
   std::vector<Transition> transitions;
   for (const double length : lengths_inside(setting.body, part.strand, on_straight))
     if (auto transition = lifted(setting, at, lifts, length)) {
-      transition->contacts = bounds_of<LoadPressesBound>(at, pulls);
+      transition->contacts = bounds;
       transitions.push_back(std::move(*transition));
     }
   transitions.push_back(nothing_lifted());

@@ -53,15 +53,18 @@ void add_of_inner_loads(const SlidingBody& body, const SlidingContactLayout& on,
   for (std::size_t i = 0; i < body.point_loads(strand).size(); ++i) {
     const auto load = static_cast<Index>(i);
     if (on.has_node(strand, load)) continue;
-    add_if<LoadBehindBound>(true, to, strand, load);
+    bool is_handed_on = false;
     for (std::size_t j = 0; j < on.segments().size(); ++j) {
       const SlidingContactLayout::Segment& part = on.segments()[j];
       if (part.strand != strand || part.span == Span::free) continue;
+      const PartLoad on_part{.strand = strand, .load = load, .segment = j};
       const bool inside = on.hands_on(j, load);
-      add_if<LoadBesidePartBound>(!inside && part.has_point(), to, load, j);
-      add_if<LoadInPartBound>(inside && part.has_point(), to, load, j);
-      add_if<LoadPressesBound>(inside, to, load, j);
+      add_if<LoadBesidePartBound>(!inside && part.has_point(), to, on_part);
+      add_if<LoadInPartBound>(inside && part.has_point(), to, on_part);
+      add_if<LoadPressesBound>(inside, to, on_part);
+      is_handed_on = is_handed_on || inside;
     }
+    add_if<LoadBehindBound>(!is_handed_on, to, strand, load);
   }
 }
 

@@ -50,13 +50,6 @@ Index nearest_point(const SlidingSetting& setting, const SlidingState& at, Index
   return nearest;
 }
 
-// Whether a pressed part hands a load on: it has no node there.
-bool is_handed_on(const SlidingState& at, Index strand, Index load) {
-  for (std::size_t i = 0; i < at.layout.segments().size(); ++i)
-    if (at.layout.segments()[i].strand == strand && at.layout.hands_on(i, load)) return true;
-  return false;
-}
-
 // Loads are settled wherever a layout is made anew.
 std::vector<Transition> settled(const SlidingSetting& setting, const SlidingState& at, const Direction& forward) {
   return {remeshed(setting, at, forward, [](LayoutEdit&, const SlidingState&) {})};
@@ -78,13 +71,11 @@ std::vector<Transition> LoadAheadBound::transitions(const SlidingSetting& settin
 }
 
 double LoadBehindBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  if (is_handed_on(at, strand_, load_)) return no_point_near;
   const Index nearest = nearest_point(setting, at, strand_, load_);
   return nearest < 0 ? no_point_near : farthest_load_inside - apart(setting, at, strand_, load_, nearest);
 }
 
 Row LoadBehindBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  if (is_handed_on(at, strand_, load_)) return at.no_slope();
   const Index nearest = nearest_point(setting, at, strand_, load_);
   return nearest < 0 ? at.no_slope() : apart_gradient(setting, at, strand_, load_, nearest, -1.0);
 }
@@ -126,10 +117,6 @@ Row outside_gradient(const SlidingSetting& setting, const SlidingState& at, cons
   return row;
 }
 
-PartLoad part_load(const SlidingState& at, Index load, std::size_t segment) {
-  return {.strand = at.layout.segments()[segment].strand, .load = load, .segment = segment};
-}
-
 // The same state, in which a part hands a load on or does not.
 Transition handed_on(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                      const PartLoad& load, bool is_handed_on) {
@@ -148,44 +135,41 @@ double scaled_push(const SlidingSetting& setting, const SlidingState& at, const 
 }  // namespace
 
 double LoadBesidePartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return outside(setting, at, part_load(at, load_, segment_));
+  return outside(setting, at, load_);
 }
 
 Row LoadBesidePartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return outside_gradient(setting, at, part_load(at, load_, segment_), 1.0);
+  return outside_gradient(setting, at, load_, 1.0);
 }
 
 std::vector<Transition> LoadBesidePartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                          const Arrival& arrival) const {
-  const PartLoad load = part_load(at, load_, segment_);
-  const bool is_pressed = at.layout.segments()[segment_].span == SlidingContactLayout::Span::pressed;
+  const bool is_pressed = at.layout.segments()[load_.segment].span == SlidingContactLayout::Span::pressed;
   if (!is_pressed) return {unsupported("a part that lies on a wall without pressure reached a point load")};
-  if (scaled_push(setting, at, load) < 0.0)
+  if (scaled_push(setting, at, load_) < 0.0)
     return {unsupported("a part that lies on a wall reached a point load that pulls it off")};
-  return {handed_on(setting, at, arrival.forward, load, true)};
+  return {handed_on(setting, at, arrival.forward, load_, true)};
 }
 
 double LoadInPartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return edge_behind_load - outside(setting, at, part_load(at, load_, segment_));
+  return edge_behind_load - outside(setting, at, load_);
 }
 
 Row LoadInPartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return outside_gradient(setting, at, part_load(at, load_, segment_), -1.0);
+  return outside_gradient(setting, at, load_, -1.0);
 }
 
 std::vector<Transition> LoadInPartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                      const Arrival& arrival) const {
-  return {handed_on(setting, at, arrival.forward, part_load(at, load_, segment_), false)};
+  return {handed_on(setting, at, arrival.forward, load_, false)};
 }
 
-PartLoad LoadPressesBound::load(const SlidingState& at) const { return part_load(at, load_, segment_); }
-
 double LoadPressesBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return scaled_push(setting, at, load(at));
+  return scaled_push(setting, at, load_);
 }
 
 Row LoadPressesBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  Row row = push_gradient(setting, at, load(at));
+  Row row = push_gradient(setting, at, load_);
   row.dx /= setting.scales.force;
   row.dlambda /= setting.scales.force;
   return row;
@@ -193,7 +177,7 @@ Row LoadPressesBound::gradient(const SlidingSetting& setting, const SlidingState
 
 std::vector<Transition> LoadPressesBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                       const Arrival& arrival) const {
-  return load_lifts_off(setting, at, load(at), arrival.tolerance);
+  return load_lifts_off(setting, at, load_, arrival.tolerance);
 }
 
 }  // namespace arcwall::sliding

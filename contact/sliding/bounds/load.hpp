@@ -37,45 +37,42 @@ class LoadBehindBound final : public ValidityBound {
 /// the bound a pressed part hands the load on to the wall; what a load does to a part without pressure is not modelled.
 class LoadBesidePartBound final : public ValidityBound {
  public:
-  LoadBesidePartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
+  explicit LoadBesidePartBound(const PartLoad& load) : load_(load) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 
  private:
-  Index load_;
-  std::size_t segment_;
+  PartLoad load_;
 };
 
 /// The reverse: the elements between a load that a pressed part hands on and the nearest edge of the part. A little
 /// behind the edge, where the bound is, the load acts on the member.
 class LoadInPartBound final : public ValidityBound {
  public:
-  LoadInPartBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
+  explicit LoadInPartBound(const PartLoad& load) : load_(load) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 
  private:
-  Index load_;
-  std::size_t segment_;
+  PartLoad load_;
 };
 
 /// The force with which a load presses a part that hands it on. Behind the bound it would pull, and the part lifts off.
 class LoadPressesBound final : public ValidityBound {
  public:
-  LoadPressesBound(Index load, std::size_t segment) : load_(load), segment_(segment) {}
-  PartLoad load(const SlidingState& at) const;
+  explicit LoadPressesBound(const PartLoad& load) : load_(load) {}
+  const PartLoad& load() const { return load_; }
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 
  private:
-  Index load_;
-  std::size_t segment_;
+  PartLoad load_;
 };
 
 }  // namespace arcwall::sliding
