@@ -6,9 +6,9 @@
 # --sanitize: preset `sanitize` (clang, sanitizers, assertions, fuzz targets) in build/sanitize; else preset `tests`
 # (warnings are errors) in build/tests.
 #
-# The presets compile eight sources at a time, which halves the time of a whole build. Whoever changes one source after
-# the other says `cmake -DCMAKE_UNITY_BUILD=OFF build/tests`; a folder that exists keeps what it was told. clang finds
-# that names of files which are compiled together shadow each other, so there warnings are no errors.
+# The presets compile up to sixteen sources at a time, which more than halves the time of a whole build. Whoever changes
+# one source after the other says `cmake -DCMAKE_UNITY_BUILD=OFF build/tests`; a folder that exists keeps what it was
+# told.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
