@@ -17,6 +17,11 @@ enum class Side {
 /// The sign of a distance to the left of a surface that is a gap.
 constexpr double sign_of(Side side) { return side == Side::below ? 1.0 : -1.0; }
 
+/// Over how much of the interval beside a point of a spline its curvature goes over from one cubic to the next: a path
+/// along which the edge of a pressed part comes by would else have a kink, and no step beyond it would turn little
+/// enough. What happens there happens earlier by as much.
+constexpr double knot_rounding = 1e-5;
+
 /// A function of a position and λ at one place: its value, its derivatives by x and z of the position, and its rate by
 /// λ at a fixed position.
 struct LinearField {

@@ -204,7 +204,8 @@ class CurveOutline final : public ParametricOutline {
  public:
   // Of the parameters of the points those from `first` to `last` are the curve.
   CurveOutline(const std::vector<Vec2>& points, std::size_t first, std::size_t last, bool is_closed)
-      : x_(chord_lengths(points), coordinates(points, 0)), z_(x_.knots(), coordinates(points, 1)) {
+      : x_(chord_lengths(points), coordinates(points, 0), knot_rounding),
+        z_(x_.knots(), coordinates(points, 1), knot_rounding) {
     std::vector<double> knots;
     for (std::size_t i = first; i < last; ++i) {
       const double from = x_.knots()[i], to = x_.knots()[i + 1];

@@ -74,7 +74,7 @@ class CircleProfile final : public Profile {
 
 class SplineProfile final : public Profile {
  public:
-  SplineProfile(std::vector<double> x, std::vector<double> z) : spline_(std::move(x), std::move(z)) {}
+  SplineProfile(std::vector<double> x, std::vector<double> z) : spline_(std::move(x), std::move(z), knot_rounding) {}
   Height at(double x) const override {
     const auto v = spline_.at(x);
     return {v[0], v[1], v[2], v[3]};

@@ -3,6 +3,7 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "core/types.hpp"
 
@@ -12,8 +13,8 @@ namespace arcwall {
 //
 //   h_{i−1} m_{i−1} + 2 (h_{i−1} + h_i) m_i + h_i m_{i+1} = 6 (s_i − s_{i−1})            inner knots          (1)
 //   h_1 m_0 − (h_0 + h_1) m_1 + h_0 m_2 = 0, likewise at the other end                   not a knot           (2)
-CubicSpline::CubicSpline(std::vector<double> t, std::vector<double> v)
-    : t_(std::move(t)), v_(std::move(v)), second_(t_.size(), 0.0) {
+CubicSpline::CubicSpline(std::vector<double> t, std::vector<double> v, double rounding)
+    : t_(std::move(t)), v_(std::move(v)), second_(t_.size(), 0.0), rounding_(rounding) {
   assert(t_.size() == v_.size() && t_.size() >= 2);
   const auto n = static_cast<Index>(t_.size());
   if (n == 2) return;
@@ -46,14 +47,42 @@ CubicSpline::CubicSpline(std::vector<double> t, std::vector<double> v)
   second_.assign(m.begin(), m.end());
 }
 
-std::array<double, 4> CubicSpline::at(double t) const {
-  const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
-  const auto i = static_cast<std::size_t>(above - t_.begin()) - 1;
+namespace {
+
+// What is added to a cubic in −1 ≤ ξ ≤ 1 beside a knot behind which the third derivative is greater by 1, in units of
+// the half width w: the value in w³, and its derivatives. Of the odd polynomials of degree three that take the third
+// derivative from one side to the other this one leaves value, slope and second derivative on both sides as they are:
+//
+//   f‴ = ½ + (9 ξ − 5 ξ³)/8                                                                                      (3)
+std::array<double, 4> rounded(double xi) {
+  const double x2 = xi * xi;
+  return {(((9.0 - x2) * x2 + 16.0 * xi + 9.0) * x2 - 1.0) / 192.0, xi * (3.0 + xi * (8.0 + xi * (6.0 - x2))) / 32.0,
+          (3.0 + xi * (16.0 + xi * (18.0 - 5.0 * x2))) / 32.0, 0.5 + xi * (9.0 - 5.0 * x2) / 8.0};
+}
+
+}  // namespace
+
+std::array<double, 4> CubicSpline::cubic_at(std::size_t i, double t) const {
   const double h = t_[i + 1] - t_[i], d = t - t_[i];
   const double third = (second_[i + 1] - second_[i]) / h;
   const double slope = (v_[i + 1] - v_[i]) / h - h * (2.0 * second_[i] + second_[i + 1]) / 6.0;
   return {v_[i] + d * (slope + d * (0.5 * second_[i] + d * third / 6.0)), slope + d * (second_[i] + 0.5 * d * third),
           second_[i] + d * third, third};
+}
+
+std::array<double, 4> CubicSpline::at(double t) const {
+  const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
+  const auto i = static_cast<std::size_t>(above - t_.begin()) - 1;
+  const std::size_t knot = t - t_[i] < t_[i + 1] - t ? i : i + 1;
+  if (rounding_ == 0.0 || knot == 0 || knot + 1 == t_.size()) return cubic_at(i, t);
+  const double w = rounding_ * std::min(t_[knot] - t_[knot - 1], t_[knot + 1] - t_[knot]), xi = (t - t_[knot]) / w;
+  if (std::abs(xi) >= 1.0) return cubic_at(i, t);
+  std::array<double, 4> at = cubic_at(knot - 1, t);
+  const double jump = cubic_at(knot, t)[3] - at[3];
+  const std::array<double, 4> added = rounded(xi);
+  double scale = jump;  // of the derivative
+  for (std::size_t k = 4; k-- > 0; scale *= w) at[k] += scale * added[k];
+  return at;
 }
 
 }  // namespace arcwall

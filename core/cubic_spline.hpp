@@ -9,8 +9,9 @@ namespace arcwall {
 /// through three points, a line through two.
 class CubicSpline {
  public:
-  /// `t` strictly increasing, at least two, as many as `v`.
-  CubicSpline(std::vector<double> t, std::vector<double> v);
+  /// `t` strictly increasing, at least two, as many as `v`. `rounding`: over this part of the shorter interval beside a
+  /// knot the third derivative goes over from one cubic to the next; farther off they are as they were. 0: it jumps.
+  CubicSpline(std::vector<double> t, std::vector<double> v, double rounding = 0.0);
 
   double first() const { return t_.front(); }
   double last() const { return t_.back(); }
@@ -20,7 +21,10 @@ class CubicSpline {
   std::array<double, 4> at(double t) const;
 
  private:
+  std::array<double, 4> cubic_at(std::size_t interval, double t) const;
+
   std::vector<double> t_, v_, second_;  // knots, values, second derivatives at the knots
+  double rounding_;
 };
 
 }  // namespace arcwall

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/verify/plain_knot.hpp"
+
 namespace arcwall::verify {
 
 namespace {
@@ -208,11 +210,21 @@ PlainOutline::OnCurve PlainOutline::on_curve(double a) const {
   const auto above = std::upper_bound(at_.begin() + 1, at_.end() - 1, a);
   const auto i = static_cast<std::size_t>(above - at_.begin()) - 1;
   const double h = at_[i + 1] - at_[i], l = (at_[i + 1] - a) / h, r = (a - at_[i]) / h;
-  return {.p = l * points_[i] + r * points_[i + 1] +
-               h * h / 6.0 * ((l * l * l - l) * bend_[i] + (r * r * r - r) * bend_[i + 1]),
-          .first = (points_[i + 1] - points_[i]) / h +
-                   h / 6.0 * ((1.0 - 3.0 * l * l) * bend_[i] + (3.0 * r * r - 1.0) * bend_[i + 1]),
-          .second = l * bend_[i] + r * bend_[i + 1]};
+  OnCurve on{.p = l * points_[i] + r * points_[i + 1] +
+                  h * h / 6.0 * ((l * l * l - l) * bend_[i] + (r * r * r - r) * bend_[i + 1]),
+             .first = (points_[i + 1] - points_[i]) / h +
+                      h / 6.0 * ((1.0 - 3.0 * l * l) * bend_[i] + (3.0 * r * r - 1.0) * bend_[i + 1]),
+             .second = l * bend_[i] + r * bend_[i + 1]};
+  const std::size_t knot = r < 0.5 ? i : i + 1, last = at_.size() - 1;
+  if (!is_closed_ && (knot == 0 || knot == last)) return on;
+  const std::size_t before = knot == 0 ? last - 1 : knot - 1, behind = knot == last ? 0 : knot;  // intervals
+  const double w = at_[before + 1] - at_[before], v = at_[behind + 1] - at_[behind];
+  const Vec2 jump = (bend_[behind + 1] - bend_[behind]) / v - (bend_[before + 1] - bend_[before]) / w;
+  const RoundedKnot more = rounded_knot(a - at_[knot], std::min(w, v));
+  on.p += more.value * jump;
+  on.first += more.slope * jump;
+  on.second += more.second * jump;
+  return on;
 }
 
 // The nearest of many places, and from there by halving what is on both sides of it.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/verify/plain_knot.hpp"
+
 namespace arcwall::verify {
 
 namespace {
@@ -80,9 +82,18 @@ PlainWall::Surface PlainWall::surface(double x) const {
   const auto i = static_cast<std::size_t>(above - spline.x.begin()) - 1;
   const double h = spline.x[i + 1] - spline.x[i], a = (spline.x[i + 1] - x) / h, b = (x - spline.x[i]) / h;
   const double m = second_[i], n = second_[i + 1];
-  return {a * spline.z[i] + b * spline.z[i + 1] + h * h / 6.0 * ((a * a * a - a) * m + (b * b * b - b) * n),
-          (spline.z[i + 1] - spline.z[i]) / h + h / 6.0 * ((1.0 - 3.0 * a * a) * m + (3.0 * b * b - 1.0) * n),
-          a * m + b * n};
+  Surface here{a * spline.z[i] + b * spline.z[i + 1] + h * h / 6.0 * ((a * a * a - a) * m + (b * b * b - b) * n),
+               (spline.z[i + 1] - spline.z[i]) / h + h / 6.0 * ((1.0 - 3.0 * a * a) * m + (3.0 * b * b - 1.0) * n),
+               a * m + b * n};
+  const std::size_t knot = b < 0.5 ? i : i + 1;
+  if (knot == 0 || knot + 1 == spline.x.size()) return here;
+  const double before = spline.x[knot] - spline.x[knot - 1], behind = spline.x[knot + 1] - spline.x[knot];
+  const double jump = (second_[knot + 1] - second_[knot]) / behind - (second_[knot] - second_[knot - 1]) / before;
+  const RoundedKnot more = rounded_knot(x - spline.x[knot], std::min(before, behind));
+  here.height += jump * more.value;
+  here.slope += jump * more.slope;
+  here.second += jump * more.second;
+  return here;
 }
 
 double PlainWall::slope_angle(const Vec2& point) const {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/types.hpp"
@@ -72,6 +73,30 @@ TEST(CubicSpline, DerivativesAreThoseOfTheValue) {
   for (double t = 0.05; t < 3.0; t += 0.17) {
     const auto below = spline.at(t - step), above = spline.at(t + step), at = spline.at(t);
     for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR((above[d] - below[d]) / (2.0 * step), at[d + 1], 1e-8);
+  }
+}
+
+// Beside a knot the third derivative goes over from one cubic to the next; farther off nothing changes.
+TEST(CubicSpline, IsRoundedAtItsKnotsAloneAndThenThriceContinuous) {
+  const std::vector<double> t{0.0, 0.5, 0.7, 1.6, 2.0, 3.1}, v{0.3, -0.2, 0.4, 0.1, 0.9, 0.2};
+  constexpr double rounding = 0.1;
+  const CubicSpline sharp(t, v), spline(t, v, rounding);
+  for (std::size_t i = 1; i + 1 < t.size(); ++i) {
+    const double w = rounding * std::min(t[i] - t[i - 1], t[i + 1] - t[i]);
+    const double jump = sharp.at(t[i] + 1e-9)[3] - sharp.at(t[i] - 1e-9)[3];
+    for (const double xi : {-1.0, 1.0})
+      for (std::size_t d = 0; d < 4; ++d) {
+        const double inside = spline.at(t[i] + xi * w * (1.0 - 1e-9))[d];
+        EXPECT_NEAR(inside, spline.at(t[i] + xi * w * (1.0 + 1e-9))[d], 1e-6);
+        EXPECT_EQ(spline.at(t[i] + 1.001 * xi * w)[d], sharp.at(t[i] + 1.001 * xi * w)[d]);
+      }
+    for (double xi = -0.95; xi < 1.0; xi += 0.1) {
+      const double at = t[i] + xi * w, step = 1e-4 * w;
+      EXPECT_LE(std::abs(spline.at(at)[0] - sharp.at(at)[0]), 0.006 * std::abs(jump) * w * w * w + 1e-14);
+      for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_NEAR((spline.at(at + step)[d] - spline.at(at - step)[d]) / (2.0 * step), spline.at(at)[d + 1],
+                    1e-6 * (1.0 + std::abs(jump)));
+    }
   }
 }
 

@@ -266,6 +266,22 @@ TEST(PlainWall, HasTheGapsOfTheWallsThatAreTraced) {
     }
 }
 
+// Where the cubics of a spline meet, to both sides of each knot, and beyond what is rounded there.
+TEST(PlainWall, RoundsKnotsAsTheWallsThatAreTracedAre) {
+  const std::vector<double> x{-2.0, -0.9, 0.1, 0.5, 2.0};
+  const deck::Wall wall{
+      .name = "wall", .side = Side::below, .profile = deck::SplineProfile{x, {0.1, 0.6, 0.2, 0.9, 0.4}}};
+  const PlainWall plain(wall);
+  const auto traced = obstacle_of(wall);
+  for (std::size_t knot = 1; knot + 1 < x.size(); ++knot)
+    for (const double off : {-1e-3, -3.9e-6, -2e-6, 0.0, 1.5e-6, 3.8e-6, 1e-3}) {
+      const Vec2 at(x[knot] + off, 0.7);
+      EXPECT_NEAR(plain.gap(at), traced->gap(at, 0.0).value, 1e-13);
+      EXPECT_NEAR(plain.slope_angle(at), traced->direction(at, 0.0).value, 1e-13);
+      EXPECT_NEAR(plain.curvature(at), traced->curvature(at, 0.0).value, 1e-11);
+    }
+}
+
 // Outlines of all types, touched by axes.
 TEST(PlainWall, HasTheGapsOfTheOutlinesThatAreTraced) {
   const std::vector<double> x{-1.5, 0.1, 1.4, 0.3, -0.9}, z{-1.0, -0.4, -1.2, 1.1, 0.8};
