@@ -26,7 +26,8 @@ Row push_gradient(const SlidingSetting& setting, const SlidingState& at, const P
 /// What point loads add to the forces of a part's pressed nodes, from its first to its last.
 Vector forces_of_loads(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
 
-/// Its derivative by λ, at nodes that stay.
-Vector forces_of_loads_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
+/// Adds the derivatives of the sum of these, each times a factor.
+void add_forces_of_loads_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
+                                  const Vector& factors, Row& row);
 
 }  // namespace arcwall::sliding

@@ -199,8 +199,7 @@ LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& 
           .s = at.mesh.coordinate(part.pressed.strand, part.pressed.position, at.now.s) + least.offset * element};
 }
 
-// The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this. Nor
-// have point loads that go from node to node as the part's ends move.
+// The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this.
 Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
   if (part_is_on_straight(setting, at, part)) return gradient_on_straight(setting, at, part);
@@ -209,10 +208,10 @@ Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& a
   const double p = least.sum;
   Row row = at.no_slope();
   row.dx.segment(least.first, part.nodes) = per_force * least.weights;
-  row.dlambda = -per_force * least.weights.dot(forces_of_loads_rate(setting, at, part.pressed.segment));
   const SlidingContactLayout::Segment& ends = part.segment;
   if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] = -per_force * p / length;
   if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] = per_force * p / length;
+  add_forces_of_loads_gradient(setting, at, part.pressed.segment, -per_force * least.weights, row);
   return row;
 }
 

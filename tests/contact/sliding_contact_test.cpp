@@ -213,6 +213,38 @@ TEST(SlidingContact, DerivativesAreConsistentWhereForcesActInside) {
 
 namespace {
 
+// Elements of a part that hands a load on to its wall.
+MeshSegment handing_on(int elements, Index load) {
+  MeshSegment segment(elements);
+  segment.pressed = true;
+  segment.handed_on = {load};
+  return segment;
+}
+
+}  // namespace
+
+// The wall bears what is normal to it, which turns as the part's nodes move along it, and goes from node to node as the
+// part's edges do.
+TEST(SlidingContact, DerivativesAreConsistentWhereAPartHandsAForceOn) {
+  Numbers numbers(82);
+  const Layouts on{"handed on",
+                   {3, 2, handing_on(6, 0), 3},
+                   {{.obstacle = 0}, {.obstacle = 1, .behind = Span::pressed}, {.obstacle = 1}},
+                   {0.3, 0.65, 1.0},
+                   {1, 1, 1}};
+  for (const std::size_t kind : {2u, 3u})  // a parabola, a circle
+    for (const Theory theory : {Theory::classic, Theory::elastica}) {
+      const SlidingModel model(beam_with_forces(false, theory), two_of(test::all_walls(false), kind), 0.1);
+      const auto report = check_derivatives(model.system(), random_state(model, piece_of(model, on), numbers), 1e-6);
+      EXPECT_LE(report.K, 1e-9);
+      EXPECT_LE(report.F_lambda, 1e-7);
+      EXPECT_EQ(report.consistency, 0.0);
+      EXPECT_LE(report.guard_gradient, 1e-6);
+    }
+}
+
+namespace {
+
 // A cantilever of length 1, EI = 1, with a force at a third of its length and one at its tip, on one segment.
 class CantileverWithForceInside {
  public:
