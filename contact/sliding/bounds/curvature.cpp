@@ -8,7 +8,12 @@ namespace arcwall::sliding {
 
 namespace {
 
-constexpr double flatness = 0.5;  // curvature of an open point over its gap, both scaled, below which it is given up
+// Curvature of an open point over its gap, both scaled, below which it is given up; the more, the farther it is from
+// its wall: a node that no contact needs makes the mesh of a symmetric body unsymmetric.
+constexpr double flatness = 0.5, far_off = 0.01;
+
+double allowed_gap(double gap) { return flatness * gap * (1.0 + gap * gap / (far_off * far_off)); }
+double allowed_gap_slope(double gap) { return flatness * (1.0 + 3.0 * gap * gap / (far_off * far_off)); }
 
 }  // namespace
 
@@ -16,7 +21,7 @@ double CurvatureBound::value(const SlidingSetting& setting, const SlidingState& 
   const double bend = curvature_gap(setting, at, point_).value * setting.scales.length;
   if (at.is_closed(point_)) return bend;
   const double gap = face_gap(setting, touch_of_contact(setting, at.layout, point_), at);
-  return bend - flatness * gap / setting.scales.length;
+  return bend - allowed_gap(gap / setting.scales.length);
 }
 
 Row CurvatureBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
@@ -25,7 +30,7 @@ Row CurvatureBound::gradient(const SlidingSetting& setting, const SlidingState& 
   if (at.is_closed(point_)) return row;
   const Touch touch = touch_of_contact(setting, at.layout, point_);
   const NodeFunction gap = touch_gap(setting, touch, at).gap;
-  const double by_gap = -flatness / setting.scales.length;
+  const double by_gap = -allowed_gap_slope(gap.value / setting.scales.length) / setting.scales.length;
   add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_gap * gap.gradient, row.dx);
   row.dlambda += by_gap * gap.rate;
   return row;
