@@ -56,6 +56,40 @@ void tell_ledger(const TraceOptions& options, const ArcAttempt& attempt) {
   options.ledger(row);
 }
 
+// The bounds of a piece that are near at a point and sink along the path, the one that is reached first before others.
+std::vector<Landing> near_bounds(const PathPoint& at) {
+  constexpr double near = 1e-2;  // of the scale of guards
+  std::vector<Landing> bounds;
+  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+    if (at.guards[j] > 0.0 && at.guards[j] < near && at.guard_rates[j] < 0.0)
+      bounds.push_back({.guard = j, .slack = at.guards[j]});
+  const auto way = [&](const Landing& bound) { return -at.guards[bound.guard] / at.guard_rates[bound.guard]; };
+  std::sort(bounds.begin(), bounds.end(), [&](const Landing& a, const Landing& b) { return way(a) < way(b); });
+  return bounds;
+}
+
+// Where no step succeeds, as before the end of a stretch whose forces are lost in round-off, a bound that is near is
+// passed early: what lies behind it holds on its own. Empty where nothing does, or is far off.
+std::optional<Accepted> pass_near_bound(TraceTools& tools, const TracerState& state) {
+  constexpr double far = 0.02;                  // of λ
+  if (!state.from.before) return std::nullopt;  // contacts have changed just before: what is near lies behind
+  const double lambda = state.from.point.state.lambda;
+  const auto turns = [](const Event& event) { return event.kind == EventKind::contact_limit_point; };
+  for (const Landing& bound : near_bounds(state.from.point)) {
+    TracerState early = state;
+    early.from.passed_bound = bound;
+    ArcAttempt attempt = attempt_arc(tools, early, state.step.length());
+    auto* const accepted = std::get_if<Accepted>(&attempt.result);
+    if (accepted == nullptr || accepted->end) continue;
+    const auto& events = accepted->arc.events;
+    if (std::abs(accepted->arc.to.state.lambda - lambda) > far * std::abs(lambda)) continue;
+    if (std::any_of(events.begin(), events.end(), turns)) continue;
+    tell_ledger(tools.options, attempt);
+    return std::move(*accepted);
+  }
+  return std::nullopt;
+}
+
 // Goes on from an accepted arc, which is given.
 Arc take(Accepted accepted, TracerState& state) {
   if (const auto& progress = accepted.progress)
@@ -115,7 +149,14 @@ std::optional<Arc> Tracer::next() {
     why = telling(why, retry ? Rejected{.outcome = StepOutcome::penetrates} : std::get<Rejected>(attempt.result));
     state_.step.failed(s);
   }
-  state_.end = end_of_attempts(tools_->options, why);
+  BranchEnd end = end_of_attempts(tools_->options, why);
+  if (end.reason == EndReason::min_step) {
+    if (auto early = pass_near_bound(*tools_, state_)) {
+      state_.step.restart(tools_->options.step.max);
+      return take(std::move(*early), state_);
+    }
+  }
+  state_.end = std::move(end);
   return std::nullopt;
 }
 

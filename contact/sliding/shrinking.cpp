@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
+#include "contact/sliding/bending.hpp"
 #include "contact/sliding/bound_value.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/span_length.hpp"
 
 namespace arcwall::sliding {
 
@@ -113,6 +116,65 @@ Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, 
   if (std::find(spans.begin(), spans.end(), point) == spans.end()) spans = {point};
   std::erase_if(spans, [&](std::size_t k) { return closes_a_gap(k) != closes_a_gap(point); });
   return closes_a_gap(point) ? joined(setting, at, spans) : gathered(setting, at, spans);
+}
+
+namespace {
+
+// A short stretch of a pressed part and an arch beside it, which ends at a point, both of which become shorter along
+// the path; the first of the two spans. Empty where the span behind a point and none of its neighbours are such.
+std::optional<std::size_t> half_pressed_stretch(const SlidingSetting& setting, const SlidingState& at,
+                                                const Direction& forward, std::size_t point) {
+  constexpr double longest = 0.02;  // of the strand
+  const auto& points = at.layout.points();
+  const auto joins_one = [&](std::size_t k) {
+    return k + 1 < points.size() && points[k].obstacle == points[k + 1].obstacle &&
+           at.mesh.breakpoint(static_cast<Index>(k)).first == at.mesh.breakpoint(static_cast<Index>(k + 1)).first;
+  };
+  const auto shrinks = [&](std::size_t k) { return apply(SpanLength(k).gradient(at.state), forward) < 0.0; };
+  const auto is_half_pressed = [&](std::size_t k) {
+    if (!joins_one(k) || !joins_one(k + 1)) return false;
+    const Span first = points[k].behind, second = points[k + 1].behind;
+    const bool halves =
+        (first == Span::pressed && second == Span::free) || (first == Span::free && second == Span::pressed);
+    const double L = setting.body.length(at.mesh.breakpoint(static_cast<Index>(k)).first);
+    return halves && shrinks(k) && shrinks(k + 1) && at.layout.span_before(k) == Span::free &&
+           points[k + 2].behind == Span::free &&
+           at.s(static_cast<Index>(k + 2)) - at.s(static_cast<Index>(k)) <= longest * L;
+  };
+  if (is_half_pressed(point)) return point;
+  if (point > 0 && is_half_pressed(point - 1)) return point - 1;
+  return std::nullopt;
+}
+
+// The arch behind a point has gone, and the point at its one end lies at the edge of the part at the other.
+Transition met_at_edge(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
+                       std::size_t point) {
+  const bool part_before = at.layout.span_before(point) == Span::pressed;
+  Transition transition = remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
+    const double edge = edit.place(part_before ? point : point + 1);
+    edit.points[point].behind = edit.points[point + 1].behind;
+    edit.points[point].neutral_behind = edit.points[point + 1].neutral_behind;
+    edit.forces[point] += edit.forces[point + 1];
+    edit.erase(point + 1, edit.elements_behind(point + 1));
+    edit.place(point) = edge;
+  });
+  transition.change = Transition::Change::gathers;
+  transition.contacts.push_back(static_cast<Index>(point));
+  return transition;
+}
+
+}  // namespace
+
+std::vector<Transition> neighbours_vanish(const SlidingSetting& setting, const SlidingState& at,
+                                          const Direction& forward, std::size_t point) {
+  std::vector<Transition> transitions;
+  if (const auto first = half_pressed_stretch(setting, at, forward, point))
+    transitions.push_back(gathered(setting, at, {*first, *first + 1}));
+  const bool before = at.layout.span_before(point) == Span::pressed;
+  const bool behind = at.layout.points()[point + 1].behind == Span::pressed;
+  if (at.layout.points()[point].behind == Span::free && before != behind && !obstacle_is_straight(setting, at, point))
+    transitions.push_back(met_at_edge(setting, at, forward, point));
+  return transitions;
 }
 
 }  // namespace arcwall::sliding

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
 #include "core/transition.hpp"
@@ -10,5 +12,11 @@ namespace arcwall::sliding {
 /// gap between two parts on an obstacle closes and they join. Spans of the same kind within `tolerance` of that go with
 /// it.
 Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double tolerance);
+
+/// What may lie there instead: a short part of which one half is pressed and one arches off gathers to a point as a
+/// whole; and where the wall bends away from the body between a pressed part and a point beside it, so that no part
+/// lies across, the point and the part's edge meet. `forward`: of the path.
+std::vector<Transition> neighbours_vanish(const SlidingSetting& setting, const SlidingState& at,
+                                          const Direction& forward, std::size_t point);
 
 }  // namespace arcwall::sliding

@@ -256,10 +256,35 @@ std::optional<Entered> enter_early(TraceTools& tools, const std::vector<Transiti
   return std::nullopt;
 }
 
+// Along a path the sense of λ turns where the number of unstable directions goes over from even to odd, and nowhere
+// else. Whether a point behind a change of contact agrees with that, as far as counts are known.
+bool agrees_with_counts(const StabilityCount& before, const PathPoint& from, const PathPoint& at) {
+  if (!before.unstable || !at.count.unstable) return true;
+  const double sense = (*before.unstable + *at.count.unstable) % 2 == 0 ? 1.0 : -1.0;
+  return sense * from.tangent.dlambda * at.tangent.dlambda >= 0.0;
+}
+
+// On another mesh the path's direction tells its sense; where a change of contact is known on neither side but by its
+// state, the counts do. What sinks below its bound in that sense is not the path's. Empty then.
+std::optional<PathPoint> in_sense_of_counts(const StabilityCount& before, const PathPoint& from, PathPoint at,
+                                            double tolerance) {
+  if (!agrees_with_counts(before, from, at)) {
+    at.tangent = reversed(std::move(at.tangent));
+    at.guard_rates = -at.guard_rates;
+  }
+  return sinks(at, tolerance) ? std::nullopt : std::optional(std::move(at));
+}
+
+// Whether a change of contact is known on neither side but by its state.
+bool is_known_by_state(const Transition& transition) {
+  return !transition.quantity &&
+         (transition.change == Transition::Change::gathers || transition.change == Transition::Change::splits);
+}
+
 // The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
 // again with patience where none is, and then entered early. Last comes what is not sure to hold ahead.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
-                                 double lambda_scale) {
+                                 const StabilityCount& before, double lambda_scale) {
   std::optional<Entered> sinking;
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     std::optional<Entered> back;
@@ -267,8 +292,12 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (!leads_on(transition.change)) break;
       auto at = enter(tools, transition, from, lambda_scale, effort);
       if (!at) continue;
+      if (is_known_by_state(transition)) at = in_sense_of_counts(before, from, std::move(*at), mesh_error);
+      if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
-      if (begins_with_length(transition) && sinks(entered.at, tools.options.guard_tolerance)) {
+      const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
+      if ((begins_with_length(transition) && sinks(entered.at, tools.options.guard_tolerance)) ||
+          (is_gathered && !agrees_with_counts(before, from, entered.at))) {
         if (!sinking) sinking = std::move(entered);
         continue;
       }
@@ -358,7 +387,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
   for (;;) {
     const std::vector<Transition> transitions =
         tools.system.transitions(passed.at.state, passed.at.tangent, bound, tolerance);
-    auto entered = enter_any(tools, transitions, passed.at, corner.lambda_scale);
+    auto entered = enter_any(tools, transitions, passed.at, corner.before, corner.lambda_scale);
     if (!entered) {
       passed.end = end_before(transitions);
       return passed;

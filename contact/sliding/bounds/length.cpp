@@ -1,5 +1,7 @@
 #include "contact/sliding/bounds/length.hpp"
 
+#include <utility>
+
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/shrinking.hpp"
 #include "contact/sliding/spans.hpp"
@@ -21,8 +23,11 @@ Row LengthBound::gradient(const SlidingSetting& setting, const SlidingState& at)
 
 std::vector<Transition> LengthBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                  const Arrival& arrival) const {
-  return {span_vanishes(setting, at, point_, arrival.tolerance),
-          unsupported("a stretch between contacts closes, and no equilibrium without it was found")};
+  std::vector<Transition> transitions{span_vanishes(setting, at, point_, arrival.tolerance)};
+  for (Transition& other : neighbours_vanish(setting, at, arrival.forward, point_))
+    transitions.push_back(std::move(other));
+  transitions.push_back(unsupported("a stretch between contacts closes, and no equilibrium without it was found"));
+  return transitions;
 }
 
 }  // namespace arcwall::sliding
