@@ -173,12 +173,22 @@ bool is_remeshed(const Branch& branch, std::size_t i) {
          !branch.has_event(before.step, point.step, is_contact_event);
 }
 
+// Whether parts on a wall join, or one gathers to a point: where they do is known on the piece ahead alone, so that the
+// points before may lie beyond it by the error of the elements.
+bool is_known_ahead(const Branch& branch, std::size_t i) {
+  const RecordPoint& point = branch.points[i];
+  return point.contacts < branch.points[i - 1].contacts &&
+         branch.has_event(point.step, point.step, [](const ListedEvent& event) {
+           return event.kind == "contact-closes" || event.kind == "contact-gathers";
+         });
+}
+
 std::vector<double> uncertainty_of_lambda(const Branch& branch) {
   std::vector<double> uncertain(branch.points.size(), 0.0);
   double greatest = 0.0;
   for (const RecordPoint& point : branch.points) greatest = std::max(greatest, std::abs(point.lambda));
   for (std::size_t i = 1; i < uncertain.size(); ++i)
-    if (is_remeshed(branch, i)) uncertain[i] = moved_by_mesh * greatest;
+    if (is_remeshed(branch, i) || is_known_ahead(branch, i)) uncertain[i] = moved_by_mesh * greatest;
   for (const ListedEvent& event : branch.events)
     if (const auto i = static_cast<std::size_t>(event.step - branch.points[0].step); i < uncertain.size())
       uncertain[i] = std::max(uncertain[i], event.localised);

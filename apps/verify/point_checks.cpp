@@ -187,12 +187,16 @@ struct Eigencount {
   Index negative = 0, zero = 0;
 };
 
-Eigencount eigencount(const Matrix& K, const Matrix& G, double zero) {
+Eigencount eigencount(const Matrix& K, const Matrix& G, const ZeroEigenvalue& zero) {
   const Matrix Z = null_space(G, K.rows());
   if (Z.cols() == 0) return {};
   const Vector values =
       Eigen::SelfAdjointEigenSolver<Matrix>(Z.transpose() * K * Z, Eigen::EigenvaluesOnly).eigenvalues();
-  return {.negative = (values.array() < -zero).count(), .zero = (values.array().abs() <= zero).count()};
+  std::vector<double> sizes(values.begin(), values.end());
+  for (double& size : sizes) size = std::abs(size);
+  std::sort(sizes.begin(), sizes.end());
+  const double most = std::max(zero.least, sizes.size() > 1 ? zero.of_next * sizes[1] : 0.0);
+  return {.negative = (values.array() < -most).count(), .zero = (values.array().abs() <= most).count()};
 }
 
 void add_block(Matrix& K, const std::vector<Index>& unknowns, const Matrix& block) {
@@ -272,7 +276,7 @@ enum class Supports { held, dead };  // those that λ moves, or their forces in 
 // K of the elements, less p ∂²g of the contacts, plus their springs; on the motions that leave closed contacts closed.
 // What walls touch from opposite sides cannot move across them, with or without a force.
 // Lengths and angles are made comparable: D K D has a unit diagonal.
-CountRange range_of_counts(const PointAtHand& at, double zero, Supports supports) {
+CountRange range_of_counts(const PointAtHand& at, const ZeroEigenvalue& zero, Supports supports) {
   const auto slides = static_cast<Index>(at.touches.pinched.size());
   const Index n = structure_unknowns(at.model, at.point.state) + (supports == Supports::dead ? 1 : 0) + slides;
   Matrix K = Matrix::Zero(n, n), idle_springs = Matrix::Zero(n, n), strong(0, n), all(0, n);
@@ -317,9 +321,11 @@ CountRange range_of_counts(const PointAtHand& at, double zero, Supports supports
 
 }  // namespace
 
-CountRange unstable_range(const PointAtHand& at, double zero) { return range_of_counts(at, zero, Supports::held); }
+CountRange unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
+  return range_of_counts(at, zero, Supports::held);
+}
 
-std::optional<CountRange> unstable_dead_range(const PointAtHand& at, double zero) {
+std::optional<CountRange> unstable_dead_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
   const auto is_held = [](const Touch& touch) {
     const auto& unknowns = touch.gap.unknowns;
     return touch.closed && std::find(unknowns.begin(), unknowns.end(), -1) != unknowns.end();

@@ -46,16 +46,21 @@ struct Energy {
 };
 Energy energy(const PointAtHand& at);
 
-/// How many negative eigenvalues the second variation may have: some are zero within `zero` (of a stiffness whose
-/// diagonal is one), some contacts carry nothing.
+/// Which eigenvalues of a stiffness whose diagonal is one are as good as zero.
+struct ZeroEigenvalue {
+  double least = 0.0;    ///< those up to it
+  double of_next = 0.0;  ///< and those up to this part of the second smallest
+};
+
+/// How many negative eigenvalues the second variation may have: some are as good as zero, some contacts carry nothing.
 struct CountRange {
   Index least = 0, most = 0;
 };
-CountRange unstable_range(const PointAtHand& at, double zero);
+CountRange unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero);
 
 /// The same where the forces of the supports that λ moves are dead loads, and λ one more unknown. Empty where λ drives
 /// anything else, where the mesh slides, and where a held node is in contact.
-std::optional<CountRange> unstable_dead_range(const PointAtHand& at, double zero);
+std::optional<CountRange> unstable_dead_range(const PointAtHand& at, const ZeroEigenvalue& zero);
 
 /// Whether supports are all that λ drives, on a mesh that does not slide.
 bool is_driven_by_supports_alone(const Model& model);
