@@ -44,7 +44,7 @@ class Body {
 
   /// The greatest absolute value along a member of what its sections carry, or its place; null of load increments.
   virtual std::shared_ptr<const Observable> greatest(std::size_t member, SectionQuantity quantity,
-                                                     MemberGreatest::What what) const = 0;
+                                                     MemberGreatest::What what, double negligible) const = 0;
 
   /// A member from end to end: at fixed fractions, each node of meshes that are not too fine among them, and at
   /// breakpoints.

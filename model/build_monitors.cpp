@@ -215,9 +215,7 @@ std::size_t member_index(const Measured& from, const std::string& name) {
   return static_cast<std::size_t>(from.places.members.at(name));
 }
 
-double moment_at(const MemberStretch& stretch, double xi) {
-  return stretch.at(stretch.from + xi * (stretch.to - stretch.from)).moment;
-}
+double moment_at(const MemberStretch& stretch, double xi) { return stretch.moment(xi); }
 
 // What a foundation exerts per length where the axis has moved so far from its stress-free place.
 SectionQuantity pressure_of(const deck::Foundation& foundation) {
@@ -243,7 +241,10 @@ std::optional<std::pair<std::string, SectionQuantity>> along_member(const deck::
 std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
                                            MemberGreatest::What what) {
   auto [member, quantity] = *along_member(deck, monitor);
-  return from.body.greatest(member_index(from, member), std::move(quantity), what);
+  const double negligible = monitor.component == deck::Component::greatest_moment
+                                ? from.structure.force_roundoff() * from.structure.length_scale()
+                                : 0.0;
+  return from.body.greatest(member_index(from, member), std::move(quantity), what, negligible);
 }
 
 // --- the force of a spring ------------------------------------------------------------------------------------------

@@ -103,7 +103,8 @@ MemberGreatest::Found MemberGreatest::greatest(const State& state) const {
 
 double MemberGreatest::value(const State& state) const {
   const Found found = greatest(state);
-  return what_ == What::value ? found.value : found.fraction;
+  if (what_ == What::value) return found.value;
+  return found.value > negligible_ ? found.fraction : 0.0;
 }
 
 // What it was asked for at the place that was found, in a state beside it: a node goes along with the mesh, an end of

@@ -41,8 +41,10 @@ class MemberGreatest final : public Observable {
  public:
   enum class What { value, place };
 
-  MemberGreatest(std::shared_ptr<const ElementsOfMember> member, SectionQuantity quantity, What what)
-      : member_(std::move(member)), quantity_(std::move(quantity)), what_(what) {}
+  /// `negligible`: up to this the quantity is round-off, and its place is 0.
+  MemberGreatest(std::shared_ptr<const ElementsOfMember> member, SectionQuantity quantity, What what,
+                 double negligible = 0.0)
+      : member_(std::move(member)), quantity_(std::move(quantity)), what_(what), negligible_(negligible) {}
 
   double value(const State& state) const override;
   Row gradient(const State& state) const override;
@@ -63,6 +65,7 @@ class MemberGreatest final : public Observable {
   std::shared_ptr<const ElementsOfMember> member_;
   SectionQuantity quantity_;
   What what_;
+  double negligible_;
 };
 
 }  // namespace arcwall
