@@ -551,6 +551,11 @@ Whole runs of ten decks are compared in `tests/apps/deck_answers_test.cpp`, even
 shooting and four with finer meshes and shorter steps: bounds just behind the spreading of a touch, stops that are smaller than an
 element or shorter than the structure, a snap-fit, a slender column, a toggle on a floor and columns between walls.
 
+Monitors are compared in `tests/apps/monitors_test.cpp`: the greatest moment of a cantilever that bends far with its load times the arm (1e-8), of
+a uniform load with q L²/8 between two nodes (1e-7) and, where a growing end moment takes over, with both closed forms on either side of
+μ = (3 − √8)/2 (1e-6); gaps with clearance less deflection and with the distance from a circle (1e-9, 1e-12); spring forces with statics and
+with k u, of two cantilevers that a spring joins with a third of the load; the pressure of soil with q and with k times the settlement.
+
 Curves of events are compared in `tests/apps/curve_test.cpp`: limit points of a truss on a spring and their cusp with the closed form to
 1e-9, the pitchfork of a column with Euler's load, the load of a truss with a side load H with 0.60678 H^(2/3) below the perfect one's, a
 pinned arch's cusp and crossing with shooting, and every other kind with decks that are run again, to 1e-9.

@@ -52,6 +52,35 @@ StretchLoad::Response StretchFoundation::respond(const Vec2& r1, double angle1, 
   return out;
 }
 
+double StretchFoundation::evaluate(const Vec2& r1, double angle1, const Vec2& r2, double angle2,
+                                   StretchLoad::Vector6* force, StretchLoad::Matrix6* stiffness) const {
+  const CubicAxis now(r1, angle1, r2, angle2);
+  CubicAxis::Sum sum(now);
+  double energy = 0.0;
+  for (const Place& place : places_) {
+    const FoundationLaw::Response here = law_.at(sum.position(place.xi) - place.at_rest);
+    energy += place.length * here.energy;
+    if (force != nullptr || stiffness != nullptr) sum.add_slope(place.xi, place.length * here.force);
+    if (stiffness != nullptr) sum.add_second(place.xi, place.length * here.stiffness);
+  }
+  if (force != nullptr) *force = sum.gradient();
+  if (stiffness != nullptr) *stiffness = sum.hessian();
+  return energy;
+}
+
+BeamFoundation::BeamFoundation(const StretchReference& stretch, FoundationLaw law)
+    : along_(stretch, std::move(law)), chord_(stretch.chord), angles_{stretch.angles.front(), stretch.angles.back()} {}
+
+double BeamFoundation::evaluate(const double* u, double* f, double* K) const {
+  StretchLoad::Vector6 force;
+  StretchLoad::Matrix6 stiffness;
+  const double energy = along_.evaluate({u[0], u[1]}, angles_[0] + u[2], chord_ + Vec2(u[3], u[4]), angles_[1] + u[5],
+                                        f != nullptr ? &force : nullptr, K != nullptr ? &stiffness : nullptr);
+  if (f != nullptr) std::copy_n(force.data(), force.size(), f);
+  if (K != nullptr) std::copy_n(stiffness.data(), stiffness.size(), K);
+  return energy;
+}
+
 ExactFoundation::ExactFoundation(const ExactBeamReference& reference, FoundationLaw law, int unknowns_a_node)
     : law_(std::move(law)), nodes_(reference.order() + 1), stride_(unknowns_a_node) {
   const GaussRule rule = gauss_rule(gauss_points);

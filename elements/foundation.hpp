@@ -6,7 +6,6 @@
 #include "elements/distributed_load.hpp"
 #include "elements/element.hpp"
 #include "elements/foundation_law.hpp"
-#include "elements/on_slender_beam.hpp"
 #include "elements/reissner_beam.hpp"
 #include "elements/slender_beam.hpp"
 
@@ -27,6 +26,10 @@ class StretchFoundation {
   /// Places are measured from the stress-free place of the first end, angles are those of the axis' tangent.
   StretchLoad::Response respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const;
 
+  /// The energy alone, and force and stiffness where these are not null.
+  double evaluate(const Vec2& r1, double angle1, const Vec2& r2, double angle2, StretchLoad::Vector6* force,
+                  StretchLoad::Matrix6* stiffness) const;
+
  private:
   struct Place {
     double xi = 0.0, length = 0.0;                              // of the axis that it stands for
@@ -39,8 +42,20 @@ class StretchFoundation {
   FoundationLaw law_;
 };
 
-/// The same on an element of a classic or elastica beam.
-using BeamFoundation = OnSlenderBeam<StretchFoundation>;
+/// The same on an element of a classic or elastica beam, whose unknowns it has: displacements and rotations of its
+/// ends.
+class BeamFoundation final : public Element {
+ public:
+  BeamFoundation(const StretchReference& stretch, FoundationLaw law);
+
+  int unknown_count() const override { return 6; }
+  double evaluate(const double* u, double* f, double* K) const override;
+
+ private:
+  StretchFoundation along_;
+  Vec2 chord_;  // stress-free
+  std::array<double, 2> angles_;
+};
 
 /// The same on a ReissnerBeam, or on another beam with displacements of the same shape functions.
 class ExactFoundation final : public Element {

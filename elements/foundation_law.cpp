@@ -4,16 +4,13 @@
 
 namespace arcwall {
 
-FoundationLaw::Response FoundationLaw::at(const Vec2& u) const {
-  Response out{.force = stiffness_.cwiseProduct(u), .stiffness = stiffness_};
-  out.energy = 0.5 * out.force.dot(u);
+void FoundationLaw::add_laws(const Vec2& u, Response& out) const {
   for (const Part& part : laws_) {
     const SpringLaw::Response of_law = part.law->at(u[part.direction]);
     out.energy += of_law.energy;
     out.force[part.direction] += of_law.force;
     out.stiffness[part.direction] += of_law.stiffness;
   }
-  return out;
 }
 
 bool operator==(const FoundationLaw& a, const FoundationLaw& b) {

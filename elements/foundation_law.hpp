@@ -27,11 +27,18 @@ class FoundationLaw {
     double energy = 0.0;
     Vec2 force = Vec2::Zero(), stiffness = Vec2::Zero();  ///< in x and in z, which know nothing of each other
   };
-  Response at(const Vec2& displacement) const;
+  Response at(const Vec2& displacement) const {
+    Response out{.force = stiffness_.cwiseProduct(displacement), .stiffness = stiffness_};
+    out.energy = 0.5 * out.force.dot(displacement);
+    if (!laws_.empty()) add_laws(displacement, out);
+    return out;
+  }
 
   friend bool operator==(const FoundationLaw& a, const FoundationLaw& b);
 
  private:
+  void add_laws(const Vec2& displacement, Response& out) const;
+
   struct Part {
     Index direction;
     std::shared_ptr<const SpringLaw> law;

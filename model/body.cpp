@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "model/elements_of_member.hpp"
 #include "model/member_force.hpp"
 #include "model/section_forces.hpp"
 
@@ -59,6 +60,14 @@ class FixedBody final : public Body {
     if (increments_ != nullptr) return nullptr;
     return std::make_shared<TiedMemberForce>(tied(member), fraction, what);
   }
+  std::shared_ptr<const Observable> gap(std::size_t member, std::size_t node,
+                                        const FacedObstacle& obstacle) const override;
+  std::shared_ptr<const Observable> greatest(std::size_t member, SectionQuantity quantity, MemberGreatest::What what,
+                                             double negligible) const override {
+    if (increments_ != nullptr) return nullptr;
+    return std::make_shared<MemberGreatest>(std::make_shared<TiedElements>(tied(member)), std::move(quantity), what,
+                                            negligible);
+  }
   std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
 
  private:
@@ -70,6 +79,15 @@ class FixedBody final : public Body {
   std::vector<Theory> theories_;
   const IncrementalStructure* increments_;
 };
+
+std::shared_ptr<const Observable> FixedBody::gap(std::size_t member, std::size_t node,
+                                                 const FacedObstacle& obstacle) const {
+  const MemberSection section = structure_.members()[member].section(node);
+  std::vector<Candidate> points;
+  for (const double offset : obstacle.offsets(section.shape.angle))
+    points.emplace_back(std::make_unique<MemberPoint>(structure_, section, offset), obstacle.obstacle, ContactLabel{});
+  return std::make_shared<NodeGap>(std::move(points));
+}
 
 // Only those elements are evaluated in which points are wanted.
 std::vector<ShapePoint> FixedBody::shape(std::size_t member, const State& state) const {
@@ -99,6 +117,16 @@ class SlidingMeshBody final : public Body {
   std::shared_ptr<const Observable> section_force(std::size_t member, double fraction,
                                                   SectionForce what) const override {
     return std::make_shared<SlidingMemberForce>(sliding_, name(member), fraction, what);
+  }
+  std::shared_ptr<const Observable> gap(std::size_t member, std::size_t node,
+                                        const FacedObstacle& obstacle) const override {
+    const double fraction = structure_.members()[member].fraction(node);
+    return std::make_shared<StrandGap>(sliding_, sliding_.find(name(member), fraction), obstacle);
+  }
+  std::shared_ptr<const Observable> greatest(std::size_t member, SectionQuantity quantity, MemberGreatest::What what,
+                                             double negligible) const override {
+    return std::make_shared<MemberGreatest>(std::make_shared<SlidingElements>(sliding_, name(member)),
+                                            std::move(quantity), what, negligible);
   }
   std::vector<ShapePoint> shape(std::size_t member, const State& state) const override;
 

@@ -8,7 +8,9 @@
 #include "elements/member_point.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/deck/deck.hpp"
+#include "model/member_greatest.hpp"
 #include "model/member_stretch.hpp"
+#include "model/place_gap.hpp"
 
 namespace arcwall {
 
@@ -35,6 +37,14 @@ class Body {
   /// What a member carries at a fraction of its length; null where that is not known, which is so of load increments.
   virtual std::shared_ptr<const Observable> section_force(std::size_t member, double fraction,
                                                           SectionForce what) const = 0;
+
+  /// The gap between a member's node and an obstacle.
+  virtual std::shared_ptr<const Observable> gap(std::size_t member, std::size_t node,
+                                                const FacedObstacle& obstacle) const = 0;
+
+  /// The greatest absolute value along a member of what its sections carry, or its place; null of load increments.
+  virtual std::shared_ptr<const Observable> greatest(std::size_t member, SectionQuantity quantity,
+                                                     MemberGreatest::What what, double negligible) const = 0;
 
   /// A member from end to end: at fixed fractions, each node of meshes that are not too fine among them, and at
   /// breakpoints.

@@ -14,15 +14,14 @@ namespace arcwall {
 
 namespace {
 
-// Offsets from the axis of the points that may touch: 0, or the face whose normal looks at the wall; both of a section
-// that stands across it.
+// Half the height of a member whose faces a wall is touched by; 0 where that is the axis.
+double faces_of(const deck::Wall& wall, const MemberMesh& mesh) {
+  return wall.acts_on == deck::ActsOn::axis || wall.outline ? 0.0 : 0.5 * mesh.height.value_or(0.0);
+}
+
+// Offsets from the axis of the points that may touch.
 std::vector<double> offsets(const deck::Wall& wall, const MemberMesh& mesh, const MemberSection& section) {
-  if (wall.acts_on == deck::ActsOn::axis || wall.outline) return {0.0};
-  const double up = std::cos(section.shape.angle) * (wall.side == Side::above ? 1.0 : -1.0);
-  const double half = 0.5 * mesh.height.value();
-  constexpr double level = 1e-9;
-  if (std::abs(up) <= level) return {half, -half};
-  return {up > 0.0 ? half : -half};
+  return FacedObstacle{.side = wall.side, .half_height = faces_of(wall, mesh)}.offsets(section.shape.angle);
 }
 
 // The deepest penetration of one wall at rest.
@@ -277,6 +276,12 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, DeckProblems& pro
 }
 
 }  // namespace
+
+FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh) {
+  return {.obstacle = obstacle_of(wall, kept_off(wall, mesh.height.value_or(0.0))),
+          .side = wall.side,
+          .half_height = faces_of(wall, mesh)};
+}
 
 PinchedPlaces pinched_places(const deck::Deck& deck, const SlidingStructure& structure) {
   const ContactScales scales{.length = structure.length_scale(), .force = structure.force_scale()};

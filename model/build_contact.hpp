@@ -10,6 +10,7 @@
 #include "contact/sliding_contact.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/build_structure.hpp"
+#include "model/place_gap.hpp"
 
 namespace arcwall {
 
@@ -25,6 +26,9 @@ std::unique_ptr<Outline> outline_of(const deck::Wall& wall);
 
 /// Whether a wall stands in the way of a member.
 bool concerns(const deck::Wall& wall, const std::string& member);
+
+/// What stands in the way of a member where the deck has a wall, and the faces that it is touched by.
+FacedObstacle faced_obstacle(const deck::Wall& wall, const MemberMesh& mesh);
 
 /// Holds the rotations of straight members that lie on a line between two rigid walls which leave no clearance, where
 /// sections turn with the axis: between its nodes it is on that line, too.

@@ -490,6 +490,8 @@ StructureOfDeck describe_structure(const deck::Deck& deck, DeckProblems& problem
   if (places_are_known) add_loads(deck, coarse, problems, out);
   add_springs(deck, coarse, joined, problems, out);
   if (!coarse) check_pressure(deck, problems, out);
+  for (const auto& [name, joint] : out.places.joints)
+    if (const auto rotation = out.builder.shared_rotation(joint)) out.places.rotations[name] = *rotation;
   return out;
 }
 

@@ -19,6 +19,7 @@ class DeckProblems {
     found_.push_back(deck::diagnostic_at(source_, position, std::move(key), std::move(message), std::move(cure)));
   }
   bool empty() const { return found_.empty(); }
+  std::size_t count() const { return found_.size(); }
 
   /// Throws InputError if anything was added.
   void raise() const {
@@ -34,7 +35,8 @@ class DeckProblems {
 class Places {
  public:
   std::map<std::string, Index> joints{}, members{};
-  std::map<std::string, Vec2> ends{};  ///< where the joints stand, stress-free [length]
+  std::map<std::string, Index> rotations{};  ///< freedoms of the joints at which a member is joined without a hinge
+  std::map<std::string, Vec2> ends{};        ///< where the joints stand, stress-free [length]
 
   /// A node of a member's mesh, or a joint.
   struct Node {

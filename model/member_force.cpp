@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/elements_of_member.hpp"
+
 namespace arcwall {
 
 namespace {
 
-constexpr double force_difference = 1e-6;  // of a rotation [rad], and of a displacement over the structure's size
-
-// Moves of all unknowns that are alike in the path metric; those without weight stay.
-Vector moves_alike(const Vector& weights) {
-  const double nodes = static_cast<double>(weights.size()) / 3.0;
-  Vector steps = Vector::Zero(weights.size());
-  for (Index i = 0; i < weights.size(); ++i)
-    if (weights[i] > 0.0) steps[i] = force_difference / std::sqrt(nodes * weights[i]);
-  return steps;
-}
+constexpr double force_difference = 1e-6;
 
 }  // namespace
 
@@ -89,13 +82,6 @@ ShapePoint SlidingMemberForce::place(const State& state) const {
   return sliding_stretch(structure_, at_.strand, position, state).at(at_.s);
 }
 
-Vector SlidingMemberForce::steps(const State& state) const {
-  const SlidingMesh& mesh = mesh_of(state);
-  Vector steps = Vector::Zero(state.x.size());
-  steps.head(mesh.unknowns()) = moves_alike(mesh.weights());
-  for (Index k = 0; k < mesh.breakpoints(); ++k)
-    steps[state.x.size() - mesh.breakpoints() + k] = force_difference * structure_.length(mesh.breakpoint(k).first);
-  return steps;
-}
+Vector SlidingMemberForce::steps(const State& state) const { return moves_alike(structure_, state); }
 
 }  // namespace arcwall

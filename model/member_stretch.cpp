@@ -83,6 +83,10 @@ double MemberStretch::balanced_moment(double xi) const {
 }
 
 // What the interpolation leaves open at the second end is shared out evenly.
+double MemberStretch::moment(double xi) const {
+  return balanced_moment(xi) + xi * (second.moment - balanced_moment(1.0));
+}
+
 ShapePoint MemberStretch::at(double fraction) const {
   const double xi = std::clamp((fraction - from) / (to - from), 0.0, 1.0);
   const double angle = now.angle(xi) - shear;
@@ -92,7 +96,7 @@ ShapePoint MemberStretch::at(double fraction) const {
   const Vec2 force = (1.0 - xi) * first.force + xi * second.force, along = direction(angle);
   point.axial_force = force.dot(along);
   point.shear_force = force.dot(Vec2(-along.y(), along.x()));
-  point.moment = balanced_moment(xi) + xi * (second.moment - balanced_moment(1.0));
+  point.moment = moment(xi);
   return point;
 }
 

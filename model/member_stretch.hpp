@@ -65,6 +65,9 @@ struct MemberStretch {
   /// The same stretch of a member that travels the other way; for sections across the axis alone.
   MemberStretch reversed() const;
 
+  /// M at ξ, alone.
+  double moment(double xi) const;
+
   /// M at ξ as it follows from the first end and the forces.
   double balanced_moment(double xi) const;
 };

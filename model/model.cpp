@@ -153,6 +153,19 @@ void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, 
                "move the wall or the member apart");
 }
 
+// What is greatest along a member turns in a kink where its place jumps. An event there would have no derivatives.
+void check_watched(const deck::Deck& deck, DeckProblems& problems) {
+  for (const std::string& name : deck.path.watch) {
+    const deck::Monitor& monitor = *deck::find(deck.monitors, name);
+    const bool moment = monitor.component == deck::Component::greatest_moment;
+    if (moment || monitor.component == deck::Component::greatest_pressure)
+      problems.add(deck.path.position, "path.watch",
+                   "\"" + name + "\" is what is greatest along a member, which may turn where its place jumps",
+                   moment ? "watch the moment at a place, as in at = \"MEMBER:0.5\", component = \"moment\""
+                          : "watch the displacement of a place, as in at = \"MEMBER:0.5\", component = \"z\"");
+  }
+}
+
 // What is looked for beside the path is looked for on the deck's mesh.
 void check_search(const Model& model, DeckProblems& problems) {
   if (model.deck().path.search && !DeckMesh(model).is_complete())
@@ -247,6 +260,7 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
   structure_->nodal_terms().for_each_moved_support(
       [&](Index freedom, double rate) { moved_.push_back({.rate = rate, .reaction = body_->reaction(freedom)}); });
   options_ = trace_options(deck_, read_off, monitors_, problems);
+  check_watched(deck_, problems);
   if (problems.empty()) check_search(*this, problems);
   if (stage_ == 0) check_sensitivity(whole_deck_, problems);
   if (stage_ == 0) check_curve(whole_deck_, problems);
@@ -260,7 +274,8 @@ Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
   explore_.policy = deck_.path.branches;
   explore_.depth = deck_.path.depth;
-  for (const MonitorColumn& monitor : monitors_) explore_.preference.push_back(monitor.raw);
+  for (const MonitorColumn& monitor : monitors_)
+    if (!monitor.is_place) explore_.preference.push_back(monitor.raw);
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
   if (is_unbounded(deck_.path))
     warnings_.push_back("nothing in [path.stop] ends the path: it goes on to path.max_points = " +

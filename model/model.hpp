@@ -24,7 +24,8 @@ struct MonitorColumn {
   std::string unit{};  ///< `cm`, `rad`, `kN`, `kN cm`; without brackets
   deck::Component component = deck::Component::z;
   std::shared_ptr<const Observable> quantity{};  ///< with the deck's sign
-  std::shared_ptr<const Observable> raw{};       ///< without
+  std::shared_ptr<const Observable> raw{};       ///< without; null of a place
+  bool is_place = false;                         ///< where the greatest along a member is, whose component this is
 };
 
 /// A deck made ready to be traced: the model, what is read off it, and how it is followed.

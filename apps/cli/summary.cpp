@@ -110,6 +110,22 @@ void add_contact(const deck::Deck& deck, Lines& lines) {
   }
 }
 
+std::string what_is_shown(const deck::Monitor& monitor) {
+  switch (monitor.of()) {
+    case deck::Monitored::place:
+      break;
+    case deck::Monitored::wall:
+      return "wall " + monitor.wall;
+    case deck::Monitored::gap:
+      return to_text(monitor.at) + " and wall " + monitor.wall;
+    case deck::Monitored::member:
+      return "member " + monitor.member;
+    case deck::Monitored::spring:
+      return "spring " + monitor.spring;
+  }
+  return to_text(monitor.at);
+}
+
 void add_path(const deck::Deck& deck, Lines& lines) {
   lines.add("path", fmt::format("{}, first step {:.6g} of λ, at most {} points",
                                 deck::text_of(deck::path_method_words, deck.path.method), deck.path.step,
@@ -125,9 +141,8 @@ void add_path(const deck::Deck& deck, Lines& lines) {
     lines.add("stage", stage.name + " drives " + things);
   }
   for (const deck::Monitor& monitor : deck.monitors)
-    lines.add("monitors",
-              fmt::format("{}: {} of {}", monitor.name, deck::text_of(deck::component_words, monitor.component),
-                          monitor.wall.empty() ? to_text(monitor.at) : "wall " + monitor.wall));
+    lines.add("monitors", fmt::format("{}: {} of {}", monitor.name,
+                                      deck::text_of(deck::component_words, monitor.component), what_is_shown(monitor)));
 }
 
 }  // namespace

@@ -134,7 +134,10 @@ std::vector<double> ticks(double low, double high) {
   const double part = rough / decade;
   const double step = decade * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
   std::vector<double> result;
-  for (double k = std::ceil(low / step); k * step <= high; k += 1.0) result.push_back(k * step);
+  // Where the digits do not tell the multiples apart there are none.
+  const double first = std::ceil(low / step);
+  if (!(first + 1.0 > first && first - 1.0 < first)) return result;
+  for (double k = first; k * step <= high; k += 1.0) result.push_back(k * step);
   return result;
 }
 

@@ -31,7 +31,7 @@ struct Chart {
   std::vector<ChartMark> marks{};
 };
 
-/// Round numbers that divide an interval into four to ten parts.
+/// Round numbers that divide an interval into four to ten parts; none where its ends differ by round-off alone.
 std::vector<double> ticks(double low, double high);
 
 /// The chart as an <svg> element. Its attributes data-across and data-up give the ranges of the values and of their

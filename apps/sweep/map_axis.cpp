@@ -38,10 +38,12 @@ MapAxis::MapAxis(const std::vector<Json>& values, AxisScale scale) : scale_(scal
   const double least = distinct_.front().get<double>(), greatest = distinct_.back().get<double>();
   constexpr double decade = 10.0;
   logarithmic_ = scale == AxisScale::by_extent && least > 0.0 && greatest >= decade * least;
-  // Half a mean distance on either side is room for the cells at the ends.
+  // Half a mean distance on either side is room for the cells at the ends. What differs by round-off is one value.
+  constexpr double round_off = 1e-9;
   const double extent = scaled(greatest) - scaled(least);
-  const double room = extent > 0.0 ? 0.5 * extent / static_cast<double>(std::min<std::size_t>(distinct_.size() - 1, 20))
-                                   : std::max(std::abs(scaled(greatest)), 1.0);
+  const bool differ = extent > round_off * std::max(std::abs(scaled(least)), std::abs(scaled(greatest)));
+  const double room = differ ? 0.5 * extent / static_cast<double>(std::min<std::size_t>(distinct_.size() - 1, 20))
+                             : std::max(std::abs(scaled(greatest)), 1.0);
   low_ = scaled(least) - room;
   high_ = scaled(greatest) + room;
 }

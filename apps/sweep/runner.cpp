@@ -154,12 +154,18 @@ class Pool {
     const std::string folder = fs::path(draft.parent_path().filename() / draft.filename()).string();
     ChildCommand result{.program = request_.program,
                         .body = request_.body,
-                        .arguments = {"run", "./" + one.deck, "--out", folder, "--force", "--quiet", "--no-pictures"},
+                        .arguments = {"run", "./" + one.deck, "--out", folder},
                         .folder = request_.folder,
                         .messages = fs::absolute(draft / messages_file_name),
                         .kept_open = claimed.lock_descriptor()};
     std::vector<std::string>& words = result.arguments;
-    if (request_.keep == Keep::records) words.emplace_back("--scratch");
+    // An option that is given twice is refused.
+    const auto add = [&](const char* flag) {
+      const auto& given = request_.options;
+      if (std::find(given.begin(), given.end(), flag) == given.end()) words.emplace_back(flag);
+    };
+    for (const char* flag : {"--force", "--quiet", "--no-pictures"}) add(flag);
+    if (request_.keep == Keep::records) add("--scratch");
     words.insert(words.end(), request_.options.begin(), request_.options.end());
     for (const std::string& assignment : assignments(one)) words.insert(words.end(), {"--set", assignment});
     return result;

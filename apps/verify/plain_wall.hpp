@@ -45,6 +45,11 @@ class PlainWall {
   /// its slope.
   double gap(const Vec2& point) const;
 
+  /// That of a face, or of an axis which is so far from the outside of its member; infinite where there is no surface.
+  double gap_to(const Vec2& point, double half_height) const {
+    return faces(point) ? gap(point) - kept_off(half_height) : infinity;
+  }
+
   /// Of what stands out of the wall, as far as its outline tells: diameters; ∞ of straight ones [length].
   double width() const;
 

@@ -219,27 +219,6 @@ std::optional<Index> freedom_of(const Structure& structure, const deck::Deck& de
   return std::nullopt;
 }
 
-// The force of a law by a stretch: between two points of the table Hermite's cubic, with the slopes of Fritsch and
-// Butland, 0 at the ends.
-double table_force(const deck::TableLaw& law, double stretch) {
-  const auto& u = law.displacement;
-  const auto& force = law.force;
-  if (stretch <= u.front()) return force.front();
-  if (stretch >= u.back()) return force.back();
-  std::size_t i = 0;
-  while (u[i + 1] < stretch) ++i;
-  const auto slope = [&](std::size_t at) {
-    if (at == 0 || at + 1 == u.size()) return 0.0;
-    const double h0 = u[at] - u[at - 1], h1 = u[at + 1] - u[at];
-    const double s0 = (force[at] - force[at - 1]) / h0, s1 = (force[at + 1] - force[at]) / h1;
-    return s0 * s1 > 0.0 ? 1.0 / ((h0 + 2.0 * h1) / (3.0 * (h0 + h1) * s0) + (2.0 * h0 + h1) / (3.0 * (h0 + h1) * s1))
-                         : 0.0;
-  };
-  const double h = u[i + 1] - u[i], t = (stretch - u[i]) / h;
-  const double c = h * slope(i), d = force[i + 1] - force[i], e = h * slope(i + 1);
-  return force[i] + t * (c + t * (3.0 * d - 2.0 * c - e + t * (c + e - 2.0 * d)));
-}
-
 // Its integral from 0, by Simpson's rule between the points, which is exact for cubics.
 double table_energy(const deck::TableLaw& law, double stretch) {
   const double least = std::min(0.0, stretch), greatest = std::max(0.0, stretch);
@@ -285,32 +264,35 @@ Potential spring_potential(const Model& model, const State& state, double k, con
   return potential;
 }
 
-// Those at points; a foundation is part of its elements.
-void add_springs(const Model& model, const State& state, std::vector<Potential>& to) {
-  for (const deck::Spring& spring : model.deck().springs) {
-    std::vector<deck::Place> places;
-    deck::Stiffness stiffness;
-    const deck::TableLaw* law = nullptr;
-    if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
-      places = {ground->at};
-      stiffness = ground->stiffness;
-      if (ground->law) law = &*ground->law;
-    } else if (const auto* between = std::get_if<deck::PointToPointSpring>(&spring.kind)) {
-      for (const std::string& point : between->points) places.push_back({.name = point});
-      stiffness = between->stiffness;
-      if (between->law) law = &*between->law;
-    }
-    for (const auto& [which, k] : {std::pair(Freedom::x, stiffness.x), std::pair(Freedom::z, stiffness.z),
-                                   std::pair(Freedom::rotation, stiffness.rotation)}) {
-      std::vector<Index> freedoms;
-      for (const deck::Place& place : places)
-        if (const auto freedom = freedom_of(model.structure(), model.deck(), place, which))
-          freedoms.push_back(*freedom);
-      const bool acts = law != nullptr ? law->direction == which : k > 0.0;
-      if (acts && !places.empty() && freedoms.size() == places.size())
-        to.push_back(spring_potential(model, state, k, law, freedoms, which));
-    }
+// Of a spring at points in one direction; empty where it does not act, and of a foundation, which is part of its
+// elements.
+std::optional<Potential> spring_potential(const Model& model, const State& state, const deck::Spring& spring,
+                                          Freedom which) {
+  std::vector<deck::Place> places;
+  deck::Stiffness stiffness;
+  const deck::TableLaw* law = nullptr;
+  if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
+    places = {ground->at};
+    stiffness = ground->stiffness;
+    if (ground->law) law = &*ground->law;
+  } else if (const auto* between = std::get_if<deck::PointToPointSpring>(&spring.kind)) {
+    for (const std::string& point : between->points) places.push_back({.name = point});
+    stiffness = between->stiffness;
+    if (between->law) law = &*between->law;
   }
+  const double k = which == Freedom::x ? stiffness.x : which == Freedom::z ? stiffness.z : stiffness.rotation;
+  std::vector<Index> freedoms;
+  for (const deck::Place& place : places)
+    if (const auto freedom = freedom_of(model.structure(), model.deck(), place, which)) freedoms.push_back(*freedom);
+  const bool acts = law != nullptr ? law->direction == which : k > 0.0;
+  if (!acts || places.empty() || freedoms.size() != places.size()) return std::nullopt;
+  return spring_potential(model, state, k, law, freedoms, which);
+}
+
+void add_springs(const Model& model, const State& state, std::vector<Potential>& to) {
+  for (const deck::Spring& spring : model.deck().springs)
+    for (const Freedom which : {Freedom::x, Freedom::z, Freedom::rotation})
+      if (auto potential = spring_potential(model, state, spring, which)) to.push_back(std::move(*potential));
 }
 
 // Where pressure ends, ½ p (−z δx + x δz) of the place (x, z) is left beside the areas: with z given, −½ p z x, and
@@ -346,12 +328,40 @@ void add_pressed_ends(const Model& model, const State& state, std::vector<Potent
 
 }  // namespace
 
+// The force of a law by a stretch: between two points of the table Hermite's cubic, with the slopes of Fritsch and
+// Butland, 0 at the ends.
+double table_force(const deck::TableLaw& law, double stretch) {
+  const auto& u = law.displacement;
+  const auto& force = law.force;
+  if (stretch <= u.front()) return force.front();
+  if (stretch >= u.back()) return force.back();
+  std::size_t i = 0;
+  while (u[i + 1] < stretch) ++i;
+  const auto slope = [&](std::size_t at) {
+    if (at == 0 || at + 1 == u.size()) return 0.0;
+    const double h0 = u[at] - u[at - 1], h1 = u[at + 1] - u[at];
+    const double s0 = (force[at] - force[at - 1]) / h0, s1 = (force[at + 1] - force[at]) / h1;
+    return s0 * s1 > 0.0 ? 1.0 / ((h0 + 2.0 * h1) / (3.0 * (h0 + h1) * s0) + (2.0 * h0 + h1) / (3.0 * (h0 + h1) * s1))
+                         : 0.0;
+  };
+  const double h = u[i + 1] - u[i], t = (stretch - u[i]) / h;
+  const double c = h * slope(i), d = force[i + 1] - force[i], e = h * slope(i + 1);
+  return force[i] + t * (c + t * (3.0 * d - 2.0 * c - e + t * (c + e - 2.0 * d)));
+}
+
 std::vector<Potential> potentials(const Model& model, const State& state) {
   std::vector<Potential> all =
       model.sliding() != nullptr ? sliding_potentials(model, state) : fixed_potentials(model.structure(), state);
   add_springs(model, state, all);
   add_pressed_ends(model, state, all);
   return all;
+}
+
+std::optional<double> spring_force(const Model& model, const State& state, const deck::Spring& spring, Freedom which) {
+  const auto potential = spring_potential(model, state, spring, which);
+  if (!potential) return std::nullopt;
+  const Vector gradient = potential->gradient(potential->at);
+  return gradient[gradient.size() - 1];
 }
 
 Index structure_unknowns(const Model& model, const State& state) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,13 @@ struct Potential {
 
 /// All of them, whether the mesh slides or not.
 std::vector<Potential> potentials(const Model& model, const State& state);
+
+/// The force of a spring at points in one direction, as its deck has it, on its second place where it has two; empty
+/// where it does not act.
+std::optional<double> spring_force(const Model& model, const State& state, const deck::Spring& spring, Freedom which);
+
+/// The force of a law at a stretch, by formulas of its own.
+double table_force(const deck::TableLaw& law, double stretch);
 
 /// Point loads on the unknowns.
 Vector point_loads(const Model& model, const State& state);

@@ -29,8 +29,30 @@ double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
+// 0 also of two that are infinite, as gaps are where no wall is.
+double difference(double a, double b) { return a == b ? 0.0 : std::abs(a - b); }
+
 // A value of this size written and read again, and computed on another machine.
 double rounding(double size) { return 1e-12 * size; }
+
+// What may have been edited has any kind of value anywhere; what is not there is null.
+const Json& part(const Json& of, const std::string& key) {
+  static const Json none;
+  const auto found = of.is_object() ? of.find(key) : of.end();
+  return found == of.end() ? none : *found;
+}
+const Json& part(const Json& of, std::size_t index) {
+  static const Json none;
+  return of.is_array() && index < of.size() ? of[index] : none;
+}
+std::string text(const Json& of, const std::string& key) {
+  const Json& value = part(of, key);
+  return value.is_string() ? value.get<std::string>() : "";
+}
+std::optional<Index> whole_number(const Json& of, const std::string& key) {
+  const Json& value = part(of, key);
+  return value.is_number_integer() ? std::optional(value.get<Index>()) : std::nullopt;
+}
 
 void expect_same(const std::string& check, const std::string& cell, const std::string& expected,
                  const std::string& what, Findings& findings) {
@@ -78,7 +100,7 @@ void check_path_row(const Row& row, const RecordPoint& point, const PathExpectat
   findings.compare("path.csv tells the states", std::abs(number(row[3]) - point.state.lambda), 0.0, "lambda");
   for (std::size_t i = 0; i < monitors; ++i)
     if (std::isfinite(expected.allowed[i]))
-      findings.compare("path.csv tells the states", std::abs(number(row[4 + i]) - expected.monitors[i]),
+      findings.compare("path.csv tells the states", difference(number(row[4 + i]), expected.monitors[i]),
                        expected.allowed[i], "monitor " + expected.names[i]);
   const Row rest(row.begin() + 4 + static_cast<std::ptrdiff_t>(monitors), row.end());
   if (expected.unstable && !rest[0].empty()) {
@@ -154,7 +176,7 @@ PointIndex by_branch_and_step(const Record& record) {
 
 void check_branches(const Json& branches, const Record& record, Findings& findings) {
   for (const Json& branch : branches) {
-    const Index id = branch.value("id", Index{-1});
+    const Index id = whole_number(branch, "id").value_or(-1);
     findings.at("events.json", id, 0);
     Index points = 0;
     double least = infinity, greatest = -infinity;
@@ -164,10 +186,11 @@ void check_branches(const Json& branches, const Record& record, Findings& findin
       least = std::min(least, point.state.lambda);
       greatest = std::max(greatest, point.state.lambda);
     }
-    findings.require(events_check, branch.value("points", Index{-1}) == points, "points of the branch");
+    findings.require(events_check, whole_number(branch, "points") == points, "points of the branch");
     if (points == 0) continue;
-    findings.compare(events_check, std::abs(number(branch["lambda"][0]) - least), 0.0, "least lambda of the branch");
-    findings.compare(events_check, std::abs(number(branch["lambda"][1]) - greatest), 0.0, "greatest lambda");
+    const Json& lambda = part(branch, "lambda");
+    findings.compare(events_check, std::abs(number(part(lambda, 0)) - least), 0.0, "least lambda of the branch");
+    findings.compare(events_check, std::abs(number(part(lambda, 1)) - greatest), 0.0, "greatest lambda");
   }
 }
 
@@ -176,7 +199,7 @@ void check_monitors(const Json& monitors, const Record& record, const RecordPoin
     const std::string& name = record.columns[i].name;
     const double value = point.monitors[i];
     if (!std::isfinite(value)) continue;
-    findings.compare(events_check, std::abs(number(monitors.value(name, Json())) - value), rounding(std::abs(value)),
+    findings.compare(events_check, std::abs(number(part(monitors, name)) - value), rounding(std::abs(value)),
                      "monitor " + name);
   }
 }
@@ -185,8 +208,8 @@ void check_monitors(const Json& monitors, const Record& record, const RecordPoin
 void check_named_contacts(const Json& contacts, const Model& model, const Touches& touches, Findings& findings) {
   const double length = model.structure().length_scale();
   for (const Json& contact : contacts) {
-    const std::string wall = contact.value("wall", ""), member = contact.value("member", "");
-    const double fraction = number(contact.value("fraction", Json())), x = number(contact.value("x", Json()));
+    const std::string wall = text(contact, "wall"), member = text(contact, "member");
+    const double fraction = number(part(contact, "fraction")), x = number(part(contact, "x"));
     const auto meant = [&](const Touch& touch) {
       return touch.label.wall == wall && touch.label.member == member &&
              std::abs(touch.label.fraction - fraction) <= 1e-9;
@@ -200,22 +223,18 @@ void check_named_contacts(const Json& contacts, const Model& model, const Touche
 }
 
 ListedEvent listed_event(const Json& event) {
-  const auto count = [&](const char* key) {
-    const Json value = event.value(key, Json());
-    return value.is_number_integer() ? std::optional<Index>(value.get<Index>()) : std::nullopt;
-  };
-  ListedEvent listed{.kind = event.value("kind", ""),
-                     .branch = event.value("branch", Index{-1}),
-                     .step = event.value("step", Index{-1}),
-                     .unstable_before = count("unstable_before"),
-                     .unstable_after = count("unstable_after"),
-                     .localised = number(event.value("localised", Json())),
-                     .suspected = event.value("suspected", false),
-                     .monitor = event.value("monitor", "")};
-  for (const Json& contact : event.value("contact", Json::array()))
-    listed.contacts.push_back({.wall = contact.value("wall", ""),
-                               .member = contact.value("member", ""),
-                               .fraction = number(contact.value("fraction", Json()))});
+  ListedEvent listed{.kind = text(event, "kind"),
+                     .branch = whole_number(event, "branch").value_or(-1),
+                     .step = whole_number(event, "step").value_or(-1),
+                     .unstable_before = whole_number(event, "unstable_before"),
+                     .unstable_after = whole_number(event, "unstable_after"),
+                     .localised = number(part(event, "localised")),
+                     .suspected = part(event, "suspected") == true,
+                     .monitor = text(event, "monitor")};
+  for (const Json& contact : part(event, "contact"))
+    listed.contacts.push_back({.wall = text(contact, "wall"),
+                               .member = text(contact, "member"),
+                               .fraction = number(part(contact, "fraction"))});
   return listed;
 }
 
@@ -233,23 +252,23 @@ std::vector<ListedEvent> check_events(const std::string& text, const Record& rec
   std::vector<ListedEvent> listed;
   Index id = 0;
   for (const Json& event : json["events"]) {
-    const Index branch = event.value("branch", Index{-1}), step = event.value("step", Index{-1});
+    const Index branch = whole_number(event, "branch").value_or(-1), step = whole_number(event, "step").value_or(-1);
     findings.at("events.json", branch, step);
-    findings.require(events_check, event.value("id", Index{-1}) == id++, "id");
+    findings.require(events_check, whole_number(event, "id") == id++, "id");
     const auto found = points.find({branch, step});
     findings.require(events_check, found != points.end(), "the event is at no point");
     if (found == points.end()) continue;
     listed.push_back(listed_event(event));
     const RecordPoint& point = *found->second;
-    findings.compare(events_check, std::abs(number(event["lambda"]) - point.state.lambda), 0.0, "lambda");
-    findings.compare(events_check, std::abs(number(event["arc"]) - point.arc), 0.0, "arc");
-    check_monitors(event["monitors"], record, point, findings);
+    findings.compare(events_check, std::abs(number(part(event, "lambda")) - point.state.lambda), 0.0, "lambda");
+    findings.compare(events_check, std::abs(number(part(event, "arc")) - point.arc), 0.0, "arc");
+    check_monitors(part(event, "monitors"), record, point, findings);
     const Index stage = record.stage_number(point.branch);
     const Model& here = model.at_stage(stage);
     const auto& walls_here = walls[static_cast<std::size_t>(stage)];
-    if (event.contains("contact"))
-      check_named_contacts(event["contact"], here, touches(here, walls_at(walls_here, point.state.lambda), point.state),
-                           findings);
+    if (!part(event, "contact").is_null())
+      check_named_contacts(part(event, "contact"), here,
+                           touches(here, walls_at(walls_here, point.state.lambda), point.state), findings);
   }
   return listed;
 }

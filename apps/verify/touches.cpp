@@ -7,6 +7,7 @@
 
 #include "apps/verify/differences.hpp"
 #include "apps/verify/moved_unknowns.hpp"
+#include "apps/verify/section_point.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::verify {
@@ -23,11 +24,6 @@ const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string&
   return *std::find_if(walls.begin(), walls.end(), [&](const PlainWall& wall) { return wall.deck().name == name; });
 }
 
-// Of a face, or of an axis that is so far from the outside of its member.
-double gap_of(const PlainWall& wall, const Vec2& place, double half_height) {
-  return wall.faces(place) ? wall.gap(place) - wall.kept_off(half_height) : infinity;
-}
-
 // The slope of that by the place, of an outline.
 Vec2 normal_of(const PlainWall& wall, const Vec2& place) {
   return wall.faces(place) ? Vec2(perp(direction(wall.slope_angle(place)))) : Vec2(Vec2::Zero());
@@ -40,21 +36,6 @@ Vec2 touching_place(const PlainWall& wall, const Vec2& place, double half_height
 }
 
 // --- contact at nodes -----------------------------------------------------------------------------------------------
-
-// A point of a section at a node: r + o d + o² q with d = (1 + e) t, t the stress-free normal turned by φ, and q = ξ t
-// or ξ n, n the normal of the axis without imperfection (Selke and Kikuchi's eq. 15). e = ξ = 0 elsewhere.
-struct SectionPoint {
-  Vec2 node = Vec2::Zero();  // stress-free
-  double shape_angle = 0.0, axis_angle = 0.0;
-  double offset = 0.0;
-  bool along_director = false;
-
-  Vec2 at(const Vector& u) const {
-    const double turned = u.size() > 2 ? u[2] : 0.0, e = u.size() > 3 ? u[3] : 0.0, xi = u.size() > 4 ? u[4] : 0.0;
-    const Vec2 t = perp(direction(shape_angle + turned)), n = perp(direction(axis_angle));
-    return node + u.head<2>() + offset * (1.0 + e) * t + offset * offset * xi * (along_director ? t : n);
-  }
-};
 
 // The sections at which members may touch, looked up by the labels of contacts: one list for all of a state's.
 class ContactSections {
@@ -141,7 +122,7 @@ Touch node_touch(const NodeContacts& all, Index j) {
                      .along_director = section.quadratic == QuadraticTerm::director};
   point.offset = offset_of(model, wall, j, point, half, rest);
   Touch touch{.label = label, .gap = node_unknowns(structure, section, state)};
-  touch.gap.of = [point, half, &wall](const Vector& u) { return gap_of(wall, point.at(u), half); };
+  touch.gap.of = [point, half, &wall](const Vector& u) { return wall.gap_to(point.at(u), half); };
   if (wall.has_outline()) touch.gap.by_place = [point, &wall](const Vector& u) { return normal_of(wall, point.at(u)); };
   touch.place = touching_place(wall, point.at(touch.gap.at), half);
   const deck::Contact& contact = model.deck().contact;
@@ -249,7 +230,7 @@ Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& w
     return face_towards(wall, half, at->place(node, function, u));
   };
   touch.place = touching_place(wall, face(touch.gap.at), half);
-  touch.gap.of = [face, half, &wall](const Vector& u) { return gap_of(wall, face(u), half); };
+  touch.gap.of = [face, half, &wall](const Vector& u) { return wall.gap_to(face(u), half); };
   if (wall.has_outline()) touch.gap.by_place = [face, &wall](const Vector& u) { return normal_of(wall, face(u)); };
   return touch;
 }
@@ -451,7 +432,7 @@ struct ElementBeside {
   AxisPlace place(double t) const { return at.mesh.inside(strand, position, t, at.now); }
   double gap(double t) const {
     const double half = at.body.half_height(strand);
-    return gap_of(wall, face_towards(wall, half, place(t)), half);
+    return wall.gap_to(face_towards(wall, half, place(t)), half);
   }
 
   std::string name(double t) const {

@@ -7,6 +7,7 @@
 
 #include "apps/output/text_table.hpp"
 #include "apps/verify/point_checks.hpp"
+#include "apps/verify/shown_values.hpp"
 #include "apps/verify/stored_files.hpp"
 
 namespace arcwall::verify {
@@ -42,22 +43,39 @@ bool is_reaction(deck::Component component) {
          component == deck::Component::reaction_moment;
 }
 
+bool is_greatest(deck::Component component) {
+  return component == deck::Component::greatest_moment || component == deck::Component::greatest_pressure;
+}
+
 // Monitors are differences of places, or sums of nodal forces: their round-off is that of these. Reactions of a run in
 // increments are of stresses that no state tells.
-void add_monitors(const Model& model, const State& state, PathExpectation& expected) {
-  const Structure& structure = model.structure();
-  for (std::size_t i = 0; i < model.monitors().size(); ++i) {
-    expected.names.push_back(model.monitors()[i].name);
-    const bool reaction = is_reaction(model.monitors()[i].component);
-    if (reaction && model.in_increments()) {
+double roundoff_of(const MonitorColumn& column, const Structure& structure) {
+  if (is_reaction(column.component)) return 10.0 * structure.force_roundoff();
+  // Where a quantity turns, its place is as sure as the root of its round-off; formulas of walls differ in the order of
+  // their operations.
+  constexpr double turn = 1e-7;
+  if (column.is_place) return turn;
+  constexpr double place = 1e-14, gap = 1e-12;
+  return (column.component == deck::Component::gap ? gap : place) * structure.length_scale();
+}
+
+void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& findings) {
+  const Model& model = at.model;
+  for (const MonitorColumn& column : model.monitors()) {
+    expected.names.push_back(column.name);
+    if (is_reaction(column.component) && model.in_increments()) {
       expected.monitors.push_back(0.0);
       expected.allowed.push_back(infinity);
       continue;
     }
-    const double value = model.monitors()[i].quantity->value(state);
-    const double roundoff = reaction ? 10.0 * structure.force_roundoff() : 1e-14 * structure.length_scale();
+    double value = column.quantity->value(at.point.state);
+    if (const deck::Monitor* monitor = deck::find(model.deck().monitors, column.name)) {
+      if (const auto own = own_value(at, *monitor)) value = monitor->sign * *own;
+      if (is_greatest(column.component)) check_greatest(at, *monitor, std::abs(value), findings);
+    }
     expected.monitors.push_back(value);
-    expected.allowed.push_back(1e-12 * std::abs(value) + roundoff);
+    expected.allowed.push_back(std::isfinite(value) ? 1e-12 * std::abs(value) + roundoff_of(column, model.structure())
+                                                    : 0.0);
   }
 }
 
@@ -154,7 +172,7 @@ class Verifier {
     if (!well_formed) return false;
     const PointAtHand at = at_hand(model, point, walls_[static_cast<std::size_t>(stage)], scales_);
     PathExpectation expected{.contacts = listed_contacts(at.touches), .moves_supports = record_.moves_supports};
-    add_monitors(model, point.state, expected);
+    add_monitors(at, expected, findings);
     if (!record_.stages.empty()) expected.stage = record_.stage_of(point.branch);
     if (!model_.in_increments()) {
       check_contacts(at, findings);

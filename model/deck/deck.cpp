@@ -114,6 +114,21 @@ bool drives(const Stage& stage, const std::string& thing) {
 }
 
 // Sliding where contact forces are point forces. Springs, increments and walls without clearance act at nodes.
+bool acts_in(const Spring& spring, Freedom direction) {
+  struct Acts {
+    Freedom direction;
+    bool by(const Stiffness& stiffness, const std::optional<TableLaw>& law) const {
+      if (law) return law->direction == direction;
+      if (direction == Freedom::rotation) return stiffness.rotation > 0.0;
+      return (direction == Freedom::x ? stiffness.x : stiffness.z) > 0.0;
+    }
+    bool operator()(const GroundSpring& spring) const { return by(spring.stiffness, spring.law); }
+    bool operator()(const PointToPointSpring& spring) const { return by(spring.stiffness, spring.law); }
+    bool operator()(const Foundation& soil) const { return by({.x = soil.x, .z = soil.z, .rotation = 0.0}, soil.law); }
+  };
+  return std::visit(Acts{direction}, spring.kind);
+}
+
 PointsOfContact points_of_contact(const Deck& deck) {
   if (deck.contact.points) return {.points = *deck.contact.points, .why = "as contact.points says"};
   if (deck.contact.method != ContactLaw::Method::rigid)

@@ -294,6 +294,7 @@ struct Foundation {
 
 /// Stress-free with the structure.
 struct Spring {
+  std::string name{};  ///< empty: none, and no monitor shows it
   Position position{};
   std::variant<GroundSpring, PointToPointSpring, Foundation> kind{};
 
@@ -435,18 +436,37 @@ enum class Component {
   moment,
   force_x,
   force_z,
+  gap,
+  greatest_moment,
+  greatest_pressure,
   thickness,
   thickness2
 };
 
-/// Of a place of the structure, or of a wall: the resultant of its contact forces on the structure.
+/// What a monitor is of.
+enum class Monitored {
+  place,
+  wall,    ///< the resultant of its contact forces on the structure
+  gap,     ///< between a place and a wall
+  member,  ///< the greatest of what its sections carry
+  spring
+};
+
+/// Of a place of the structure, of a wall, of both, of a member, or of a spring.
 struct Monitor {
   std::string name{};
   Position position{};
   Place at{};
-  std::string wall{};  ///< empty: of the place
+  std::string wall{}, member{}, spring{};  ///< empty: of none
   Component component = Component::z;
   int sign = 1;  ///< 1 or -1, multiplies the column
+
+  Monitored of() const {
+    if (!spring.empty()) return Monitored::spring;
+    if (!member.empty()) return Monitored::member;
+    if (wall.empty()) return Monitored::place;
+    return at.name.empty() ? Monitored::wall : Monitored::gap;
+  }
 
   bool operator==(const Monitor&) const = default;
 };
@@ -590,6 +610,9 @@ std::vector<std::string> driven_things(const Deck& deck);
 std::string driven_thing(const std::string& kind, std::size_t which);
 
 bool drives(const Stage& stage, const std::string& thing);
+
+/// Whether a spring, or a foundation, resists displacements or rotations of this kind.
+bool acts_in(const Spring& spring, Freedom direction);
 
 /// Where contact is looked for, and in words why: the deck says so, or it is the default.
 struct PointsOfContact {

@@ -60,6 +60,8 @@ Candidates candidates(const Names& names, Named of) {
       return {names.members, "is not a member of this deck"};
     case Named::wall:
       return {names.walls, "is not a wall of this deck"};
+    case Named::spring:
+      return {names.springs, "is not the name of a spring of this deck"};
     case Named::monitor:
       return {names.monitors, "is not a monitor of this deck"};
     case Named::column:
@@ -78,6 +80,7 @@ Names names_in(const Value& root) {
           .points = NameList(keys_of(root, "point")),
           .members = NameList(keys_of(root, "member")),
           .walls = NameList(names_of(root, "wall")),
+          .springs = NameList(names_of(root, "spring")),
           .monitors = NameList(names_of(root, "monitor")),
           .columns = NameList(std::move(columns))};
 }
@@ -146,6 +149,10 @@ bool KeyReader::is_one_of(const Reference& found, const std::string& path, Named
   if (!known && of == Named::point && member.size() < found.text.size() && names_.members.contains(member)) {
     table_.findings().add(found.position, path, in_quotes(found.text, 60) + " " + otherwise + ", but inside a member",
                           "divide member " + member + " there: add a point, at which one member ends and one begins");
+  } else if (!known && of == Named::spring && names.all().empty()) {
+    table_.findings().add(
+        found.position, path, in_quotes(found.text, 60) + " " + otherwise,
+        "give the [[spring]] that is meant a name, as in name = \"" + found.text.substr(0, 60) + "\"");
   } else if (!known) {
     table_.report_unknown(found, path, otherwise, names.all());
   }

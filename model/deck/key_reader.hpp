@@ -26,7 +26,7 @@ class NameList {
 
 /// Every name the deck declares, also on tables with errors of their own, so that one error is not reported as two.
 struct Names {
-  NameList materials{}, sections{}, points{}, members{}, walls{}, monitors{};
+  NameList materials{}, sections{}, points{}, members{}, walls{}, springs{}, monitors{};
   NameList columns{};  ///< the monitors and lambda
 };
 

@@ -47,8 +47,8 @@ struct Key {
 /// A key that may be left out.
 inline Key optional(const char* key, std::string_view otherwise = {}) { return {key, Presence::optional, otherwise}; }
 
-/// What the parts of a deck that have names are.
-enum class Named { material, section, point, member, wall, monitor, column };  // a column is `lambda` or a monitor
+/// What the parts of a deck that have names are; a column is `lambda` or a monitor.
+enum class Named { material, section, point, member, wall, spring, monitor, column };
 
 /// Whether an empty list stands for none, or none is said by leaving the key out.
 enum class EmptyList { means_none, refused };

@@ -283,34 +283,139 @@ void check_face(Keys& keys, const Deck& deck, const Monitor& monitor) {
               "give the section a height, or monitor \"z\"");
 }
 
-bool is_of_a_wall(Component component) {
+// What has a component, and what is to be written where it stands with something else.
+struct Owner {
+  const char* is;
+  const char* cure;
+};
+
+Owner owner_of(Component component) {
+  switch (component) {
+    case Component::force_x:
+    case Component::force_z:
+      return {"a wall or a spring", "write `wall` or `spring` instead, or give reaction-x or reaction-z of a place"};
+    case Component::gap:
+      return {"a place and a wall", "give both `at` and `wall`"};
+    case Component::greatest_moment:
+      return {"a member", "write `member` instead"};
+    case Component::greatest_pressure:
+      return {"a foundation", "write `spring` with the name of a [[spring]] that has `on`"};
+    case Component::x:
+    case Component::z:
+    case Component::rotation:
+    case Component::face_above_z:
+    case Component::face_below_z:
+    case Component::reaction_x:
+    case Component::reaction_z:
+    case Component::reaction_moment:
+    case Component::axial_force:
+    case Component::moment:
+    case Component::thickness:
+    case Component::thickness2:
+      break;
+  }
+  return {"a place", "write `at` instead"};
+}
+
+bool is_force(Component component) {
   return component == Component::force_x || component == Component::force_z || component == Component::moment;
 }
 
-// Of a place or of a wall.
-void monitored_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
-  const bool at = keys.has("at"), wall = keys.has("wall");
-  if (keys.reads() && at == wall) {
-    keys.report(at ? "wall" : "at",
-                at ? "the monitor has both `at` and `wall`" : "the monitor has neither `at` nor `wall`",
-                "give `at` for a place or `wall` for the force of a wall");
-    return keys.give_up();
+// Whether what is monitored has the component; reports it if not.
+bool check_owner(Keys& keys, const Monitor& monitor) {
+  const Component component = monitor.component;
+  const std::string word = text_of(component_words, component);
+  const auto refuse = [&](const std::string& message, const std::string& cure) {
+    keys.report("component", message, cure);
+    return false;
+  };
+  switch (monitor.of()) {
+    case Monitored::place:
+      if (const Owner owner = owner_of(component); owner.is != std::string_view("a place"))
+        return refuse(word + " belongs to " + owner.is, owner.cure);
+      return true;
+    case Monitored::wall:
+      return is_force(component) ||
+             refuse("a wall has no " + word, component == Component::gap ? "add `at`: the place of which it is the gap"
+                                                                         : "give force-x, force-z or moment");
+    case Monitored::gap:
+      return component == Component::gap || refuse("a place and a wall have a gap between them, and no " + word,
+                                                   "give component = \"gap\", or leave out `wall` or `at`");
+    case Monitored::member:
+      return component == Component::greatest_moment ||
+             refuse("a member as a whole has no " + word,
+                    "give greatest-moment, or write `at` with a place of the member");
+    case Monitored::spring:
+      return is_force(component) || component == Component::greatest_pressure ||
+             refuse("a spring has no " + word, "give force-x, force-z or moment, or greatest-pressure of a foundation");
   }
-  const bool of_wall = keys.reads() ? wall : !monitor.wall.empty();
-  bool right = false;
-  if (keys.applies(!of_wall, "at", "", "")) right = keys.place("at", monitor.at, "a place");
-  if (of_wall || keys.lists())
-    right = keys.name("wall", monitor.wall, Named::wall,
-                      "instead of `at`: the name of a wall, the resultant of whose forces on the structure is shown");
-  if (!keys.word("component", monitor.component, component_words, "see below") || !right) return;
-  if (!of_wall) check_face(keys, deck, monitor);
-  const bool force = monitor.component == Component::force_x || monitor.component == Component::force_z;
-  if (of_wall && !is_of_a_wall(monitor.component))
-    keys.report("component", "a wall has no " + text_of(component_words, monitor.component),
-                "give force-x, force-z or moment");
-  if (!of_wall && force)
-    keys.report("component", text_of(component_words, monitor.component) + " belongs to a wall",
-                "write `wall` instead of `at`, or give reaction-x or reaction-z");
+  return true;
+}
+
+Freedom direction_of(Component component) {
+  if (component == Component::force_x) return Freedom::x;
+  return component == Component::force_z ? Freedom::z : Freedom::rotation;
+}
+
+// A spring has forces in the directions in which it acts, a foundation a pressure.
+void check_spring(Keys& keys, const Deck& deck, const Monitor& monitor) {
+  const Spring* spring = find(deck.springs, monitor.spring);
+  if (spring == nullptr) return;  // it has errors of its own
+  const bool along = std::holds_alternative<Foundation>(spring->kind);
+  if (along != (monitor.component == Component::greatest_pressure))
+    return keys.report("component",
+                       "spring " + monitor.spring + " is " + (along ? "a foundation" : "no foundation") +
+                           ", which has no " + text_of(component_words, monitor.component),
+                       along ? "give greatest-pressure" : "give force-x, force-z or moment");
+  const Freedom direction = direction_of(monitor.component);
+  if (!along && !acts_in(*spring, direction))
+    keys.report("component",
+                "spring " + monitor.spring + " has no stiffness in " + text_of(spring_direction_words, direction),
+                "name the component of a direction in which it acts");
+}
+
+void check_monitored(Keys& keys, const Deck& deck, const Monitor& monitor) {
+  if (!check_owner(keys, monitor)) return;
+  if (monitor.of() == Monitored::place) check_face(keys, deck, monitor);
+  if (monitor.of() == Monitored::spring) check_spring(keys, deck, monitor);
+  const Member* member = monitor.of() == Monitored::member ? find(deck.members, monitor.member) : nullptr;
+  if (member != nullptr && member->theory == Theory::truss)
+    keys.report("member", "member " + member->name + " is a truss, which carries no moment", "name a beam");
+}
+
+// One of these keys, or a place and a wall.
+bool check_what_is_monitored(Keys& keys) {
+  std::vector<std::string> given;
+  for (const char* key : {"at", "wall", "member", "spring"})
+    if (keys.has(key)) given.emplace_back(key);
+  const bool gap = given.size() == 2 && given[0] == "at" && given[1] == "wall";
+  if (given.size() == 1 || gap) return true;
+  keys.report(given.empty() ? "at" : given.back(),
+              given.empty() ? "the monitor has none of `at`, `wall`, `member` and `spring`"
+                            : "the monitor has both `" + given[0] + "` and `" + given.back() + "`",
+              "give `at` for a place, `wall` for the force of a wall, both for the gap between them, `member` for the "
+              "greatest moment of a member, or `spring` for the force of a spring");
+  return false;
+}
+
+void monitored_keys(Keys& keys, Monitor& monitor, const Deck& deck) {
+  if (keys.reads() && !check_what_is_monitored(keys)) return keys.give_up();
+  bool right = true;
+  const auto shows = [&](const char* key, const std::string& name) {
+    return keys.lists() || (keys.reads() ? keys.has(key) : !name.empty());
+  };
+  if (shows("at", monitor.at.name)) right = keys.place("at", monitor.at, "a place") && right;
+  const auto name_key = [&](const char* key, std::string& name, Named of, const char* meaning) {
+    if (shows(key, name)) right = keys.name(key, name, of, meaning) && right;
+  };
+  name_key("wall", monitor.wall, Named::wall,
+           "instead of `at`: the name of a wall, the resultant of whose forces on the structure is shown; beside `at`: "
+           "a wall, the gap of the place to which is shown");
+  name_key("member", monitor.member, Named::member,
+           "instead of `at`: a member, of whose moments the greatest is shown, and where it is");
+  name_key("spring", monitor.spring, Named::spring, "instead of `at`: the name of a spring, whose force is shown");
+  if (keys.word("component", monitor.component, component_words, "see below") && right)
+    check_monitored(keys, deck, monitor);
 }
 
 void monitor_keys(Keys& keys, Monitor& monitor, const Deck& deck) {

@@ -127,7 +127,19 @@ void foundation_keys(Keys& keys, Foundation& foundation) {
       "[force/length²]; at least one > 0");
 }
 
+void name_key(Keys& keys, Spring& spring, const Deck& deck) {
+  if (keys.writes() && spring.name.empty()) return;
+  if (!keys.text(optional("name", "none"), spring.name, "letters, digits, _ and -; by which a monitor shows its force"))
+    return;
+  if (!is_name(spring.name)) {
+    keys.report("name", in_quotes(spring.name, 60) + " is no name", "use letters, digits, _ and - only");
+  } else if (find(deck.springs, spring.name) != nullptr) {
+    keys.report("name", in_quotes(spring.name) + " is the name of another spring", "give each spring its own");
+  }
+}
+
 void spring_keys(Keys& keys, Spring& spring, const Deck& deck) {
+  name_key(keys, spring, deck);
   std::vector<std::string> given;
   for (const char* key : {"at", "between", "on"})
     if (keys.has(key)) given.emplace_back(key);

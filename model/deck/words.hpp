@@ -70,7 +70,7 @@ inline constexpr Words<ContactLaw::Method, 3> contact_method_words{{{"multiplier
                                                                     {"augmented", ContactLaw::Method::augmented}}};
 inline constexpr Words<ContactPoints, 2> contact_points_words{
     {{"nodes", ContactPoints::nodes}, {"sliding", ContactPoints::sliding}}};
-inline constexpr Words<Component, 14> component_words{{{"x", Component::x},
+inline constexpr Words<Component, 17> component_words{{{"x", Component::x},
                                                        {"z", Component::z},
                                                        {"rotation", Component::rotation},
                                                        {"face-above-z", Component::face_above_z},
@@ -82,6 +82,9 @@ inline constexpr Words<Component, 14> component_words{{{"x", Component::x},
                                                        {"moment", Component::moment},
                                                        {"force-x", Component::force_x},
                                                        {"force-z", Component::force_z},
+                                                       {"gap", Component::gap},
+                                                       {"greatest-moment", Component::greatest_moment},
+                                                       {"greatest-pressure", Component::greatest_pressure},
                                                        {"thickness", Component::thickness},
                                                        {"thickness2", Component::thickness2}}};
 inline constexpr Words<Component, 3> control_words{

@@ -68,6 +68,25 @@ const payloads = [
   '/etc/passwd file:///etc/passwd',
 ];
 
+const more_payloads = [
+  'x<svg><script>window.touched=1<b>',
+  'a" style="position:fixed;top:0;left:0;width:100vw;height:100vh" onclick="window.touched = 1',
+  '<details open ontoggle=window.touched=1>',
+  '<video><source onerror=window.touched=1>',
+  '<template><script>window.touched = 1</script></template>',
+  '<noscript><p title="</noscript><img src=x onerror=window.touched=1>">',
+  '<style>@import "https://example.org/x.css";</style>',
+  '=HYPERLINK("https://example.org/")',
+  '<a xlink:href="javascript:window.touched=1"><text>x</text></a>',
+  '<svg><foreignObject><body onload=window.touched=1></foreignObject></svg>',
+  '<input autofocus onfocus=window.touched=1>',
+  '<marquee onstart=window.touched=1>',
+  '\u0022\u003e\u003cimg src=x onerror=window.touched=1\u003e',
+  '{"title": "</script><script>window.touched = 1</script>"}',
+  'javascript:window.touched=1//\u2028',
+  '<x style="behavior:url(#x)" onpointerenter=window.touched=1>hover',
+];
+
 // TOML's basic strings; what may not stand in them as it is stands as an escape.
 const quoted = (text) => `"${[...text].map((character) => {
   const code = character.codePointAt(0);
@@ -104,13 +123,23 @@ sign = -1
 const shown_as_it_is = (text) =>
   text.length < 200 && text.trim() !== '' && !/[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/.test(text);
 
-// Decks with five texts each, one of them from the command line, and decks whose file has such a name.
-export const hostile_decks = () => {
+// A file may have this name.
+const is_file_name = (text) => Buffer.byteLength(text) < 200 && text.trim() !== '' && !/[/\u0000\n]/.test(text);
+
+// Decks with a text in each place: the title, both units, the description, from the command line, and, where it may be
+// one, the name of the deck's file. With `all` there are more texts, each in more places, and names of tables of measured
+// points besides.
+export const hostile_decks = (all = false) => {
   const decks = [];
-  const at = (i) => payloads[i % payloads.length];
-  for (let i = 0; i < payloads.length; i += 3) {
+  const texts = all ? [...payloads, ...more_payloads] : payloads;
+  const at = (i) => texts[i % texts.length];
+  for (let i = 0; i < texts.length; i += all ? 2 : 3) {
+    const name = (k, end) => (is_file_name(at(k)) ? `${i}${at(k)}${end}` : undefined);
+    const file = name(i + 3, '.toml'), measured = all ? name(i + 4, '.csv') : undefined;
     decks.push({ toml: deck({ title: at(i), description: '', length: at(i + 1), force: at(i + 2) }),
-      arguments: ['--set', `description=${quoted(at(i + 1))}`], texts: 5, title: shown_as_it_is(at(i)) ? at(i) : undefined });
+      arguments: ['--set', `description=${quoted(at(i + 1))}`], file, measured,
+      texts: 4 + [file, measured].filter((one) => one !== undefined).length,
+      title: shown_as_it_is(at(i)) ? at(i) : undefined });
   }
   for (const file of ['<img src=x onerror=window.touched=1>.toml', '"\' onload=`x`.toml', '\u202elmot.toml', '<b>&lt;$x$.toml']) {
     decks.push({ file, toml: deck({ title: ' ', description: '', length: 'cm', force: 'kN' }), arguments: [], texts: 1 });

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "tests/apps/loading/loading_decks.hpp"
 
 namespace arcwall::loading_test {
@@ -216,6 +217,50 @@ TEST(Prescribed, IsAppliedBeforeThePathWhereItIsConstant) {
   EXPECT_NEAR(before.record().points.front().lambda, 0.0, 1e-20);
   for (std::size_t i = 0; i < start.size(); ++i) EXPECT_NEAR(start[i], after[i], 1e-9 * (1.0 + std::abs(after[i])));
   expect_confirmed(before);
+}
+
+// Two beams, and a hinge at their joint: of either, or of both.
+std::string joined_by_a_hinge(const std::string& first, const std::string& second) {
+  return fmt::format(R"(
+title = "Turned at a hinge"
+material.m = {{ E = 21000.0, nu = 0.29 }}
+section.s = {{ shape = "rectangle", width = 0.1, height = 0.1 }}
+point = {{ A = [0.0, 0.0], B = [1.0, 0.0], C = [2.0, 0.0] }}
+support = {{ A = ["x", "z", "rotation"], B = ["z"], C = ["z", "rotation"] }}
+prescribed = [{{ at = "B", rotation = 0.1 }}]
+path = {{ step = 0.2, land = {{ lambda = [0.2, 0.4, 0.6, 0.8] }}, stop = {{ lambda = [-1.0, 1.0] }} }}
+monitor = [{{ name = "left", at = "first:1", component = "rotation" }}, {{ name = "right", at = "second:0", component = "rotation" }},
+           {{ name = "M_left", at = "first:1", component = "moment" }}, {{ name = "M_right", at = "second:0", component = "moment" }}]
+[member]
+first = {{ from = "A", to = "B", theory = "classic", elements = 4, material = "m", section = "s"{} }}
+second = {{ from = "B", to = "C", theory = "classic", elements = 4, material = "m", section = "s"{} }}
+)",
+                     first, second);
+}
+
+// The rotation is that of the ends that are joined rigidly, as of supports and springs; an end with a hinge keeps its
+// own and carries no moment.
+TEST(Prescribed, TurnsAtAHingeTheEndsThatAreRigidlyJoined) {
+  const std::string hinged = ", hinge = [\"to\"]", also_hinged = ", hinge = [\"from\"]";
+  for (const bool left : {true, false}) {
+    SCOPED_TRACE(left ? "the left one has a hinge" : "the right one has a hinge");
+    const TracedDeck traced(joined_by_a_hinge(left ? hinged : "", left ? "" : also_hinged));
+    const std::vector<double>& last = traced.record().points.back().monitors;
+    const double turn = left ? last[1] : last[0], free = left ? last[0] : last[1];
+    EXPECT_NEAR(turn, 0.1, 1e-14);
+    EXPECT_LT(std::abs(free), 0.01);
+    EXPECT_NEAR(left ? last[2] : last[3], 0.0, 1e-12);
+    EXPECT_GT(std::abs(left ? last[3] : last[2]), 1e-2);
+    expect_confirmed(traced);
+  }
+  try {
+    TracedDeck none(joined_by_a_hinge(hinged, also_hinged));
+    FAIL() << "both ends have a hinge";
+  } catch (const InputError& error) {
+    EXPECT_NE(to_text(error.diagnostics().front()).find("prescribed.rotation: no member end at \"B\" has a rotation"),
+              std::string::npos)
+        << to_text(error.diagnostics().front());
+  }
 }
 
 }  // namespace arcwall::loading_test

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <regex>
 
 #include "apps/output/event_marks.hpp"
@@ -42,6 +43,12 @@ TEST(Ticks, AreFourToElevenWhateverTheRange) {
       EXPECT_LE(many, 11u) << low << " … " << high;
     }
   }
+}
+
+// Multiples that digits do not tell apart were gone through for ever.
+TEST(Ticks, AreNoneWhereTheEndsDifferByRoundOff) {
+  EXPECT_TRUE(ticks(1.0, std::nextafter(1.0, 2.0)).empty());
+  EXPECT_TRUE(ticks(-38.1, std::nextafter(-38.1, 0.0)).empty());
 }
 
 // The attributes tell a script where a value is drawn: the first point of the line is there.

@@ -20,6 +20,13 @@ TEST(MapAxis, NumbersKeepTheirDistances) {
   EXPECT_EQ(axis.ticks().size(), 3u);
 }
 
+// As loads of cases that differ in the step alone: one value, with room around it.
+TEST(MapAxis, NumbersThatAreTheSameToRoundOffAreOne) {
+  const MapAxis axis({37.9198012951, 37.91980129510001}, AxisScale::linear);
+  EXPECT_NEAR(axis.place(37.9198012951), 0.5, 1e-9);
+  EXPECT_GE(axis.ticks().size(), 4u);
+}
+
 TEST(MapAxis, ADecadeOfPositiveNumbersIsLogarithmic) {
   const MapAxis axis({0.1, 1, 10}, AxisScale::by_extent);
   EXPECT_NEAR(axis.place(10) - axis.place(1), axis.place(1) - axis.place(0.1), 1e-12);

@@ -45,6 +45,12 @@ TEST_F(SweepRecordsTest, TablesAreThoseOfFolders) {
   expect_in("6 of 6 cases have results, 6 of them as their deck says", run("sweep status study").out);
 }
 
+// A sweep gives them to its cases by itself, so that each case was told that it had them twice.
+TEST_F(SweepRecordsTest, FlagsOfCasesMayBeGiven) {
+  ASSERT_EQ(run("sweep run study --records -- --scratch --quiet --no-pictures --force").status, 0);
+  expect_in("6 of 6 cases have results, 6 of them as their deck says", run("sweep status study").out);
+}
+
 TEST_F(SweepRecordsTest, EachShareHasAFileOfItsOwn) {
   ASSERT_EQ(run("sweep run study --records --part 0/2").status, 0);
   expect_in("3 of 6 cases have results", run("sweep status study").out);

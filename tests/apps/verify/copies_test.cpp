@@ -53,6 +53,20 @@ TEST_F(EditedFolder, EveryEditOfEventsIsFound) {
   expect_in("residual is missing", verdict("events.json", "\"residual\": [^,]*,", ""));
 }
 
+// Such values ended in an internal error.
+TEST_F(EditedFolder, ValuesOfAnotherKindAreFound) {
+  for (const auto& [pattern, by] :
+       std::vector<std::pair<std::string, std::string>>{{"\"kind\": \"start\"", "\"kind\": {}"},
+                                                        {"\"step\": 0", "\"step\": true"},
+                                                        {"\"id\": 0", "\"id\": [0]"},
+                                                        {"\"lambda\": \\[[^\\]]*\\]", "\"lambda\": 3"},
+                                                        {"\"lambda\": [0-9.e+-]+,", ""},
+                                                        {"\"monitors\": \\{[^}]*\\}", "\"monitors\": null"},
+                                                        {"\"wall\": \"upper\"", "\"wall\": 7"},
+                                                        {"\"events\": \\[", "\"events\": [[], \"x\", "}})
+    expect_in("edited/events.json: ", verdict("events.json", pattern, by));
+}
+
 TEST_F(EditedFolder, EveryEditOfTheResultIsFound) {
   expect_in("result.json repeats the run: status", verdict("result.json", "\"status\": 6", "\"status\": 0"));
   expect_in("result.json repeats the run: counts.iterations",

@@ -146,6 +146,7 @@ distributed = [0.0, -3.0]
 frame = "member"
 
 [[spring]]
+name = "prop"
 at = "column:0.5"
 stiffness = { x = 2.5, rotation = 0.5 }
 [[spring]]
@@ -264,6 +265,19 @@ constant = true
 name = "push"
 wall = "hill"
 component = "moment"
+[[monitor]]
+name = "clear"
+at = "column:0.5"
+wall = "upper"
+component = "gap"
+[[monitor]]
+name = "bent"
+member = "wave"
+component = "greatest-moment"
+[[monitor]]
+name = "prop"
+spring = "prop"
+component = "force-x"
 )toml";
 
 /// The text with its first `from` replaced; the text must contain it.

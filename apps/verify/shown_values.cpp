@@ -1,0 +1,128 @@
+#include "apps/verify/shown_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/verify/section_point.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+// --- gaps -----------------------------------------------------------------------------------------------------------
+
+// A node of a member.
+struct NodeOfMember {
+  std::size_t member = 0, node = 0;
+};
+
+// The one that a place means; of a point the first at an end of a member that the wall concerns.
+std::optional<NodeOfMember> node_of(const Model& model, const deck::Place& place, const PlainWall& wall) {
+  const std::vector<deck::Member>& members = model.deck().members;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const std::size_t last = model.structure().members()[m].nodes.size() - 1;
+    if (place.fraction && members[m].name == place.name)
+      return NodeOfMember{m, static_cast<std::size_t>(std::lround(*place.fraction * double(last)))};
+    if (place.fraction || !wall.concerns(members[m].name)) continue;
+    if (members[m].from == place.name) return NodeOfMember{m, 0};
+    if (members[m].to == place.name) return NodeOfMember{m, last};
+  }
+  return std::nullopt;
+}
+
+// The faces of a section that look at the wall: one, or both of a section that stands across it.
+std::vector<double> offsets_of(const PlainWall& wall, double half_height, double angle) {
+  if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return {0.0};
+  constexpr double level = 1e-9;
+  const double up = -wall.side() * std::cos(angle);
+  if (std::abs(up) <= level) return {half_height, -half_height};
+  return {std::copysign(half_height, up)};
+}
+
+double gap_on_nodes(const Model& model, const State& state, const PlainWall& wall, const NodeOfMember& at) {
+  const Structure& structure = model.structure();
+  const MemberMesh& mesh = structure.members()[at.member];
+  const MemberSection section = mesh.section(at.node);
+  const double half = 0.5 * mesh.height.value_or(0.0);
+  std::vector<Index> freedoms{structure.freedom(section.node, Freedom::x), structure.freedom(section.node, Freedom::z)};
+  if (section.rotation) freedoms.push_back(*section.rotation);
+  if (section.thickness) freedoms.insert(freedoms.end(), {section.thickness->e, section.thickness->xi});
+  Vector u(static_cast<Index>(freedoms.size()));
+  for (std::size_t i = 0; i < freedoms.size(); ++i) u[static_cast<Index>(i)] = structure.value(state, freedoms[i]);
+  SectionPoint point{.node = structure.position(section.node),
+                     .shape_angle = section.shape.angle,
+                     .axis_angle = section.axis.angle,
+                     .along_director = section.quadratic == QuadraticTerm::director};
+  double least = infinity;
+  for (const double offset : offsets_of(wall, half, section.shape.angle)) {
+    point.offset = offset;
+    least = std::min(least, wall.gap_to(point.at(u), half));
+  }
+  return least;
+}
+
+double gap_on_strand(const Model& model, const State& state, const PlainWall& wall, const NodeOfMember& at) {
+  const SlidingStructure& body = *model.sliding_structure();
+  const MemberMesh& mesh = model.structure().members()[at.member];
+  const MaterialPoint point = body.find(mesh.name, mesh.fraction(at.node));
+  const AxisPlace axis = mesh_of(state).place(point, mesh_state_of(state));
+  const double half = body.half_height(point.strand);
+  double least = infinity;
+  for (const double offset : offsets_of(wall, half, body.undeformed(point, true).angle))
+    least =
+        std::min(least, wall.gap_to(axis.position + offset * Vec2(-std::sin(axis.angle), std::cos(axis.angle)), half));
+  return least;
+}
+
+std::optional<double> gap(const PointAtHand& at, const deck::Monitor& monitor) {
+  const auto is_meant = [&](const PlainWall& wall) { return wall.deck().name == monitor.wall; };
+  const PlainWall& wall = *std::find_if(at.walls.begin(), at.walls.end(), is_meant);
+  const auto node = node_of(at.model, monitor.at, wall);
+  if (!node) return std::nullopt;
+  return at.model.sliding() != nullptr ? gap_on_strand(at.model, at.point.state, wall, *node)
+                                       : gap_on_nodes(at.model, at.point.state, wall, *node);
+}
+
+// --- springs --------------------------------------------------------------------------------------------------------
+
+Freedom direction_of(deck::Component component) {
+  if (component == deck::Component::force_x) return Freedom::x;
+  return component == deck::Component::force_z ? Freedom::z : Freedom::rotation;
+}
+
+double pressure_of(const deck::Foundation& foundation, const Vec2& displacement) {
+  if (!foundation.law) return std::hypot(foundation.x * displacement.x(), foundation.z * displacement.y());
+  const bool along_x = foundation.law->direction == Freedom::x;
+  return std::abs(table_force(*foundation.law, along_x ? displacement.x() : displacement.y()));
+}
+
+std::size_t index_of_member(const Model& model, const std::string& name) {
+  const std::vector<deck::Member>& members = model.deck().members;
+  return static_cast<std::size_t>(deck::find(members, name) - members.data());
+}
+
+}  // namespace
+
+std::optional<double> own_value(const PointAtHand& at, const deck::Monitor& monitor) {
+  if (monitor.component == deck::Component::gap) return gap(at, monitor);
+  if (monitor.of() != deck::Monitored::spring || monitor.component == deck::Component::greatest_pressure)
+    return std::nullopt;
+  const deck::Spring& spring = *deck::find(at.model.deck().springs, monitor.spring);
+  return spring_force(at.model, at.point.state, spring, direction_of(monitor.component));
+}
+
+void check_greatest(const PointAtHand& at, const deck::Monitor& monitor, double shown, Findings& findings) {
+  constexpr double same = 1e-9;  // of the value: that of the place that is shown, where several have nearly as much
+  const Model& model = at.model;
+  const bool moment = monitor.component == deck::Component::greatest_moment;
+  const deck::Foundation* const foundation =
+      moment ? nullptr : &std::get<deck::Foundation>(deck::find(model.deck().springs, monitor.spring)->kind);
+  const std::size_t member = index_of_member(model, moment ? monitor.member : foundation->member);
+  double most = 0.0;
+  for (const ShapePoint& point : model.body().shape(member, at.point.state))
+    most = std::max(most, moment ? std::abs(point.moment) : pressure_of(*foundation, point.displacement));
+  findings.compare("nothing is greater than the greatest along a member", most - shown, same * std::abs(shown),
+                   "monitor " + monitor.name);
+}
+
+}  // namespace arcwall::verify

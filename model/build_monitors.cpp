@@ -1,0 +1,378 @@
+#include "model/build_monitors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elements/foundation_law.hpp"
+#include "elements/member_point.hpp"
+#include "model/build_contact.hpp"
+#include "model/deck/key_list.hpp"
+#include "model/deck/words.hpp"
+#include "model/spring_force.hpp"
+#include "model/wall_force.hpp"
+
+namespace arcwall {
+
+namespace {
+
+using Component = MemberObservable::Component;
+
+std::optional<Component> member_component(deck::Component component) {
+  switch (component) {
+    case deck::Component::x:
+      return Component::x;
+    case deck::Component::z:
+      return Component::z;
+    case deck::Component::rotation:
+      return Component::rotation;
+    case deck::Component::face_above_z:
+      return Component::face_above_z;
+    case deck::Component::face_below_z:
+      return Component::face_below_z;
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+    case deck::Component::reaction_moment:
+    case deck::Component::axial_force:
+    case deck::Component::moment:
+    case deck::Component::force_x:
+    case deck::Component::force_z:
+    case deck::Component::gap:
+    case deck::Component::greatest_moment:
+    case deck::Component::greatest_pressure:
+    case deck::Component::thickness:
+    case deck::Component::thickness2:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Freedom> reaction_freedom(deck::Component component) {
+  switch (component) {
+    case deck::Component::reaction_x:
+      return Freedom::x;
+    case deck::Component::reaction_z:
+      return Freedom::z;
+    case deck::Component::reaction_moment:
+      return Freedom::rotation;
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::rotation:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+    case deck::Component::axial_force:
+    case deck::Component::moment:
+    case deck::Component::force_x:
+    case deck::Component::force_z:
+    case deck::Component::gap:
+    case deck::Component::greatest_moment:
+    case deck::Component::greatest_pressure:
+    case deck::Component::thickness:
+    case deck::Component::thickness2:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::string unit_of(deck::Component component, const deck::Units& units) {
+  switch (component) {
+    case deck::Component::rotation:
+      return "rad";
+    case deck::Component::thickness:
+      return "-";
+    case deck::Component::reaction_x:
+    case deck::Component::reaction_z:
+    case deck::Component::axial_force:
+    case deck::Component::force_x:
+    case deck::Component::force_z:
+      return unit_text(deck::unit::force, units);
+    case deck::Component::reaction_moment:
+    case deck::Component::moment:
+    case deck::Component::greatest_moment:
+      return unit_text(deck::unit::moment, units);
+    case deck::Component::greatest_pressure:
+      return unit_text(deck::unit::line_load, units);
+    case deck::Component::x:
+    case deck::Component::z:
+    case deck::Component::gap:
+    case deck::Component::face_above_z:
+    case deck::Component::face_below_z:
+      return unit_text(deck::unit::length, units);
+    case deck::Component::thickness2:
+      return unit_text(deck::unit::curvature, units);
+  }
+  return {};
+}
+
+// The member whose end a joint is; where several meet, the first that has what is asked for.
+struct End {
+  const MemberMesh* mesh = nullptr;
+  std::size_t position = 0;
+};
+
+std::vector<End> ends_at(const Structure& structure, Index joint) {
+  std::vector<End> ends;
+  for (const MemberMesh& mesh : structure.members()) {
+    if (mesh.nodes.front() == joint) ends.push_back({.mesh = &mesh, .position = 0});
+    if (mesh.nodes.back() == joint) ends.push_back({.mesh = &mesh, .position = mesh.nodes.size() - 1});
+  }
+  return ends;
+}
+
+// Of a place inside a member that member alone.
+std::vector<End> ends_of(const Measured& from, const deck::Place& place) {
+  const Places::Node node = from.places.find(place, from.structure.members());
+  if (node.member != nullptr) return {{.mesh = node.member, .position = node.position}};
+  return ends_at(from.structure, node.node);
+}
+
+std::size_t index_of(const MemberMesh& mesh, const Structure& structure) {
+  return static_cast<std::size_t>(&mesh - structure.members().data());
+}
+
+std::optional<Index> thickness_freedom(const ThicknessFreedoms& freedoms, deck::Component component) {
+  if (component == deck::Component::thickness) return freedoms.e;
+  if (component == deck::Component::thickness2) return freedoms.xi;
+  return std::nullopt;
+}
+
+// What the member at a place carries there; null where several meet, whose forces differ, or which has no such force.
+std::shared_ptr<const Observable> member_force(const Measured& from, const std::vector<End>& at,
+                                               deck::Component component) {
+  const bool bends = component == deck::Component::moment;
+  if (at.size() != 1) return nullptr;
+  const MemberMesh& mesh = *at.front().mesh;
+  const std::size_t position = at.front().position;
+  if (bends && !mesh.rotations[position]) return nullptr;
+  return from.body.section_force(index_of(mesh, from.structure), mesh.fraction(position),
+                                 bends ? Body::SectionForce::moment : Body::SectionForce::axial_force);
+}
+
+}  // namespace
+
+std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Place& place, deck::Component component) {
+  const Structure& structure = from.structure;
+  const Places::Node node = from.places.find(place, structure.members());
+  const std::vector<End> at = ends_of(from, place);
+  if (component == deck::Component::axial_force || component == deck::Component::moment)
+    return member_force(from, at, component);
+  if (const auto freedom = reaction_freedom(component)) {
+    if (*freedom != Freedom::rotation) return from.body.reaction(structure.freedom(node.node, *freedom));
+    for (const End& end : at)
+      if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
+        return from.body.reaction(*rotation);
+    return nullptr;
+  }
+  for (const End& end : at)
+    if (const auto thickness = end.mesh->section(end.position).thickness)
+      if (const auto freedom = thickness_freedom(*thickness, component)) return from.body.motion(*freedom);
+  const auto wanted = member_component(component);
+  if (!wanted) return nullptr;
+  const bool turns = *wanted != Component::x && *wanted != Component::z;
+  const bool face = *wanted == Component::face_above_z || *wanted == Component::face_below_z;
+  for (const End& end : at) {
+    const auto rotation = end.mesh->rotations[end.position];
+    if ((turns && !rotation) || (face && !end.mesh->height)) continue;
+    // Members that meet at an angle agree on the rotation of their joint, not on the slopes of their imperfections.
+    if (*wanted == Component::rotation && at.size() > 1) return from.body.motion(*rotation);
+    return from.body.motion(index_of(*end.mesh, structure), end.position, *wanted);
+  }
+  return nullptr;
+}
+
+namespace {
+
+// The resultant force of a wall; null where the deck has other problems, so that nothing is traced.
+std::shared_ptr<const Observable> wall_force(const deck::Deck& deck, const Measured& from,
+                                             const deck::Monitor& monitor) {
+  const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
+  if (from.contacts == nullptr || from.system == nullptr) return std::make_shared<ParameterValue>();
+  const WallForce::What what = monitor.component == deck::Component::force_x   ? WallForce::What::x
+                               : monitor.component == deck::Component::force_z ? WallForce::What::z
+                                                                               : WallForce::What::moment;
+  return std::make_shared<WallForce>(*from.contacts, *from.system, wall.name, what, motion_of(wall).about);
+}
+
+// --- the gap between a place and a wall -----------------------------------------------------------------------------
+
+std::shared_ptr<const Observable> gap(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
+                                      DeckProblems& problems) {
+  const deck::Wall& wall = *deck::find(deck.walls, monitor.wall);
+  const std::vector<End> at = ends_of(from, monitor.at);
+  const auto concerned = [&](const End& end) { return concerns(wall, end.mesh->name); };
+  const auto end = std::find_if(at.begin(), at.end(), concerned);
+  if (end == at.end()) {
+    problems.add(monitor.position, "monitor.wall",
+                 "wall \"" + wall.name + "\" does not stand in the way of \"" + to_text(monitor.at) + "\"",
+                 "add the member to `members` of the wall, or name a place of a member that is there");
+    return nullptr;
+  }
+  return from.body.gap(index_of(*end->mesh, from.structure), end->position, faced_obstacle(wall, *end->mesh));
+}
+
+// --- what a member carries ------------------------------------------------------------------------------------------
+
+std::size_t member_index(const Measured& from, const std::string& name) {
+  return static_cast<std::size_t>(from.places.members.at(name));
+}
+
+double moment_at(const MemberStretch& stretch, double xi) { return stretch.moment(xi); }
+
+// What a foundation exerts per length where the axis has moved so far from its stress-free place.
+SectionQuantity pressure_of(const deck::Foundation& foundation) {
+  FoundationLaw law(Vec2(foundation.x, foundation.z));
+  if (foundation.law)
+    law.add(foundation.law->direction == Freedom::x ? 0 : 1,
+            std::make_shared<const SpringLaw>(foundation.law->displacement, foundation.law->force));
+  return [law = std::move(law)](const MemberStretch& stretch, double xi) {
+    return law.at(stretch.now.position(xi) - stretch.rest.position(xi)).force.norm();
+  };
+}
+
+// The member and the quantity of which a monitor shows the greatest; empty of one that shows something else.
+std::optional<std::pair<std::string, SectionQuantity>> along_member(const deck::Deck& deck,
+                                                                    const deck::Monitor& monitor) {
+  if (monitor.component == deck::Component::greatest_moment)
+    return std::pair(monitor.member, SectionQuantity(moment_at));
+  if (monitor.component != deck::Component::greatest_pressure) return std::nullopt;
+  const auto& foundation = std::get<deck::Foundation>(deck::find(deck.springs, monitor.spring)->kind);
+  return std::pair(foundation.member, pressure_of(foundation));
+}
+
+std::shared_ptr<const Observable> greatest(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
+                                           MemberGreatest::What what) {
+  auto [member, quantity] = *along_member(deck, monitor);
+  const double negligible = monitor.component == deck::Component::greatest_moment
+                                ? from.structure.force_roundoff() * from.structure.length_scale()
+                                : 0.0;
+  return from.body.greatest(member_index(from, member), std::move(quantity), what, negligible);
+}
+
+// --- the force of a spring ------------------------------------------------------------------------------------------
+
+// How a place moves in a direction; null if it has no such rotation.
+std::shared_ptr<const Observable> motion_in(const Measured& from, const deck::Place& place, Freedom direction) {
+  const Places::Node at = from.places.find(place, from.structure.members());
+  if (direction != Freedom::rotation) return from.body.motion(from.structure.freedom(at.node, direction));
+  if (at.member != nullptr)
+    return at.member->rotations[at.position] ? from.body.motion(*at.member->rotations[at.position]) : nullptr;
+  const auto rotation = from.places.rotations.find(place.name);
+  return rotation == from.places.rotations.end() ? nullptr : from.body.motion(rotation->second);
+}
+
+SpringForce::Law law_of(const std::optional<deck::TableLaw>& law, const deck::Stiffness& stiffness, Freedom direction) {
+  if (law) return std::make_shared<const SpringLaw>(law->displacement, law->force);
+  if (direction == Freedom::rotation) return stiffness.rotation;
+  return direction == Freedom::x ? stiffness.x : stiffness.z;
+}
+
+std::shared_ptr<const Observable> spring_force(const deck::Deck& deck, const Measured& from,
+                                               const deck::Monitor& monitor) {
+  const deck::Spring& spring = *deck::find(deck.springs, monitor.spring);
+  const Freedom direction = monitor.component == deck::Component::force_x   ? Freedom::x
+                            : monitor.component == deck::Component::force_z ? Freedom::z
+                                                                            : Freedom::rotation;
+  std::shared_ptr<const Observable> first, second;
+  std::optional<SpringForce::Law> law;
+  if (const auto* ground = std::get_if<deck::GroundSpring>(&spring.kind)) {
+    second = motion_in(from, ground->at, direction);
+    law = law_of(ground->law, ground->stiffness, direction);
+  } else if (const auto* between = std::get_if<deck::PointToPointSpring>(&spring.kind)) {
+    first = motion_in(from, {.name = between->points[0]}, direction);
+    second = first ? motion_in(from, {.name = between->points[1]}, direction) : nullptr;
+    law = law_of(between->law, between->stiffness, direction);
+  }
+  return second ? std::make_shared<SpringForce>(*law, first, second) : nullptr;
+}
+
+// --- all of them ----------------------------------------------------------------------------------------------------
+
+// What a monitor shows, without its sign; null, with or without a problem of its own, if it has nothing to show.
+std::shared_ptr<const Observable> shown_by(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
+                                           DeckProblems& problems) {
+  if (along_member(deck, monitor)) return greatest(deck, from, monitor, MemberGreatest::What::value);
+  switch (monitor.of()) {
+    case deck::Monitored::wall:
+      return wall_force(deck, from, monitor);
+    case deck::Monitored::gap:
+      return gap(deck, from, monitor, problems);
+    case deck::Monitored::spring:
+      return spring_force(deck, from, monitor);
+    case deck::Monitored::place:
+    case deck::Monitored::member:
+      break;
+  }
+  const bool is_there = monitor.at.fraction || from.places.joints.contains(monitor.at.name);
+  return is_there ? shown_at(from, monitor.at, monitor.component) : nullptr;
+}
+
+std::string shown_name(const deck::Monitor& monitor) {
+  if (!monitor.member.empty()) return monitor.member;
+  return monitor.spring.empty() ? to_text(monitor.at) : monitor.spring;
+}
+
+// Where the greatest along a member is: NAME-place, a fraction.
+void add_place(const deck::Deck& deck, const Measured& from, const deck::Monitor& monitor,
+               std::vector<MonitorColumn>& columns) {
+  std::string name = monitor.name + "-place";
+  while (deck::find(deck.monitors, name) != nullptr) name += "-";
+  columns.push_back({.name = std::move(name),
+                     .unit = "-",
+                     .component = monitor.component,
+                     .quantity = greatest(deck, from, monitor, MemberGreatest::What::place),
+                     .is_place = true});
+}
+
+// A column for each direction that is moved and has no monitor of its reaction: `reaction-x-B`.
+void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, std::vector<MonitorColumn>& columns) {
+  const auto add = [&](const std::string& point, bool moved, deck::Component component) {
+    const auto is_monitored = [&](const deck::Monitor& monitor) {
+      return monitor.component == component && !monitor.at.fraction && monitor.at.name == point;
+    };
+    if (!moved || std::any_of(deck.monitors.begin(), deck.monitors.end(), is_monitored)) return;
+    std::string name = text_of(deck::component_words, component) + "-" + point;
+    while (deck::find(deck.monitors, name) != nullptr) name += "-";
+    const auto quantity = shown_at(from, {.name = point}, component);
+    if (deck::find(columns, name) == nullptr && quantity)
+      columns.push_back({.name = std::move(name),
+                         .unit = unit_of(component, deck.units),
+                         .component = component,
+                         .quantity = quantity,
+                         .raw = quantity});
+  };
+  for (const deck::Prescribed& moved : deck.prescribed) {
+    add(moved.point, moved.x.has_value(), deck::Component::reaction_x);
+    add(moved.point, moved.z.has_value(), deck::Component::reaction_z);
+    add(moved.point, moved.rotation.has_value(), deck::Component::reaction_moment);
+  }
+}
+
+}  // namespace
+
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
+  std::vector<MonitorColumn> columns;
+  for (const deck::Monitor& monitor : deck.monitors) {
+    const std::size_t problems_before = problems.count();
+    std::shared_ptr<const Observable> quantity = shown_by(deck, from, monitor, problems);
+    if (!quantity) {
+      if (problems.count() > problems_before) continue;
+      problems.add(monitor.position, "monitor.component",
+                   "\"" + shown_name(monitor) + "\" does not have this component",
+                   "rotations need a beam, faces a section with a height, reactions a support, thickness the theory "
+                   "\"essenburg\"; axial-force and moment one member, which for a moment is a beam; these and what is "
+                   "greatest along a member no load increments");
+      continue;
+    }
+    const auto raw = quantity;
+    if (monitor.sign < 0) quantity = std::make_shared<ScaledObservable>(raw, -1.0);
+    columns.push_back({.name = monitor.name,
+                       .unit = unit_of(monitor.component, deck.units),
+                       .component = monitor.component,
+                       .quantity = std::move(quantity),
+                       .raw = raw});
+    if (along_member(deck, monitor)) add_place(deck, from, monitor, columns);
+  }
+  add_reactions_of_movements(deck, from, columns);
+  return columns;
+}
+
+}  // namespace arcwall

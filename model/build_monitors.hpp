@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/build_structure.hpp"
+#include "model/model.hpp"
+
+namespace arcwall {
+
+/// What monitors are read off.
+struct Measured {
+  const Structure& structure;  ///< of the deck's mesh
+  const Body& body;
+  const Places& places;
+  const ContactQuery* contacts = nullptr;    ///< of the system's states; null where there are none
+  const UnilateralSystem* system = nullptr;  ///< what is traced
+};
+
+/// What a component of a place is read from; null if the place has no such component.
+std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Place& place, deck::Component component);
+
+/// The deck's monitors as columns. Adds a problem for one that has nothing to show.
+std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems);
+
+}  // namespace arcwall

@@ -1,0 +1,147 @@
+#include "model/member_greatest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/root_find.hpp"
+
+namespace arcwall {
+
+namespace {
+
+constexpr double step_of_lambda = 1e-6;
+
+// The quartic through the values at five places of equal spacing. Moments along a stretch are one, since its axis is
+// cubic and its load constant.
+class Quartic {
+ public:
+  Quartic(const std::function<double(double)>& f, double from, double to) : from_(from), width_(0.25 * (to - from)) {
+    for (std::size_t i = 0; i < places; ++i) differences_[i] = f(from + width_ * double(i));
+    for (std::size_t order = 1; order < places; ++order)
+      for (std::size_t i = places; i-- > order;)
+        differences_[i] = (differences_[i] - differences_[i - 1]) / double(order);
+  }
+
+  // By the place over the spacing: Newton's form c0 + t (c1 + (t − 1) (c2 + …)), differentiated.
+  double slope(double place) const {
+    const double t = (place - from_) / width_;
+    double value = 0.0, slope = 0.0;
+    for (std::size_t i = places; i-- > 0;) {
+      slope = value + (t - double(i)) * slope;
+      value = differences_[i] + (t - double(i)) * value;
+    }
+    return slope;
+  }
+
+ private:
+  static constexpr std::size_t places = 5;
+  double from_, width_;
+  std::array<double, places> differences_{};
+};
+
+// Where a function turns between two places.
+std::vector<double> turns(const std::function<double(double)>& f, double from, double to) {
+  constexpr int parts = 8;
+  constexpr double tolerance = 1e-14;
+  const Quartic quartic(f, from, to);
+  const auto slope = [&](double place) { return std::optional(quartic.slope(place)); };
+  std::vector<double> found;
+  double a = from, slope_a = quartic.slope(a);
+  for (int i = 1; i <= parts; ++i) {
+    const double b = from + (to - from) * i / parts, slope_b = quartic.slope(b);
+    if (slope_a * slope_b < 0.0)
+      if (const auto root = bracketed_root(slope, a, slope_a, b, slope_b, tolerance)) found.push_back(root->at);
+    a = b;
+    slope_a = slope_b;
+  }
+  return found;
+}
+
+// The part of a stretch that belongs to the member.
+std::pair<double, double> within_member(const MemberStretch& stretch) {
+  const auto xi = [&](double fraction) { return (fraction - stretch.from) / (stretch.to - stretch.from); };
+  return {std::clamp(xi(0.0), 0.0, 1.0), std::clamp(xi(1.0), 0.0, 1.0)};
+}
+
+double fraction_at(const MemberStretch& stretch, double xi) {
+  return std::clamp(stretch.from + xi * (stretch.to - stretch.from), 0.0, 1.0);
+}
+
+}  // namespace
+
+void MemberGreatest::look_in(const MemberStretch& stretch, Found& greatest, Index element, std::size_t number) const {
+  constexpr double exceeds = 1e-10;
+  const auto [from, to] = within_member(stretch);
+  if (!(from < to)) return;
+  const auto f = [&](double xi) { return quantity_(stretch, xi); };
+  const auto consider = [&](double xi, Found::Kind kind) {
+    const double value = std::abs(f(xi));
+    if (greatest.value >= 0.0 && !(value > greatest.value * (1.0 + exceeds))) return;
+    greatest = {.value = value,
+                .fraction = fraction_at(stretch, xi),
+                .element = element,
+                .stretch = number,
+                .xi = xi,
+                .kind = kind};
+  };
+  consider(from, from > 0.0 ? Found::Kind::end : Found::Kind::node);
+  for (const double xi : turns(f, from, to)) consider(xi, Found::Kind::inside);
+  consider(to, to < 1.0 ? Found::Kind::end : Found::Kind::node);
+}
+
+MemberGreatest::Found MemberGreatest::greatest(const State& state) const {
+  Found found;
+  std::vector<MemberStretch> stretches;
+  for (Index element = 0; element < member_->elements(state); ++element) {
+    stretches.clear();
+    member_->add_stretches(state, element, stretches);
+    for (std::size_t i = 0; i < stretches.size(); ++i) look_in(stretches[i], found, element, i);
+  }
+  return found;
+}
+
+double MemberGreatest::value(const State& state) const {
+  const Found found = greatest(state);
+  if (what_ == What::value) return found.value;
+  return found.value > negligible_ ? found.fraction : 0.0;
+}
+
+// What it was asked for at the place that was found, in a state beside it: a node goes along with the mesh, an end of
+// the member stays, and so does what turns, but for its fraction, which is that of the turn nearest to it.
+double MemberGreatest::again(const State& state, const Found& found) const {
+  std::vector<MemberStretch> stretches;
+  member_->add_stretches(state, found.element, stretches);
+  const MemberStretch& stretch = stretches[found.stretch];
+  double xi = found.xi;
+  if (found.kind == Found::Kind::end) xi = (found.fraction - stretch.from) / (stretch.to - stretch.from);
+  if (what_ == What::value) return std::abs(quantity_(stretch, xi));
+  if (found.kind == Found::Kind::inside) {
+    const auto [from, to] = within_member(stretch);
+    const std::vector<double> places = turns([&](double at) { return quantity_(stretch, at); }, from, to);
+    const auto nearer = [&](double a, double b) { return std::abs(a - found.xi) < std::abs(b - found.xi); };
+    if (!places.empty()) xi = *std::min_element(places.begin(), places.end(), nearer);
+  }
+  return fraction_at(stretch, xi);
+}
+
+Row MemberGreatest::gradient(const State& state) const {
+  Row row{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
+  const Found found = greatest(state);
+  State moved = state;
+  const auto slope = [&](double& of, double step) {
+    const double here = of;
+    of = here + step;
+    const double above = again(moved, found);
+    of = here - step;
+    const double below = again(moved, found);
+    of = here;
+    return (above - below) / (2.0 * step);
+  };
+  for (const ElementsOfMember::Step& step : member_->steps(state, found.element))
+    row.dx[step.unknown] = slope(moved.x[step.unknown], step.size);
+  row.dlambda = slope(moved.lambda, step_of_lambda * std::max(1.0, std::abs(state.lambda)));
+  return row;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/observable.hpp"
+#include "model/member_stretch.hpp"
+
+namespace arcwall {
+
+/// A member from end to end in a state, element by element.
+class ElementsOfMember {
+ public:
+  virtual ~ElementsOfMember() = default;
+
+  virtual Index elements(const State& state) const = 0;
+
+  /// Adds the stretches of an element, by fractions of the member, in any order. Those that reach beyond its ends,
+  /// below 0 or above 1, belong to it up to there.
+  virtual void add_stretches(const State& state, Index element, std::vector<MemberStretch>& to) const = 0;
+
+  /// The unknowns on which an element depends, and by how much each is moved for a difference.
+  struct Step {
+    Index unknown = 0;
+    double size = 0.0;
+  };
+  virtual std::vector<Step> steps(const State& state, Index element) const = 0;
+};
+
+/// What a section carries, at ξ ∈ [0, 1] of a stretch.
+using SectionQuantity = std::function<double(const MemberStretch& stretch, double xi)>;
+
+/// The greatest absolute value of a quantity along a whole member, between nodes too, or the fraction of the member at
+/// which it is: the first of those that have it within 10⁻¹⁰.
+///
+/// The value is continuous along a path, the place may jump. Gradients are central differences within the element that
+/// has it: what moves the place within it does not change the value. Of a node they are those of the element before it,
+/// with which the one behind it agrees in directions that keep the equilibrium.
+class MemberGreatest final : public Observable {
+ public:
+  enum class What { value, place };
+
+  /// `negligible`: up to this the quantity is round-off, and its place is 0.
+  MemberGreatest(std::shared_ptr<const ElementsOfMember> member, SectionQuantity quantity, What what,
+                 double negligible = 0.0)
+      : member_(std::move(member)), quantity_(std::move(quantity)), what_(what), negligible_(negligible) {}
+
+  double value(const State& state) const override;
+  Row gradient(const State& state) const override;
+
+ private:
+  struct Found {
+    double value = -1.0;  // absolute
+    double fraction = 0.0;
+    Index element = 0;
+    std::size_t stretch = 0;                                  // of the element
+    double xi = 0.0;                                          // of the stretch
+    enum class Kind { node, inside, end } kind = Kind::node;  // of the stretch, or of the member
+  };
+  Found greatest(const State& state) const;
+  void look_in(const MemberStretch& stretch, Found& greatest, Index element, std::size_t number) const;
+  double again(const State& state, const Found& found) const;
+
+  std::shared_ptr<const ElementsOfMember> member_;
+  SectionQuantity quantity_;
+  What what_;
+  double negligible_;
+};
+
+}  // namespace arcwall
