@@ -117,8 +117,9 @@ const RecordPoint* Session::next() {
 bool Session::has_ended() const { return tracing_ && tracing_->has_ended(); }
 
 void Session::stop(const BranchEnd& end) {
+  if (!tracing_) return;
   stopped_ = true;
-  if (tracing_) tracing_->stop(end);
+  tracing_->stop(end);
 }
 
 std::string Session::checkpoint(const std::optional<BranchEnd>& stopped) {

@@ -8,8 +8,8 @@
 
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
-#include "core/algebra/factorization.hpp"
 #include "continuation/answers/descent.hpp"
+#include "core/algebra/factorization.hpp"
 #include "core/linearization.hpp"
 #include "model/deck_mesh.hpp"
 #include "model/event_names.hpp"
@@ -256,8 +256,8 @@ TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
   }
 }
 
-// Above a floor z = −2.5 + 0.2 x it falls to the right or to the left. On the floor Π has a minimum at x = 4.4481035 and
-// one at x = −3.6490728, at heights of −6.61037929601187 and −8.22981456547270 below the top; 0.30883094333755 and
+// Above a floor z = −2.5 + 0.2 x it falls to the right or to the left. On the floor Π has a minimum at x = 4.4481035
+// and one at x = −3.6490728, at heights of −6.61037929601187 and −8.22981456547270 below the top; 0.30883094333755 and
 // 0.48479403612256 are released. Minima of the bars' energy along the line, by Newton's method with 40 digits.
 TEST(Landing, OfBothSensesOfAModeIsToldWhereTheyDiffer) {
   const std::string deck = steep_truss("follow") + R"toml(
@@ -307,10 +307,10 @@ TEST(Landing, TakesNoMoreWorkThanItIsGiven) {
   EXPECT_EQ(whole.end, DescentEnd::at_rest);
   EXPECT_LT(100000 - work, 2000);
   Index few = (100000 - work) / 2;
-  EXPECT_EQ(descend(mesh.system(), mesh.state(mesh.unknowns(start), snap.lambda),
-                    traced.model().options().factorization, few)
-                .end,
-            DescentEnd::cut_off);
+  EXPECT_EQ(
+      descend(mesh.system(), mesh.state(mesh.unknowns(start), snap.lambda), traced.model().options().factorization, few)
+          .end,
+      DescentEnd::cut_off);
 }
 
 // A column that buckles into the post-buckling branch, which is stable, does not fall.
