@@ -24,9 +24,9 @@ namespace {
 constexpr double is_elsewhere = 0.03;           // from the event, where a descent has left it
 constexpr double pushes[] = {0.01, 0.03, 0.1};  // off the event, along the path behind it or the critical mode
 
-// Falls take no more factorizations than tracing has, and a few more, which pass in about a second: so many over the
-// number of unknowns. With members of theory Essenburg one of them costs some ten times as much as with others.
-constexpr double more_work = 4e5, more_work_for_essenburg = 4e4;
+// Falls take no more time than tracing, and about a second more: that is so many factorizations over the number of
+// unknowns. With members of theory Essenburg one of them costs some ten times as much as with others.
+constexpr double more_work = 4e5, more_work_for_essenburg = 1e5;
 constexpr const char* took_too_long = "what this run may do for falls beside its tracing does not suffice";
 
 // Stable equilibria of a record at a λ, but not beside the event at point `but` if it is one of the record's.
@@ -74,12 +74,13 @@ class Falls {
  public:
   Falls(const Model& model, const Record& record) : model_(model), record_(record), mesh_(model) {
     constexpr Index besides = 2;  // of a step: at its end, and where events are located
+    constexpr Index cheaper = 2;  // factorizations of a fall for one of tracing, which does more with it
     const auto& members = model.deck().members;
     const bool essenburg = std::any_of(members.begin(), members.end(),
                                        [](const deck::Member& one) { return one.theory == Theory::essenburg; });
     left_ = static_cast<Index>((essenburg ? more_work_for_essenburg : more_work) /
                                static_cast<double>(std::max(mesh_.size(), Index{1})));
-    for (const RecordPoint& point : record.points) left_ += point.iterations + besides;
+    for (const RecordPoint& point : record.points) left_ += cheaper * (point.iterations + besides);
   }
 
   bool can_fall() const { return mesh_.is_complete(); }
@@ -95,6 +96,8 @@ class Falls {
     opposite.sense = -1.0;
     auto other = fall_and_back(event, point, opposite, other_rest);
     if (!landing || !other) return landing ? landing : other;
+    if (other->why == took_too_long) return landing;  // of which nothing is known
+    if (landing->why == took_too_long) return other;
     if (landing->reason == other->reason && (!landing->reason.empty() || are_alike(*landing, rest, *other, other_rest)))
       return landing;
     auto several = std::make_shared<RecordLanding>();
