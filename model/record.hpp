@@ -69,7 +69,8 @@ struct RecordWayBack;
 
 /// Where a structure falls to behind an event, at the same λ.
 struct RecordLanding {
-  std::string reason{}, why{};  ///< `falls_away`, `not_found` or `several`, and in words why; empty where it comes to rest
+  std::string reason{},
+      why{};  ///< `falls_away`, `not_found` or `several`, and in words why; empty where it comes to rest
   double lambda = 0.0;
   std::vector<double> monitors{};
   std::vector<RecordStretch> contacts{};  ///< along the members

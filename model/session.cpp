@@ -34,8 +34,8 @@ bool is_whole(const Record& record, const RecordLanding& landing) {
   if (landing.point >= record.points.size() || !(are_all(landing.monitors) || has_none)) return false;
   if (landing.on_branch && (*landing.on_branch < 0 || *landing.on_branch >= static_cast<Index>(record.branches.size())))
     return false;
-  if (landing.back && (!are_all(landing.back->monitors) ||
-                       (landing.back->landing && !is_whole(record, *landing.back->landing))))
+  if (landing.back &&
+      (!are_all(landing.back->monitors) || (landing.back->landing && !is_whole(record, *landing.back->landing))))
     return false;
   return std::all_of(landing.several.begin(), landing.several.end(),
                      [&](const RecordLanding& one) { return is_whole(record, one); });

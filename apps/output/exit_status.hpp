@@ -24,8 +24,8 @@ enum class ExitStatus {
 /// The status of a run whose branch ended so.
 ExitStatus exit_status(EndReason reason);
 
-/// The branch whose end decides the status of a run that has ended: an interrupt, then a limit, then an early end. Early
-/// ends of branches that a search has found do not count.
+/// The branch whose end decides the status of a run that has ended: an interrupt, then a limit, then an early end.
+/// Early ends of branches that a search has found do not count.
 const RecordBranch& decisive_branch(const Record& record);
 
 /// The found branches that ended early.

@@ -98,12 +98,12 @@ std::string warning_of_found(const Record& record) {
   const std::vector<Index> early = found_that_ended_early(record);
   if (early.empty()) return {};
   std::string list;
-  for (std::size_t i = 0; i < std::min(early.size(), most); ++i)
-    list += (i > 0 ? ", " : "") + std::to_string(early[i]);
+  for (std::size_t i = 0; i < std::min(early.size(), most); ++i) list += (i > 0 ? ", " : "") + std::to_string(early[i]);
   if (early.size() > most) list += ", …";
-  return fmt::format("{} of the branches that the search has found ended early ({}): events.txt says why. The status is that "
-                     "of the other branches",
-                     early.size(), list);
+  return fmt::format(
+      "{} of the branches that the search has found ended early ({}): events.txt says why. The status is that "
+      "of the other branches",
+      early.size(), list);
 }
 
 std::vector<std::string> run_warnings(const Model& model, const Record& record) {
