@@ -50,7 +50,7 @@ class Maker {
     for (const RecordBranch& branch : record_.branches) add_nodes(branch);
     for (const RecordBranch& branch : record_.branches) add_start(branch);
     for (const RecordEvent& event : record_.events) {
-      if (event.landing && event.landing->reason.empty()) add_landing(event);
+      if (event.landing) add_landing(event, *event.landing);
       if (event.branch_end && event.branch_end->reason == EndReason::joined && event.branch_end->partner)
         add_join(event);
     }
@@ -154,11 +154,13 @@ class Maker {
       }
   }
 
-  void add_landing(const RecordEvent& event) {
+  void add_landing(const RecordEvent& event, const RecordLanding& landing) {
+    for (const RecordLanding& one : landing.several) add_landing(event, one);
+    if (!landing.reason.empty()) return;
     const auto from = node_with(point_of(event), false);
     if (!from) return;
     AtlasEdge edge{.kind = "landing", .lambda = event.lambda, .events = {event.id}, .from = *from};
-    if (event.landing->on_branch) edge.to = node_with(event.landing->point + 1, false);
+    if (landing.on_branch) edge.to = node_with(landing.point + 1, false);
     atlas_.edges.push_back(std::move(edge));
   }
 

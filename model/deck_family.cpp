@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/deck/writer.hpp"
 #include "model/sensitivities.hpp"
 
 namespace arcwall {
@@ -16,12 +17,13 @@ constexpr std::size_t most_kept = 16;
 struct DeckFamily::Kept {
   double value = 0.0;
   std::shared_ptr<const Model> model{};  // null: there is no such deck
+  std::string problem{};                 // then
   Piece common{}, own{};                 // the piece that was asked for last, and what it is there
   bool has_piece = false;
 };
 
 DeckFamily::DeckFamily(const deck::Deck& deck, deck::DeckNumber number)
-    : deck_(without_answers(deck)), number_(std::move(number)) {
+    : deck_(without_answers(deck)), text_(deck::to_toml(deck_)), number_(std::move(number)) {
   own_ = std::make_shared<const Model>(deck_);
   spacing_ = natural_step(number_, own_->structure());
 }
@@ -32,13 +34,16 @@ DeckFamily::Kept& DeckFamily::kept(double value) const {
   const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& one) { return one.value == value; });
   if (found != kept_.end()) {
     kept_.splice(kept_.begin(), kept_, found);
+    if (!found->model) problem_ = found->problem;
     return kept_.front();
   }
   Kept made{.value = value};
   try {
-    made.model = value == number_.value ? own_ : std::make_shared<const Model>(with_number(deck_, number_, value));
+    made.model = value == number_.value
+                     ? own_
+                     : std::make_shared<const Model>(deck::with_number(text_, deck_.source.file, number_, value));
   } catch (const InputError& error) {
-    problem_ = first_message(error);
+    problem_ = made.problem = first_message(error);
   }
   kept_.push_front(std::move(made));
   if (kept_.size() > most_kept) kept_.pop_back();

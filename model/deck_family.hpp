@@ -3,6 +3,7 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "continuation/answers/system_family.hpp"
 #include "core/error.hpp"
@@ -25,9 +26,10 @@ class DeckFamily final : public SystemFamily {
   /// The model for a value; null where there is no such deck: problem() then says why.
   std::shared_ptr<const Model> model(double value) const;
 
-  /// What was wrong with the last deck that could not be built; empty if all could since it was forgotten.
+  /// What was wrong with the last deck that was asked for and could not be built; empty if all could since another
+  /// such was put in its place.
   const std::string& problem() const { return problem_; }
-  void forget_problem() const { problem_.clear(); }
+  void recall_problem(std::string problem) const { problem_ = std::move(problem); }
 
   /// The watched monitor of a displacement limit, which members have from then on.
   void set_turning(std::string monitor) { turning_ = std::move(monitor); }
@@ -42,6 +44,7 @@ class DeckFamily final : public SystemFamily {
   Kept& kept(double value) const;
 
   deck::Deck deck_;
+  std::string text_;  // of the deck
   deck::DeckNumber number_;
   std::string turning_;
   std::shared_ptr<const Model> own_;

@@ -23,6 +23,7 @@ struct CurvePoint {
   std::optional<Index> unstable_before{}, unstable_after{};
   Index contacts = 0;  ///< closed
   Shape shape{};
+  State state{};  ///< the event's, in the unknowns of the model of the deck's own value
 };
 
 /// What happens on a curve of events.

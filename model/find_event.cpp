@@ -4,30 +4,48 @@
 
 #include <utility>
 
-#include "continuation/explorer.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
 
+void EventHunt::explore() {
+  explorer_ = std::make_unique<Explorer>(model_.system(), start_, model_.options(), model_.watched(), model_.explore());
+}
+
+bool EventHunt::advance() {
+  if (found_ || !problem_.empty()) return false;
+  if (!explorer_) {
+    auto start = model_.start(problem_);
+    if (!start) return false;
+    start_ = std::move(*start);
+    explore();
+  }
+  const auto step = explorer_->next();
+  if (!step) {
+    problem_ = fmt::format("the path has {} of kind {}, not {}", met_ == 0 ? "none" : "only " + std::to_string(met_),
+                           to_text(kind_), number_);
+    return false;
+  }
+  for (const Event& event : step->arc.events)
+    if (event.kind == kind_ && ++met_ == number_) {
+      found_ = FoundEvent{.arc = step->arc, .event = event};
+      return false;
+    }
+  if (auto why = model_.adrift(step->arc.to.state))
+    explorer_->stop({.reason = EndReason::adrift, .detail = std::move(*why)});
+  return true;
+}
+
 std::optional<FoundEvent> find_event(const Model& model, EventKind kind, int number,
                                      const std::function<bool()>& stopped, std::string& problem) {
-  auto start = model.start(problem);
-  if (!start) return std::nullopt;
-  Explorer explorer(model.system(), std::move(*start), model.options(), model.watched(), model.explore());
-  int found = 0;
-  while (const auto step = explorer.next()) {
-    for (const Event& event : step->arc.events)
-      if (event.kind == kind && ++found == number) return FoundEvent{.arc = step->arc, .event = event};
-    if (auto why = model.adrift(step->arc.to.state))
-      explorer.stop({.reason = EndReason::adrift, .detail = std::move(*why)});
+  EventHunt hunt(model, kind, number);
+  while (hunt.advance())
     if (stopped && stopped()) {
       problem = "stopped before the event was found";
       return std::nullopt;
     }
-  }
-  problem = fmt::format("the path has {} of kind {}, not {}", found == 0 ? "none" : "only " + std::to_string(found),
-                        to_text(kind), number);
-  return std::nullopt;
+  problem = hunt.problem();
+  return hunt.found();
 }
 
 }  // namespace arcwall

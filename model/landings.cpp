@@ -13,6 +13,7 @@
 #include "model/contact_words.hpp"
 #include "model/deck_mesh.hpp"
 #include "model/event_names.hpp"
+#include "model/mirror_images.hpp"
 #include "model/path_at_lambda.hpp"
 
 namespace arcwall {
@@ -21,7 +22,12 @@ namespace {
 
 // All lengths in the path metric of the deck's mesh.
 constexpr double is_elsewhere = 0.03;           // from the event, where a descent has left it
-constexpr double pushes[] = {0.01, 0.03, 0.1};  // off the event, along the path behind it
+constexpr double pushes[] = {0.01, 0.03, 0.1};  // off the event, along the path behind it or the critical mode
+
+// Falls take no more time than tracing, and about a second more: that is so many factorizations over the number of
+// unknowns. With members of theory Essenburg one of them costs some ten times as much as with others.
+constexpr double more_work = 4e5, more_work_for_essenburg = 1e5;
+constexpr const char* took_too_long = "what this run may do for falls beside its tracing does not suffice";
 
 // Stable equilibria of a record at a λ, but not beside the event at point `but` if it is one of the record's.
 std::vector<OnPath> stable_at(const Model& model, const Record& record, double lambda,
@@ -53,6 +59,7 @@ struct Loss {
   State at{};
   double energy = 0.0;
   std::optional<State> behind{};       // a state of the path, or of a branch that leaves it there, just behind
+  double sense = 1.0;                  // −1: on the other side
   std::optional<std::size_t> point{};  // of the record
 };
 
@@ -65,21 +72,63 @@ bool loses_stability(const auto& event) {
 
 class Falls {
  public:
-  Falls(const Model& model, const Record& record) : model_(model), record_(record), mesh_(model) {}
+  Falls(const Model& model, const Record& record) : model_(model), record_(record), mesh_(model) {
+    constexpr Index besides = 2;  // of a step: at its end, and where events are located
+    constexpr Index cheaper = 2;  // factorizations of a fall for one of tracing, which does more with it
+    const auto& members = model.deck().members;
+    const bool essenburg = std::any_of(members.begin(), members.end(),
+                                       [](const deck::Member& one) { return one.theory == Theory::essenburg; });
+    left_ = static_cast<Index>((essenburg ? more_work_for_essenburg : more_work) /
+                               static_cast<double>(std::max(mesh_.size(), Index{1})));
+    for (const RecordPoint& point : record.points) left_ += cheaper * (point.iterations + besides);
+  }
 
   bool can_fall() const { return mesh_.is_complete(); }
 
-  // Where the structure falls to from an event at a point of the record; null where it stays beside it.
-  std::shared_ptr<const RecordLanding> from(const RecordEvent& event, std::size_t point) const {
-    State rest;
-    const auto landing = fall(recorded(event, point, 1), rest);
+  // Where the structure falls to from an event at a point of the record; null where it stays beside it. From a branch
+  // point in both senses.
+  std::shared_ptr<const RecordLanding> from(const RecordEvent& event, std::size_t point) {
+    const Loss loss = recorded(event, point, 1);
+    State rest, other_rest;
+    auto landing = fall_and_back(event, point, loss, rest);
+    if (event.kind != EventKind::branch_point) return landing;
+    Loss opposite = loss;
+    opposite.sense = -1.0;
+    auto other = fall_and_back(event, point, opposite, other_rest);
+    if (!landing || !other) return landing ? landing : other;
+    if (other->why == took_too_long) return landing;  // of which nothing is known
+    if (landing->why == took_too_long) return other;
+    if (landing->reason == other->reason && (!landing->reason.empty() || are_alike(*landing, rest, *other, other_rest)))
+      return landing;
+    auto several = std::make_shared<RecordLanding>();
+    several->reason = "several";
+    several->why = "the senses of the mode lead to different ends";
+    several->lambda = event.lambda;
+    several->several = {std::move(*landing), std::move(*other)};
+    return several;
+  }
+
+ private:
+  std::shared_ptr<RecordLanding> fall_and_back(const RecordEvent& event, std::size_t point, const Loss& loss,
+                                               State& rest) {
+    auto landing = fall(loss, rest);
     if (!landing || !landing->reason.empty()) return landing;
     const double ahead = point > 0 ? event.lambda - record_.points[point - 1].lambda : 0.0;
     if (ahead != 0.0) add_way_back(event, rest, ahead, *landing);
     return landing;
   }
 
- private:
+  // Whether two landings are one state, or images of each other in a mirror.
+  bool are_alike(const RecordLanding& a, const State& rest_a, const RecordLanding& b, const State& rest_b) const {
+    constexpr double same_energy = 1e-6;  // of the energy
+    if (std::abs(a.energy - b.energy) > same_energy * std::max(std::abs(a.energy), std::abs(b.energy))) return false;
+    const Vector x = mesh_.unknowns(rest_a), y = mesh_.unknowns(rest_b);
+    if (mesh_.distance(x, y) <= DeckMesh::same_of_nodes) return true;
+    const std::vector<Vector> images = MirrorImages(model_.structure()).of(mesh_.state(x, a.lambda));
+    return std::any_of(images.begin(), images.end(),
+                       [&](const Vector& image) { return mesh_.distance(image, y) <= DeckMesh::same_of_nodes; });
+  }
+
   // Whether a state is so far from an event that it says where the path goes on.
   bool is_behind(const State& state, const State& event) const {
     constexpr double apart = 1e-6;
@@ -98,16 +147,27 @@ class Falls {
       if (next.branch != event.branch && std::find(leaving.begin(), leaving.end(), next.branch) == leaving.end()) break;
       if (!is_behind(next.state, here.state)) continue;
       loss.behind = next.state;
+      if (event.kind == EventKind::branch_point && next.branch == event.branch) push_along_mode(event, loss);
       break;
     }
     return loss;
   }
 
+  // The path goes on through the branch point, along which a perfect structure would stay as it is.
+  void push_along_mode(const RecordEvent& event, Loss& loss) const {
+    for (const RecordBranchPoint& one : record_.branch_points) {
+      if (one.event != event.id || one.point->mode.dx.size() != one.point->state.x.size()) continue;
+      loss.behind = moved(one.point->state, one.point->mode, pushes[0]);
+    }
+  }
+
   // The first one on the way from a stable state to a λ.
-  std::optional<Loss> traced(const State& from, double lambda) const {
+  std::optional<Loss> traced(const State& from, double lambda) {
     Tracer tracer(model_.system(), from, options_towards(model_, from, lambda));
     std::optional<Loss> found;
     while (const auto arc = tracer.next()) {
+      left_ -= arc->to.iterations + 1;
+      if (left_ <= 0) return std::nullopt;
       if (found) {
         if (!found->behind && !is_behind(arc->to.state, found->at)) continue;
         if (!found->behind) found->behind = arc->to.state;
@@ -125,9 +185,9 @@ class Falls {
   }
 
   // `rest` becomes the state.
-  std::shared_ptr<RecordLanding> fall(const Loss& loss, State& rest) const {
+  std::shared_ptr<RecordLanding> fall(const Loss& loss, State& rest) {
     if (!loss.behind) return nullptr;
-    const Vector start = mesh_.unknowns(loss.at), behind = mesh_.unknowns(*loss.behind) - start;
+    const Vector start = mesh_.unknowns(loss.at), behind = loss.sense * (mesh_.unknowns(*loss.behind) - start);
     const double far = mesh_.distance(behind, Vector::Zero(behind.size()));
     auto landing = std::make_shared<RecordLanding>();
     landing->lambda = loss.at.lambda;
@@ -135,10 +195,15 @@ class Falls {
     for (const double push : pushes) {
       const Vector pushed = start + std::max(1.0, push / far) * behind;
       const Descent descent =
-          descend(mesh_.system(), mesh_.state(pushed, loss.at.lambda), model_.options().factorization);
+          descend(mesh_.system(), mesh_.state(pushed, loss.at.lambda), model_.options().factorization, left_);
       if (descent.end == DescentEnd::falls_away) {
         landing->reason = "falls_away";
         landing->why = "nothing holds the structure at this load";
+        return landing;
+      }
+      if (descent.end == DescentEnd::cut_off) {
+        landing->reason = "not_found";
+        landing->why = took_too_long;
         return landing;
       }
       // Near a branch point from which a stable branch leaves it creeps back.
@@ -201,7 +266,7 @@ class Falls {
 
   // λ, which increased by `ahead` on the way to the event, goes back from the state at rest, and the structure falls
   // again where that loses its stability.
-  void add_way_back(const RecordEvent& event, const State& rest, double ahead, RecordLanding& landing) const {
+  void add_way_back(const RecordEvent& event, const State& rest, double ahead, RecordLanding& landing) {
     const std::optional<Loss> lost =
         landing.on_branch ? recorded_back(landing, ahead) : traced(rest, far_back(event, ahead));
     if (!lost) return;
@@ -270,6 +335,7 @@ class Falls {
   const Model& model_;
   const Record& record_;
   DeckMesh mesh_;
+  Index left_ = 0;  // factorizations that falls may still take
 };
 
 // The number of the event's point in the record.
@@ -284,7 +350,7 @@ std::optional<std::size_t> point_of(const Record& record, const RecordEvent& eve
 void add_landings(const Model& model, Record& record) {
   const bool falls = model.whole_deck().path.landing && record.stages.empty() && !model.in_increments();
   if (!falls) return;
-  const Falls of(model, record);
+  Falls of(model, record);
   for (RecordEvent& event : record.events) {
     const auto point = loses_stability(event) ? point_of(record, event) : std::nullopt;
     if (!point) continue;

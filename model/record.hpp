@@ -69,7 +69,8 @@ struct RecordWayBack;
 
 /// Where a structure falls to behind an event, at the same λ.
 struct RecordLanding {
-  std::string reason{}, why{};  ///< `falls_away` or `not_found`, and in words why; empty where it comes to rest
+  std::string reason{},
+      why{};  ///< `falls_away`, `not_found` or `several`, and in words why; empty where it comes to rest
   double lambda = 0.0;
   std::vector<double> monitors{};
   std::vector<RecordStretch> contacts{};  ///< along the members
@@ -82,6 +83,7 @@ struct RecordLanding {
   std::size_t point = 0;                        ///< the last point of the record before it
   std::shared_ptr<const RecordWayBack> back{};  ///< λ taken back from there; null: no loss of stability is known
   std::optional<double> loop{};                 ///< energy lost in a closed loop [force·length]
+  std::vector<RecordLanding> several{};         ///< of `several`: in one sense of the mode and in the other
 };
 
 /// Where the state that was fallen to loses its stability as λ goes back.

@@ -52,7 +52,8 @@ void parts(Archive& archive, RecordWayBack& back);
 template <typename Archive>
 void parts(Archive& archive, RecordLanding& landing) {
   archive(landing.reason, landing.why, landing.lambda, landing.monitors, landing.contacts, landing.word, landing.energy,
-          landing.released, landing.unstable, landing.on_branch, landing.arc, landing.point, landing.loop);
+          landing.released, landing.unstable, landing.on_branch, landing.arc, landing.point, landing.loop,
+          landing.several);
   keep_owned(archive, landing.back);
 }
 

@@ -28,15 +28,17 @@ void keep_traced(Archive& archive, Record& record) {
 }
 
 // Whether all that a landing refers to is in the record. One that was not found has no monitors.
-bool is_whole(const Record& record, const std::shared_ptr<const RecordLanding>& landing) {
-  if (!landing) return true;
+bool is_whole(const Record& record, const RecordLanding& landing) {
   const auto are_all = [&](const std::vector<double>& monitors) { return monitors.size() == record.columns.size(); };
-  const bool has_none = landing->monitors.empty() && !landing->reason.empty();
-  if (landing->point >= record.points.size() || !(are_all(landing->monitors) || has_none)) return false;
-  if (landing->on_branch &&
-      (*landing->on_branch < 0 || *landing->on_branch >= static_cast<Index>(record.branches.size())))
+  const bool has_none = landing.monitors.empty() && !landing.reason.empty();
+  if (landing.point >= record.points.size() || !(are_all(landing.monitors) || has_none)) return false;
+  if (landing.on_branch && (*landing.on_branch < 0 || *landing.on_branch >= static_cast<Index>(record.branches.size())))
     return false;
-  return !landing->back || (are_all(landing->back->monitors) && is_whole(record, landing->back->landing));
+  if (landing.back &&
+      (!are_all(landing.back->monitors) || (landing.back->landing && !is_whole(record, *landing.back->landing))))
+    return false;
+  return std::all_of(landing.several.begin(), landing.several.end(),
+                     [&](const RecordLanding& one) { return is_whole(record, one); });
 }
 
 bool is_whole(const Record& record, const RecordSearch& search) {
@@ -62,7 +64,8 @@ bool is_whole(const Record& record, std::size_t ended_stages) {
   for (const RecordPoint& point : record.points)
     if (!has_branch(point.branch) || point.monitors.size() != record.columns.size()) return false;
   for (const RecordEvent& event : record.events)
-    if (!has_branch(event.branch) || event.monitors.size() != record.columns.size() || !is_whole(record, event.landing))
+    if (!has_branch(event.branch) || event.monitors.size() != record.columns.size() ||
+        (event.landing && !is_whole(record, *event.landing)))
       return false;
   for (const RecordBranchPoint& point : record.branch_points)
     if (!has_event(point.event)) return false;
@@ -114,8 +117,9 @@ const RecordPoint* Session::next() {
 bool Session::has_ended() const { return tracing_ && tracing_->has_ended(); }
 
 void Session::stop(const BranchEnd& end) {
+  if (!tracing_) return;
   stopped_ = true;
-  if (tracing_) tracing_->stop(end);
+  tracing_->stop(end);
 }
 
 std::string Session::checkpoint(const std::optional<BranchEnd>& stopped) {
@@ -137,20 +141,30 @@ Json SessionContent::of(Session& session, const std::optional<BranchEnd>& stoppe
   return archive.json();
 }
 
+RunDescription described_in(const Json& content, const std::string& file) try {
+  ArchiveReader head(content, ArchiveModel{});
+  std::string program;
+  head(program);
+  if (program != program_version())
+    throw OutputError(file + ": was written by version " + program + "; only that version can go on with it");
+  RunDescription description;
+  head(description);
+  return description;
+} catch (const BadArchive& problem) {
+  throw OutputError(file + ": is no checkpoint of this deck: " + problem.what() + "; run the deck again");
+}
+
 Session SessionContent::read(const Json& content, const std::string& file, Session::Resume how) {
   try {
     // What the run is of comes first: the rest can be read when its model is there.
-    ArchiveReader head(content, ArchiveModel{});
-    std::string program;
-    head(program);
-    if (program != program_version())
-      throw OutputError(file + ": was written by version " + program + "; only that version can go on with it");
-    RunDescription description;
-    std::optional<BranchEnd> stopped;
-    head(description, stopped);
+    RunDescription description = described_in(content, file);
+    if (description.traced == Traced::curve)
+      throw OutputError(file + ": is of a curve of events, not of a run; trace-path resume and verify take it");
     Session session(std::move(description));
 
     ArchiveReader archive(content, model_of(*session.model_));
+    std::string program;
+    std::optional<BranchEnd> stopped;
     std::vector<double> ended_stages;
     archive(program, session.description_, stopped, session.start_, ended_stages);
     for (const double lambda : ended_stages)
@@ -172,13 +186,28 @@ Session SessionContent::read(const Json& content, const std::string& file, Sessi
   }
 }
 
-Session stored_session(const std::filesystem::path& folder, Session::Resume how) {
+namespace {
+
+std::string bytes_of_checkpoint(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "checkpoint";
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) throw OutputError(folder.string() + ": there is no such folder");
   if (!std::filesystem::exists(file, ignored))
     throw OutputError(file.string() + ": there is none; `trace-path run DECK --out " + folder.string() + "` writes it");
-  return Session::from(bytes_of_regular_file(file), file.string(), how);
+  return bytes_of_regular_file(file);
+}
+
+}  // namespace
+
+Session stored_session(const std::filesystem::path& folder, Session::Resume how) {
+  return Session::from(bytes_of_checkpoint(folder), (folder / "checkpoint").string(), how);
+}
+
+StoredTracing stored_tracing(const std::filesystem::path& folder, Session::Resume how) {
+  const std::string file = (folder / "checkpoint").string();
+  const Json content = from_checkpoint(bytes_of_checkpoint(folder), file);
+  if (described_in(content, file).traced == Traced::curve) return CurveContent::read(content, file, how);
+  return SessionContent::read(content, file, how);
 }
 
 }  // namespace arcwall

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/interrupt.hpp"
+#include "apps/cli/trace_curve.hpp"
 #include "apps/output/curve_files.hpp"
 #include "apps/output/events_json.hpp"
-#include "apps/output/files.hpp"
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
@@ -16,64 +16,82 @@ namespace arcwall {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+// The combination of numbers that lowers the event most: some runs, which are over together.
+ExitStatus worst(const deck::Deck& deck, const RunDescription& of, const OutputFolder& folder,
+                 const CallOptions& call) {
+  const InterruptGuard interrupts;
+  const WorstCombination found = worst_combination(deck, [&] { return interrupts.interrupted(); });
+  if (!found.problem.empty()) throw InputError(fmt::format("{}: curve.worst: {}", of.deck, found.problem));
+  FileSet files(folder);
+  files.write("curve.json", to_text(worst_json(deck, found, of.deck_text, of.assignments), JsonLayout::lines));
+  files.put_in_place();
+  if (call.report == CallOptions::Report::table) std::cout << worst_text(deck, found);
+  if (interrupts.interrupted()) return ExitStatus::interrupted;
+  return found.settled ? ExitStatus::success : ExitStatus::limit_met;
+}
+
+// A curve of the same deck that could go on is not lost without a word.
+void say_what_is_replaced(const fs::path& folder, const RunDescription& asked) {
+  try {
+    const StoredTracing there = stored_tracing(folder, Session::Resume::go_on);
+    const auto* const curve = std::get_if<CurveSession>(&there);
+    if (curve == nullptr || curve->tracing().has_ended()) return;
+    const RunDescription& of = curve->description();
+    if (of.deck_text != asked.deck_text || of.assignments != asked.assignments) return;
+    std::cerr << fmt::format(
+        "note: {0} holds a curve of this deck that had not ended; it is traced anew. `trace-path resume {0}` would "
+        "have gone on with it\n",
+        folder.string());
+  } catch (const OutputError&) {
+  } catch (const InputError&) {
+  }
+}
+
 ExitStatus curve(const Options& options) {
-  const std::string& file = options.words().front();
-  const std::vector<std::string> assignments = options.texts("set");
-  const std::string text = deck::read_text_file(file);
-  const deck::Deck deck = deck::read_deck_text(text, file, assignments);
+  RunDescription of{.deck = options.words().front(),
+                    .assignments = options.texts("set"),
+                    .units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown,
+                    .traced = Traced::curve};
+  of.deck_text = deck::read_text_file(of.deck);
+  const deck::Deck deck = deck::read_deck_text(of.deck_text, of.deck, of.assignments);
   if (!deck.curve)
     throw InputError(
         fmt::format("{}: curve: the deck does not say which event is followed; add a table [curve] with "
                     "event, over and range",
-                    file));
-  const InterruptGuard interrupts;
-  const bool quiet = options.has("quiet");
-  const std::filesystem::path out =
-      options.text("out").value_or(std::filesystem::path(file).stem().string() + "-curve");
-  require_other_than_input(out, file);
+                    of.deck));
+  const fs::path out = options.text("out").value_or(fs::path(of.deck).stem().string() + "-curve");
+  require_other_than_input(out, of.deck);
   const Foreign foreign = options.has("force") ? Foreign::overwrite : Foreign::refuse;
   require_no_run(out, foreign);
-  const OutputFolder folder(out, std::filesystem::path(file).filename().string(), foreign);
-  if (deck.curve->over.empty()) {
-    const WorstCombination worst = worst_combination(deck, [&] { return interrupts.interrupted(); });
-    if (!worst.problem.empty()) throw InputError(fmt::format("{}: curve.worst: {}", file, worst.problem));
-    FileSet files(folder);
-    files.write("curve.json", to_text(worst_json(deck, worst, text, assignments), JsonLayout::lines));
-    files.put_in_place();
-    if (!quiet) std::cout << worst_text(deck, worst);
-    if (interrupts.interrupted()) return ExitStatus::interrupted;
-    return worst.settled ? ExitStatus::success : ExitStatus::limit_met;
-  }
-  const EventCurve found = trace_event_curve(deck, [&] { return interrupts.interrupted(); });
-  if (!found.problem.empty()) {
-    std::cerr << fmt::format("error: {}: {}\n", file, found.problem);
-    return interrupts.interrupted() ? ExitStatus::interrupted : ExitStatus::no_start;
-  }
-  FileSet files(folder);
-  const UnitLabels labels = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown;
-  for (const auto& [name, content] : curve_files(found, labels, text, assignments)) files.write(name, content);
-  files.put_in_place();
-  if (!quiet) std::cout << curve_text(found);
-  return curve_status(found);
+  const std::string name = fs::path(of.deck).filename().string();
+  const CallOptions call = call_options(options);
+  if (deck.curve->over.empty()) return worst(deck, of, OutputFolder(out, name, foreign), call);
+  CurveSession session(std::move(of));
+  const OutputFolder folder(out, name, foreign);
+  say_what_is_replaced(out, session.description());
+  return trace_curve_and_write(session, folder, call);
 }
 
 }  // namespace
 
 Command curve_command() {
-  return {
-      .description = {.name = "curve",
-                      .example = "trace-path curve channel.toml --set curve.range=[0.15,0.25]",
-                      .usage = "DECK [options]",
-                      .summary = "follows an event while a number of the deck varies",
-                      .options = {{"out", "DIR",
-                                   "folder to write into (default: the deck's name without its ending, and -curve)"},
-                                  {"force", "", "write into DIR though something else filled it"},
-                                  {"no-units", "", "no units in the titles of curve.csv"},
-                                  {"quiet", "", "no table"},
-                                  set_option()},
-                      .least_words = 1,
-                      .most_words = 1},
-      .run = curve};
+  std::vector<OptionDescription> options = {
+      {"out", "DIR", "folder to write into (default: the deck's name without its ending, and -curve)"},
+      {"force", "", "write into DIR though something else filled it"},
+      {"no-units", "", "no units in the titles of curve.csv"},
+      set_option()};
+  for (OptionDescription& option : call_options())
+    if (std::string(option.name) != "json") options.push_back(std::move(option));
+  return {.description = {.name = "curve",
+                          .example = "trace-path curve channel.toml --set curve.range=[0.15,0.25]",
+                          .usage = "DECK [options]",
+                          .summary = "follows an event while a number of the deck varies",
+                          .options = std::move(options),
+                          .least_words = 1,
+                          .most_words = 1},
+          .run = curve};
 }
 
 }  // namespace arcwall

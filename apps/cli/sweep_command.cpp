@@ -17,6 +17,7 @@
 #include "apps/sweep/sweep_report.hpp"
 #include "core/error.hpp"
 #include "model/deck/cursor.hpp"
+#include "model/deck/reader.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall {
@@ -49,11 +50,26 @@ ExitStatus plan(const Options& options) {
 // Options of `run` that the sweep gives itself.
 constexpr std::array owned_options{"out", "force", "json", "quiet", "dry-run", "max-time", "no-pictures"};
 
+// Whether the deck of a planned sweep says where falls are looked for.
+bool says_landing(const fs::path& folder) {
+  const sweep::Case first = sweep::CaseReader(folder).next().value();
+  try {
+    return deck::read_deck((folder / first.deck).string(), sweep::assignments(first)).path.landing_given.in_deck;
+  } catch (const InputError&) {
+    return true;  // its cases say what is wrong
+  }
+}
+
+// What a planned sweep traces of its cases.
+Traced traced_of(const fs::path& folder) {
+  return sweep::read_sweep((folder / sweep::sweep_file_name).string(), sweep::Rows::left_out).traced;
+}
+
 // Wrong options are told before anything runs.
-void check_passed_on(const std::vector<std::string>& words) {
+void check_passed_on(const std::vector<std::string>& words, Traced traced) {
   std::vector<std::string> whole{"DECK"};
   whole.insert(whole.end(), words.begin(), words.end());
-  const Options options(run_command().description, whole);
+  const Options options((traced == Traced::curve ? curve_command() : run_command()).description, whole);
   for (const char* name : owned_options)
     if (options.has(name))
       throw InputError(fmt::format("--{} cannot be passed on to the cases{}", name,
@@ -113,11 +129,13 @@ ExitStatus run_sweep(const Options& options) {
                                   .program = this_program,
                                   .body = run_as_program,
                                   .jobs = options.count("jobs").value_or(1),
+                                  .traced = traced_of(folder),
+                                  .landing = says_landing(folder),
                                   .options = options.passed_on(),
                                   .most_seconds = options.seconds("max-time"),
                                   .keep = records ? sweep::Keep::records : sweep::Keep::folders,
                                   .part = options.text("part") ? share(*options.text("part")) : sweep::Part()};
-  check_passed_on(request.options);
+  check_passed_on(request.options, request.traced);
   const sweep::Rerun rerun = options.has("force")    ? sweep::Rerun::all
                              : options.has("failed") ? sweep::Rerun::failed
                                                      : sweep::Rerun::none;
@@ -173,7 +191,7 @@ std::string directive(const Options& options, const std::string& name) {
 }
 
 ExitStatus emit(const Options& options) {
-  check_passed_on(options.passed_on());
+  check_passed_on(options.passed_on(), traced_of(options.words().front()));
   const std::vector<std::string> engines = deck::texts(engine_words);
   const auto name = options.text("engine");
   if (!name) throw InputError(fmt::format("--engine is missing; it is {}", fmt::join(engines, " or ")));
@@ -223,8 +241,10 @@ ExitStatus collect(const Options& options) {
   });
   tables.finish();
   write_whole(collection.folder() / "report.html", sweep::report_html(collection, of_all, drawn));
-  std::cout << fmt::format("{} cases, {} as their deck says; written: cases.csv, sweep.csv, report.html in {}\n",
-                           collection.size(), collection.size() - of_all.failed, collection.folder().string());
+  std::cout << fmt::format("{} cases, {} as their deck says; written: cases.csv, sweep.csv, {}report.html in {}\n",
+                           collection.size(), collection.size() - of_all.failed,
+                           collection.sweep().traced == Traced::curve ? "curves.csv, " : "",
+                           collection.folder().string());
   print_failures(of_all);
   return ExitStatus::success;
 }
@@ -244,7 +264,7 @@ std::vector<Command> sweep_commands() {
        .run = plan},
       {.description = {.name = "sweep run",
                        .example = "trace-path sweep run study --jobs 4 -- --max-points 2000",
-                       .usage = "DIR [options] [-- options of run]",
+                       .usage = "DIR [options] [-- options of run or curve]",
                        .summary = "runs the cases that have no results yet; may be stopped and goes on",
                        .options = {{"case", "K", "this case alone; cases count from 0"},
                                    {"part", "I/N", "of N equal shares of the cases the one with number I, from 0"},

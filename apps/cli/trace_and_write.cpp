@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "apps/cli/checkpoint_keeper.hpp"
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/json_lines.hpp"
 #include "apps/converge/convergence_files.hpp"
@@ -28,62 +29,6 @@ namespace arcwall {
 namespace {
 
 using Report = CallOptions::Report;
-
-// Writes checkpoints now and then, so seldom that they take a small part of the time. A run of a moment needs none on
-// its way.
-class CheckpointKeeper {
- public:
-  CheckpointKeeper(Session& run, const OutputFolder& folder, std::chrono::duration<double> pause)
-      : run_(run), folder_(folder), pause_(pause), next_(Clock::now() + std::chrono::milliseconds(100)) {
-    if (pause_.count() == 0.0) next_ = Clock::now();
-  }
-
-  void keep_now_and_then() {
-    if (Clock::now() < next_) return;
-    try {
-      keep({});
-    } catch (const OutputError& problem) {  // the files at the end may still find room
-      if (!std::exchange(warned_, true)) std::cerr << "warning: no checkpoint: " << problem.what() << "\n";
-    }
-  }
-
-  void drop() {
-    std::error_code error;
-    std::filesystem::remove(folder_.path() / "checkpoint", error);
-    if (error) throw OutputError((folder_.path() / "checkpoint").string() + ": cannot be removed: " + error.message());
-  }
-
-  void keep(const std::optional<BranchEnd>& stopped) {
-    constexpr double part = 0.05;  // of the time, at most
-    const Clock::time_point before = Clock::now();
-    folder_.write_durably("checkpoint", run_.checkpoint(stopped));
-    const std::chrono::duration<double> taken = Clock::now() - before;
-    next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::max(pause_, taken / part));
-    if (pause_.count() == 0.0) next_ = before;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  Session& run_;
-  const OutputFolder& folder_;
-  std::chrono::duration<double> pause_;
-  Clock::time_point next_;
-  bool warned_ = false;
-};
-
-// Why this call goes no further though the paths do.
-std::optional<BranchEnd> limit_met(const CallOptions& options, int points, const Stopwatch& watch,
-                                   const InterruptGuard& interrupts) {
-  if (interrupts.interrupted()) return BranchEnd{.reason = EndReason::interrupted, .detail = "by a signal"};
-  if (!std::cout)
-    return BranchEnd{.reason = EndReason::interrupted, .detail = "standard output can no longer be written"};
-  if (options.max_seconds && watch.seconds() >= *options.max_seconds)
-    return BranchEnd{.reason = EndReason::max_time, .detail = round_trip(*options.max_seconds) + " s"};
-  if (options.max_points && points >= *options.max_points)
-    return BranchEnd{.reason = EndReason::max_points, .detail = std::to_string(points) + " points"};
-  return std::nullopt;
-}
 
 void warn_of_start(const Session& run) {
   if (const std::string warning = warning_of_start(run.model(), run.record()); !warning.empty())
@@ -187,34 +132,12 @@ void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Session& ru
 
 }  // namespace
 
-std::vector<OptionDescription> call_options() {
-  return {{"max-points", "N", "end after N points (status 6)"},
-          {"max-time", "SECONDS", "end after that time (status 6)"},
-          {"checkpoint-pause", "SECONDS", "time between two checkpoints, 0 for one at each point (default: 5)"},
-          {"scratch", "",
-           "for files that a program reads at once: no checkpoint once the run has ended, nothing flushed to the disk"},
-          {"json", "", "points, events and end on standard output, one JSON object a line"},
-          {"no-pictures", "", "write neither report.html nor the shapes (trace-path report writes the one later)"},
-          {"quiet", "", "no progress and no table of events"}};
-}
-
-CallOptions call_options(const Options& options) {
-  CallOptions call{.max_points = options.count("max-points"), .max_seconds = options.seconds("max-time")};
-  if (const auto pause = options.pause("checkpoint-pause"))
-    call.checkpoint_pause = std::chrono::duration<double>(*pause);
-  call.scratch = options.has("scratch");
-  if (options.has("no-pictures")) call.pictures = CallOptions::Pictures::left_out;
-  if (options.has("quiet")) call.report = Report::none;
-  if (options.has("json")) call.report = Report::json_lines;
-  if (!options.has("quiet") && !options.has("json")) call.progress = progress_wanted();
-  return call;
-}
-
 ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallOptions& options,
                            const Stopwatch& since_begin) {
   const InterruptGuard interrupts;
   const Stopwatch since_start;
-  CheckpointKeeper checkpoints(run, folder, options.checkpoint_pause);
+  CheckpointKeeper checkpoints(folder, options.checkpoint_pause,
+                               [&](const std::optional<BranchEnd>& stopped) { return run.checkpoint(stopped); });
   const std::optional<BranchEnd> stopped = trace(run, checkpoints, options, interrupts);
   const Record& record = run.record();
   const EndReason reason = stopped ? stopped->reason : decisive_branch(record).end->reason;
@@ -222,8 +145,8 @@ ExitStatus trace_and_write(Session& run, const OutputFolder& folder, const CallO
     std::cerr << "error: there is no equilibrium at the start: " << explanation(reason) << "\n";
     return ExitStatus::no_start;
   }
-  if (const std::string warning = warning_of_units(run.model(), record); !warning.empty())
-    std::cerr << "warning: " << warning << "\n";
+  for (const std::string& warning : {warning_of_units(run.model(), record), warning_of_found(record)})
+    if (!warning.empty()) std::cerr << "warning: " << warning << "\n";
   const ExitStatus status = std::cout ? exit_status(reason) : ExitStatus::file_error;
   write_files(folder, run, options, {.total = since_begin.seconds(), .tracing = since_start.seconds()}, status);
   if (!stopped && options.scratch) checkpoints.drop();

@@ -4,10 +4,11 @@
 #include "apps/cli/commands.hpp"
 #include "apps/verify/again.hpp"
 #include "apps/verify/copies.hpp"
+#include "apps/verify/curve_checks.hpp"
 #include "apps/verify/verify.hpp"
 #include "core/error.hpp"
+#include "model/curve_session.hpp"
 #include "model/regular_file.hpp"
-#include "model/session.hpp"
 
 namespace arcwall {
 
@@ -36,13 +37,36 @@ ExitStatus trace_again(const Session& run, const std::string& folder, bool quiet
       verify::compare(run.record(), again->record(), verify::step_discretisation(run.model()));
   for (const std::string& difference : comparison.differences)
     std::cerr << "error: " << folder << ": " << difference << "\n";
-  if (!quiet) std::cout << "\n" << to_text(comparison);
+  if (!quiet) std::cout << "\n" << to_text(comparison, "with a quarter of the step");
   return comparison.differences.empty() ? ExitStatus::success : ExitStatus::not_confirmed;
 }
 
-ExitStatus verify_folder(const Options& options) {
-  const std::filesystem::path folder = options.words().front();
-  const Session run = stored_session(folder, Session::Resume::as_ended);
+// Says what does not hold; the table otherwise.
+bool tell(const verify::Verdict& verdict, const std::filesystem::path& folder, bool quiet) {
+  if (const auto& first = verdict.findings.first()) {
+    std::cerr << "error: " << folder.string() << "/" << to_text(*first) << "\n";
+    if (const Index more = verdict.findings.failures() - 1; more > 0)
+      std::cerr << "  and " << more << " more that " << (more == 1 ? "does" : "do") << " not hold\n";
+    return false;
+  }
+  if (!quiet) std::cout << to_text(verdict);
+  return true;
+}
+
+ExitStatus verify_curve(const CurveSession& session, const std::filesystem::path& folder, const Options& options) {
+  const verify::StoredCurve files{.curve_csv = text_of(folder / "curve.csv"),
+                                  .curve_json = text_of(folder / "curve.json")};
+  const bool quiet = options.has("quiet");
+  if (!tell(verify::verify_curve(session, files), folder, quiet)) return ExitStatus::not_confirmed;
+  if (!options.has("again")) return ExitStatus::success;
+  const verify::Comparison comparison = verify::compare_with_runs(session);
+  for (const std::string& difference : comparison.differences)
+    std::cerr << "error: " << folder.string() << ": " << difference << "\n";
+  if (!quiet) std::cout << "\n" << to_text(comparison, "in runs of the deck with the number's values");
+  return comparison.differences.empty() ? ExitStatus::success : ExitStatus::not_confirmed;
+}
+
+ExitStatus verify_run(const Session& run, const std::filesystem::path& folder, const Options& options) {
   const verify::StoredFiles files{.path_csv = text_of(folder / "path.csv"),
                                   .contacts_csv = run.record().has_walls ? text_of(folder / "contacts.csv") : "",
                                   .events_json = text_of(folder / "events.json"),
@@ -50,29 +74,35 @@ ExitStatus verify_folder(const Options& options) {
                                   .deck_toml = text_of(folder / "deck.toml")};
   verify::Verdict verdict = verify::verify(run.model(), run.record(), files, "checkpoint");
   verify::check_copies(run.model(), run.record(), run.description().deck_text, files, verdict.findings);
-  if (const auto& first = verdict.findings.first()) {
-    std::cerr << "error: " << folder.string() << "/" << to_text(*first) << "\n";
-    if (const Index more = verdict.findings.failures() - 1; more > 0)
-      std::cerr << "  and " << more << " more that " << (more == 1 ? "does" : "do") << " not hold\n";
-    return ExitStatus::not_confirmed;
-  }
-  if (!options.has("quiet")) std::cout << to_text(verdict);
+  if (!tell(verdict, folder, options.has("quiet"))) return ExitStatus::not_confirmed;
   return options.has("again") ? trace_again(run, folder.string(), options.has("quiet")) : ExitStatus::success;
+}
+
+ExitStatus verify_folder(const Options& options) {
+  const std::filesystem::path folder = options.words().front();
+  const StoredTracing stored = stored_tracing(folder, Session::Resume::as_ended);
+  if (const auto* const curve = std::get_if<CurveSession>(&stored)) return verify_curve(*curve, folder, options);
+  return verify_run(std::get<Session>(stored), folder, options);
 }
 
 }  // namespace
 
 Command verify_command() {
-  return {.description = {.name = "verify",
-                          .example = "trace-path verify results",
-                          .usage = "DIR [options]",
-                          .summary = "checks a run's states and files again, by other formulas than it was traced with",
-                          .options = {{"again", "",
-                                       "also trace the deck with a quarter of the step and compare the events"},
-                                      {"quiet", "", "no table, the status alone (7 where something does not hold)"}},
-                          .least_words = 1,
-                          .most_words = 1},
-          .run = verify_folder};
+  return {
+      .description =
+          {.name = "verify",
+           .example = "trace-path verify results",
+           .usage = "DIR [options]",
+           .summary =
+               "checks the states and files of a run or a curve again, by other formulas than they were traced with",
+           .options =
+               {{"again", "",
+                 "also trace the deck with a quarter of the step and compare the events; of a curve, trace the deck at "
+                 "some of its points"},
+                {"quiet", "", "no table, the status alone (7 where something does not hold)"}},
+           .least_words = 1,
+           .most_words = 1},
+      .run = verify_folder};
 }
 
 }  // namespace arcwall

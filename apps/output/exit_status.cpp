@@ -41,9 +41,10 @@ const RecordBranch& decisive_branch(const Record& record) {
         return 2;
       case ExitStatus::success:
         return 0;
+      case ExitStatus::ended_early:  // what was found beside the paths is more than was asked for
+        return branch.found ? 0 : 1;
       case ExitStatus::internal_error:
       case ExitStatus::wrong_input:
-      case ExitStatus::ended_early:
       case ExitStatus::no_start:
       case ExitStatus::file_error:
       case ExitStatus::not_confirmed:
@@ -54,6 +55,14 @@ const RecordBranch& decisive_branch(const Record& record) {
   };
   return *std::max_element(record.branches.begin(), record.branches.end(),
                            [&](const RecordBranch& a, const RecordBranch& b) { return severity(a) < severity(b); });
+}
+
+std::vector<Index> found_that_ended_early(const Record& record) {
+  std::vector<Index> branches;
+  for (const RecordBranch& branch : record.branches)
+    if (branch.found && branch.end && exit_status(branch.end->reason) == ExitStatus::ended_early)
+      branches.push_back(branch.id);
+  return branches;
 }
 
 ExitStatus exit_status(const Record& record) { return exit_status(decisive_branch(record).end->reason); }

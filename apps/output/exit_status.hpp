@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "continuation/path_point.hpp"
 #include "model/record.hpp"
 
@@ -23,7 +25,11 @@ enum class ExitStatus {
 ExitStatus exit_status(EndReason reason);
 
 /// The branch whose end decides the status of a run that has ended: an interrupt, then a limit, then an early end.
+/// Early ends of branches that a search has found do not count.
 const RecordBranch& decisive_branch(const Record& record);
+
+/// The found branches that ended early.
+std::vector<Index> found_that_ended_early(const Record& record);
 
 /// The status of a run that has ended.
 ExitStatus exit_status(const Record& record);

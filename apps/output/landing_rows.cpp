@@ -21,6 +21,7 @@ OrderedJson monitors_json(const Record& record, const std::vector<double>& value
 }
 
 void add_jump(const std::vector<double>& from, const RecordLanding& landing, std::vector<Jump>& list) {
+  for (const RecordLanding& one : landing.several) add_jump(from, one, list);
   if (!landing.reason.empty()) return;
   list.push_back({.lambda = landing.lambda, .from = from, .to = landing.monitors});
   if (landing.back && landing.back->landing) add_jump(landing.back->monitors, *landing.back->landing, list);
@@ -37,21 +38,29 @@ std::vector<TableColumn> landing_columns(const Record& record) {
   return columns;
 }
 
+namespace {
+
+std::vector<std::string> landing_row(const Record& record, const RecordEvent& event, const RecordLanding& landing) {
+  std::vector<std::string> row{std::to_string(event.id), shown_lambda(event, 8)};
+  const std::string on = landing.on_branch ? "branch " + std::to_string(*landing.on_branch) : "off the branches";
+  row.push_back(landing.reason.empty() ? on + (landing.word.empty() ? "" : ": " + landing.word)
+                                       : landing.reason + ": " + landing.why);
+  for (std::size_t i = 0; i < record.columns.size(); ++i)
+    row.push_back(i < landing.monitors.size() ? shown_number(landing.monitors[i], 6) : "");
+  row.push_back(landing.reason.empty() ? shown_number(landing.released, 6) : "");
+  row.push_back(landing.back ? shown_number(landing.back->lambda, 8) : "");
+  row.push_back(landing.loop ? shown_number(*landing.loop, 6) : "");
+  return row;
+}
+
+}  // namespace
+
 std::vector<std::vector<std::string>> landing_rows(const Record& record) {
   std::vector<std::vector<std::string>> rows;
   for (const RecordEvent& event : record.events) {
     if (!event.landing) continue;
-    const RecordLanding& landing = *event.landing;
-    std::vector<std::string>& row = rows.emplace_back();
-    row = {std::to_string(event.id), shown_lambda(event, 8)};
-    const std::string on = landing.on_branch ? "branch " + std::to_string(*landing.on_branch) : "off the branches";
-    row.push_back(landing.reason.empty() ? on + (landing.word.empty() ? "" : ": " + landing.word)
-                                         : landing.reason + ": " + landing.why);
-    for (std::size_t i = 0; i < record.columns.size(); ++i)
-      row.push_back(i < landing.monitors.size() ? shown_number(landing.monitors[i], 6) : "");
-    row.push_back(landing.reason.empty() ? shown_number(landing.released, 6) : "");
-    row.push_back(landing.back ? shown_number(landing.back->lambda, 8) : "");
-    row.push_back(landing.loop ? shown_number(*landing.loop, 6) : "");
+    if (event.landing->several.empty()) rows.push_back(landing_row(record, event, *event.landing));
+    for (const RecordLanding& one : event.landing->several) rows.push_back(landing_row(record, event, one));
   }
   return rows;
 }
@@ -62,6 +71,7 @@ OrderedJson landing_json(const Record& record, const RecordLanding& landing) {
   if (!landing.reason.empty()) {
     json["reason"] = landing.reason;
     json["why"] = landing.why;
+    for (const RecordLanding& one : landing.several) json["several"].push_back(landing_json(record, one));
     return json;
   }
   json["monitors"] = monitors_json(record, landing.monitors);

@@ -9,7 +9,8 @@
 
 namespace arcwall {
 
-/// Where structures fall to, as a table: a row an event that has a landing. Empty where none has.
+/// Where structures fall to, as a table: a row an event that has a landing, or one each where it has several. Empty
+/// where none has.
 std::vector<TableColumn> landing_columns(const Record& record);
 std::vector<std::vector<std::string>> landing_rows(const Record& record);
 

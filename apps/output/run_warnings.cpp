@@ -93,9 +93,23 @@ std::string warning_of_units(const Model& model, const Record& record) {
              : fmt::format("the structure has moved by no more than {:.1e} times its size, all along", part) + advice;
 }
 
+std::string warning_of_found(const Record& record) {
+  constexpr std::size_t most = 10;
+  const std::vector<Index> early = found_that_ended_early(record);
+  if (early.empty()) return {};
+  std::string list;
+  for (std::size_t i = 0; i < std::min(early.size(), most); ++i) list += (i > 0 ? ", " : "") + std::to_string(early[i]);
+  if (early.size() > most) list += ", …";
+  return fmt::format(
+      "{} of the branches that the search has found ended early ({}): events.txt says why. The status is that "
+      "of the other branches",
+      early.size(), list);
+}
+
 std::vector<std::string> run_warnings(const Model& model, const Record& record) {
   std::vector<std::string> all = model.warnings();
-  for (std::string warning : {warning_of_start(model, record), warning_of_units(model, record)})
+  for (std::string warning :
+       {warning_of_start(model, record), warning_of_units(model, record), warning_of_found(record)})
     if (!warning.empty()) all.push_back(std::move(warning));
   return all;
 }

@@ -17,7 +17,10 @@ std::string warning_of_start(const Model& model, const Record& record);
 /// hardly fit together. Empty else, and of runs that a limit or a signal cut off.
 std::string warning_of_units(const Model& model, const Record& record);
 
-/// The warnings of the deck, of the start and of the units.
+/// Which branches that a search has found ended early; empty where none did. The status of a run does not tell it.
+std::string warning_of_found(const Record& record);
+
+/// The warnings of the deck, of the start, of the units and of what was found.
 std::vector<std::string> run_warnings(const Model& model, const Record& record);
 
 }  // namespace arcwall

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "apps/output/exit_status.hpp"
 #include "apps/output/shown_number.hpp"
 
 namespace arcwall {
@@ -143,7 +144,9 @@ OrderedJson search_json(const Record& record) {
                   {"outcomes", std::move(outcomes)},
                   {"found", std::move(found)}});
   }
-  return {{"at", std::move(at)}, {"note", search_note()}};
+  OrderedJson ended_early = OrderedJson::array();
+  for (const Index branch : found_that_ended_early(record)) ended_early.push_back(branch);
+  return {{"at", std::move(at)}, {"ended_early", std::move(ended_early)}, {"note", search_note()}};
 }
 
 std::string found_at(const Record& record, const RecordBranch& branch) {

@@ -118,12 +118,59 @@ std::optional<CaseEnd> read_case_end(const Json& json) {
   return end;
 }
 
+namespace {
+
+// The numbers and λ of the rows of curve.csv, which has them behind the point's own and its arc.
+std::vector<std::pair<double, double>> curve_points(const std::string& csv) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t line = csv.find('\n'); line != std::string::npos && line + 1 < csv.size();
+       line = csv.find('\n', line + 1)) {
+    const std::size_t arc = csv.find(',', line), key = csv.find(',', arc + 1), lambda = csv.find(',', key + 1);
+    if (lambda == std::string::npos) break;
+    points.emplace_back(std::strtod(csv.c_str() + key + 1, nullptr), std::strtod(csv.c_str() + lambda + 1, nullptr));
+  }
+  return points;
+}
+
+// The end of a curve that accounts for the status of its process.
+void add_end_of_curve(const Json& curve, CaseResult& target) {
+  target.reason = to_text(EndReason::stop);
+  for (const Json& special : curve.at("specials")) {
+    if (!special.contains("reason")) continue;
+    const std::string reason = special.at("reason");
+    const auto known = end_reason(reason);
+    if (!known || static_cast<int>(exit_status(*known)) != target.status) continue;
+    target.reason = reason;
+    target.detail = special.at("why");
+    return;
+  }
+}
+
+// A curve of events, or the worst combination of numbers: one λ.
+void read_curve(const fs::path& folder, CaseResult& result) {
+  const Json curve = parsed(folder / "curve.json");
+  if (curve.contains("worst")) {
+    result.reason = to_text(EndReason::stop);
+    result.counts = {{"points", curve.at("runs")}};
+    result.events.push_back({{"kind", "worst"}, {"lambda", curve.at("lambda")}, {"monitors", Json::object()}});
+    return;
+  }
+  result.counts = {{"points", curve.at("points")}};
+  add_end_of_curve(curve, result);
+  for (const Json& special : curve.at("specials")) result.events.push_back(special);
+  result.curve = curve_points(content(folder / "curve.csv"));
+}
+
+}  // namespace
+
 CaseResult read_folder(const fs::path& folder, const CaseEnd& end) {
   CaseResult result{.there = true, .status = end.status};
   std::error_code ignored;
   if (!end.status) {
     result.reason = end.overdue ? std::string(to_text(EndReason::max_time)) : "crash";
     result.detail = end.overdue ? "did not stop and was killed" : signal_text(end.signal);
+  } else if (fs::exists(folder / "curve.json", ignored)) {
+    read_curve(folder, result);
   } else if (fs::exists(folder / "result.json", ignored)) {
     const Json outputs = parsed(folder / "result.json");
     result.counts = outputs.at("counts");
@@ -147,10 +194,11 @@ Json record_of(const CaseEnd& end, const CaseResult& result) {
   Json& events = record["events"] = Json::array();
   for (const Json& event : result.events) {
     Json& kept = events.emplace_back(Json::object());
-    for (const char* key :
-         {"id", "kind", "branch", "step", "arc", "lambda", "monitors", "unstable_before", "unstable_after", "reason"})
+    for (const char* key : {"id", "kind", "branch", "step", "arc", "lambda", "monitors", "unstable_before",
+                            "unstable_after", "reason", "point", "key", "why"})
       if (event.contains(key)) kept[key] = event.at(key);
   }
+  if (!result.curve.empty()) record["curve"] = result.curve;
   return record;
 }
 
@@ -161,6 +209,7 @@ CaseResult result_of_record(const Json& record) {
                     .counts = record.at("counts")};
   if (!record.at("status").is_null()) result.status = record.at("status").get<int>();
   for (const Json& event : record.at("events")) result.events.push_back(event);
+  if (record.contains("curve")) result.curve = record.at("curve").get<std::vector<std::pair<double, double>>>();
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/sweep/case_list.hpp"
@@ -16,7 +17,8 @@ struct CaseResult {
   std::string reason{};         ///< `stop`, `min_step`, …, `wrong_input`, `crash`; see docs/sweep.md
   std::string detail{};         ///< of that reason; may be empty
   Json counts{};                ///< of result.json; null without it
-  std::vector<Json> events{};   ///< as in events.json; empty without it
+  std::vector<Json> events{};   ///< as in events.json; of a curve its special points, as in curve.json
+  std::vector<std::pair<double, double>> curve{};  ///< of a curve its points: the number and λ
 
   /// Whether it does not tell what a sweep is for: neither did it end as its deck says, nor early behind its snap.
   bool failed() const;

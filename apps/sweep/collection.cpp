@@ -105,6 +105,9 @@ Overview overview(const Collection& collection) {
   Overview all;
   collection.visit([&](const Case& one, const CaseResult& result) { all.add(one, result); });
   std::vector<std::string> in_order;
+  for (const char* const name : {"worst", "begins", "ends", "cusp", "crossing"})  // of curves
+    if (std::find(all.event_kinds.begin(), all.event_kinds.end(), name) != all.event_kinds.end())
+      in_order.emplace_back(name);
   for (const EventKind kind :
        {EventKind::contact_closes, EventKind::contact_opens, EventKind::contact_spreads, EventKind::contact_gathers,
         EventKind::contact_passes, EventKind::limit_point, EventKind::contact_limit_point,
@@ -146,14 +149,50 @@ Tables::Tables(const Collection& collection, const Overview& of_all)
       cases_{.file = StagedFile(collection.folder() / "cases.csv")},
       events_{.file = StagedFile(collection.folder() / "sweep.csv")} {
   const std::string titles = case_titles(collection.sweep());
+  if (of_curves()) {
+    begin_curves(titles);
+    return;
+  }
   cases_.add(titles + ",status,reason,detail,first_contact,limit_loads,snap_load,branches,points,events,iterations\n");
   std::string text = titles + ",event,kind,branch,step,arc,lambda";
   for (const std::string& name : monitors_) text += "," + csv_cell(name);
   events_.add(text + ",unstable_before,unstable_after,reason\n");
 }
 
+// Titles of what curves have.
+void Tables::begin_curves(const std::string& titles) {
+  curves_.reset(new Buffered{.file = StagedFile(collection_.folder() / "curves.csv")});
+  cases_.add(titles + ",status,reason,detail,points,least_lambda,greatest_lambda\n");
+  std::string text = titles + ",kind,point,key,lambda";
+  for (const std::string& name : monitors_) text += "," + csv_cell(name);
+  events_.add(text + ",reason,why\n");
+  curves_->add(titles + ",point,key,lambda\n");
+}
+
+void Tables::add_curve(const std::string& begin, const CaseResult& result) {
+  std::optional<double> least, greatest;
+  for (std::size_t i = 0; i < result.curve.size(); ++i) {
+    const auto [key, lambda] = result.curve[i];
+    least = std::min(least.value_or(lambda), lambda);
+    greatest = std::max(greatest.value_or(lambda), lambda);
+    curves_->add(begin + "," + std::to_string(i) + "," + round_trip(key) + "," + round_trip(lambda) + "\n");
+  }
+  cases_.add(begin + "," + (result.status ? std::to_string(*result.status) : "") + "," + result.reason + "," +
+             csv_cell(result.detail) + "," + cell(member(result.counts, "points")) + "," + cell(least) + "," +
+             cell(greatest) + "\n");
+  for (const Json& special : result.events) {
+    std::string text = begin;
+    for (const char* key : {"kind", "point", "key", "lambda"}) text += "," + cell(member(special, key));
+    const Json values = member(special, "monitors");
+    for (const std::string& name : monitors_) text += "," + cell(member(values, name.c_str()));
+    for (const char* key : {"reason", "why"}) text += "," + cell(member(special, key));
+    events_.add(text + "\n");
+  }
+}
+
 void Tables::add(const Case& one, const CaseResult& result) {
   const std::string begin = case_cells(collection_.sweep(), one);
+  if (of_curves()) return add_curve(begin, result);
   std::string limits;
   for (const double load : limit_loads(result)) limits += (limits.empty() ? "" : " ") + round_trip(load);
   std::string text = begin + "," + (result.status ? std::to_string(*result.status) : "") + "," + result.reason + "," +
@@ -176,6 +215,9 @@ void Tables::finish() {
   events_.finish();
   cases_.file.put_in_place();
   events_.file.put_in_place();
+  if (!curves_) return;
+  curves_->finish();
+  curves_->file.put_in_place();
 }
 
 }  // namespace arcwall::sweep

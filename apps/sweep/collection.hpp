@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -83,7 +84,8 @@ Overview overview(const Collection& collection);
 /// `3, 8, 12, …`: the first few of the numbers.
 std::string listed(const Failure& failure);
 
-/// cases.csv, one row a case, and sweep.csv, one row an event of each case, written case by case.
+/// cases.csv, one row a case, and sweep.csv, one row an event of each case, written case by case. Of curves sweep.csv
+/// has the special points, and curves.csv all of their points.
 class Tables {
  public:
   Tables(const Collection& collection, const Overview& of_all);
@@ -102,9 +104,14 @@ class Tables {
     void finish();
   };
 
+  bool of_curves() const { return collection_.sweep().traced == Traced::curve; }
+  void begin_curves(const std::string& titles);
+  void add_curve(const std::string& begin, const CaseResult& result);
+
   const Collection& collection_;
   std::vector<std::string> monitors_;
   Buffered cases_, events_;
+  std::unique_ptr<Buffered> curves_{};
 };
 
 }  // namespace arcwall::sweep

@@ -70,6 +70,9 @@ DrawnCases::DrawnCases(const Collection& collection, const Overview& of_all, con
   for (const std::string& key : order_) order_titles_.push_back(key_title(collection, key));
   titles_ = {
       .x = order_titles_.front(), .y = keys.size() > 1 ? order_titles_[1] : "", .unit = unit_of_lambda(collection)};
+  if (collection.deck().curve)
+    curves_.titles = {
+        .x = key_title(collection, collection.deck().curve->over), .load = "λ of the event", .unit = titles_.unit};
   for (const std::string& key : keys) {
     const auto found = of_all.keys.find(key);
     ranges_.push_back(found == of_all.keys.end() ? KeyRange() : found->second);
@@ -90,8 +93,22 @@ Json DrawnCases::near(std::size_t key, const Json& value) const {
   return range.low + (std::clamp(at, 0.0, parts_ - 1.0) + 0.5) * part;
 }
 
+void DrawnCases::add_curve(const Case& one, const CaseResult& result) {
+  constexpr std::size_t most_curves = 40, most_of_each = 40;
+  if (result.curve.size() < 2 || curves_.lines.size() >= most_curves) return;
+  std::string name;
+  for (const std::string& key : order_) name += (name.empty() ? "" : ", ") + key + " = " + label(value_of(one, key));
+  LoadLine& line = curves_.lines.emplace_back(LoadLine{.name = name});
+  const std::size_t drawn = std::min(result.curve.size(), most_of_each);
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const auto [key, lambda] = result.curve[i * (result.curve.size() - 1) / (drawn - 1)];
+    line.points.push_back({.number = one.number, .x = key, .load = lambda, .note = name});
+  }
+}
+
 void DrawnCases::add(const Case& one, const CaseResult& result) {
   if (!result.there) return;
+  add_curve(one, result);
   std::vector<std::optional<double>> of_case;
   for (const LoadKind& kind : loads_) of_case.push_back(kind.of(result));
   if (!are_means_) {

@@ -42,6 +42,10 @@ class DrawnCases {
   /// How many keys are drawn: one or two.
   std::size_t keys_drawn() const { return titles_.y.empty() ? 1 : 2; }
 
+  /// The curves of events of the cases, λ over the number, as lines: of each the same number of points at most, and of
+  /// no more than a page can show.
+  const LoadLines& curves() const { return curves_; }
+
   /// Over one of the keys that are drawn. Means are joined along that key, whatever the values of further keys.
   LoadLines lines(std::size_t load, std::size_t key) const;
 
@@ -66,6 +70,7 @@ class DrawnCases {
   MapPoint point(const One& one, std::size_t load, std::size_t first_noted) const;
   MapPoint point(const std::pair<Json, Json>& at, const Mean& mean, std::size_t load) const;
   std::string note(const One& one, std::size_t first) const;
+  void add_curve(const Case& one, const CaseResult& result);
 
   const Collection& collection_;
   std::vector<std::string> order_;  // of the keys: those drawn first
@@ -75,6 +80,7 @@ class DrawnCases {
   MapTitles titles_{};
   bool are_means_ = false;
   int parts_ = 0;  // of each key, where cases are drawn as means
+  LoadLines curves_{};
   std::vector<One> cases_{};
   std::map<std::pair<Json, Json>, Mean> means_{};
 };

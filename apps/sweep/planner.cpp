@@ -9,6 +9,7 @@
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
+#include "model/event_curve.hpp"
 #include "model/model.hpp"
 
 namespace arcwall::sweep {
@@ -100,9 +101,21 @@ class Complaints {
   std::vector<Complaint> found_;
 };
 
+// Builds the model; reports all that is wrong with the deck for what is traced of it.
+void check(const Plan& plan, const deck::Deck& deck) {
+  const Model model(deck);
+  if (plan.sweep.traced == Traced::path) return;
+  if (!deck.curve)
+    throw InputError({Diagnostic{.file = deck.source.file,
+                                 .key = "curve",
+                                 .message = "the deck does not say which event is followed",
+                                 .cure = "add a table [curve], or leave out command = \"curve\" of the sweep"}});
+  require_curve(deck);
+}
+
 std::vector<Diagnostic> problems_of_base(const Plan& plan, const std::string& deck_file) {
   try {
-    const Model model(deck::read_deck_text(plan.deck_text, deck_file));
+    check(plan, deck::read_deck_text(plan.deck_text, deck_file));
   } catch (const InputError& error) {
     return error.diagnostics();
   }
@@ -113,7 +126,7 @@ void check_cases(const Plan& plan, const std::string& deck_file) {
   Complaints complaints(plan.sweep, problems_of_base(plan, deck_file));
   for (const Case& one : plan.cases) {
     try {
-      const Model model(deck::read_deck_text(plan.deck_text, deck_file, assignments(one)));
+      check(plan, deck::read_deck_text(plan.deck_text, deck_file, assignments(one)));
     } catch (const InputError& error) {
       complaints.add(one, error);
     }

@@ -152,12 +152,13 @@ class Pool {
   ChildCommand command(const Case& one, const CaseDraft& claimed) const {
     const fs::path& draft = claimed.path();
     const std::string folder = fs::path(draft.parent_path().filename() / draft.filename()).string();
-    ChildCommand result{.program = request_.program,
-                        .body = request_.body,
-                        .arguments = {"run", "./" + one.deck, "--out", folder},
-                        .folder = request_.folder,
-                        .messages = fs::absolute(draft / messages_file_name),
-                        .kept_open = claimed.lock_descriptor()};
+    ChildCommand result{
+        .program = request_.program,
+        .body = request_.body,
+        .arguments = {request_.traced == Traced::curve ? "curve" : "run", "./" + one.deck, "--out", folder},
+        .folder = request_.folder,
+        .messages = fs::absolute(draft / messages_file_name),
+        .kept_open = claimed.lock_descriptor()};
     std::vector<std::string>& words = result.arguments;
     // An option that is given twice is refused.
     const auto add = [&](const char* flag) {
@@ -167,8 +168,18 @@ class Pool {
     for (const char* flag : {"--force", "--quiet", "--no-pictures"}) add(flag);
     if (request_.keep == Keep::records) add("--scratch");
     words.insert(words.end(), request_.options.begin(), request_.options.end());
+    if (leaves_out_landings(one)) words.insert(words.end(), {"--set", "path.landing=false"});
     for (const std::string& assignment : assignments(one)) words.insert(words.end(), {"--set", assignment});
     return result;
+  }
+
+  // What a deck does not say is not asked of each of many cases.
+  bool leaves_out_landings(const Case& one) const {
+    const auto sets_it = [](const auto& pair) { return pair.first == "path.landing"; };
+    const auto passes_it = [](const std::string& word) { return word.find("path.landing") != std::string::npos; };
+    return !request_.landing && request_.traced == Traced::path &&
+           std::none_of(one.set.begin(), one.set.end(), sets_it) &&
+           std::none_of(request_.options.begin(), request_.options.end(), passes_it);
   }
 
   // The limit of time is of one process, not of the case.

@@ -9,6 +9,7 @@
 #include "apps/sweep/case_list.hpp"
 #include "apps/sweep/case_records.hpp"
 #include "apps/sweep/child.hpp"
+#include "model/run_description.hpp"
 
 namespace arcwall::sweep {
 
@@ -21,7 +22,9 @@ struct RunRequest {
   std::filesystem::path program{};       ///< trace-path
   ChildBody body{};                      ///< in place of the program, where it is given
   int jobs = 1;                          ///< processes at a time
-  std::vector<std::string> options{};    ///< of `trace-path run`, besides those of the case
+  Traced traced = Traced::path;          ///< of each case, by `trace-path run` or `trace-path curve`
+  bool landing = false;                  ///< falls are looked for where the deck does not say
+  std::vector<std::string> options{};    ///< of that command, besides those of the case
   std::optional<double> most_seconds{};  ///< of one case
   double patience = 10.0;                ///< a case that does not stop is killed that long after it should have [s]
   Keep keep = Keep::folders;

@@ -17,6 +17,7 @@ using deck::Value;
 namespace {
 
 constexpr deck::Words<Spacing, 2> spacing_words{{{"linear", Spacing::linear}, {"log", Spacing::log}}};
+constexpr deck::Words<Traced, 2> command_words{{{"run", Traced::path}, {"curve", Traced::curve}}};
 
 // A key of the deck, with what the sweep says of it.
 struct Entry {
@@ -268,6 +269,7 @@ Sweep read_sweep_text(std::string_view text, const std::string& file_name, Rows 
     sweep.deck = deck_file.text;
     sweep.deck_position = deck_file.position;
   }
+  root.word("command", Presence::optional, command_words, sweep.traced);
   read_design(root, rows, sweep);
   if (auto ties = root.table("tie", Presence::optional)) read_ties(*ties, sweep);
   root.finish();

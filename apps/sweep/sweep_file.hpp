@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/sweep/design.hpp"
+#include "model/run_description.hpp"
 
 namespace arcwall::sweep {
 
@@ -28,6 +29,7 @@ struct Sweep {
   std::string title{};
   std::string deck{};  ///< file, from the sweep's folder
   deck::Position deck_position{};
+  Traced traced = Traced::path;  ///< of each case, by `command`
   std::vector<Key> keys{};
   std::vector<std::vector<Json>> rows{};  ///< one a case; the values of the keys in their order
   std::vector<Tie> ties{};

@@ -93,6 +93,13 @@ std::string load_section(const DrawnCases& drawn, std::size_t load) {
          pictures + "</div>\n" + panels + "</section>\n";
 }
 
+std::string curves_html(const DrawnCases& drawn) {
+  if (!has_lines(drawn.curves())) return "";
+  const std::string svg = lines_svg(drawn.curves());
+  return "<section>\n<h2>Curves of the event</h2>\n<div class=\"views\">\n" +
+         figure(svg, "A line for each case; a mark is a point of its curve") + "</div>\n</section>\n";
+}
+
 std::string loads_html(const DrawnCases& drawn) {
   if (drawn.loads().empty()) return "<section><p>No case has an event yet.</p></section>\n";
   std::string options, sections;
@@ -125,10 +132,12 @@ std::string report_html(const Collection& collection, const Overview& of_all, co
              "<link rel=\"icon\" href=\"data:,\">\n"
              "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n",
              script_hash, title, style_text, title) +
-         summary(collection, of_all) + "</header>\n<main>\n" + loads_html(drawn) + failure_table(of_all) +
+         summary(collection, of_all) + "</header>\n<main>\n" + curves_html(drawn) + loads_html(drawn) +
+         failure_table(of_all) +
          fmt::format(
-             "<p class=\"note\">All numbers: cases.csv (one row a case) and sweep.csv (one row an event). trace-path "
+             "<p class=\"note\">All numbers: cases.csv (one row a case) and sweep.csv (one row {}). trace-path "
              "{}.</p>\n",
+             collection.sweep().traced == Traced::curve ? "a special point; all points in curves.csv" : "an event",
              program_version()) +
          "</main>\n</body>\n</html>\n";
 }

@@ -185,6 +185,7 @@ std::optional<Session> traced_again(const Session& run) {
   shorter.assignments.push_back("path.max_points=" + std::to_string(points));
   // What was found began at states that Newton's method came to, which nothing else leads to.
   shorter.assignments.emplace_back("path.search=false");
+  shorter.assignments.emplace_back("path.landing=false");  // falls have no steps of the path
   std::optional<Session> again(std::in_place, std::move(shorter));
   if (!again->begin()) return std::nullopt;
   while (again->next() != nullptr) {
@@ -198,9 +199,9 @@ Comparison compare(const Record& stored, const Record& again, double discretisat
 
 double step_discretisation(const Model& model) { return model.sliding() != nullptr ? 1e-6 : 1e-8; }
 
-std::string to_text(const Comparison& comparison) {
-  std::string text = fmt::format("with a quarter of the step: {} events agree, λ to {:.3g} where {:.3g} is allowed\n",
-                                 comparison.same, comparison.worst, comparison.worst_allowed);
+std::string to_text(const Comparison& comparison, const std::string& how) {
+  std::string text = fmt::format("{}: {} events agree, λ to {:.3g} where {:.3g} is allowed\n", how, comparison.same,
+                                 comparison.worst, comparison.worst_allowed);
   for (const std::string& sentence : comparison.reservations) text += "- " + sentence + "\n";
   return text;
 }

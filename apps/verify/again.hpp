@@ -33,6 +33,7 @@ Comparison compare(const Record& stored, const Record& again, double discretisat
 /// along the path, else 10⁻⁸, which correctors leave.
 double step_discretisation(const Model& model);
 
-std::string to_text(const Comparison& comparison);
+/// `how`: the other run, as `with a quarter of the step`.
+std::string to_text(const Comparison& comparison, const std::string& how);
 
 }  // namespace arcwall::verify

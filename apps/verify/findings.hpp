@@ -27,7 +27,7 @@ struct CheckSummary {
 /// What was compared, and the first that does not hold.
 class Findings {
  public:
-  /// Where the values that follow belong.
+  /// Where the values that follow belong; `branch` is −1 of a curve of events, whose points are the steps.
   void at(std::string file, Index branch, Index step);
 
   /// A value that must not exceed its bound; NaN does. `what` says which of the check's values it is.

@@ -58,6 +58,10 @@ struct CountRange {
 };
 CountRange unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero);
 
+/// The same at a place where a freedom may itself be critical: its diagonal is not made one then, and is compared with
+/// what its parts are, so that the eigenvalue is seen to be zero.
+CountRange range_at_singular(const PointAtHand& at, const ZeroEigenvalue& zero);
+
 /// The same where the forces of the supports that λ moves are dead loads, and λ one more unknown. Empty where λ drives
 /// anything else, where the mesh slides, and where a held node is in contact.
 std::optional<CountRange> unstable_dead_range(const PointAtHand& at, const ZeroEigenvalue& zero);

@@ -261,6 +261,19 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   return force * stretch / opening;
 }
 
+// An element that turns farther does not tell how the body bends [rad].
+constexpr double most_turn = 0.3;
+
+bool is_unresolved(const Sliding& at, Index strand) {
+  double before = at.mesh.node(strand, 0, at.now).angle;
+  for (Index position = 1; position < at.mesh.nodes(strand); ++position) {
+    const double here = at.mesh.node(strand, position, at.now).angle;
+    if (std::abs(here - before) > most_turn) return true;
+    before = here;
+  }
+  return false;
+}
+
 // Of a point, or of a tip up to which the body is pressed.
 Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
                   const SlidingNode& node, std::optional<std::size_t> point) {
@@ -281,6 +294,7 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
     return tangency;
   }
   tangency.spring = touch.closed ? contact_spring(*at, wall, node, *point, touch.force) : 0.0;
+  tangency.unresolved = touch.closed && is_unresolved(*at, node.strand);
   return tangency;
 }
 
@@ -528,7 +542,10 @@ Entry deepest_entry(const Model& model, const std::vector<PlainWall>& walls, con
     std::optional<ShapeAllowance> allowance;
     for (int i = 0; i <= places; ++i) {
       const double t = double(i) / places, depth = -beside.gap(t);
-      if (depth > roundoff && !allowance) allowance.emplace(beside, places, 1e-5 * at.body.length_scale());
+      if (depth > roundoff && !allowance) {
+        const bool turns_far = std::abs(beside.place(1.0).angle - beside.place(0.0).angle) > most_turn;
+        allowance.emplace(beside, places, (turns_far ? 1e-3 : 1e-5) * at.body.length_scale());
+      }
       const double allowed = roundoff + (depth > roundoff ? allowance->at(t) : 0.0);
       if (depth * deepest.allowed > deepest.depth * allowed)  // nearer to what is allowed, or beyond
         deepest = {.depth = depth, .allowed = allowed, .where = beside.name(t)};

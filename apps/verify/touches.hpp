@@ -47,7 +47,8 @@ struct Tangency {
   double moment = 0.0;          ///< that holds it, as stored [force·length]
   bool end_of_pressed = false;  ///< where bending is continuous instead of the moment zero
   std::optional<double>
-      spring{};  ///< second variation of a contact that slides; empty: the tilt is held [force·length]
+      spring{};             ///< second variation of a contact that slides; empty: the tilt is held [force·length]
+  bool unresolved = false;  ///< an element of its strand turns so far that the mesh does not tell the spring
 };
 
 /// A place between two walls without clearance through which a member slides: what is there of it stays on the place

@@ -116,7 +116,11 @@ std::vector<std::string> left_out(const Model& model, const CountPlan& plan, Ind
         "unstable directions between events at all but every {}th point: dense eigenvalues are slow", plan.every));
   if (model.contact() != nullptr && model.sliding() == nullptr)
     sentences.emplace_back("whether members enter walls between nodes: contact at nodes knows of nodes alone");
-  if (model.sliding() != nullptr) sentences.emplace_back("how a member bends at the ends of parts pressed on a wall");
+  if (model.sliding() != nullptr)
+    sentences.emplace_back(
+        "how a member bends at the ends of parts pressed on a wall; and how contact slides along members of which an "
+        "element turns by more than 0.3 rad, which the mesh does not tell: any number of unstable directions is taken "
+        "from that where contact holds the member's direction to that where it does not");
   sentences.emplace_back(
       "arc lengths, iterations, residuals, modes and types of branch points: they are not told by single states");
   if (moves_supports)
@@ -214,7 +218,8 @@ std::string to_text(const Verdict& verdict) {
   std::vector<std::vector<std::string>> rows;
   for (const CheckSummary& check : verdict.findings.checks())
     rows.push_back({check.name, std::to_string(check.count), fmt::format("{:.3g}", check.value),
-                    fmt::format("{:.3g}", check.bound), std::to_string(check.branch), std::to_string(check.step)});
+                    fmt::format("{:.3g}", check.bound), check.branch < 0 ? "" : std::to_string(check.branch),
+                    std::to_string(check.step)});
   std::string text = text_table({{"check", Side::left},
                                  {"values", Side::right},
                                  {"worst", Side::right},
@@ -228,8 +233,9 @@ std::string to_text(const Verdict& verdict) {
 }
 
 std::string to_text(const Failure& failure) {
-  std::string text =
-      fmt::format("{}: branch {}, step {}: {}", failure.file, failure.branch, failure.step, failure.what);
+  const std::string where = failure.branch < 0 ? fmt::format("point {}", failure.step)
+                                               : fmt::format("branch {}, step {}", failure.branch, failure.step);
+  std::string text = fmt::format("{}: {}: {}", failure.file, where, failure.what);
   if (failure.value) text += fmt::format(": {:.6g} exceeds {:.6g}", *failure.value, *failure.bound);
   return text;
 }

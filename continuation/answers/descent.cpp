@@ -24,7 +24,8 @@ constexpr double far_away = 10.0;           // of the start
 // One step of the motion, or with μ = 0 rest itself.
 class HeldMinimum {
  public:
-  HeldMinimum(const UnilateralSystem& system, const MakeFactorization& make) : system_(system), solver_(make()) {}
+  HeldMinimum(const UnilateralSystem& system, const MakeFactorization& make, Index& factorizations)
+      : system_(system), solver_(make()), left_(factorizations) {}
 
   // The minimum of Π + ½ μ |x − from|²_W near `from` among the obstacles; empty if there is none near, or the way to it
   // is not convex.
@@ -44,6 +45,7 @@ class HeldMinimum {
     const Vector weights = system_.weights(state.piece);
     const Index multipliers = system_.multiplier_count(state.piece), n = weights.size() - multipliers;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      if (left_-- <= 0) return false;
       system_.linearize(state, now_);
       const Vector held = mu * weights.head(n).cwiseProduct(state.x.head(n) - from.x.head(n));
       now_.F.head(n) += held;
@@ -86,6 +88,7 @@ class HeldMinimum {
   const UnilateralSystem& system_;
   Linearization now_;
   std::unique_ptr<Factorization> solver_;
+  Index& left_;
 };
 
 double distance(const UnilateralSystem& system, const State& a, const State& b) {
@@ -108,14 +111,19 @@ double greatest_stiffness(const UnilateralSystem& system, const State& state) {
 
 }  // namespace
 
-Descent descend(const UnilateralSystem& system, const State& start, const MakeFactorization& make) {
-  HeldMinimum minimum(system, make);
+Descent descend(const UnilateralSystem& system, const State& start, const MakeFactorization& make,
+                Index& factorizations) {
+  HeldMinimum minimum(system, make, factorizations);
   Descent descent{.state = start};
   const double greatest = greatest_stiffness(system, start), least = 1e-12 * greatest;
   double mu = 1e-4 * greatest;
   for (; descent.steps < most_steps; ++descent.steps) {
     const auto next = minimum.find(descent.state, mu);
     const double length = next ? distance(system, *next, descent.state) : infinity;
+    if (factorizations <= 0) {
+      descent.end = DescentEnd::cut_off;
+      return descent;
+    }
     if (!next || length > longest_motion) {
       if (mu > 10.0 * greatest) return descent;
       mu *= 4.0;

@@ -12,6 +12,7 @@ enum class DescentEnd {
   at_rest,     ///< at a minimum of the potential
   falls_away,  ///< farther than structures go: nothing holds it
   not_found,   ///< it came to no rest
+  cut_off,     ///< it took more work than it was given
 };
 
 struct Descent {
@@ -28,6 +29,9 @@ struct Descent {
 /// by implicit Euler, each step of which is a minimum of Π + ½ μ |x − xₙ|²_W among the obstacles, found by Newton's
 /// method with an active set. μ, the inverse of the time step, is so large that each of these is convex and no step is
 /// long. So Π falls from step to step. The unknowns mean the same all along: contacts are those of nodes.
-Descent descend(const UnilateralSystem& system, const State& start, const MakeFactorization& make);
+///
+/// `factorizations`: that it may make; what is left of them when it ends.
+Descent descend(const UnilateralSystem& system, const State& start, const MakeFactorization& make,
+                Index& factorizations);
 
 }  // namespace arcwall

@@ -142,14 +142,15 @@ struct WeightedEquations {
   Linearization equations{};
 };
 
-std::vector<WeightedEquations> equations_of(const std::vector<WeightedMember>& samples, Differences how) {
+std::vector<WeightedEquations> equations_of(std::vector<WeightedMember>& samples, Differences how) {
   std::vector<WeightedEquations> list;
-  for (const WeightedMember& sample : samples) {
+  for (WeightedMember& sample : samples) {
     const double weight = how == Differences::fine ? sample.weight : sample.few;
     if (weight == 0.0) continue;
     WeightedEquations& one = list.emplace_back();
     one.weight = weight;
     sample.member.system->linearize(sample.member.state, one.equations);
+    sample.F = one.equations.F;
   }
   return list;
 }
@@ -172,8 +173,7 @@ EventEquation equation_of(const BorderedScalar& scalar, const SystemFamily::Memb
 
 // What turns: m′ = ∇m · t with A t = (0, 1), Aᵀ P = ∇m; λ itself has ∇m = (0, 1).
 std::optional<std::vector<EventEquation>> turning_equation(const SystemFamily::Member& at, const EventBorder& border,
-                                                           BorderedMatrix& A,
-                                                           const std::vector<WeightedMember>& samples,
+                                                           BorderedMatrix& A, std::vector<WeightedMember>& samples,
                                                            const Metric& metric) {
   Row gradient{.dx = Vector::Zero(at.state.x.size()), .dlambda = 1.0};
   if (at.turning) gradient = at.turning->gradient(at.state);
@@ -196,7 +196,7 @@ std::optional<std::vector<EventEquation>> turning_equation(const SystemFamily::M
 // A crossing: both σ₁ and σ₂ vanish in A (v₁, σ₁) = (0, 1) and A (v₂, σ₂) = (−F_λ, 0); Aᵀ (w, σ₁) = (0, 1).
 std::optional<std::vector<EventEquation>> crossing_equations(const SystemFamily::Member& at, BorderedMatrix& A,
                                                              const Vector& F_lambda,
-                                                             const std::vector<WeightedMember>& samples,
+                                                             std::vector<WeightedMember>& samples,
                                                              const Metric& metric) {
   const Vector zero = Vector::Zero(at.state.x.size());
   const auto first = A.solve(zero, 1.0), second = A.solve(-F_lambda, 0.0), left = A.solve_transposed(zero, 1.0);
@@ -264,8 +264,8 @@ std::optional<EventBorder> event_border(Criterion criterion, const SystemFamily:
 
 std::optional<std::vector<EventEquation>> singular_equations(Criterion criterion, const SystemFamily::Member& at,
                                                              const EventBorder& border, Linearization& equations,
-                                                             const std::vector<WeightedMember>& samples,
-                                                             const Metric& metric, const MakeFactorization& make) {
+                                                             std::vector<WeightedMember>& samples, const Metric& metric,
+                                                             const MakeFactorization& make) {
   BorderedMatrix A = matrix_of(criterion, at, border, equations, make);
   if (criterion == Criterion::turning) return turning_equation(at, border, A, samples, metric);
   return crossing_equations(at, A, equations.F_lambda, samples, metric);

@@ -15,6 +15,7 @@ struct WeightedMember {
   SystemFamily::Member member{};
   double weight = 0.0;  ///< [1/κ]
   double few = 0.0;     ///< the weight of a derivative from three members alone, for what Newton's method alone needs
+  Vector F{};           ///< its residual, where that is known
 };
 
 /// What makes a point of a path an event, beside equilibrium with the event's contacts (docs/theory.md, section 14).
@@ -54,11 +55,11 @@ std::optional<Direction> path_direction(Criterion criterion, const SystemFamily:
                                         const Metric& metric, const MakeFactorization& make);
 
 /// The equations of an event that is no change of contact: one for what turns, two for a crossing. `equations` are
-/// those at the member's state. Empty where A is singular.
+/// those at the member's state; samples whose equations are needed have their residual then. Empty where A is singular.
 std::optional<std::vector<EventEquation>> singular_equations(Criterion criterion, const SystemFamily::Member& at,
                                                              const EventBorder& border, Linearization& equations,
-                                                             const std::vector<WeightedMember>& samples,
-                                                             const Metric& metric, const MakeFactorization& make);
+                                                             std::vector<WeightedMember>& samples, const Metric& metric,
+                                                             const MakeFactorization& make);
 
 /// The cosine between the border and what is singular at a state, at least of what A's solutions show: near zero A is
 /// nearly singular and another border is due. Zero where A is singular.

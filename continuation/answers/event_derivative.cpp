@@ -105,22 +105,6 @@ auto difference_along(const Metric& metric, const State& state, const Direction&
   return sum;
 }
 
-// Long steps have an error of their own, where contacts slide over bends or elements are slender, short ones that of
-// round-off: of the two steps in a row whose derivatives differ least the longer one is taken.
-template <typename Function>
-double with_best_step(const Function& derivative) {
-  double best = std::nan(""), least = infinity, before = derivative(longest_step);
-  for (int i = 1; i < steps; ++i) {
-    const double now = derivative(std::ldexp(longest_step, -i));
-    if (std::abs(now - before) < least) {
-      least = std::abs(now - before);
-      best = before;
-    }
-    before = now;
-  }
-  return best;
-}
-
 // The length of a step of the number.
 double step_of(const std::vector<SystemSample>& samples) {
   double greatest = 0.0;
@@ -136,6 +120,20 @@ EventDerivative known(double value) {
 }
 
 }  // namespace
+
+// Long steps have an error of their own, where contacts slide over bends or elements are slender, short ones that of
+// round-off: of the two steps in a row whose derivatives differ least the longer one is taken.
+template <typename Function>
+EventDerivatives::Settled EventDerivatives::with_best_step(const Function& derivative) {
+  Settled best{.value = std::nan(""), .off = infinity};
+  double before = derivative(longest_step);
+  for (int i = 1; i < steps; ++i) {
+    const double now = derivative(std::ldexp(longest_step, -i));
+    if (std::abs(now - before) < best.off) best = {.value = before, .off = std::abs(now - before)};
+    before = now;
+  }
+  return best;
+}
 
 EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const Event& event, const Observable* turning,
                                    double lambda_scale, const MakeFactorization& factorization)
@@ -200,8 +198,11 @@ bool EventDerivatives::begin_crossing(const BranchPoint& point) {
   kernel_.push_back({.dx = std::move(*response), .dlambda = 1.0});
   load_work_ = greatest_work(F_lambda) * std::max(std::abs(state_.lambda), metric_.lambda_scale());
   for (Index i = 0; i < 2; ++i)
-    for (Index j = 0; j <= i; ++j)
-      bend_(i, j) = bend_(j, i) = bend(kernel_[static_cast<std::size_t>(i)], kernel_[static_cast<std::size_t>(j)]);
+    for (Index j = 0; j <= i; ++j) {
+      const Settled of = bend(kernel_[static_cast<std::size_t>(i)], kernel_[static_cast<std::size_t>(j)]);
+      bend_(i, j) = bend_(j, i) = of.value;
+      bend_off_(i, j) = bend_off_(j, i) = of.off;
+    }
   is_symmetric_ = point.type == BranchType::symmetric || std::abs(bend_(0, 0)) <= symmetric * std::abs(bend_(0, 1));
   return bend_.allFinite();
 }
@@ -214,7 +215,7 @@ Vector EventDerivatives::second_derivative(const Direction& k, const Direction& 
 }
 
 // wᵀ D²F[k, d]
-double EventDerivatives::bend(const Direction& k, const Direction& d) {
+EventDerivatives::Settled EventDerivatives::bend(const Direction& k, const Direction& d) {
   return with_best_step([&](double h) { return left_.dot(second_derivative(k, d, h)); });
 }
 
@@ -267,7 +268,8 @@ EventDerivative EventDerivatives::by_guards(const Direction& response, const std
 // The rate along d of the rate m′ = ∇m · t of a monitor: t changes by
 //
 //   J δt_x + F_λ δt_λ = −D²F[t, d] − more,    ⟨t, δt⟩ = 0
-double EventDerivatives::turning_rate(const Direction& d, const Vector& more, double more_of_gradient) {
+EventDerivatives::Settled EventDerivatives::turning_rate(const Direction& d, const Vector& more,
+                                                         double more_of_gradient) {
   const Row gradient = turning_->gradient(state_);
   return with_best_step([&](double h) {
     const Direction change = along_path(-second_derivative(tangent_, d, h) - more);
@@ -281,8 +283,19 @@ EventDerivative EventDerivatives::by_turning(const Direction& response, const st
   double of_gradient = 0.0;
   for (const SystemSample& sample : samples)
     of_gradient += sample.weight * apply(sample.turning->gradient(sample.state), tangent_);
-  const double rate = turning_rate(response, directional_rate(samples, tangent_), of_gradient);
-  return known(response.dlambda - rate / turning_along_ * tangent_.dlambda);
+  const Settled rate = turning_rate(response, directional_rate(samples, tangent_), of_gradient);
+  const double along = turning_along_.value, moves = rate.value / along;
+  return settled({.value = response.dlambda - moves * tangent_.dlambda,
+                  .off = std::abs(tangent_.dlambda / along) * (rate.off + std::abs(moves) * turning_along_.off)},
+                 samples);
+}
+
+// Laws with kinks and walls whose curvature jumps have no second derivatives that differences come to.
+EventDerivative EventDerivatives::settled(const Settled& slope, const std::vector<SystemSample>& samples) const {
+  constexpr double sure = 1e-3, little = 1e-9;  // of the slope; of λ by a step of the number
+  if (slope.off > sure * std::abs(slope.value) + little * std::abs(state_.lambda) / step_of(samples))
+    return none("the second derivatives of the equations are not told there, as beside a kink of a law or of a wall");
+  return known(slope.value);
 }
 
 // The most work that f does along the left null vector, displacements and multipliers by themselves: the metric knows
@@ -305,14 +318,22 @@ EventDerivative EventDerivatives::by_crossing(const Vector& F_kappa, const std::
   auto v = corrector_.response_across(metric_.row(kernel_.front()), -F_kappa);
   if (!v) return none("the equations are singular at the event");
   const Direction response{.dx = std::move(*v), .dlambda = 0.0};
-  Eigen::Vector2d right;
+  Eigen::Vector2d right, off;
   for (Index i = 0; i < 2; ++i) {
     const Direction& k = kernel_[static_cast<std::size_t>(i)];
-    right[i] = bend(k, response) + left_.dot(directional_rate(samples, k));
+    const Settled of = bend(k, response);
+    right[i] = of.value + left_.dot(directional_rate(samples, k));
+    off[i] = of.off;
   }
-  if (is_symmetric_) return known(-right[0] / bend_(0, 1));
+  if (is_symmetric_) {
+    const double slope = -right[0] / bend_(0, 1);
+    return settled({.value = slope, .off = (off[0] + std::abs(slope) * bend_off_(0, 1)) / std::abs(bend_(0, 1))},
+                   samples);
+  }
   const double determinant = bend_.determinant();
-  return known(-(bend_(0, 0) * right[1] - bend_(1, 0) * right[0]) / determinant);
+  const double slope = -(bend_(0, 0) * right[1] - bend_(1, 0) * right[0]) / determinant;
+  const double parts = std::abs(bend_(0, 0)) * off[1] + std::abs(bend_(1, 0)) * off[0];
+  return settled({.value = slope, .off = parts / std::abs(determinant)}, samples);
 }
 
 }  // namespace arcwall

@@ -44,15 +44,23 @@ class EventDerivatives {
  private:
   enum class Condition { limit, turning, guards, crossing };
 
+  // A difference with the step that serves best, and by how much the next one differs.
+  struct Settled {
+    double value = 0.0, off = 0.0;
+  };
+
   bool begin_regular(const Direction& along);
   bool begin_crossing(const BranchPoint& point);
   Vector second_derivative(const Direction& k, const Direction& d, double h);
-  double bend(const Direction& k, const Direction& d);
+  Settled bend(const Direction& k, const Direction& d);
   Direction along_path(const Vector& f);
   EventDerivative by_guards(const Direction& response, const std::vector<SystemSample>& samples) const;
   EventDerivative by_turning(const Direction& response, const std::vector<SystemSample>& samples);
-  double turning_rate(const Direction& d, const Vector& more, double more_of_gradient);
+  Settled turning_rate(const Direction& d, const Vector& more, double more_of_gradient);
   double greatest_work(const Vector& f) const;
+  EventDerivative settled(const Settled& slope, const std::vector<SystemSample>& samples) const;
+  template <typename Function>
+  static Settled with_best_step(const Function& derivative);
   EventDerivative by_crossing(const Vector& F_kappa, const std::vector<SystemSample>& samples);
 
   const System& system_;
@@ -64,13 +72,13 @@ class EventDerivatives {
   std::string why_none_;
   Direction tangent_;                    // of the path; of a branch point none
   const Observable* turning_ = nullptr;  // of a displacement limit
-  double turning_along_ = 0.0;           // the rate of its rate along the path
+  Settled turning_along_;                // the rate of its rate along the path
   std::vector<Index> guards_;            // that vanish
   Vector left_;                          // of a branch point: the left null vector w,
   double load_work_ = 0.0;               // the most work of the loads along it,
   std::vector<Direction> kernel_;        // the null vectors of [J F_λ]: the mode, and one with λ = 1,
   bool is_symmetric_ = false;            // whether it is a pitchfork,
-  Eigen::Matrix2d bend_;                 // and wᵀ D²F of these
+  Eigen::Matrix2d bend_, bend_off_;      // and wᵀ D²F of these
 };
 
 }  // namespace arcwall

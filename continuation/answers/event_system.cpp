@@ -36,24 +36,20 @@ Direction base_direction(const Direction& direction, Index n) {
 
 }  // namespace
 
-// The event's piece in the family's terms, and the border.
-class EventSystem::EventLayout final : public Layout {
+class EventSystem::EventLayout final : public Layout, public Meaning {
  public:
-  EventLayout(Piece of, Index size, Vector of_weights, Index of_multipliers, Index of_guards, EventBorder with)
-      : piece(std::move(of)),
-        base_size(size),
-        base_weights(std::move(of_weights)),
-        multipliers(of_multipliers),
-        guards(of_guards),
-        border(std::move(with)) {}
+  explicit EventLayout(Meaning meaning) : Meaning(std::move(meaning)), base_size(weights.size()) {}
 
-  Piece piece;
   Index base_size;
-  Vector base_weights;
-  Index multipliers;
-  Index guards;
-  EventBorder border;
 };
+
+const EventSystem::Meaning* EventSystem::meaning_of(const Layout& layout) {
+  return dynamic_cast<const EventLayout*>(&layout);
+}
+
+std::shared_ptr<const Layout> EventSystem::with_meaning(Meaning meaning) {
+  return std::make_shared<EventLayout>(std::move(meaning));
+}
 
 EventSystem::EventSystem(const SystemFamily& family, FollowedEvent event, double lambda_scale, MakeFactorization make)
     : family_(family), event_(std::move(event)), lambda_scale_(lambda_scale), make_(std::move(make)) {}
@@ -89,9 +85,11 @@ State EventSystem::extended(const SystemFamily::Member& at, const State& event, 
                             const State* like) const {
   const System& system = *at.system;
   const Piece& piece = at.state.piece;
-  auto layout =
-      std::make_shared<EventLayout>(event.piece, event.x.size(), system.weights(piece), system.multiplier_count(piece),
-                                    system.guard_count(piece), std::move(border));
+  auto layout = with_meaning({.piece = event.piece,
+                              .weights = system.weights(piece),
+                              .multipliers = system.multiplier_count(piece),
+                              .guards = system.guard_count(piece),
+                              .border = std::move(border)});
   State state{.x = Vector::Zero(event.x.size() + extra()), .lambda = kappa, .piece = Piece(0, 0, std::move(layout))};
   state.x.head(event.x.size()) = event.x;
   state.x[event.x.size()] = event.lambda;
@@ -117,7 +115,7 @@ double EventSystem::energy(const State& state) const {
 Vector EventSystem::weights(const Piece& piece) const {
   const EventLayout& layout = layout_of(piece);
   Vector weights = Vector::Ones(layout.base_size + extra());
-  weights.head(layout.base_size) = layout.base_weights;
+  weights.head(layout.base_size) = layout.weights;
   weights[layout.base_size] = 1.0 / (lambda_scale_ * lambda_scale_);
   return weights;
 }
@@ -151,7 +149,7 @@ std::vector<WeightedMember> EventSystem::samples(const State& event, double kapp
 
 std::optional<std::vector<EventEquation>> EventSystem::equations(const SystemFamily::Member& at,
                                                                  const EventBorder& border, Linearization& here,
-                                                                 const std::vector<WeightedMember>& samples) const {
+                                                                 std::vector<WeightedMember>& samples) const {
   if (event_.criterion != Criterion::guard)
     return singular_equations(event_.criterion, at, border, here, samples, metric_of(at), make_);
   const Index j = event_.guards.front();
@@ -168,7 +166,8 @@ void EventSystem::residual(const State& state, Eigen::Ref<Vector> F) const {
   if (!member) return;
   Linearization here;
   member->system->linearize(member->state, here);
-  const auto found = equations(*member, layout.border, here, {});
+  std::vector<WeightedMember> none;
+  const auto found = equations(*member, layout.border, here, none);
   if (!found) return;
   F.head(layout.base_size) = here.F;
   if (extra() == 2) F.head(layout.base_size) += state.x[layout.base_size + 1] * layout.border.column;
@@ -223,7 +222,7 @@ void EventSystem::linearize(const State& state, Linearization& out) const {
   const State event = in_common_terms(state);
   const auto member = family_.at(state.lambda, event);
   if (!member) return;
-  const std::vector<WeightedMember> beside = samples(event, state.lambda);
+  std::vector<WeightedMember> beside = samples(event, state.lambda);
   if (beside.empty()) return;
   if (!out.inner) out.inner = std::make_unique<Linearization>();
   Linearization& here = *out.inner;
@@ -235,8 +234,8 @@ void EventSystem::linearize(const State& state, Linearization& out) const {
   out.F_lambda = Vector::Zero(n + e);
   Vector F(n);
   for (const WeightedMember& sample : beside) {
-    sample.member.system->residual(sample.member.state, F);
-    out.F_lambda.head(n) += sample.weight * F;
+    if (sample.F.size() == 0) sample.member.system->residual(sample.member.state, F);
+    out.F_lambda.head(n) += sample.weight * (sample.F.size() == 0 ? F : sample.F);
   }
   extend(here, *found, layout.border.column, out);
   out.pattern_of = state.piece;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,7 +33,10 @@ class EventSystem final : public System {
   /// An event's state, in the family's terms, as a state here; empty if it cannot be told what is singular there.
   std::optional<State> of_event(const State& event, double kappa) const;
 
-  /// The state of a point of the curve in the terms of the system for its κ; empty where there is none.
+  /// The event's state of a point of the curve, in the family's terms.
+  State in_common_terms(const State& state) const;
+
+  /// The same in the terms of the system for its κ; empty where there is none.
   std::optional<SystemFamily::Member> at(const State& state) const;
 
   /// The direction of the path through the event at a point, in the terms of the system for its κ.
@@ -45,6 +49,20 @@ class EventSystem final : public System {
   static double lambda_rate(const State& state, const Direction& direction);
 
   const FollowedEvent& event() const { return event_; }
+
+  /// What the unknowns of a state here mean, as plain values: for those who keep states.
+  struct Meaning {
+    Piece piece{};     ///< of the event, in the family's terms
+    Vector weights{};  ///< of the unknowns of the event
+    Index multipliers = 0, guards = 0;
+    EventBorder border{};
+  };
+
+  /// Null of a layout that is not of a state here.
+  static const Meaning* meaning_of(const Layout& layout);
+
+  /// A layout of that meaning.
+  static std::shared_ptr<const Layout> with_meaning(Meaning meaning);
 
   /// The metric of x and λ alone.
   Metric metric_of(const SystemFamily::Member& member) const;
@@ -75,16 +93,13 @@ class EventSystem final : public System {
 
   static const EventLayout& layout_of(const Piece& piece);
   Index extra() const { return event_.criterion == Criterion::crossing ? 2 : 1; }
-  State in_common_terms(const State& state) const;
-
   // An event's state `event`, in the family's terms, as one here; `at`: the same in those of the system for κ. `like`:
   // a state whose μ it has.
   State extended(const SystemFamily::Member& at, const State& event, double kappa, EventBorder border,
                  const State* like = nullptr) const;
   std::vector<WeightedMember> samples(const State& event, double kappa) const;
   std::optional<std::vector<EventEquation>> equations(const SystemFamily::Member& at, const EventBorder& border,
-                                                      Linearization& here,
-                                                      const std::vector<WeightedMember>& samples) const;
+                                                      Linearization& here, std::vector<WeightedMember>& samples) const;
   bool vanishes(Index guard) const;
   std::optional<Transition> remeshed(const State& from, const SystemFamily::Member& at, const Transition& transition,
                                      const Direction& forward) const;

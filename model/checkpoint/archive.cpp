@@ -9,8 +9,15 @@ namespace arcwall {
 
 using Json = nlohmann::json;
 
+namespace {
+
+constexpr const char* of_an_event = "event";
+
+}  // namespace
+
 bool ArchiveModel::owns(const Piece& piece) const {
   if (!system) return false;
+  if (piece.layout() && EventSystem::meaning_of(*piece.layout())) return event != nullptr && piece.empty();
   const Piece open = system->open_piece();
   if ((piece.layout() == nullptr) != (open.layout() == nullptr)) return false;
   const auto* layout = dynamic_cast<const SlidingContactLayout*>(piece.layout().get());
@@ -23,7 +30,9 @@ bool ArchiveModel::owns(const Piece& piece) const {
 
 bool ArchiveModel::owns(const State& state) const {
   if (state.x.size() == 0 && state.piece == Piece()) return true;
-  return owns(state.piece) && state.x.size() == system->size(state.piece);
+  if (!owns(state.piece)) return false;
+  const bool of_event = state.piece.layout() && EventSystem::meaning_of(*state.piece.layout());
+  return state.x.size() == (of_event ? event->size(state.piece) : system->size(state.piece));
 }
 
 namespace archive_detail {
@@ -68,7 +77,20 @@ Json ArchiveWriter::piece(const Piece& piece) {
     json.push_back(*place);
     return json;
   }
-  const auto& layout = dynamic_cast<const SlidingContactLayout&>(*piece.layout());
+  json.push_back(layout(*piece.layout()));
+  return json;
+}
+
+// Of an event the first entry is a text.
+Json ArchiveWriter::layout(const Layout& any) {
+  ArchiveWriter inner(shared_);
+  if (const EventSystem::Meaning* const meaning = EventSystem::meaning_of(any)) {
+    std::string what = of_an_event;
+    EventSystem::Meaning copy = *meaning;
+    inner(what, copy);
+    return std::move(inner.json_);
+  }
+  const auto& layout = dynamic_cast<const SlidingContactLayout&>(any);
   const auto& stages = shared_->model.sliding;
   const auto is_its = [&](const SlidingContact* contact) { return layout.is_of(contact->body()); };
   auto stage = static_cast<Index>(std::find_if(stages.begin(), stages.end(), is_its) - stages.begin());
@@ -76,10 +98,8 @@ Json ArchiveWriter::piece(const Piece& piece) {
   std::vector<SlidingContactLayout::Point> points = layout.points();
   Vector origin = layout.origin();
   SlidingContactLayout::Lying lying = layout.lying();
-  ArchiveWriter inner(shared_);
   inner(stage, cut, points, origin, lying);
-  json.push_back(std::move(inner.json_));
-  return json;
+  return std::move(inner.json_);
 }
 
 Json ArchiveWriter::branch_point(const std::shared_ptr<const BranchPoint>& point) {
@@ -114,6 +134,7 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
   if (!json.is_array())
     return shared_->layouts[static_cast<std::size_t>(
         whole_number(json, 0, static_cast<std::int64_t>(shared_->layouts.size()) - 1))];
+  if (!json.empty() && json[0].is_string()) return layout_of_event(json);
   Index stage = 0;
   ElementsPerSegment cut;
   std::vector<SlidingContactLayout::Point> points;
@@ -126,6 +147,19 @@ std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {
       model().sliding[static_cast<std::size_t>(stage)]->layout_of(cut, std::move(points), origin, std::move(lying)));
   require(shared_->layouts.back() != nullptr);
   return shared_->layouts.back();
+}
+
+// Its place comes before that of the layout that its own piece may have.
+std::shared_ptr<const Layout> ArchiveReader::layout_of_event(const Json& json) {
+  const std::size_t place = shared_->layouts.size();
+  shared_->layouts.emplace_back();
+  std::string what;
+  EventSystem::Meaning meaning;
+  ArchiveReader inner(json, shared_);
+  inner(what, meaning);
+  require(inner.at_end() && what == of_an_event && model().event != nullptr);
+  shared_->layouts[place] = EventSystem::with_meaning(std::move(meaning));
+  return shared_->layouts[place];
 }
 
 std::shared_ptr<const BranchPoint> ArchiveReader::branch_point(const Json& json) {

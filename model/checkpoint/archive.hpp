@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "contact/sliding_contact.hpp"
+#include "continuation/answers/event_system.hpp"
 #include "continuation/path_point.hpp"
 
 /// Values to and from JSON trees, exactly: what is kept of a run. A structure is an array of its parts in the order in
@@ -30,6 +31,7 @@ class BadArchive : public std::runtime_error {
 struct ArchiveModel {
   const System* system = nullptr;
   std::vector<const SlidingContact*> sliding{};  ///< of each stage that has begun; empty where contact is tied to nodes
+  const EventSystem* event = nullptr;  ///< of the system's event that is followed, whose states may be met, too
 
   /// Whether a state has the unknowns of its piece, and that is a piece of the system. A state without anything is.
   bool owns(const State& state) const;
@@ -74,6 +76,9 @@ class ArchiveWriter {
   }
 
   void require(bool) const {}
+
+  /// That states of an event may follow.
+  void set_event(const EventSystem* event) { shared_->model.event = event; }
 
   const nlohmann::json& json() const { return json_; }
 
@@ -125,6 +130,7 @@ class ArchiveWriter {
   }
 
   Json piece(const Piece& piece);
+  Json layout(const Layout& layout);
   Json branch_point(const std::shared_ptr<const BranchPoint>& point);
 
   std::shared_ptr<Shared> shared_;
@@ -152,6 +158,9 @@ class ArchiveReader {
 
   /// The contacts of stages that are known to have begun now.
   void set_sliding(std::vector<const SlidingContact*> sliding) { shared_->model.sliding = std::move(sliding); }
+
+  /// That states of an event may follow.
+  void set_event(const EventSystem* event) { shared_->model.event = event; }
 
   /// Whether all entries have been read.
   bool at_end() const { return at_ == json_.size(); }
@@ -229,6 +238,7 @@ class ArchiveReader {
   Piece piece(const Json& json);
   std::shared_ptr<const BranchPoint> branch_point(const Json& json);
   std::shared_ptr<const Layout> layout(const Json& json);
+  std::shared_ptr<const Layout> layout_of_event(const Json& json);
 
   std::shared_ptr<Shared> shared_;
   const Json& json_;

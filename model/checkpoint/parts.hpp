@@ -1,5 +1,6 @@
 #pragma once
 
+#include "continuation/answers/event_system.hpp"
 #include "continuation/explorer.hpp"
 #include "model/checkpoint/archive.hpp"
 
@@ -30,6 +31,26 @@ template <typename Archive>
 void parts(Archive& archive, State& state) {
   archive(state.x, state.lambda, state.piece);
   if constexpr (Archive::reads) archive.require(archive.model().owns(state));
+}
+
+template <typename Archive>
+void parts(Archive& archive, Row& row) {
+  archive(row.dx, row.dlambda);
+}
+
+template <typename Archive>
+void parts(Archive& archive, EventBorder& border) {
+  archive(border.column, border.row, border.scale);
+}
+
+template <typename Archive>
+void parts(Archive& archive, EventSystem::Meaning& meaning) {
+  archive(meaning.piece, meaning.weights, meaning.multipliers, meaning.guards, meaning.border);
+  const auto is_whole = [&](const Vector& of) { return of.size() == 0 || of.size() == meaning.weights.size(); };
+  if constexpr (Archive::reads)
+    archive.require(archive.model().owns(meaning.piece) &&
+                    archive.model().system->size(meaning.piece) == meaning.weights.size() &&
+                    is_whole(meaning.border.column) && is_whole(meaning.border.row.dx));
 }
 
 template <typename Archive>

@@ -530,7 +530,8 @@ struct Path {
   std::vector<std::string> watch{};  ///< monitors whose turning points are events
   EventSearch events = EventSearch::locate;
   ContinuumChoice continuum = ContinuumChoice::symmetric;
-  bool landing = false;                    ///< where the structure falls to behind events is looked for
+  bool landing = true;  ///< where the structure falls to behind events is looked for
+  Given landing_given{};
   std::vector<std::string> sensitivity{};  ///< keys of numbers, as in `--set`, by which events have derivatives
   bool search = false;                     ///< equilibria are looked for that no traced branch passes
   std::vector<double> search_at{};         ///< values of λ; empty: five, chosen by the events

@@ -95,8 +95,11 @@ std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string
 }
 
 Deck with_number(const Deck& deck, const DeckNumber& number, double value) {
-  Deck changed = read_deck_text(to_toml(deck), deck.source.file, {number.key + "=" + round_trip(value)});
-  return changed;
+  return with_number(to_toml(deck), deck.source.file, number, value);
+}
+
+Deck with_number(const std::string& text, const std::string& file, const DeckNumber& number, double value) {
+  return read_deck_text(text, file, {number.key + "=" + round_trip(value)});
 }
 
 }  // namespace arcwall::deck

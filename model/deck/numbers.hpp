@@ -35,4 +35,7 @@ std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string
 /// The deck with another value of a number. Throws InputError where that makes a wrong deck.
 Deck with_number(const Deck& deck, const DeckNumber& number, double value);
 
+/// The same of a deck that is a text.
+Deck with_number(const std::string& text, const std::string& file, const DeckNumber& number, double value);
+
 }  // namespace arcwall::deck

@@ -181,7 +181,8 @@ void path_keys(Keys& keys, Path& path) {
       "their lengths, `\"stop\"` ends the branch with the reason `family`");
   keys.flag(optional("landing"), path.landing,
             "where the structure falls to at the same λ, behind each event at which it loses its stability: see "
-            "[answers.md](answers.md)");
+            "[answers.md](answers.md). In the cases of a sweep `false`, unless the deck says otherwise");
+  if (keys.has("landing")) path.landing_given.in_deck = true;
   keys.any_texts(optional("sensitivity", "none"), path.sensitivity,
                  "numbers of the deck, as in `--set`, by which each located event has a derivative: "
                  "`[\"wall.upper.profile.z\", \"material.m.E\"]`, see [answers.md](answers.md)");

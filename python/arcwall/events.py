@@ -69,7 +69,7 @@ class Landing(Value):
     """
 
     lam: float  #: λ, that of the event
-    reason: str | None = None  #: None, ``falls_away`` or ``not_found``
+    reason: str | None = None  #: None, ``falls_away``, ``not_found`` or ``several``
     why: str | None = None  #: the reason in words
     monitors: Mapping[str, float] = field(default_factory=dict)
     contacts: tuple[LandingContact, ...] = ()  #: along the members
@@ -81,6 +81,7 @@ class Landing(Value):
     arc: float | None = None  #: along it [path metric]
     back: WayBack | None = None  #: λ taken back from there; None: no loss of stability is known
     loop: float | None = None  #: energy lost in the hysteresis loop, if that closes [force·length]
+    several: tuple[Landing, ...] = ()  #: of ``several``: in one sense of the critical mode and in the other
 
 
 @dataclass(frozen=True, repr=False)
@@ -281,7 +282,8 @@ def _landing_of(json: Mapping[str, Any] | None) -> Landing | None:
     if json is None:
         return None
     if "reason" in json:
-        return Landing(_float(json["lambda"]), json["reason"], json["why"])
+        each = (_landing_of(one) for one in json.get("several", ()))
+        return Landing(_float(json["lambda"]), json["reason"], json["why"], several=tuple(one for one in each if one))
     return Landing(
         lam=_float(json["lambda"]),
         monitors=_floats(json["monitors"]),

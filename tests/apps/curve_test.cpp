@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/output/curve_files.hpp"
@@ -108,15 +109,16 @@ monitor = [{ name = "w", at = "top", component = "z" }]
 event = { kind = "limit-point" }
 over = "load.1.force.0"
 range = [1e-9, 1e-4]
-land = [1e-8, 2e-8, 1e-7, 1e-6, 1e-5]
+land = [1e-8, 1e-6]
 )toml";
   const EventCurve curve = curve_of(deck);
   // Closed form of the perfect truss: at height z the sway begins where x² + z² = h² − 2b² has x = 0.
   const double h = 5.0, b = 1.0, z = std::sqrt(h * h - 2.0 * b * b), L = std::sqrt(h * h + b * b);
   const double perfect = z * (h * h - z * z) / (L * L * L);
   const auto fall = [&](double H) { return perfect - at(curve, H).lambda; };
-  const double exponent = std::log(fall(1e-6) / fall(1e-8)) / std::log(1e2);
+  const double exponent = std::log(fall(1e-4) / fall(1e-8)) / std::log(1e4);
   EXPECT_NEAR(exponent, 2.0 / 3.0, 1e-3);
+  EXPECT_NEAR(std::log(fall(1e-6) / fall(1e-8)) / std::log(1e2), 2.0 / 3.0, 1e-4);
   EXPECT_NEAR(fall(1e-8) / std::pow(1e-8, 2.0 / 3.0), 0.60678, 1e-3);
 }
 
@@ -179,20 +181,26 @@ TEST(EventCurve, OfEachEventOfAColumnInAChannelIsThatOfOtherRunsSlow) {
     const EventCurve curve = curve_of(deck);
     ASSERT_GT(curve.points.size(), 5U);
     EXPECT_NO_THROW(at(curve, 0.175));
-    expect_runs(deck, curve, 4, 1e-9);
+    expect_runs(deck, curve, std::string_view(kind) == "limit-point" ? 20 : 4, 1e-9);
   }
 }
 
 // Without a half sine the third harmonic e₃ lowers the limit load by 16.31306 √e₃, a value of the elastica by shooting:
-// of e₃, 4 e₃ and 16 e₃ the second fall is twice the first.
+// of e₃, 4 e₃ and 16 e₃ the second fall is twice the first, but for a part that goes with √e₃ itself and is taken out.
 TEST(EventCurve, OfAThirdHarmonicFollowsTheSquareRootLawSlow) {
-  const EventCurve curve =
-      curve_of(channel("event = { kind = \"limit-point\" }\nover = \"member.column.imperfection.1.amplitude\"\n"
-                       "range = [1e-8, 1.1e-4]\nland = [4e-8, 1.6e-7]\n"),
-               {"member.column.imperfection.0.amplitude=0.0"});
-  const double a = at(curve, 1e-8).lambda, b = at(curve, 4e-8).lambda, c = at(curve, 1.6e-7).lambda;
-  EXPECT_NEAR(std::log((b - c) / (a - b)) / std::log(4.0), 0.5, 1e-3);
-  EXPECT_NEAR((a - b) / 1e-4, 16.31306, 2e-2);
+  const EventCurve curve = curve_of(
+      channel("event = { kind = \"limit-point\" }\nover = \"member.column.imperfection.1.amplitude\"\n"
+              "range = [1e-8, 1.7e-4]\nland = [4e-8, 1.6e-7, 6.4e-7, 2.56e-6, 1.024e-5, 4.096e-5, 1.6384e-4]\n"),
+      {"member.column.imperfection.0.amplitude=0.0"});
+  std::vector<double> exponents;
+  for (const double e : {1e-8, 4e-8, 1.6e-7, 6.4e-7, 2.56e-6, 1.024e-5}) {
+    const double a = at(curve, e).lambda, b = at(curve, 4.0 * e).lambda, c = at(curve, 16.0 * e).lambda;
+    exponents.push_back(std::log((b - c) / (a - b)) / std::log(4.0));
+  }
+  for (std::size_t i = 0; i + 1 < exponents.size(); ++i)
+    EXPECT_NEAR(2.0 * exponents[i] - exponents[i + 1], 0.5, 1e-3) << i;
+  EXPECT_NEAR(exponents.front(), 0.5, 1e-3);
+  EXPECT_NEAR((at(curve, 1e-8).lambda - at(curve, 4e-8).lambda) / 1e-4, 16.31306, 2e-2);
 }
 
 // λ is the end shortening, and the reaction turns before it does.

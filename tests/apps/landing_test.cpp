@@ -4,11 +4,14 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
+#include "continuation/answers/descent.hpp"
 #include "core/algebra/factorization.hpp"
 #include "core/linearization.hpp"
+#include "model/deck_mesh.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
@@ -223,9 +226,10 @@ TEST(Landing, OfAColumnInAChannelIsThatOfShooting) {
   expect_the_fall_of_the_channel(event_of(traced, EventKind::limit_point));
 }
 
-// A steep truss of rise 5 and half-span 1 sways at z = √23 above its feet, and that branch is unstable. With
-// P L³ = z (25 − z²) at z = √23 it falls to the other root of z³ − 25 z + 2 √23 = 0 below, z = −(√23 + √31)/2.
-TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
+namespace {
+
+// A steep truss of rise 5 and half-span 1, which sways at z = √23 above its feet; that branch is unstable.
+std::string steep_truss(const std::string& branches) {
   std::string deck = truss("-4.5");
   const auto put = [&](const std::string& from, const std::string& to) {
     deck.replace(deck.find(from), from.size(), to);
@@ -234,12 +238,79 @@ TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
       "left = [-1.0, 0.0], top = [0.0, 5.0], right = [1.0, 0.0]");
   put("E = 1e4", "E = 1.0");
   put("step = 0.3", "step = 0.005");
-  put("branches = \"primary\"", "branches = \"follow\"");
-  const TracedDeck traced(deck);
-  const RecordEvent& sway = event_of(traced, EventKind::branch_point);
+  put("branches = \"primary\"", "branches = \"" + branches + "\"");
+  return deck;
+}
+
+}  // namespace
+
+// With P L³ = z (25 − z²) at z = √23 it falls to the other root of z³ − 25 z + 2 √23 = 0 below, z = −(√23 + √31)/2:
+// to the right and to the left alike, also where the path itself goes straight on.
+TEST(Landing, OfABranchPointWhoseBranchIsUnstable) {
+  for (const char* branches : {"follow", "primary"}) {
+    const TracedDeck traced(steep_truss(branches));
+    const RecordEvent& sway = event_of(traced, EventKind::branch_point);
+    ASSERT_TRUE(sway.landing) << branches;
+    EXPECT_EQ(sway.landing->reason, "");
+    EXPECT_NEAR(sway.landing->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
+  }
+}
+
+// Above a floor z = −2.5 + 0.2 x it falls to the right or to the left. On the floor Π has a minimum at x = 4.4481035
+// and one at x = −3.6490728, at heights of −6.61037929601187 and −8.22981456547270 below the top; 0.30883094333755 and
+// 0.48479403612256 are released. Minima of the bars' energy along the line, by Newton's method with 40 digits.
+TEST(Landing, OfBothSensesOfAModeIsToldWhereTheyDiffer) {
+  const std::string deck = steep_truss("follow") + R"toml(
+[[wall]]
+name = "floor"
+side = "below"
+acts_on = "axis"
+profile = { type = "line", z = -2.5, slope = 0.2 }
+)toml";
+  const Session run = test::traced(deck);
+  const RecordEvent& sway = test::event_of(run.record(), EventKind::branch_point);
   ASSERT_TRUE(sway.landing);
-  EXPECT_EQ(sway.landing->reason, "");
-  EXPECT_NEAR(sway.landing->monitors.at(0), -0.5 * (std::sqrt(23.0) + std::sqrt(31.0)) - 5.0, 1e-9);
+  EXPECT_EQ(sway.landing->reason, "several") << sway.landing->why;
+  ASSERT_EQ(sway.landing->several.size(), 2U);
+  const RecordLanding *right = &sway.landing->several[0], *left = &sway.landing->several[1];
+  if (right->monitors.at(0) < left->monitors.at(0)) std::swap(right, left);
+  EXPECT_NEAR(right->monitors.at(0), -6.61037929601187, 1e-9);
+  EXPECT_NEAR(left->monitors.at(0), -8.22981456547270, 1e-9);
+  EXPECT_NEAR(right->released, 0.30883094333755, 1e-9);
+  EXPECT_NEAR(left->released, 0.48479403612256, 1e-9);
+  EXPECT_EQ(right->word, "floor");
+
+  const auto json = event_json(run.record(), sway);
+  EXPECT_EQ(json["landing"]["reason"], "several");
+  EXPECT_EQ(json["landing"]["several"].size(), 2U);
+  Session kept = test::traced(deck);
+  const Session read = Session::from(kept.checkpoint(), "checkpoint", Session::Resume::as_ended);
+  EXPECT_EQ(event_json(read.record(), test::event_of(read.record(), EventKind::branch_point)), json);
+}
+
+// What a descent may do is bounded by what it is given.
+TEST(Landing, TakesNoMoreWorkThanItIsGiven) {
+  const TracedDeck traced(lee, {"path.max_points=40"});
+  const RecordEvent& snap = event_of(traced, EventKind::limit_point);
+  ASSERT_TRUE(snap.landing);
+  Index work = 0;
+  const DeckMesh mesh(traced.model());
+  const auto& points = traced.record().points;
+  State start = points[static_cast<std::size_t>(snap.step) + 1].state;
+  start.lambda = snap.lambda;
+  const Descent none = descend(mesh.system(), mesh.state(mesh.unknowns(start), snap.lambda),
+                               traced.model().options().factorization, work);
+  EXPECT_EQ(none.end, DescentEnd::cut_off);
+  work = 100000;
+  const Descent whole = descend(mesh.system(), mesh.state(mesh.unknowns(start), snap.lambda),
+                                traced.model().options().factorization, work);
+  EXPECT_EQ(whole.end, DescentEnd::at_rest);
+  EXPECT_LT(100000 - work, 2000);
+  Index few = (100000 - work) / 2;
+  EXPECT_EQ(
+      descend(mesh.system(), mesh.state(mesh.unknowns(start), snap.lambda), traced.model().options().factorization, few)
+          .end,
+      DescentEnd::cut_off);
 }
 
 // A column that buckles into the post-buckling branch, which is stable, does not fall.

@@ -10,7 +10,9 @@
 
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
+#include "apps/output/exit_status.hpp"
 #include "apps/output/path_csv.hpp"
+#include "apps/output/run_warnings.hpp"
 #include "apps/output/search_rows.hpp"
 #include "core/error.hpp"
 #include "tests/apps/deck_texts.hpp"
@@ -255,6 +257,21 @@ TEST(Search, IsNotMadeWhereARunIsStopped) {
   run.stop({.reason = EndReason::interrupted, .detail = "enough"});
   EXPECT_EQ(run.next(), nullptr);
   EXPECT_TRUE(run.record().searches.empty());
+}
+
+// What nobody asked for may end somewhere far off; a limit that stops it counts.
+TEST(Search, LeavesTheStatusToTheOtherBranches) {
+  Record record;
+  record.branches = {{.id = 0, .end = BranchEnd{.reason = EndReason::stop}},
+                     {.id = 1, .found = true, .end = BranchEnd{.reason = EndReason::min_step}}};
+  EXPECT_EQ(exit_status(record), ExitStatus::success);
+  EXPECT_EQ(found_that_ended_early(record), std::vector<Index>{1});
+  EXPECT_NE(warning_of_found(record).find("(1)"), std::string::npos);
+  record.branches[1].end->reason = EndReason::max_points;
+  EXPECT_EQ(exit_status(record), ExitStatus::limit_met);
+  record.branches[1] = {.id = 1, .end = BranchEnd{.reason = EndReason::min_step}};
+  EXPECT_EQ(exit_status(record), ExitStatus::ended_early);
+  EXPECT_EQ(warning_of_found(record), "");
 }
 
 // Of the first branch alone, on which the column lies flat on the upper wall: on the lower wall the same imperfection

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/output/events_json.hpp"
@@ -123,6 +124,30 @@ TEST(Sensitivity, OfHeatSlow) {
       channel("step = 0.0005\nstop.event = \"limit-point\"", "[[load]]\non = \"column\"\ntemperature = 1e3");
   deck.replace(deck.find("B = [\"z\"]"), 9, "B = [\"x\", \"z\"]");
   expect_agreement(deck, {{"wall.upper.profile.z", 2e-4}, {"load.0.temperature", 1.0}}, 1e-7);
+}
+
+namespace {
+
+std::string_view device(const std::string& name) {
+  for (const ExampleDeck& deck : example_devices())
+    if (deck.name == name) return deck.text;
+  throw std::runtime_error("no device is called " + name);
+}
+
+}  // namespace
+
+// The push of a snap-fit turns where its catch's flank ends, at a jump of the curvature; λ is the way of the catch, and
+// does not depend on the modulus at all. The branch point of a heated rail lies between kinks of its ballast's law.
+TEST(Sensitivity, IsNotToldAtAKink) {
+  const TracedDeck snap_fit(device("snap-fit"), {"path.sensitivity=['material.polyamide.E']"});
+  for (const RecordEvent& event : test::events_of(snap_fit.record(), EventKind::displacement_limit)) {
+    EXPECT_FALSE(event.sensitivity.at(0).slope) << event.id;
+    EXPECT_NE(event.sensitivity[0].why_none.find("kink"), std::string::npos) << event.id;
+  }
+  const TracedDeck rail(device("rail"), {"path.sensitivity=['material.steel.E']"});
+  const RecordSensitivity& of_second = event_of(rail, EventKind::branch_point, 2).sensitivity.at(0);
+  EXPECT_FALSE(of_second.slope);
+  EXPECT_NE(of_second.why_none.find("kink"), std::string::npos);
 }
 
 // A straight column buckles at P with P (1 − P/EA) = π² EI/L², a pitchfork of a symmetric branch. It moves with L and
