@@ -152,22 +152,18 @@ class Pool {
   ChildCommand command(const Case& one, const CaseDraft& claimed) const {
     const fs::path& draft = claimed.path();
     const std::string folder = fs::path(draft.parent_path().filename() / draft.filename()).string();
-    ChildCommand result{
-        .program = request_.program,
-        .body = request_.body,
-        .arguments = {request_.traced == Traced::curve ? "curve" : "run", "./" + one.deck, "--out", folder},
-        .folder = request_.folder,
-        .messages = fs::absolute(draft / messages_file_name),
-        .kept_open = claimed.lock_descriptor()};
+    ChildCommand result{.program = request_.program,
+                        .body = request_.body,
+                        .arguments = {request_.traced == Traced::curve ? "curve" : "run", "./" + one.deck, "--out",
+                                      folder, "--force", "--quiet", "--no-pictures"},
+                        .folder = request_.folder,
+                        .messages = fs::absolute(draft / messages_file_name),
+                        .kept_open = claimed.lock_descriptor()};
     std::vector<std::string>& words = result.arguments;
-    // An option that is given twice is refused.
-    const auto add = [&](const char* flag) {
-      const auto& given = request_.options;
-      if (std::find(given.begin(), given.end(), flag) == given.end()) words.emplace_back(flag);
-    };
-    for (const char* flag : {"--force", "--quiet", "--no-pictures"}) add(flag);
-    if (request_.keep == Keep::records) add("--scratch");
-    words.insert(words.end(), request_.options.begin(), request_.options.end());
+    const auto& given = request_.options;  // an option that is given twice is refused
+    const bool is_given = std::find(given.begin(), given.end(), "--scratch") != given.end();
+    if (request_.keep == Keep::records && !is_given) words.emplace_back("--scratch");
+    words.insert(words.end(), given.begin(), given.end());
     if (leaves_out_landings(one)) words.insert(words.end(), {"--set", "path.landing=false"});
     for (const std::string& assignment : assignments(one)) words.insert(words.end(), {"--set", assignment});
     return result;
