@@ -54,7 +54,7 @@ CubicAxis::Matrix6 CubicAxis::Sum::hessian() const {
   out.block<2, 2>(0, 3) = mixed;
   out.block<2, 2>(3, 0) = mixed.transpose();
   out.block<2, 2>(3, 3) = cc;
-  for (const std::size_t i : {0, 1}) {
+  for (const std::size_t i : {0u, 1u}) {
     const Index angle = i == 0 ? 2 : 5;
     const Vec2 by_chord = chord_turn_[i] + across(turned_[i]), by_first = k_turn_[i].cwiseProduct(a) - by_chord;
     out.block<2, 1>(0, angle) = by_first;
