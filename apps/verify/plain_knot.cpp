@@ -9,7 +9,7 @@
 namespace arcwall::verify {
 
 // The third derivative rises by ½ + (9 ξ − 5 ξ³)/8 in −1 ≤ ξ ≤ 1, where a spline's rises by 1 at ξ = 0. What it is more
-// than that is integrated once, twice and three times, exactly by five points.
+// than that is integrated once, twice and three times, exactly by Gauss's rule.
 RoundedKnot rounded_knot(double from_knot, double shorter) {
   constexpr double rounding = 1e-5;  // of the shorter interval
   const double w = rounding * shorter, xi = from_knot / w;
