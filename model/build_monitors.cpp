@@ -1,7 +1,10 @@
 #include "model/build_monitors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "elements/foundation_law.hpp"
 #include "elements/member_point.hpp"
@@ -17,60 +20,30 @@ namespace {
 
 using Component = MemberObservable::Component;
 
+// What a component of a deck is called in another room.
+template <class Other>
+using Counterpart = std::pair<deck::Component, Other>;
+
+template <class Other, std::size_t count>
+std::optional<Other> counterpart(const std::array<Counterpart<Other>, count>& known, deck::Component component) {
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == component; });
+  return found == known.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::optional<Component> member_component(deck::Component component) {
-  switch (component) {
-    case deck::Component::x:
-      return Component::x;
-    case deck::Component::z:
-      return Component::z;
-    case deck::Component::rotation:
-      return Component::rotation;
-    case deck::Component::face_above_z:
-      return Component::face_above_z;
-    case deck::Component::face_below_z:
-      return Component::face_below_z;
-    case deck::Component::reaction_x:
-    case deck::Component::reaction_z:
-    case deck::Component::reaction_moment:
-    case deck::Component::axial_force:
-    case deck::Component::moment:
-    case deck::Component::force_x:
-    case deck::Component::force_z:
-    case deck::Component::gap:
-    case deck::Component::greatest_moment:
-    case deck::Component::greatest_pressure:
-    case deck::Component::thickness:
-    case deck::Component::thickness2:
-      return std::nullopt;
-  }
-  return std::nullopt;
+  constexpr std::array<Counterpart<Component>, 5> known{{{deck::Component::x, Component::x},
+                                                         {deck::Component::z, Component::z},
+                                                         {deck::Component::rotation, Component::rotation},
+                                                         {deck::Component::face_above_z, Component::face_above_z},
+                                                         {deck::Component::face_below_z, Component::face_below_z}}};
+  return counterpart(known, component);
 }
 
 std::optional<Freedom> reaction_freedom(deck::Component component) {
-  switch (component) {
-    case deck::Component::reaction_x:
-      return Freedom::x;
-    case deck::Component::reaction_z:
-      return Freedom::z;
-    case deck::Component::reaction_moment:
-      return Freedom::rotation;
-    case deck::Component::x:
-    case deck::Component::z:
-    case deck::Component::rotation:
-    case deck::Component::face_above_z:
-    case deck::Component::face_below_z:
-    case deck::Component::axial_force:
-    case deck::Component::moment:
-    case deck::Component::force_x:
-    case deck::Component::force_z:
-    case deck::Component::gap:
-    case deck::Component::greatest_moment:
-    case deck::Component::greatest_pressure:
-    case deck::Component::thickness:
-    case deck::Component::thickness2:
-      return std::nullopt;
-  }
-  return std::nullopt;
+  constexpr std::array<Counterpart<Freedom>, 3> known{{{deck::Component::reaction_x, Freedom::x},
+                                                       {deck::Component::reaction_z, Freedom::z},
+                                                       {deck::Component::reaction_moment, Freedom::rotation}}};
+  return counterpart(known, component);
 }
 
 std::string unit_of(deck::Component component, const deck::Units& units) {
