@@ -102,8 +102,8 @@ std::vector<SingularPlace> nearest_sample(const std::vector<PathSample>& seen, c
   return {place};
 }
 
-// Whether the points on both sides of a bracket follow each other along the path, however near they are; else nothing
-// is singular in between.
+// Whether the points on both sides of a bracket follow each other along the path, however near they are. Where no point
+// is found between them they lie on branches that pass each other, and nothing is singular there.
 bool on_one_branch(SegmentSamples& on, CountBracket bracket) {
   constexpr int halvings = 16;
   const auto at = [&](double t, const PathPoint& end) {
@@ -115,7 +115,7 @@ bool on_one_branch(SegmentSamples& on, CountBracket bracket) {
   for (int halving = 0; halving <= halvings; ++halving) {
     const PathPoint before = at(bracket.from, on.segment.from()), after = at(bracket.to, on.segment.to());
     if (!Segment(on.metric, before, after).follows_the_path()) return false;
-    if (!halve(on, bracket)) break;
+    if (halving < halvings && !halve(on, bracket)) return false;
   }
   return true;
 }
