@@ -128,6 +128,19 @@ void check_magnitudes(const deck::Member& member, const MemberDescription& descr
       "choose units in which lengths and forces are nearer to 1, and an origin near the structure");
 }
 
+// A deviation that is as large as the member itself makes another structure of it, and a very large one makes lengths
+// that are not numbers.
+void check_imperfections(const deck::Member& member, const MemberDescription& description, DeckProblems& problems) {
+  const double length = description.axis->length();
+  for (const deck::Imperfection& wave : member.imperfections)
+    if (!(std::abs(wave.amplitude) < length))
+      problems.add(
+          wave.position, "member." + member.name + ".imperfection",
+          fmt::format("an amplitude of {:.4g} is as large as the member is long, {:.4g}", wave.amplitude, length),
+          "an imperfection is a small part of the length, often 1/1000; give a bent axis by \"sine\" or "
+          "\"curve\"");
+}
+
 // As few as show what holds the member: the nodes at which springs stand are among them, and a foundation, which may
 // hold a bent axis by its middle, has one inside.
 int fewest_elements(const deck::Deck& deck, const deck::Member& member) {
@@ -173,7 +186,9 @@ void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, St
   std::vector<MemberDescription> descriptions;
   for (const deck::Member& member : deck.members) {
     descriptions.push_back(description_of(deck, member, coarse, out));
-    if (!coarse) check_magnitudes(member, descriptions.back(), out.places, problems);
+    if (coarse) continue;
+    check_magnitudes(member, descriptions.back(), out.places, problems);
+    check_imperfections(member, descriptions.back(), problems);
   }
   problems.raise();
   for (std::size_t i = 0; i < descriptions.size(); ++i) {

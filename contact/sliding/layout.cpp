@@ -124,10 +124,13 @@ std::pair<double, double> SlidingContactLayout::ends(const SlidingBody& body, co
           place(segment.last_point, segment.last_load, body.length(segment.strand))};
 }
 
-bool SlidingContactLayout::hands_on(std::size_t segment, Index load) const {
+const std::vector<Index>& SlidingContactLayout::loads_handed_on(std::size_t segment) const {
   const Segment& part = segments_[segment];
-  const std::vector<Index>& loads =
-      mesh_->elements_per_segment()[static_cast<std::size_t>(part.strand)][part.place].handed_on;
+  return mesh_->elements_per_segment()[static_cast<std::size_t>(part.strand)][part.place].handed_on;
+}
+
+bool SlidingContactLayout::hands_on(std::size_t segment, Index load) const {
+  const std::vector<Index>& loads = loads_handed_on(segment);
   return std::find(loads.begin(), loads.end(), load) != loads.end();
 }
 

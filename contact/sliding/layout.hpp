@@ -149,6 +149,9 @@ class SlidingContactLayout final : public SlidingLayout {
   /// Whether a pressed part hands a point load of its strand on to its obstacle.
   bool hands_on(std::size_t segment, Index load) const;
 
+  /// Whether it hands any on.
+  bool hands_loads_on(std::size_t segment) const { return !loads_handed_on(segment).empty(); }
+
   /// Whether the body lies on the wall on one side of a point.
   bool lies_beside(std::size_t point) const {
     return points_[point].behind != Span::free || span_before(point) != Span::free;
@@ -159,6 +162,7 @@ class SlidingContactLayout final : public SlidingLayout {
                                  const Eigen::Ref<const Vector>& s) const;
 
  private:
+  const std::vector<Index>& loads_handed_on(std::size_t segment) const;
   Index add_segments(const SlidingBody& body, Index strand, Index next_point);
 
   const SlidingBody* body_;

@@ -186,6 +186,16 @@ bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, std
   return part_is_on_straight(setting, at, PartOfNode(at.layout, node));
 }
 
+bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  if (!part.has_point() || !at.layout.hands_loads_on(segment)) return false;
+  const std::size_t point = part.end_point();
+  const auto [from, to] = at.layout.ends(setting.body, part, at.now.s);
+  const double place = at.s(static_cast<Index>(point));
+  return lies_by_itself(setting, at, point) && obstacle_is_straight(setting, at, point, from - place) &&
+         obstacle_is_straight(setting, at, point, to - place);
+}
+
 LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
   const auto [from, length] = extent(setting, at, part);

@@ -8,6 +8,9 @@ namespace arcwall::sliding {
 /// Whether the part to which a pressed node belongs lies on a straight obstacle.
 bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, std::size_t node);
 
+/// Whether a pressed part hands point loads on, and lies on its straight obstacle by itself but for these.
+bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
+
 /// The pressure on a pressed part, seen from one of its nodes: up to the middles of the elements on both sides, and
 /// from the first and the last node up to the end of the part. On a straight obstacle by (8.7), which is exact there;
 /// on a curved one by the forces of the nodes (8.11).

@@ -64,6 +64,12 @@ bool has_load_beside(const SlidingSetting& setting, const SlidingState& at, std:
   return false;
 }
 
+// Whether a point load acts on a strand between two places.
+bool has_load_between(const SlidingSetting& setting, Index strand, double from, double to) {
+  const std::vector<double>& places = setting.body.point_loads(strand);
+  return std::any_of(places.begin(), places.end(), [&](double place) { return from < place && place < to; });
+}
+
 // In words: what was looked for behind points that lose their curvature, and why it may be hard to find.
 std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
   const auto straight = [&](std::size_t k) { return obstacle_curvature(setting, at, k) == 0.0; };
@@ -110,7 +116,37 @@ void grow_with_new_parts(const NeutralSides& sides, double length, LayoutEdit& e
   }
 }
 
-// Each of the points, ascending, becomes two, a short way apart; `neutral`: spans beside them that are then.
+// Where a stretch about a point has no moment at its ends, a and b from the point, the moments of the point's shear
+// forces A and B have fallen alike, A a = B b: so it begins with b/(a + b) = A/(A + B) of its length behind the point,
+// and these are the parts of the point's force at its ends. The gaps beside the point, A h³/6EI and B h³/6EI, tell
+// them; where they do not, the point is in the middle.
+double share_behind(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  constexpr double near = 0.2, least = 0.02;  // of an element; of the length
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  const double L = setting.body.length(touch.strand), here = at.s(static_cast<Index>(point));
+  const double h = near * L / setting.body.elements_between(touch.strand, 0.0, L);
+  const auto gap_at = [&](double s) {
+    const AxisPlace axis = at.mesh.place({.strand = touch.strand, .s = std::clamp(s, 0.0, L)}, at.now);
+    return face_gap(setting.obstacles[touch.obstacle], touch.offset, axis, at.now.lambda);
+  };
+  const double before = gap_at(here - h), behind = gap_at(here + h);
+  if (!(std::min(before, behind) > 0.0)) return 0.5;
+  return std::clamp(before / (before + behind), least, 1.0 - least);
+}
+
+// The same of a new stretch. Under a point load that it would arch over the body stays on the wall: there the point
+// stays, and the stretch begins on its other side.
+double share_of_new(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span between,
+                    double length) {
+  const double share = share_behind(setting, at, point), here = at.s(static_cast<Index>(point));
+  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
+  if (between != Span::free || lies_by_itself(setting, at, point)) return share;
+  if (has_load_between(setting, strand, here, here + share * length)) return 0.0;
+  return has_load_between(setting, strand, here - (1.0 - share) * length, here) ? 1.0 : share;
+}
+
+// Each of the points, ascending, becomes two, a short way apart; `neutral`: spans beside them that are then. Where the
+// body lies by itself the part is flat, but for one with a point load inside, which is handed on as a pressed one does.
 Transition spread(const SlidingSetting& setting, const SlidingState& at, const Points& points, Span between,
                   double length, const NeutralSides* neutral = nullptr) {
   LayoutEdit edit = edit_of(setting.body, at);
@@ -119,21 +155,24 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
     grow_with_new_parts(*neutral, length, edit);
   }
   for (auto k = points.rbegin(); k != points.rend(); ++k) {
-    const Span span = lies_by_itself(setting, at, *k) ? Span::flat : between;
     const int behind = edit.elements_behind(*k);
+    const double share = share_of_new(setting, at, *k, between, length), force = edit.forces[*k];
     double& s = edit.place(*k);
-    s -= 0.5 * length;
+    s -= (1.0 - share) * length;
+    Span span = between;
+    if (lies_by_itself(setting, at, *k))
+      span = has_load_between(setting, edit.strands[*k], s, s + length) ? Span::pressed : Span::flat;
     const int between_them =
         span == Span::flat
             ? 1
             : elements_asked(setting.body, edit.strands[*k], s, s + length,
                              span == Span::pressed ? fewest_pressed(obstacle_is_straight(setting, at, *k)) : 2);
-    edit.forces[*k] *= 0.5;
+    edit.forces[*k] = share * force;
     edit.insert({.point = edit.points[*k],
                  .strand = edit.strands[*k],
                  .s = s + length,
                  .closed = true,
-                 .force = edit.forces[*k]},
+                 .force = (1.0 - share) * force},
                 between_them, behind);
     edit.points[*k].behind = span;
   }
@@ -233,7 +272,7 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
     if (auto transition = spread_half_pressed(setting, at, points, factor * length))
       transitions.push_back(std::move(*transition));
   };
-  constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0};
+  constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
   const bool changes_at_once = is_all([&](std::size_t k) { return pressure_changes_sign(setting, at, k, length); });
   if (changes_at_once) std::for_each(factors.begin(), factors.end(), try_half_pressed);
   const bool all_flat = is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); });
@@ -253,6 +292,7 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
   if (!all_flat && !all_lift_off) {
     transitions.push_back(spread_to(Span::free, 1.0));
     transitions.push_back(spread_to(Span::pressed, shorter));
+    transitions.push_back(spread_to(Span::free, shorter));
   }
   return transitions;
 }
@@ -321,6 +361,15 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   const auto& segments = at.layout.segments();
   lines += std::count_if(segments.begin(), segments.end(), is_flat_between_points);
   const NeutralSides neutral = spans_made_neutral(setting, at, points);
+  // What a load does to a part beside spans that nothing bends is not modelled.
+  const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);
+  const auto is_loaded = [&](std::size_t k) {
+    const auto [strand, place] =
+        std::pair(at.mesh.breakpoint(static_cast<Index>(k)).first, at.s(static_cast<Index>(k)));
+    return lies_by_itself(setting, at, k) && has_load_between(setting, strand, place - length, place + length);
+  };
+  if (neutral.any() && std::any_of(points.begin(), points.end(), is_loaded))
+    return {unsupported(why_none_spreads(setting, at, points))};
   const bool is_continuum = new_lines && neutral.between_points(at.layout) > 0;
   const Continuum common = continuum_of(at, lines);
   if (is_continuum && setting.continuum == ContinuumChoice::stop) return {end_before(common)};
@@ -333,7 +382,6 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
       transitions.insert(transitions.begin(), std::move(*lie_down));
   }
   if (!neutral.any()) return transitions;
-  const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);
   transitions.insert(transitions.begin(), spread(setting, at, points, Span::flat, length, &neutral));
   if (is_continuum) transitions.front().continuum = common;
   for (Transition& transition : transitions) transition.from_singular = true;

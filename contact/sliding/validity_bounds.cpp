@@ -43,6 +43,8 @@ void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std
   add_if<RoomBound>(touched && !to_load && !is_tail && !on.joins_one_obstacle(segment), to, i);
   add_if<HalfWaveBound>(flat && segment.elements == 1, to, i);
   add_if<StraightBound>(flat && segment.elements > 1, to, i);
+  const bool between_points = segment.first_point >= 0 && segment.last_point >= 0;
+  add_if<LoadedPartBound>(segment.span == Span::pressed && between_points && on.hands_loads_on(i), to, i);
   if (flat || on.points().empty()) return;
   add_if<CoarseBound>(true, to, i);
   add_if<FineBound>(FineBound::is_needed(body, on, segment), to, i);

@@ -54,7 +54,8 @@ Way way_to(const System& system, const State& from, const State& to, double guar
 
 // Of two null vectors at a limit point the combination that is no motion along the path.
 Matrix across(const Matrix& vectors, const Metric& metric, const Direction& along) {
-  const Vector part = vectors.transpose() * metric.weights().cwiseProduct(along.dx);
+  const Index size = vectors.rows();
+  const Vector part = vectors.transpose() * metric.weights().head(size).cwiseProduct(along.dx.head(size));
   return vectors * Vector{{-part[1], part[0]}} / part.norm();
 }
 
@@ -96,18 +97,21 @@ BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const
   if (pairs && place.at_limit && pairs->vectors->cols() == 2)
     pairs->vectors = across(*pairs->vectors, metric, point.along);
   if (!pairs || pairs->vectors->cols() < place.multiplicity) return point;
-  const Vector left = corrector.left_null(pairs->vectors->col(0));
-  const auto right = corrector.right_null(left);
-  if (!right) return point;
+  std::vector<Vector> modes;
   for (Index j = 0; j < place.multiplicity; ++j) {
-    Vector mode = j == 0 ? *right : Vector(pairs->vectors->col(j));
+    auto mode = corrector.right_null(corrector.left_null(pairs->vectors->col(j)));
+    if (!mode) return point;
+    modes.push_back(std::move(*mode));
+  }
+  for (Vector& mode : modes) {
     Index largest = 0;
     mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
     if (mode[largest] < 0.0) mode = -mode;  // the mode's largest component is positive
     point.modes.push_back({.dx = std::move(mode), .dlambda = 0.0});
   }
   point.mode = point.modes.front();
-  if (place.multiplicity == 1 && !place.touches) find_other_tangent(system, metric, left, point);
+  if (place.multiplicity == 1 && !place.touches)
+    find_other_tangent(system, metric, corrector.left_null(pairs->vectors->col(0)), point);
   return point;
 }
 

@@ -133,6 +133,22 @@ TEST(Model, RefusesSizesWhoseStiffnessIsBeyondNumbers) {
   }
 }
 
+// An imperfection as long as its member is none, and one much longer makes lengths that are not numbers.
+TEST(Model, RefusesAnImperfectionAsLargeAsItsMember) {
+  const auto with_amplitude = [](const std::string& amplitude) {
+    return deck::replaced(
+        deck::column_deck, "theory = \"classic\"",
+        "theory = \"classic\"\nimperfection = { shape = \"sine\", amplitude = " + amplitude + ", waves = 3 }");
+  };
+  ASSERT_TRUE(problems_of(with_amplitude("-0.2")).empty());
+  for (const char* amplitude : {"2.0", "-7.2e307"}) {
+    const auto found = problems_of(with_amplitude(amplitude));
+    ASSERT_EQ(found.size(), 1U) << amplitude;
+    EXPECT_EQ(found.front().key, "member.column.imperfection");
+    EXPECT_NE(found.front().message.find("as large as the member is long"), std::string::npos);
+  }
+}
+
 // So is its length, against the height of the section.
 TEST(Model, RefusesAnElementWithoutLengthBesideItsHeight) {
   const std::string deck = deck::replaced(deck::replaced(deck::column_deck, "E = 2.1e4", "E = 2.1e4\nnu = 0.3"),

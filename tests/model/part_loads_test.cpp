@@ -196,4 +196,134 @@ TEST(PartLoads, ACurvedFloorBearsALoadInTheMiddle) {
   EXPECT_NEAR(monitors_at(loaded, 10.0)[1], monitors_at(unloaded, 10.0)[1] + 0.05, 1e-8);
 }
 
+// Without weight the part needs no pressure. Under end moments m a beam lies on a floor at depth d but for c at both
+// ends, d = m c²/6EI: its part begins under a load in the middle at c = L/2, whatever the load is. With loads at a
+// distance a from the ends it begins where c passes L/2 in
+//
+//   r = (F (c − a) − m)/c,   EI d = m c²/2 + r c³/3 − F (c³/3 − a c²/2 + a³/6),
+//
+// and loads that the edges have passed have no part in where the beam is. The floor bears F and −2 r.
+TEST(PartLoads, APartWithoutPressureHandsLoadsOn) {
+  constexpr double depth = 1e-3, force = 0.5;  // m = λ, F = λ/2
+  const std::string floor = "{ type = \"flat\", z = " + round_trip(-depth) + " }";
+  const std::string moments = "load = [{ at = \"a\", moment = -1.0 }, { at = \"b\", moment = 1.0 }, ";
+  const std::string rest = "path = { step = 0.05, stop = { lambda = [-1.0, 0.3] } }";
+  struct Loads {
+    const char* where;
+    int number;
+    double spreads;
+  };
+  const auto spreads_at = [&](double a) {
+    const double c = 0.5 * length, r = (force * (c - a) - 1.0) / c;
+    const double bends = c * c / 2.0 + r * std::pow(c, 3) / 3.0 -
+                         force * (std::pow(c, 3) / 3.0 - a * c * c / 2.0 + std::pow(a, 3) / 6.0);
+    return EI * depth / bends;
+  };
+  const Loads cases[] = {
+      {"{ at = \"beam:0.5\", force = [0.0, -0.5] }]\n", 1, spreads_at(0.5)},
+      {"{ at = \"beam:0.45\", force = [0.0, -0.5] }, { at = \"beam:0.55\", force = [0.0, -0.5] }]\n", 2,
+       spreads_at(0.45)},
+  };
+  for (const std::string theory : {"classic", "elastica"})
+    for (const Loads& loads : cases) {
+      SCOPED_TRACE(theory + " " + loads.where);
+      const Session run =
+          traced(beam(floor, moments + loads.where + rest), {"member.beam.theory = \"" + theory + "\""});
+      expect_stop(run);
+      const auto spreads = loads_of(run, EventKind::contact_spreads);
+      ASSERT_EQ(spreads.size(), 1U);
+      EXPECT_NEAR(spreads[0], loads.spreads, 2e-4 * loads.spreads);
+      int lying = 0;
+      for (const RecordPoint& point : run.points()) {
+        const double m = point.lambda, c = std::sqrt(6.0 * EI * depth / m);
+        if (c > 0.44) continue;
+        EXPECT_EQ(point.count.stability, Stability::stable);
+        const double borne = loads.number * force * m + 2.0 * m / c;
+        EXPECT_NEAR(point.monitors[1], borne, 2e-4 * borne) << m;
+        ++lying;
+      }
+      EXPECT_GT(lying, 3);
+    }
+}
+
+// Under thrust such a part buckles between its load and its edges. The ends of a pinned column are free over half a
+// wave, so that each half of the part is a whole wave long at 36 π² EI/L² = P (1 − P/EA); the nodes pressed on the wall
+// would hide that, and the path ends there.
+TEST(PartLoads, APartWithoutPressureBucklesBesideItsLoad) {
+  const Session run = traced(R"toml(
+title = "A pinned column that a load in the middle holds on a wall"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 100000.0, I = 2.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z"], b = ["z"] }
+load = [{ at = "b", force = [-100.0, 0.0] }, { at = "beam:0.5", force = [0.0, -0.1] }]
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = -0.02 } }]
+path = { step = 0.05, stop = { lambda = [-1.0, 10.0] } }
+[member.beam]
+from = "a"
+to = "b"
+theory = "classic"
+material = "m"
+section = "s"
+elements = 40
+)toml");
+  ASSERT_EQ(loads_of(run, EventKind::contact_spreads).size(), 1U);
+  const BranchEnd& end = *run.record().branches.back().end;
+  EXPECT_EQ(end.reason, EndReason::unsupported);
+  EXPECT_NE(end.detail.find("buckles beside a point load"), std::string::npos) << end.detail;
+  const double euler = 36.0 * M_PI * M_PI * EI, P = 100.0 * run.points().back().lambda;
+  EXPECT_NEAR(P * (1.0 - P / 1e5), euler, 2e-3 * euler);
+}
+
+// A nearly straight column under thrust lies on a wall between two points and arches off it between them. Where one of
+// the points comes to a load, the body stays on the wall under the load: a third point there bears
+// nearly all of it, on any mesh and with any step.
+TEST(PartLoads, ALoadUnderAnArchIsBorneByTheWall) {
+  const std::string column = R"toml(
+title = "A clamped column under thrust, with a load across"
+material.m = { E = 21000.0 }
+section.s = { shape = "rectangle", width = 1.0, height = 0.37 }
+point = { a = [0.0, 0.0], b = [19.2, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["z", "rotation"] }
+load = [{ at = "b", force = [-21.0, 0.0] }, { at = "beam:0.4", force = [0.0, -0.19] }]
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = -0.43 } }]
+monitor = [
+  { name = "mid", at = "beam:0.5", component = "z" },
+  { name = "floor", wall = "floor", component = "force-z" },
+]
+path = { step = 0.05, stop = { lambda = [-1.0, 4.0] } }
+[member.beam]
+from = "a"
+to = "b"
+theory = "classic"
+material = "m"
+section = "s"
+elements = 40
+imperfection = [
+  { shape = "sine", amplitude = -0.0015, waves = 1 },
+  { shape = "sine", amplitude = -0.00045, waves = 2 },
+  { shape = "sine", amplitude = -0.001, waves = 3 },
+]
+)toml";
+  const auto with_step = [&](const std::string& change) { return traced(column, {change}); };
+  const Session first = with_step("path.step=0.05");
+  expect_stop(first);
+  const auto expected = loads_of(first, EventKind::contact_spreads);
+  ASSERT_EQ(expected.size(), 2U);
+  for (const std::string change : {"path.step=0.0125", "member.beam.elements=80"}) {
+    SCOPED_TRACE(change);
+    const Session run = with_step(change);
+    expect_stop(run);
+    const auto spreads = loads_of(run, EventKind::contact_spreads);
+    ASSERT_EQ(spreads.size(), 2U);
+    for (std::size_t i = 0; i < spreads.size(); ++i) EXPECT_NEAR(spreads[i], expected[i], 5e-5 * expected[i]);
+    EXPECT_NEAR(run.points().back().monitors[1], first.points().back().monitors[1], 1e-5 * 12.06);
+  }
+  // Contact at nodes, of which some on both sides of the load are closed, bears the same to the square of their
+  // distance.
+  const Session nodes = traced(column, {"contact.points=\"nodes\"", "member.beam.elements=80"});
+  expect_stop(nodes);
+  EXPECT_NEAR(first.points().back().monitors[1], nodes.points().back().monitors[1], 1e-4 * 12.06);
+}
+
 }  // namespace arcwall::part_loads_test

@@ -1,5 +1,9 @@
 #include "contact/sliding/bounds/flat_part.hpp"
 
+#include <optional>
+#include <vector>
+
+#include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 
@@ -7,45 +11,80 @@ namespace arcwall::sliding {
 
 namespace {
 
-constexpr double shortest_flat = 0.8;  // of a half wave, below which a flat part has one element
+constexpr double shortest_flat = 0.8;    // of a half wave, below which a flat part has one element
+constexpr double held_half_waves = 4.0;  // squared: a stretch whose slope is held at both ends buckles in a whole wave
 
-// (k d/π)² of a flat part, its length in half waves, squared: k² = P λ/EI is the wave number of a straight part under
+// A stretch of a straight part, of which the ends are tracked points or stay; `inside`: a point at an end of the part.
+struct Stretch {
+  double from, to;
+  std::optional<Index> first, last;  ///< the points at its ends
+  Index inside;
+  SlidingMesh::At side;  ///< of that point, on which the part is
+};
+
+Stretch whole_part(const SlidingState& at, std::size_t segment) {
+  const Index k = at.layout.segments()[segment].last_point;
+  return {.from = at.s(k - 1), .to = at.s(k), .first = k - 1, .last = k, .inside = k, .side = SlidingMesh::At::before};
+}
+
+// The longest one between the ends of a part and the point loads that it hands on.
+Stretch longest_between_loads(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
+  const Stretch whole = whole_part(at, segment);
+  const Index strand = at.layout.segments()[segment].strand;
+  const std::vector<double>& places = setting.body.point_loads(strand);
+  Stretch longest = whole, next = whole;
+  longest.to = longest.from;
+  const auto take = [&] {
+    if (next.to - next.from > longest.to - longest.from) longest = next;
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!at.layout.hands_on(segment, static_cast<Index>(i))) continue;
+    next.to = places[i];
+    next.last.reset();
+    take();
+    next = {
+        .from = places[i], .to = whole.to, .first = {}, .last = whole.last, .inside = whole.inside, .side = whole.side};
+  }
+  take();
+  return longest;
+}
+
+// (k d/π)² of a stretch, its length in half waves, squared: k² = P λ/EI is the wave number of a straight part under
 // the thrust P = EA (1 + e − λ), λ its stretch and e that without force.
-double squared_half_waves(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
-  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
-  const Index k = part.last_point;
-  const double d = at.s(k) - at.s(k - 1), stretch = at.mesh.strain(k, SlidingMesh::At::before, at.now).stretch;
-  const double EA = setting.body.axial_stiffness(part.strand), EI = setting.body.bending_stiffness(part.strand);
-  const double free = 1.0 + setting.body.free_strain(part.strand, at.now.lambda).value;
+double squared_half_waves(const SlidingSetting& setting, const SlidingState& at, const Stretch& part) {
+  const Index strand = at.mesh.breakpoint(part.inside).first;
+  const double d = part.to - part.from, stretch = at.mesh.strain(part.inside, part.side, at.now).stretch;
+  const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
+  const double free = 1.0 + setting.body.free_strain(strand, at.now.lambda).value;
   return EA * (free - stretch) * stretch / EI * d * d / (pi * pi);
 }
 
-Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
+Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingState& at, const Stretch& part,
                                 double sign) {
-  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
-  const Index k = part.last_point;
-  const AxisStrain strain = at.mesh.strain(k, SlidingMesh::At::before, at.now);
-  const double EA = setting.body.axial_stiffness(part.strand), EI = setting.body.bending_stiffness(part.strand);
-  const double d = at.s(k) - at.s(k - 1), factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
-  const SlidingBody::FreeStrain heat = setting.body.free_strain(part.strand, at.now.lambda);
+  const Index strand = at.mesh.breakpoint(part.inside).first;
+  const AxisStrain strain = at.mesh.strain(part.inside, part.side, at.now);
+  const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
+  const double d = part.to - part.from, factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
+  const SlidingBody::FreeStrain heat = setting.body.free_strain(strand, at.now.lambda);
   const double free = 1.0 + heat.value, by_stretch = factor * (free - 2.0 * stretch) * d * d;
   Row row = at.no_slope();
   row.dx.head(at.index.nodes) = by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) = by_stretch * strain.stretch_ds;
   row.dlambda = by_stretch * strain.stretch_dlambda + factor * heat.rate * stretch * d * d;
-  row.dx[at.index.coordinate(k)] += factor * (free - stretch) * stretch * 2.0 * d;
-  row.dx[at.index.coordinate(k - 1)] -= factor * (free - stretch) * stretch * 2.0 * d;
+  const double by_length = factor * (free - stretch) * stretch * 2.0 * d;
+  if (part.last) row.dx[at.index.coordinate(*part.last)] += by_length;
+  if (part.first) row.dx[at.index.coordinate(*part.first)] -= by_length;
   return row;
 }
 
 }  // namespace
 
 double HalfWaveBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return 1.0 - squared_half_waves(setting, at, segment_);
+  return 1.0 - squared_half_waves(setting, at, whole_part(at, segment_));
 }
 
 Row HalfWaveBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves_gradient(setting, at, segment_, -1.0);
+  return squared_half_waves_gradient(setting, at, whole_part(at, segment_), -1.0);
 }
 
 std::vector<Transition> HalfWaveBound::transitions(const SlidingSetting& setting, const SlidingState& at,
@@ -56,16 +95,32 @@ std::vector<Transition> HalfWaveBound::transitions(const SlidingSetting& setting
 }
 
 double StraightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves(setting, at, segment_) - shortest_flat * shortest_flat;
+  return squared_half_waves(setting, at, whole_part(at, segment_)) - shortest_flat * shortest_flat;
 }
 
 Row StraightBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves_gradient(setting, at, segment_, 1.0);
+  return squared_half_waves_gradient(setting, at, whole_part(at, segment_), 1.0);
 }
 
 std::vector<Transition> StraightBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                    const Arrival& arrival) const {
   return {with_elements(setting, at, arrival.forward, segment_, 1)};
+}
+
+// Only of parts that no pressure holds on the wall.
+double LoadedPartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  constexpr double far = 1.0;
+  if (!part_needs_no_pressure(setting, at, segment_)) return far;
+  return 1.0 - squared_half_waves(setting, at, longest_between_loads(setting, at, segment_)) / held_half_waves;
+}
+
+Row LoadedPartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  if (!part_needs_no_pressure(setting, at, segment_)) return at.no_slope();
+  return squared_half_waves_gradient(setting, at, longest_between_loads(setting, at, segment_), -1.0 / held_half_waves);
+}
+
+std::vector<Transition> LoadedPartBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
+  return {unsupported("a part that lies on a wall without pressure buckles beside a point load")};
 }
 
 }  // namespace arcwall::sliding

@@ -31,4 +31,18 @@ class StraightBound final : public ValidityBound {
   std::size_t segment_;
 };
 
+/// The longest stretch of a part without pressure between the point loads that it hands on and its ends: behind the
+/// bound it buckles between them, which the nodes pressed on the wall would hide.
+class LoadedPartBound final : public ValidityBound {
+ public:
+  explicit LoadedPartBound(std::size_t segment) : segment_(segment) {}
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  std::size_t segment_;
+};
+
 }  // namespace arcwall::sliding

@@ -5,6 +5,7 @@
 
 #include "contact/sliding/bounds/element_size.hpp"
 #include "contact/sliding/lifting.hpp"
+#include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 
@@ -117,11 +118,22 @@ Row outside_gradient(const SlidingSetting& setting, const SlidingState& at, cons
   return row;
 }
 
+// A flat part becomes a pressed one, which hands loads on.
+void press(const SlidingContactLayout::Segment& part, LayoutEdit& edit) {
+  using Span = SlidingContactLayout::Span;
+  if (part.span == Span::pressed) return;
+  const std::size_t point = part.end_point();
+  (part.first_point >= 0 ? edit.points[point].behind : edit.points[point].before) = Span::pressed;
+  int& elements = part.first_point >= 0 ? edit.elements_behind(point) : edit.elements_before(point);
+  elements = std::max(elements, fewest_pressed(true));
+}
+
 // The same state, in which a part hands a load on or does not.
 Transition handed_on(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                      const PartLoad& load, bool is_handed_on) {
   return remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
     edit.handed_on[static_cast<std::size_t>(load.strand)][static_cast<std::size_t>(load.load)] = is_handed_on;
+    if (is_handed_on) press(at.layout.segments()[load.segment], edit);
   });
 }
 
@@ -144,8 +156,6 @@ Row LoadBesidePartBound::gradient(const SlidingSetting& setting, const SlidingSt
 
 std::vector<Transition> LoadBesidePartBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                          const Arrival& arrival) const {
-  const bool is_pressed = at.layout.segments()[load_.segment].span == SlidingContactLayout::Span::pressed;
-  if (!is_pressed) return {unsupported("a part that lies on a wall without pressure reached a point load")};
   if (scaled_push(setting, at, load_) < 0.0)
     return {unsupported("a part that lies on a wall reached a point load that pulls it off")};
   return {handed_on(setting, at, arrival.forward, load_, true)};

@@ -34,7 +34,7 @@ class LoadBehindBound final : public ValidityBound {
 };
 
 /// The elements between the edge of a part that lies on a wall and a load that acts inside an element beside it. Behind
-/// the bound a pressed part hands the load on to the wall; what a load does to a part without pressure is not modelled.
+/// the bound the part hands the load on to the wall; one without pressure is then meshed as a pressed one.
 class LoadBesidePartBound final : public ValidityBound {
  public:
   explicit LoadBesidePartBound(const PartLoad& load) : load_(load) {}

@@ -6,10 +6,13 @@
 namespace arcwall::sliding {
 
 double PressureBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  constexpr double far = 1.0;
+  if (part_needs_no_pressure(setting, at, at.layout.pressed_nodes()[node_].segment)) return far;
   return least_pressure(setting, at, node_).value * setting.scales.length / setting.scales.force;
 }
 
 Row PressureBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  if (part_needs_no_pressure(setting, at, at.layout.pressed_nodes()[node_].segment)) return at.no_slope();
   Row row = least_pressure_gradient(setting, at, node_);
   const double scale = setting.scales.length / setting.scales.force;
   row.dx *= scale;

@@ -4,7 +4,8 @@
 
 namespace arcwall::sliding {
 
-/// The least pressure around a pressed node: behind the bound the part has lifted off inside.
+/// The least pressure around a pressed node: behind the bound the part has lifted off inside. A part that needs no
+/// pressure, and only hands loads on, stays.
 class PressureBound final : public ValidityBound {
  public:
   explicit PressureBound(std::size_t node) : node_(node) {}
