@@ -44,13 +44,7 @@ OrderedJson special_json(const EventCurve& curve, const CurveSpecial& special) {
   return json;
 }
 
-}  // namespace
-
-std::string followed_event(const EventCurve& curve) {
-  return fmt::format("{} {} over {}", to_text(curve.event), curve.number, curve.key);
-}
-
-std::vector<std::vector<std::string>> curve_special_rows(const EventCurve& curve) {
+std::vector<std::vector<std::string>> special_rows(const EventCurve& curve) {
   std::vector<std::vector<std::string>> rows;
   for (const CurveSpecial& special : curve.specials) {
     const CurvePoint& point = point_of(curve, special);
@@ -58,6 +52,12 @@ std::vector<std::vector<std::string>> curve_special_rows(const EventCurve& curve
         {std::string(to_text(special.kind)), shown_number(point.key, 12), shown_number(point.lambda, 12), special.why});
   }
   return rows;
+}
+
+}  // namespace
+
+std::string followed_event(const EventCurve& curve) {
+  return fmt::format("{} {} over {}", to_text(curve.event), curve.number, curve.key);
 }
 
 std::string curve_csv(const EventCurve& curve, UnitLabels labels) {
@@ -108,7 +108,7 @@ void require_no_run(const std::filesystem::path& folder, Foreign foreign) {
 std::string curve_text(const EventCurve& curve) {
   return fmt::format("{}: {} points\n\n", followed_event(curve), curve.points.size()) +
          text_table({{"special point"}, {"number", TableColumn::Side::right}, {"λ", TableColumn::Side::right}, {"why"}},
-                    curve_special_rows(curve));
+                    special_rows(curve));
 }
 
 OrderedJson worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,

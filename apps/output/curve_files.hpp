@@ -38,9 +38,6 @@ std::string curve_text(const EventCurve& curve);
 /// What is followed, and over which number: `limit-point 1 over wall.upper.profile.z`.
 std::string followed_event(const EventCurve& curve);
 
-/// The special points as rows of a table: kind, number, λ, why.
-std::vector<std::vector<std::string>> curve_special_rows(const EventCurve& curve);
-
 /// curve.json of the worst combination of numbers, and what the command shows of it.
 nlohmann::ordered_json worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,
                                   const std::vector<std::string>& assignments);

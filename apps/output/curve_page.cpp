@@ -129,11 +129,14 @@ std::string sides_html(const EventCurve& curve) {
 }
 
 std::string specials_html(const EventCurve& curve) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr><th>special point</th><th class=\"figure\">" +
+  std::string html = "<div class=\"scroll\"><table><thead><tr><th>special point</th><th class=\"figure long\">" +
                      escaped(curve.key) + "</th><th class=\"figure\">λ</th><th>why</th></tr></thead><tbody>\n";
-  for (const std::vector<std::string>& row : curve_special_rows(curve))
+  for (const CurveSpecial& special : curve.specials) {
+    const CurvePoint& point = curve.points[special.point];
     html += fmt::format("<tr><td>{}</td><td class=\"figure\">{}</td><td class=\"figure\">{}</td><td>{}</td></tr>\n",
-                        row[0], row[1], row[2], escaped(row[3]));
+                        to_text(special.kind), shown_number(point.key, 7), shown_number(point.lambda, 8),
+                        escaped(special.why));
+  }
   return html + "</tbody></table></div>";
 }
 
