@@ -247,6 +247,9 @@ class StructureBuilder {
   /// A joint of members. Returns its node.
   Index add_joint(const Vec2& position);
 
+  /// So many members will be added: no room is kept for more.
+  void expect_members(std::size_t count);
+
   /// Meshes the member at once, so that its inner nodes can be loaded. Returns its index.
   Index add_member(MemberDescription member);
   const MemberMesh& mesh(Index member) const { return meshes_[static_cast<std::size_t>(member)]; }

@@ -74,6 +74,15 @@ std::vector<ThicknessFreedoms> StructureBuilder::thickness(Index joint) const {
   return all;
 }
 
+void StructureBuilder::expect_members(std::size_t count) {
+  descriptions_.reserve(count);
+  meshes_.reserve(count);
+  first_element_.reserve(count);
+  foundations_.reserve(count);
+  thermal_.reserve(count);
+  pressures_.reserve(count);
+}
+
 Index StructureBuilder::add_member(MemberDescription member) {
   assert(member.elements >= 1 && member.axis != nullptr);
   assert(member.theory != Theory::exact || ((member.order == 1 || member.order == 2) && member.section.GA() > 0.0));

@@ -184,6 +184,8 @@ MemberDescription description_of(const deck::Deck& deck, const deck::Member& mem
 // No member is built of numbers that are out of range: its stiffness may be zero.
 void add_members(const deck::Deck& deck, bool coarse, DeckProblems& problems, StructureOfDeck& out) {
   std::vector<MemberDescription> descriptions;
+  descriptions.reserve(deck.members.size());
+  out.builder.expect_members(deck.members.size());
   for (const deck::Member& member : deck.members) {
     descriptions.push_back(description_of(deck, member, coarse, out));
     if (coarse) continue;

@@ -106,6 +106,12 @@ double CurveReader::crossing_value(const State& state) const {
   return before && after ? (*after - *before) / (2.0 * beside) : std::nan("");
 }
 
+void add_scenery(const Model& model, const State& state, CurvePoint& to) {
+  to.shape = shape_of(model, state);
+  to.walls = wall_shapes(model, state.lambda);
+  to.heights = section_heights(model.deck());
+}
+
 CurvePoint CurveReader::read_off(const PathPoint& at, SideCounts& counts) const {
   const State& state = at.state;
   const auto member = system_.at(state);
@@ -119,7 +125,7 @@ CurvePoint CurveReader::read_off(const PathPoint& at, SideCounts& counts) const 
   point.unstable_before = counts.before;
   point.unstable_after = counts.after;
   point.contacts = model->closed_contacts(member->state);
-  point.shape = shape_of(*model, member->state);
+  add_scenery(*model, member->state, point);
   point.state = system_.in_common_terms(state);
   return point;
 }

@@ -265,7 +265,7 @@ void CurveTracing::add_ends(EventCurve& curve) const {
 constexpr std::int64_t greatest(Criterion) { return static_cast<std::int64_t>(Criterion::crossing); }
 constexpr std::int64_t greatest(CurveSpecialKind) { return static_cast<std::int64_t>(CurveSpecialKind::crossing); }
 
-// Without the shape, which follows from the state.
+// Without what pictures show, which follows from the state.
 template <typename Archive>
 void parts(Archive& archive, CurvePoint& point) {
   archive(point.arc, point.key, point.lambda, point.monitors, point.slope, point.unstable_before, point.unstable_after,
@@ -288,7 +288,7 @@ bool CurveTracing::complete(Side& side) const {
   for (CurvePoint& point : side.points) {
     const auto member = family_.at(point.key, point.state);
     if (!member || point.monitors.size() != monitors) return false;
-    point.shape = shape_of(*family_.model(point.key), member->state);
+    add_scenery(*family_.model(point.key), member->state, point);
   }
   return std::all_of(side.specials.begin(), side.specials.end(),
                      [&](const CurveSpecial& special) { return special.point < side.points.size(); });

@@ -23,8 +23,13 @@ struct CurvePoint {
   std::optional<Index> unstable_before{}, unstable_after{};
   Index contacts = 0;  ///< closed
   Shape shape{};
-  State state{};  ///< the event's, in the unknowns of the model of the deck's own value
+  std::vector<WallShape> walls{};  ///< where they are at the event
+  std::vector<double> heights{};   ///< of the members' sections; 0 if unknown [length]
+  State state{};                   ///< the event's, in the unknowns of the model of the deck's own value
 };
+
+/// Gives a point what pictures of it show; `model` and `state` are those of its number.
+void add_scenery(const Model& model, const State& state, CurvePoint& to);
 
 /// What happens on a curve of events.
 enum class CurveSpecialKind {

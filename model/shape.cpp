@@ -69,4 +69,14 @@ std::vector<WallShape> wall_shapes(const Model& model, double lambda) {
   return walls;
 }
 
+std::vector<double> section_heights(const deck::Deck& deck) {
+  std::vector<double> heights;
+  for (const deck::Member& member : deck.members) {
+    const deck::Section* section = find(deck.sections, member.section);
+    const bool beam = member.theory != Theory::truss && section != nullptr;
+    heights.push_back(beam ? properties(*section).height.value_or(0.0) : 0.0);
+  }
+  return heights;
+}
+
 }  // namespace arcwall

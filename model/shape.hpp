@@ -41,6 +41,10 @@ struct WallShape {
   bool moves = false;        ///< λ moves it
 };
 
+/// The heights of the members' sections, in the deck's order; 0 of bars, which are drawn as lines, and where it is
+/// unknown [length].
+std::vector<double> section_heights(const deck::Deck& deck);
+
 /// The walls where they are at λ.
 std::vector<WallShape> wall_shapes(const Model& model, double lambda = 0.0);
 

@@ -123,9 +123,9 @@ void say_how_it_ended(const std::optional<BranchEnd>& stopped, const Session& ru
   const RecordBranch& branch = decisive_branch(record);
   const ExitStatus status = exit_status(branch.end->reason);
   if (status == ExitStatus::limit_met)
-    std::cerr << fmt::format("note: the run ended: {}, which {}; what was traced is in {}\n", how_it_ended(*branch.end),
-                             run.model().deck().path.max_points_given.in_deck ? "the deck says" : "is the default",
-                             where);
+    std::cerr << fmt::format(
+        "note: the run ended: {}, {}; what was traced is in {}\n", how_it_ended(*branch.end),
+        run.model().deck().path.max_points_given.in_deck ? "as the deck has it" : "which is the default", where);
   else if (status != ExitStatus::success)
     say_that_it_ended_early(branch, run, where);
 }

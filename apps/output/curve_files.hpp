@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/output/curve_page.hpp"
 #include "apps/output/exit_status.hpp"
 #include "apps/output/files.hpp"
 #include "model/event_curve.hpp"
@@ -34,11 +35,8 @@ void require_no_run(const std::filesystem::path& folder, Foreign foreign);
 /// What the command shows: the special points as a table.
 std::string curve_text(const EventCurve& curve);
 
-/// report.html of a curve: λ and the monitors over the number, and the shape at some points.
-std::string curve_html(const EventCurve& curve);
-
-/// Its first chart alone, λ over the number, as an element for other pages.
-std::string curve_picture(const EventCurve& curve);
+/// What is followed, and over which number: `limit-point 1 over wall.upper.profile.z`.
+std::string followed_event(const EventCurve& curve);
 
 /// curve.json of the worst combination of numbers, and what the command shows of it.
 nlohmann::ordered_json worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,

@@ -25,6 +25,7 @@
 #include "apps/output/run_warnings.hpp"
 #include "apps/output/search_rows.hpp"
 #include "apps/output/sensitivity_rows.hpp"
+#include "apps/output/shape_svg.hpp"
 #include "apps/output/shown_number.hpp"
 #include "apps/output/svg_chart.hpp"
 #include "model/deck/writer.hpp"
@@ -219,26 +220,12 @@ std::string legend(const Record& record, const std::vector<Overlay>& overlays) {
 
 // --- deformed shapes ------------------------------------------------------------------------------------------------
 
-std::string view_box(const ShapePictures& shapes) { return fmt::format("0 0 {} {}", shapes.width, shapes.height); }
-
 std::string walls(const ShapePictures& shapes) {
   std::string text = "<g id=\"walls\">";
   for (std::size_t i = 0; i < shapes.surfaces.size(); ++i)
     text += fmt::format("<path class=\"body\" d=\"{}\"/><path class=\"surface\" d=\"{}\"/>", shapes.bodies[i],
                         shapes.surfaces[i]);
   return text + "</g>";
-}
-
-// A path may be drawn twice: a member as its body and its axis.
-std::string shape_paths(const ShapePictures& shapes, const ShapePicture& picture) {
-  std::string text;
-  for (std::size_t i = 0; i < picture.paths.size(); ++i) {
-    const std::string data = fmt::format("data-path=\"{}\" d=\"{}\"", i, picture.paths[i]);
-    if (shapes.thickness[i] > 0.0)
-      text += fmt::format("<path class=\"band\" stroke-width=\"{}\" {}/>", shapes.thickness[i], data);
-    text += fmt::format("<path class=\"{}\" {}/>", shapes.classes[i], data);
-  }
-  return text;
 }
 
 std::string first_members(const ShapePictures& shapes) {
@@ -258,12 +245,6 @@ std::string stage(const ShapePictures& shapes) {
       "shape\">{1}<g>{2}</g>"
       "<g id=\"drawn-forces\"></g><g id=\"shown\">{3}</g><g id=\"named-points\"></g></svg>",
       view_box(shapes), walls(shapes), first_members(shapes), shape_paths(shapes, shapes.pictures.front()));
-}
-
-// At the picture itself, or its angles would be believed.
-std::string stretch_note(const ShapePictures& shapes) {
-  if (shapes.stretch <= 1.0) return "";
-  return fmt::format("<p class=\"note\">Heights are drawn {} times as large as lengths.</p>", shapes.stretch);
 }
 
 std::string shape_notes(const Record& record, const ShapePictures& shapes) {

@@ -379,17 +379,6 @@ std::vector<std::pair<std::string, HeldPoint>> held_points(const deck::Deck& dec
   return points;
 }
 
-// Of beams; bars are drawn as lines.
-std::vector<double> section_heights(const deck::Deck& deck) {
-  std::vector<double> heights;
-  for (const deck::Member& member : deck.members) {
-    const deck::Section* section = find(deck.sections, member.section);
-    const bool beam = member.theory != Theory::truss && section != nullptr;
-    heights.push_back(beam ? properties(*section).height.value_or(0.0) : 0.0);
-  }
-  return heights;
-}
-
 std::vector<DrawnMember> drawn_members(const deck::Deck& deck) {
   std::vector<DrawnMember> members;
   for (const deck::Member& member : deck.members) {

@@ -25,7 +25,7 @@ std::optional<double> height_of(const LoadLine& line, const MapPoint& point, Mea
 
 std::string colour_of(std::size_t line, std::size_t lines) {
   // What is seen as a line on white and on black.
-  constexpr double from = 0.22, to = 0.85;
+  constexpr double from = 0.3, to = 0.85;
   return text_of(
       colour_at(lines > 1 ? from + (to - from) * static_cast<double>(line) / static_cast<double>(lines - 1) : 0.4));
 }

@@ -44,6 +44,7 @@ constexpr const char* style_text =
     "svg a { cursor: pointer; }\n"
     "svg a:hover rect, svg a:hover circle { stroke: var(--accent); stroke-width: 2; }\n"
     "figure { margin: 0; min-width: 0; }\n"
+    ".map { grid-column: 1 / -1; max-width: 640px; }\n"
     "figcaption, .note { color: var(--soft); font-size: 13px; margin: 4px 0 8px; }\n"
     "select { font: inherit; color: inherit; background: var(--paper); border: 1px solid var(--line); border-radius: "
     "6px; padding: 5px 11px; max-width: 100%; }\n"
@@ -71,8 +72,10 @@ std::string failure_table(const Overview& of_all) {
          rows + "</table></section>\n";
 }
 
-std::string figure(const std::string& svg, const std::string& caption) {
-  return svg.empty() ? "" : "<figure>\n<figcaption>" + escaped(caption) + "</figcaption>\n" + svg + "</figure>\n";
+std::string figure(const std::string& svg, const std::string& caption, const std::string& attributes = "") {
+  return svg.empty()
+             ? ""
+             : "<figure" + attributes + ">\n<figcaption>" + escaped(caption) + "</figcaption>\n" + svg + "</figure>\n";
 }
 
 std::string load_section(const DrawnCases& drawn, std::size_t load) {
@@ -87,9 +90,10 @@ std::string load_section(const DrawnCases& drawn, std::size_t load) {
       panels = figure(panels_svg(lines), "A panel for each " + plain(lines.titles.y) + ", the other lines in grey");
   }
   return "<section class=\"load\">\n<h2>" + escaped(drawn.loads()[load].title) + "</h2>\n<div class=\"views\">\n" +
-         figure(svg(drawn.map(load)), drawn.keys_drawn() == 1
-                                          ? "Each case"
-                                          : "Each case; lines join equal loads, those of the marks on the bar") +
+         figure(svg(drawn.map(load)),
+                std::string(drawn.are_means() ? "The mean of the cases near each place" : "Each case") +
+                    (drawn.keys_drawn() == 1 ? "" : "; lines join equal loads, those of the marks on the bar"),
+                " class=\"map\"") +
          pictures + "</div>\n" + panels + "</section>\n";
 }
 

@@ -1,7 +1,8 @@
 #include "contact/sliding/setting.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 namespace arcwall {
 
@@ -9,21 +10,21 @@ std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<Slidin
                                const SlidingMesh& mesh, const MeshState& rest) {
   constexpr double vertical = 1e-6;  // cosine of an axis that stands upright
   std::vector<FreeEnd> ends;
+  std::map<std::tuple<std::size_t, Index, bool>, std::size_t> known;  // obstacle, strand, last: which of the ends
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (std::size_t w = 0; w < obstacles.size(); ++w)
       for (const bool last : {false, true}) {
         if (!obstacles[w].concerns(strand) || body.end_is_held(strand, last)) continue;
         const StrandEnd first = body.first_of_joint(strand, last, !obstacles[w].on_face);
-        const auto same = std::find_if(ends.begin(), ends.end(), [&](const FreeEnd& end) {
-          return end.obstacle == w && end.strand == first.strand && end.last == first.last;
-        });
-        if (same != ends.end()) {
-          same->joined.push_back({.strand = strand, .last = last});
+        const auto same = known.find({w, first.strand, first.last});
+        if (same != known.end()) {
+          ends[same->second].joined.push_back({.strand = strand, .last = last});
           continue;
         }
         FreeEnd end{.strand = strand, .last = last, .obstacle = w};
         const double along = std::cos(mesh.node(strand, end.position(mesh), rest).angle);
         if (std::abs(along) > vertical) end.travel = std::copysign(1.0, along);
+        known[{w, strand, last}] = ends.size();
         ends.push_back(end);
       }
   return ends;

@@ -138,10 +138,10 @@ void check_curve(Keys& keys, const Curve& curve, const Ends& ends) {
   for (std::size_t i = 1; i < curve.x.size(); ++i) whole += stretch(i);
   for (std::size_t i = 1; i < curve.x.size(); ++i) {
     if (stretch(i) > least_stretch * whole) continue;
-    keys.report("x",
-                "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are the same" +
-                    (stretch(i) > 0.0 ? " to 9 digits of the curve's length" : ""),
-                "remove one of them");
+    return keys.report("x",
+                       "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are the same" +
+                           (stretch(i) > 0.0 ? " to 9 digits of the curve's length" : ""),
+                       "remove one of them");
   }
 }
 

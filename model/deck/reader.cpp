@@ -148,6 +148,10 @@ void report_unknown_parts(const Value& root, Findings& findings) {
 Deck read_root(const Value& value, Source source) {
   Deck deck{.source = std::move(source)};
   Findings findings(deck.source);
+  if (value.items.empty()) {
+    findings.add(value.position, "deck", "there is nothing in it", "begin with a deck of trace-path examples");
+    findings.throw_if_any();
+  }
   Cursor root(value, "", findings);
   const Names names = names_in(value);
   KeyReader reader(root, names, deck);

@@ -21,19 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A spring at the top of two bars, whose stiffness makes the limit points meet at a cusp.
-const std::string truss = R"toml(
-title = "Two bars and a spring"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }]
-spring = [{ at = "top", stiffness = { z = 1.0 } }]
-path = { step = 0.3, branches = "primary", stop = { w = [-2.5, 0.5] } }
-monitor = [{ name = "w", at = "top", component = "z" }]
-)toml" + std::string(test::two_bars) +
-                          R"toml([curve]
+const std::string truss = test::truss_on_spring + R"toml([curve]
 event = { kind = "limit-point" }
 over = "spring.0.stiffness.z"
 range = [0.5, 12.0]
@@ -42,30 +30,13 @@ range = [0.5, 12.0]
 // Contact that slides: an event's states have meshes of their own.
 std::string channel(const std::string& kind, const std::string& over = "wall.upper.profile.z",
                     const std::string& range = "[0.19, 0.215]", int elements = 12) {
-  return R"toml(
-title = "A column in a channel"
-material.m = { E = 21000.0, nu = 0.29 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 10.0], event = "limit-point" } }
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
-)toml" + test::column_in_channel(elements) +
+  return test::pressed_column_in_channel(elements,
+                                         "landing = false, stop = { lambda = [-1.0, 10.0], event = \"limit-point\" }") +
          fmt::format("[curve]\nevent = {{ kind = \"{}\" }}\nover = \"{}\"\nrange = {}\n", kind, over, range);
 }
 
 // Symmetric, so that its pitchfork persists.
-const std::string column = R"toml(
-title = "A straight column"
-material.m = { E = 21000.0 }
-section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, stop = { event = "branch-point" } }
-member.c = { from = "A", to = "B", theory = "elastica", elements = 8, material = "m", section = "s" }
-[curve]
+const std::string column = test::straight_column(8) + R"toml([curve]
 event = { kind = "branch-point" }
 over = "point.B.0"
 range = [1.9, 2.2]
@@ -229,7 +200,7 @@ TEST_F(CurveProgramTest, GoesOnBehindALimitAndAKill) {
 }
 
 // Limit loads of the truss on its spring over the stiffness, for three moduli: the cusp is at k = EA h²/L³.
-TEST_F(CurveProgramTest, IsACaseOfASweep) {
+TEST_F(CurveProgramTest, IsACaseOfASweepSlow) {
   put("deck.toml", truss);
   put("sweep.toml",
       "title = \"Curves\"\ndeck = \"deck.toml\"\ncommand = \"curve\"\n[grid]\nmaterial.m.E = [8e3, 1e4, 1.1e4]\n");

@@ -53,22 +53,7 @@ void expect_runs(const std::string& deck, const EventCurve& curve, std::size_t p
   }
 }
 
-// Two bars of half-span 10 and rise 1, Green strain, EA = 1e4; a vertical spring at the top.
-std::string truss(const std::string& curve) {
-  return R"toml(
-title = "Two bars and a spring"
-material.m = { E = 1e4 }
-section.s = { shape = "general", A = 1.0, I = 1.0 }
-point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
-support = { left = ["x", "z"], right = ["x", "z"] }
-load = [{ at = "top", force = [0.0, -1.0] }]
-spring = [{ at = "top", stiffness = { z = 1.0 } }]
-path = { step = 0.3, branches = "primary", stop = { w = [-2.5, 0.5] } }
-monitor = [{ name = "w", at = "top", component = "z" }]
-)toml" + test::two_bars +
-         R"toml([curve]
-)toml" + curve;
-}
+std::string truss(const std::string& curve) { return test::truss_on_spring + "[curve]\n" + curve; }
 
 }  // namespace
 
@@ -124,16 +109,7 @@ land = [1e-8, 1e-6]
 
 // A straight column between pins: P (1 − P/EA) = π² EI/L², a pitchfork for each L.
 TEST(EventCurve, OfThePitchforkOfAColumnIsEulers) {
-  const std::string deck = R"toml(
-title = "A straight column"
-material.m = { E = 21000.0 }
-section.s = { shape = "general", A = 0.01, I = 8.333333333333333e-6 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, stop = { event = "branch-point" } }
-member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
-[curve]
+  const std::string deck = test::straight_column(16) + R"toml([curve]
 event = { kind = "branch-point" }
 over = "point.B.0"
 range = [1.5, 3.0]
@@ -156,16 +132,7 @@ namespace {
 
 // A column in a channel, whose imperfection has a third harmonic.
 std::string channel(const std::string& curve) {
-  return R"toml(
-title = "A column in a channel"
-material.m = { E = 21000.0, nu = 0.29 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, stop = { lambda = [-1.0, 10.0], event = "limit-point" } }
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
-)toml" + test::column_in_channel(20) +
+  return test::pressed_column_in_channel(20, "stop = { lambda = [-1.0, 10.0], event = \"limit-point\" }") +
          R"toml([curve]
 )toml" + curve;
 }
@@ -213,7 +180,7 @@ TEST(EventCurve, OfAMonitorThatTurnsIsThatOfOtherRunsSlow) {
   put("load = [{ at = \"B\", force = [-1.0, 0.0] }]", "prescribed = [{ at = \"B\", x = -1.0 }]");
   put("step = 0.05, stop = { lambda = [-1.0, 10.0], event = \"limit-point\" }",
       "step = 0.004, watch = [\"P\"], stop = { event = \"limit-point\" }");
-  put("component = \"z\" }]", "component = \"z\" }, { name = \"P\", at = \"B\", component = \"reaction-x\" }]");
+  put("[[monitor]]", "[[monitor]]\nname = \"P\"\nat = \"B\"\ncomponent = \"reaction-x\"\n[[monitor]]");
   const EventCurve curve = curve_of(deck);
   ASSERT_GT(curve.points.size(), 3U);
   expect_runs(deck, curve, 3, 1e-9);
@@ -323,7 +290,8 @@ TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   EXPECT_EQ(json["specials"].back()["kind"], "ends");
   EXPECT_EQ(json["specials"].back()["reason"], "stop");
   EXPECT_DOUBLE_EQ(json["specials"].back()["key"].get<double>(), 0.21);
-  EXPECT_NE(curve_html(curve).find("<svg"), std::string::npos);
+  // Shapes had no walls, and their contacts stood outside of them.
+  EXPECT_NE(curve_html(curve).find("<path class=\"moving\" data-path=\"1\" d=\"M"), std::string::npos);
   EXPECT_EQ(curve_status(curve), ExitStatus::success);
 }
 

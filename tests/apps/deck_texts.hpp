@@ -39,6 +39,35 @@ load = [{ at = "top", force = [0.0, -1.0] }]
 monitor = [{ name = "w", at = "top", component = "z" }]
 )toml" + two_bars;
 
+/// The same two bars with a spring at the top, whose stiffness makes the limit points meet at a cusp; traced past both,
+/// and tables may follow.
+inline const std::string truss_on_spring = R"toml(
+title = "Two bars and a spring"
+material.m = { E = 1e4 }
+section.s = { shape = "general", A = 1.0, I = 1.0 }
+point = { left = [-10.0, 0.0], top = [0.0, 1.0], right = [10.0, 0.0] }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ at = "top", force = [0.0, -1.0] }]
+spring = [{ at = "top", stiffness = { z = 1.0 } }]
+path = { step = 0.3, branches = "primary", stop = { w = [-2.5, 0.5] } }
+monitor = [{ name = "w", at = "top", component = "z" }]
+)toml" + two_bars;
+
+/// A straight column of length 2 between pins, EI = 0.175 and EA = 210, traced up to its pitchfork; tables may follow.
+inline std::string straight_column(int elements) {
+  return fmt::format(R"toml(
+title = "A straight column"
+material.m = {{ E = 21000.0 }}
+section.s = {{ shape = "general", A = 0.01, I = 8.333333333333333e-6 }}
+point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
+support = {{ A = ["x", "z"], B = ["z"] }}
+load = [{{ at = "B", force = [-1.0, 0.0] }}]
+path = {{ step = 0.05, stop = {{ event = "branch-point" }} }}
+member.c = {{ from = "A", to = "B", theory = "elastica", elements = {}, material = "m", section = "s" }}
+)toml",
+                     elements);
+}
+
 /// A column from A to B between walls at 0.2 to both sides, of material m and section s; its imperfection has a third
 /// harmonic.
 inline std::string column_in_channel(int elements) {
@@ -62,6 +91,32 @@ section = "s"
 )toml",
                      elements);
 }
+
+/// A deck of that column, pressed at B, with its monitor `mid`; `path`: the keys of [path]. Tables may follow.
+inline std::string pressed_column_in_channel(int elements, const std::string& path) {
+  return R"toml(
+title = "A column in a channel"
+material.m = { E = 21000.0, nu = 0.29 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { A = [0.0, 0.0], B = [2.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+load = [{ at = "B", force = [-1.0, 0.0] }]
+path = { step = 0.05, )toml" +
+         path + R"toml( }
+[[monitor]]
+name = "mid"
+at = "column:0.5"
+component = "z"
+)toml" + column_in_channel(elements);
+}
+
+/// A monitor of the way of its end.
+inline const std::string shortening = R"toml([[monitor]]
+name = "shortening"
+at = "B"
+component = "x"
+sign = -1
+)toml";
 
 /// A sine arch of rise 0.1 and span 2 under a load along it, with a floor at a height z; where it falls to is asked
 /// for.

@@ -65,16 +65,8 @@ section = "s"
 )toml";
 
 // A beam between walls as in the other tests of columns in a channel.
-const std::string channel = std::string(R"toml(
-title = "A column in a channel"
-material.m = { E = 21000.0, nu = 0.29 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, landing = true, stop = { lambda = [-1.0, 10.0] } }
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "B", component = "x", sign = -1 }]
-)toml") + test::column_in_channel(40);
+const std::string channel =
+    test::pressed_column_in_channel(40, "landing = true, stop = { lambda = [-1.0, 10.0] }") + test::shortening;
 
 // μ W ẋ = −F at fixed λ by steps x − (K + μ W)⁻¹ F of one Newton iteration each, no longer than a length that is
 // prescribed: no search, no energy, no contact.

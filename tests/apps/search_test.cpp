@@ -47,19 +47,12 @@ std::vector<double> roots_of_the_truss(double lambda) {
 // A column with a half sine as imperfection, in a channel that presses its flat part onto one wall and draws it off the
 // other.
 std::string channel() {
-  std::string column = test::column_in_channel(40);
+  std::string deck =
+      test::pressed_column_in_channel(40, "search = true, search_at = [6.5], stop = { lambda = [-1.0, 10.0] }") +
+      test::shortening;
   const std::string third = ", { shape = \"sine\", amplitude = 0.0001, waves = 3 }";
-  column.erase(column.find(third), third.size());
-  return R"toml(
-title = "A column in a channel"
-material.m = { E = 21000.0, nu = 0.29 }
-section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
-point = { A = [0.0, 0.0], B = [2.0, 0.0] }
-support = { A = ["x", "z"], B = ["z"] }
-load = [{ at = "B", force = [-1.0, 0.0] }]
-path = { step = 0.05, search = true, search_at = [6.5], stop = { lambda = [-1.0, 10.0] } }
-monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "B", component = "x", sign = -1 }]
-)toml" + column;
+  deck.erase(deck.find(third), third.size());
+  return deck;
 }
 
 // An equilibrium of the channel at λ = 6.5.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets and runs each for some seconds (20); fails on a finding:
+# Builds the fuzz targets and runs each for some seconds (20), two at a time; fails on a finding:
 #
 #   bash tests/fuzz/run.sh [SECONDS] [deck_text] [deck_model] [deck_path] [checkpoint]
 #
@@ -37,7 +37,8 @@ cat tests/fuzz/syntax.dict "$folder/fuzz/seeds/deck.dict" >"$folder/fuzz/deck.di
 # Traces of allocations and memory that is long free cost half the time; whoever repeats a finding has them.
 quick=detect_leaks=0:malloc_context_size=1:quarantine_size_mb=8:thread_local_quarantine_size_kb=256
 export ASAN_OPTIONS=${ASAN_OPTIONS:-$quick}
-for target in "${targets[@]}"; do
+fuzz() {
+  local target=$1 options folders found log findings
   read -ra options < <(options_of "$target")
   log=$folder/fuzz/$target.log findings=$folder/fuzz/findings/$target-
   folders=("$folder/fuzz/$target")
@@ -50,7 +51,16 @@ for target in "${targets[@]}"; do
     mapfile -t found < <(ls -t "$findings"*)
     echo "error: $target has a finding; repeat it with" >&2
     echo "  ARCWALL_FUZZ_SHOW=1 $folder/tests/fuzz/fuzz_$target ${found[0]:-}" >&2
-    exit 1
+    return 1
   fi
   echo "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") runs without a finding"
+}
+
+# Two at a time: each takes a core.
+status=0
+for ((i = 0; i < ${#targets[@]}; ++i)); do
+  if ((i >= 2)); then wait -n || status=1; fi
+  fuzz "${targets[$i]}" &
 done
+while [[ -n $(jobs -p) ]]; do wait -n || status=1; done
+exit "$status"

@@ -70,7 +70,7 @@ std::vector<RecordEvent> events_of(const Session& run, EventKind kind) {
   return found;
 }
 
-TEST(MissedCorners, AreLeftWithTheContactThatMissedThemByTheErrorOfTheMesh) {
+TEST(MissedCorners, AreLeftWithTheContactThatMissedThemByTheErrorOfTheMeshSlow) {
   const Session symmetric = traced(half());
   const auto touches = events_of(symmetric, EventKind::contact_closes);
   ASSERT_EQ(touches.size(), 1u);
@@ -89,7 +89,7 @@ TEST(MissedCorners, AreLeftWithTheContactThatMissedThemByTheErrorOfTheMesh) {
 }
 
 // Just before the corner the contact that is let go there still holds.
-TEST(MissedCorners, AreReachedWithTheCountOfTheContactsThatHoldUpToThem) {
+TEST(MissedCorners, AreReachedWithTheCountOfTheContactsThatHoldUpToThemSlow) {
   const auto limits = events_of(traced(toggle(28)), EventKind::limit_point);
   ASSERT_EQ(limits.size(), 2u);
   EXPECT_EQ(limits[0].unstable_before, 0);

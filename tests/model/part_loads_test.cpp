@@ -16,41 +16,28 @@ using test::traced;
 
 constexpr double EI = 2.0, length = 1.0;
 
-// A beam of its own weight q = 1 on a floor, without supports but one along it.
-std::string strip(const std::string& rest) {
+// A beam on or above a floor; `support` and `place`: of a monitor of its height.
+std::string over_floor(const std::string& support, const std::string& wall, const std::string& place) {
   return R"toml(
-title = "A strip on a floor"
+title = "A beam over a floor"
 material.m = { E = 1.0, nu = 0.3 }
 section.s = { shape = "general", A = 100000.0, I = 2.0 }
 point = { a = [0.0, 0.0], b = [1.0, 0.0] }
-support = { a = ["x"] }
 member.beam = { from = "a", to = "b", theory = "classic", material = "m", section = "s", elements = 40 }
-wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = 0.0 } }]
-monitor = [
-  { name = "mid", at = "beam:0.5", component = "z" },
-  { name = "floor", wall = "floor", component = "force-z" },
-]
-)toml" + rest +
-         "\n";
+support = )toml" +
+         support + "\nwall = [{ name = \"floor\", side = \"below\", acts_on = \"axis\", profile = " + wall +
+         " }]\nmonitor = [{ name = \"height\", at = \"beam:" + place +
+         "\", component = \"z\" }, { name = \"floor\", wall = \"floor\", component = \"force-z\" }]\n";
 }
 
-// The same above a floor, between supports at its ends.
+// Of its own weight q = 1, without supports but one along it; its middle is watched.
+std::string strip(const std::string& rest) {
+  return over_floor("{ a = [\"x\"] }", "{ type = \"flat\", z = 0.0 }", "0.5") + rest + "\n";
+}
+
+// Between supports at its ends; its quarter is watched.
 std::string beam(const std::string& wall, const std::string& rest) {
-  return R"toml(
-title = "A beam above a floor"
-material.m = { E = 1.0, nu = 0.3 }
-section.s = { shape = "general", A = 100000.0, I = 2.0 }
-point = { a = [0.0, 0.0], b = [1.0, 0.0] }
-support = { a = ["x", "z"], b = ["z"] }
-member.beam = { from = "a", to = "b", theory = "classic", material = "m", section = "s", elements = 40 }
-wall = [{ name = "floor", side = "below", acts_on = "axis", profile = )toml" +
-         wall + R"toml( }]
-monitor = [
-  { name = "quarter", at = "beam:0.25", component = "z" },
-  { name = "floor", wall = "floor", component = "force-z" },
-]
-)toml" + rest +
-         "\n";
+  return over_floor("{ a = [\"x\", \"z\"], b = [\"z\"] }", wall, "0.25") + rest + "\n";
 }
 
 std::vector<double> loads_of(const Session& run, EventKind kind) {

@@ -131,7 +131,7 @@ std::string bent_column(int elements) {
 // long before that it is lost in round-off, and no step succeeds any more. What lies behind is a point contact, whose
 // curvature says to all digits where. The finer mesh, which loses the force earlier, confirms it; and that λ goes on
 // along the unstable branch, as it must while the number of unstable directions stays odd.
-TEST(ShortParts, GatherWhereTheirForcesAreLostInRoundOff) {
+TEST(ShortParts, GatherWhereTheirForcesAreLostInRoundOffSlow) {
   const Traced coarse = traced(bent_column(32)), fine = traced(bent_column(64));
   const std::vector<EventKind> expected{EventKind::contact_closes, EventKind::contact_spreads, EventKind::contact_opens,
                                         EventKind::contact_gathers, EventKind::contact_closes};

@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { channel, desktop, examples, folder, has_plotly, open, phone, report_of, trace_path } from './browser.mjs';
 import { hostile_decks } from './hostile_decks.mjs';
+import './pages_in_browser.mjs';
 import './shape_in_browser.mjs';
 import './sweep_in_browser.mjs';
 
@@ -375,9 +376,11 @@ test('a long run stays usable', async () => {
     return { points: points.lambda.length, shapes: shapes.length, load: loadEventEnd, step: times.sort((a, b) => a - b)[10] };
   });
   const size = readFileSync(report).length / 1e6;
-  console.log(`${figures.points} points, ${figures.shapes} shapes, ${size.toFixed(1)} MB: loaded in ${Math.round(figures.load)} ms, ` +
+  const data = await page.evaluate(() => document.getElementById('data').textContent.length / 1e6);
+  console.log(`${figures.points} points, ${figures.shapes} shapes, ${size.toFixed(1)} MB, ${data.toFixed(1)} of them data: loaded in ${Math.round(figures.load)} ms, ` +
     `${figures.step.toFixed(0)} ms a step`);
   assert.equal(figures.points, 5000);
   assert.ok(size < 12, `${size} MB`);
+  assert.ok(readFileSync(channel).length < 1.6e6, 'a page without much data');
   await finish();
 });

@@ -4,7 +4,7 @@ const plotly_chart = (picked) => {
   const here_trace = () => ({ type: 'scatter', mode: 'markers', x: [], y: [], hoverinfo: 'skip',
     marker: { size: 20, symbol: 'circle-open', color: colour('force'), line: { width: 3 } } });
   const axis = (title) => ({ title: { text: as_text(title), standoff: 8 }, zeroline: false, gridcolor: colour('grid'),
-    linecolor: colour('edge'), automargin: true });
+    linecolor: colour('edge'), automargin: true, exponentformat: 'power' });  // no 2p for 2·10⁻¹²
   // The area under a part of the curve; the first of the traces, so that the others stand on it.
   const area_trace = () => {
     const [first, last] = shaded ? [Math.min(...shaded), Math.max(...shaded) + 1] : [0, 0];

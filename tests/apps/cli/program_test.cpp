@@ -447,7 +447,7 @@ TEST_F(ProgramTest, ARunThatNothingEndsIsWarnedOfAndSaysWhoseLimitItMet) {
   const Outcome bounded = run("run endless.toml --quiet --no-pictures --set path.max_points=9");
   EXPECT_EQ(bounded.status, 6);
   EXPECT_EQ(bounded.err.find("warning"), std::string::npos) << bounded.err;
-  expect_in("(max_points), which the deck says; ", bounded.err);
+  expect_in("(max_points), as the deck has it; ", bounded.err);
 }
 
 TEST_F(ProgramTest, VerifyTracesARunAgainWithAQuarterOfTheStep) {

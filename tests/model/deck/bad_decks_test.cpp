@@ -310,11 +310,12 @@ TEST(BadDecks, IncrementalNeedsTheLoadsToLandOn) {
 }
 
 TEST(BadDecks, ADeckNeedsPointsMembersAndALoadThatVaries) {
-  const std::string nothing = all_of(diagnostics_of(""));
+  const std::string nothing = all_of(diagnostics_of("description = \"soon\"\n"));
   const std::string constant =
       all_of(diagnostics_of(replaced(column_deck, "force = [-1.0, 0.0]", "force = [1.0, 0.0]\nconstant = true")));
   const std::string zero = all_of(diagnostics_of(replaced(column_deck, "force = [-1.0, 0.0]", "force = [0.0, 0.0]")));
 
+  EXPECT_EQ(diagnostics_of("# nothing yet\n").size(), 1U);  // one cause, one error
   EXPECT_NE(nothing.find("title: is missing"), std::string::npos) << nothing;
   EXPECT_NE(nothing.find("point: is missing"), std::string::npos) << nothing;
   EXPECT_NE(nothing.find("there is no member"), std::string::npos) << nothing;

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "contact/multiplier_contact.hpp"
+#include "contact/outline.hpp"
+#include "elements/structure.hpp"
+#include "model/deck/values.hpp"
+
+/// The walls of a deck, and how contact with them is met.
+namespace arcwall::deck {
+
+enum class ActsOn { face, axis };
+
+struct FlatProfile {
+  double z = 0.0;
+
+  bool operator==(const FlatProfile&) const = default;
+};
+
+/// ψ = z + slope x.
+struct LineProfile {
+  double z = 0.0;
+  double slope = 0.0;
+
+  bool operator==(const LineProfile&) const = default;
+};
+
+/// The upper arc for a wall below, the lower for one above.
+struct CircleProfile {
+  Vector centre{};
+  double radius = 0.0;
+
+  bool operator==(const CircleProfile&) const = default;
+};
+
+/// ψ = apex.z + ½ curvature (x − apex.x)².
+struct ParabolaProfile {
+  Vector apex{};
+  double curvature = 0.0;
+
+  bool operator==(const ParabolaProfile&) const = default;
+};
+
+/// C² interpolating cubic.
+struct SplineProfile {
+  std::vector<double> x{};  ///< strictly increasing, at least 2
+  std::vector<double> z{};  ///< as many
+
+  bool operator==(const SplineProfile&) const = default;
+};
+
+/// All on one side of a straight line.
+struct HalfPlaneOutline {
+  Vector point{};
+  Vector normal{};  ///< to the body
+
+  bool operator==(const HalfPlaneOutline&) const = default;
+};
+
+struct CircleOutline {
+  Vector centre{};
+  double radius = 0.0;
+  Keep keep = Keep::outside;
+
+  bool operator==(const CircleOutline&) const = default;
+};
+
+struct EllipseOutline {
+  Vector centre{};
+  Vector axes{};       ///< half of the first and of the second
+  double angle = 0.0;  ///< of the first from the x-axis [rad]
+  Keep keep = Keep::outside;
+
+  bool operator==(const EllipseOutline&) const = default;
+};
+
+/// Points in the order in which an outline runs.
+struct OutlinePoints {
+  std::vector<double> x{};  ///< at least 2; of a closed one 3, the first of which is not repeated
+  std::vector<double> z{};  ///< as many
+  bool closed = false;
+  Keep keep = Keep::outside;  ///< of a closed one; of an open one the body is to the left
+
+  std::vector<Vec2> points() const;
+
+  bool operator==(const OutlinePoints&) const = default;
+};
+
+/// Straight between the points; Wall::corner_radius rounds the corners.
+struct PolylineOutline : OutlinePoints {};
+
+/// C² interpolating cubic by chord length.
+struct CurveOutline : OutlinePoints {};
+
+using Outline = std::variant<HalfPlaneOutline, CircleOutline, PolylineOutline, EllipseOutline, CurveOutline>;
+
+/// How λ moves a wall as a rigid body: by this times λ.
+struct WallMotion {
+  double x = 0.0, z = 0.0;               ///< [length]
+  double rotation = 0.0;                 ///< [rad]
+  Vector about{};                        ///< the point about which it turns, where that is at rest
+  Driven progress{.proportional = 1.0};  ///< takes the place of λ in a stage; no key of a deck
+
+  bool operator==(const WallMotion&) const = default;
+};
+
+struct Wall {
+  std::string name{};
+  Position position{};
+  Side side = Side::above;
+  ActsOn acts_on = ActsOn::face;
+  std::vector<std::string> members{};  ///< empty: every member
+  std::variant<FlatProfile, LineProfile, CircleProfile, ParabolaProfile, SplineProfile> profile{};
+  std::optional<Outline> outline{};  ///< instead of side and profile
+  double corner_radius = 0.0;        ///< of a polyline [length]
+  double interference = 0.0;         ///< so far it begins moved back from the structure [length]
+  std::optional<WallMotion> motion{};
+
+  bool operator==(const Wall&) const = default;
+};
+
+enum class ContactPoints { nodes, sliding };
+
+struct Contact {
+  ContactLaw::Method method = ContactLaw::Method::rigid;
+  std::optional<ContactPoints> points{};  ///< empty: sliding for classic and elastica, else nodes
+  std::optional<double> penalty{};        ///< 1/μ, there for every method that needs it [force/length²]
+  double gap_tolerance = 1e-10;           ///< [length]
+
+  bool operator==(const Contact&) const = default;
+};
+
+}  // namespace arcwall::deck
