@@ -31,7 +31,7 @@ double shortest_sure_arch(const SlidingSetting& setting, const HeldAxis& held, d
 
 double shortest_span(const SlidingBody& body, Index strand) {
   const double L = body.length(strand);
-  return std::max(0.0625 * L / body.elements_between(strand, 0.0, L), shortest_span_on_straight(body, strand));
+  return std::max(0.125 * L / body.elements_between(strand, 0.0, L), shortest_span_on_straight(body, strand));
 }
 
 double shortest_tail(const SlidingBody& body, Index strand, bool last) {

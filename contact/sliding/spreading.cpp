@@ -272,7 +272,7 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
     if (auto transition = spread_half_pressed(setting, at, points, factor * length))
       transitions.push_back(std::move(*transition));
   };
-  constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+  constexpr std::array factors{1.0, 2.0, 4.0, 8.0, 16.0};
   const bool changes_at_once = is_all([&](std::size_t k) { return pressure_changes_sign(setting, at, k, length); });
   if (changes_at_once) std::for_each(factors.begin(), factors.end(), try_half_pressed);
   const bool all_flat = is_all([&](std::size_t k) { return lies_by_itself(setting, at, k); });
