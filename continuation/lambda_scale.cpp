@@ -11,6 +11,9 @@ namespace {
 
 constexpr double stiffness_changes = 300.0;  // λ₀ over the λ at which the softest modes have lost their stiffness
 
+// Of the structure by a first step: a load right above a contact goes into the obstacle, and round-off moves the rest.
+constexpr double unmoved = 1e-13;
+
 // Φᵀ K Φ, and how far round-off in the entries of K may move an entry of it.
 struct ModalStiffness {
   Matrix values{};
@@ -62,7 +65,7 @@ double natural_lambda_scale(TraceTools& tools, const State& start) {
   const double moves = std::sqrt(metric.inner_x(at.tangent, at.tangent) +
                                  dlambda * dlambda * tools.system.squared_motion_by_lambda(start.piece));
   const double rate = std::abs(dlambda) / moves;
-  if (!(std::isfinite(rate) && rate > 0.0)) return first;
+  if (!(std::isfinite(rate) && rate > 0.0) || first <= unmoved * rate) return first;
   const Direction t{.dx = at.tangent.dx / moves, .dlambda = dlambda / moves};
   return rate * std::min(1.0, stiffness_changes * distance_to_buckling(tools, start, t, at.nearest));
 }

@@ -40,6 +40,9 @@ std::shared_ptr<const Observable> turning_of(const Model& model, const Event& ev
   return nullptr;
 }
 
+// Of a number's natural step, where that is too long.
+constexpr double shortenings[] = {1.0, 1e-1, 1e-2, 1e-3};
+
 bool has_sensitivity(EventKind kind) {
   return kind != EventKind::start && kind != EventKind::end && kind != EventKind::user;
 }
@@ -47,9 +50,13 @@ bool has_sensitivity(EventKind kind) {
 }  // namespace
 
 double natural_step(const deck::DeckNumber& number, const Structure& structure) {
-  constexpr double of_force = 3e-2, of_value = 1e-3, of_unit = 1e-5;
+  constexpr double of_force = 3e-3, of_value = 1e-3, of_unit = 1e-5;
+  const auto is_in = [&](const char* table) { return number.key.starts_with(table); };
   const double unit = std::pow(structure.length_scale(), number.unit.length) *
                       std::pow(std::max(structure.force_scale(), 1e-300), number.unit.force);
+  // Sections and materials are measured by themselves: a wire's second moment is next to nothing beside L⁴.
+  const bool by_itself = (is_in("section.") || is_in("material.")) && number.unit.force == 0;
+  if (by_itself && number.value != 0.0) return of_value * std::abs(number.value);
   if (number.unit.force != 0) return number.value != 0.0 ? of_force * std::abs(number.value) : of_unit * unit;
   return std::max(of_value * std::abs(number.value), of_unit * unit);
 }
@@ -58,7 +65,7 @@ double natural_step(const deck::DeckNumber& number, const Structure& structure) 
 struct Sensitivities::Beside {
   struct One {
     std::unique_ptr<Model> model;  // of the first stage
-    double weight;
+    double offset, weight, coarse_weight;
   };
   std::vector<One> models{};
   std::string problem{};
@@ -87,7 +94,10 @@ void Sensitivities::Beside::build(const deck::Deck& deck, const deck::DeckNumber
       }
       model->begin_stage(*end);
     }
-    models.push_back({.model = std::move(model), .weight = place.weight / h});
+    models.push_back({.model = std::move(model),
+                      .offset = place.offset * h,
+                      .weight = place.weight / h,
+                      .coarse_weight = place.coarse_weight / h});
   }
 }
 
@@ -110,24 +120,53 @@ Sensitivities::Sensitivities(const Model& model, std::vector<double> ended_stage
     : model_(model), ended_stages_(std::move(ended_stages)) {
   for (const std::string& key : model.whole_deck().path.sensitivity)
     numbers_.push_back(std::get<deck::DeckNumber>(deck::number_of(model.whole_deck(), key)));
-  beside_.resize(numbers_.size());
+  for (std::size_t i = 0; i < numbers_.size(); ++i) beside_.emplace_back(std::size(shortenings));
 }
 
 Sensitivities::~Sensitivities() = default;
 
 // Shorter steps serve where a longer one makes a wrong deck: a member inside a wall, say.
-const Sensitivities::Beside& Sensitivities::beside(std::size_t number) {
-  if (beside_[number]) return *beside_[number];
-  const deck::DeckNumber& varied = numbers_[number];
-  const deck::Deck deck = without_answers(model_.whole_deck());
-  auto made = std::make_unique<Beside>();
-  const double step = natural_step(varied, model_.structure());
-  for (const double shorter : {1.0, 1e-1, 1e-2, 1e-3}) {
-    made->build(deck, varied, shorter * step, ended_stages_);
-    if (made->problem.empty()) break;
+const Sensitivities::Beside& Sensitivities::beside(std::size_t number, std::size_t shorter) {
+  std::unique_ptr<Beside>& kept = beside_[number][shorter];
+  const bool shortest = shorter + 1 == std::size(shortenings);
+  if (!kept) {
+    const deck::DeckNumber& varied = numbers_[number];
+    kept = std::make_unique<Beside>();
+    kept->build(without_answers(model_.whole_deck()), varied,
+                shortenings[shorter] * natural_step(varied, model_.structure()), ended_stages_);
   }
-  beside_[number] = std::move(made);
-  return *beside_[number];
+  return kept->problem.empty() || shortest ? *kept : beside(number, shorter + 1);
+}
+
+// Empty where their mesh is another one.
+std::optional<std::vector<SystemSample>> Sensitivities::samples_of(const Beside& beside, const Event& event) const {
+  std::vector<SystemSample> samples;
+  for (const Beside::One& other : beside.models) {
+    const Model& model = other.model->at_stage(model_.stage());
+    auto state = state_on(model, event.state);
+    if (!state) return std::nullopt;
+    samples.push_back({.system = &model.system(),
+                       .state = std::move(*state),
+                       .turning = turning_of(model, event),
+                       .offset = other.offset,
+                       .weight = other.weight,
+                       .coarse_weight = other.coarse_weight});
+  }
+  return samples;
+}
+
+EventDerivative Sensitivities::by(std::size_t number, EventDerivatives& derivatives, const Event& event) {
+  EventDerivative best;
+  for (std::size_t shorter = 0; shorter < std::size(shortenings); ++shorter) {
+    const Beside& decks = beside(number, shorter);
+    if (!decks.problem.empty()) return {.value = std::nullopt, .why_none = decks.problem};
+    const auto samples = samples_of(decks, event);
+    if (!samples) return {.value = std::nullopt, .why_none = "beside this value the mesh is another one"};
+    EventDerivative derivative = derivatives.by(*samples);
+    if (!derivative.steps_too_long) return derivative;
+    if (shorter == 0 || derivative.off < best.off) best = std::move(derivative);
+  }
+  return best;
 }
 
 std::vector<RecordSensitivity> Sensitivities::of(const Arc& arc, const Event& event) {
@@ -137,29 +176,12 @@ std::vector<RecordSensitivity> Sensitivities::of(const Arc& arc, const Event& ev
   const auto turning = turning_of(model_, event);
   EventDerivatives derivatives(model_.system(), arc, event, turning.get(), lambda_scale,
                                model_.options().factorization);
-  const std::vector<std::string>& keys = model_.whole_deck().path.sensitivity;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    RecordSensitivity& one = found.emplace_back(RecordSensitivity{.key = keys[i], .value = numbers_[i].value});
-    const Beside& models = beside(i);
-    one.why_none = models.problem;
-    std::vector<SystemSample> samples;
-    for (const Beside::One& other : models.models) {
-      const Model& model = other.model->at_stage(model_.stage());
-      auto state = state_on(model, event.state);
-      if (!state) break;
-      samples.push_back({.system = &model.system(),
-                         .state = std::move(*state),
-                         .turning = turning_of(model, event),
-                         .weight = other.weight});
-    }
-    if (!one.why_none.empty()) continue;
-    if (samples.size() < models.models.size()) {
-      one.why_none = "beside this value the mesh is another one";
-      continue;
-    }
-    EventDerivative derivative = derivatives.by(samples);
-    one.slope = derivative.value;
-    one.why_none = std::move(derivative.why_none);
+    EventDerivative derivative = by(i, derivatives, event);
+    found.push_back({.key = model_.whole_deck().path.sensitivity[i],
+                     .value = numbers_[i].value,
+                     .slope = derivative.value,
+                     .why_none = std::move(derivative.why_none)});
   }
   return found;
 }

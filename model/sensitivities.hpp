@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "continuation/answers/event_derivative.hpp"
 #include "continuation/path_point.hpp"
 #include "model/build_structure.hpp"
 #include "model/deck/numbers.hpp"
@@ -37,12 +39,14 @@ class Sensitivities {
  private:
   struct Beside;
 
-  const Beside& beside(std::size_t number);
+  const Beside& beside(std::size_t number, std::size_t shorter);
+  std::optional<std::vector<SystemSample>> samples_of(const Beside& beside, const Event& event) const;
+  EventDerivative by(std::size_t number, EventDerivatives& derivatives, const Event& event);
 
   const Model& model_;
   std::vector<double> ended_stages_;
   std::vector<deck::DeckNumber> numbers_;
-  std::vector<std::unique_ptr<Beside>> beside_;
+  std::vector<std::vector<std::unique_ptr<Beside>>> beside_;  // of each number, with shorter and shorter steps
 };
 
 }  // namespace arcwall

@@ -114,6 +114,10 @@ const RecordPoint* Session::next() {
   return nullptr;
 }
 
+void Session::trace_also(std::vector<BranchStart> found) {
+  if (tracing_) tracing_->trace_also(std::move(found));
+}
+
 bool Session::has_ended() const { return tracing_ && tracing_->has_ended(); }
 
 void Session::stop(const BranchEnd& end) {

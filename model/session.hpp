@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "continuation/trace_options.hpp"
 #include "model/model.hpp"
 #include "model/record.hpp"
 #include "model/run_description.hpp"
@@ -35,6 +36,11 @@ class Session {
   /// Finds the equilibrium at which the paths start, without a point of them yet. False if there is none.
   /// A run that has begun goes on as it is.
   bool begin();
+
+  /// Has branches traced from these equilibria too, in this order, where all others have ended: those that a search has
+  /// found in another run of the deck. Their states are of this model. Behind begin(), before next(); a checkpoint does
+  /// not keep them.
+  void trace_also(std::vector<BranchStart> found);
 
   /// Why begin() found no equilibrium; empty if it found one, or has not been called.
   const std::string& problem() const { return problem_; }

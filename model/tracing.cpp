@@ -58,6 +58,8 @@ class PathTracing final : public Tracing {
 
   void stop(const BranchEnd& end) override { explorer_.stop(end); }
 
+  void trace_also(std::vector<BranchStart> found) override { given_ = std::move(found); }
+
   void serialize(ArchiveWriter& archive) override { visit(archive); }
   void serialize(ArchiveReader& archive) override {
     visit(archive);
@@ -89,6 +91,11 @@ class PathTracing final : public Tracing {
   bool begins_found_branch() {
     if (finished_ || branch_ < 0 || explorer_.is_stopped()) return false;
     close_branch();
+    if (next_given_ < given_.size()) {
+      BranchStart& given = given_[next_given_++];
+      explorer_.begin_at(std::move(given.state), given.sense);
+      return true;
+    }
     std::optional<Search::Start> start = search_.next();
     if (start) explorer_.begin_at(std::move(start->state), start->sense);
     return start.has_value();
@@ -119,6 +126,8 @@ class PathTracing final : public Tracing {
   int first_;  // of the branches that the explorer counts from 0
   Explorer explorer_;
   Search search_;
+  std::vector<BranchStart> given_;  // which no checkpoint keeps
+  std::size_t next_given_ = 0;
   std::optional<Recorder> recorder_;
   int branch_ = -1;
   bool finished_ = false;

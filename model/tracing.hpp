@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "continuation/trace_options.hpp"
 #include "model/checkpoint/archive.hpp"
 #include "model/model.hpp"
 #include "model/record.hpp"
@@ -22,6 +24,10 @@ class Tracing {
 
   /// Ends everything where it is; the next advance() records that.
   virtual void stop(const BranchEnd& end) = 0;
+
+  /// Has branches traced from these equilibria of the model, in this order, where all others have ended. Before the
+  /// first advance(); nothing in load increments and of decks with stages.
+  virtual void trace_also(std::vector<BranchStart> found) { static_cast<void>(found); }
 
   /// Visits all that changes but the record, which holds what was traced so far.
   virtual void serialize(ArchiveWriter& archive) = 0;

@@ -6,11 +6,21 @@
 #include <cmath>
 
 #include "apps/output/exit_status.hpp"
+#include "contact/sliding/layout.hpp"
 #include "model/shape.hpp"
 
 namespace arcwall {
 
 namespace {
+
+std::string listed(const std::vector<Index>& numbers) {
+  constexpr std::size_t most = 10;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(numbers.size(), most); ++i)
+    list += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+  if (numbers.size() > most) list += ", …";
+  return list;
+}
 
 bool has_constants(const deck::Deck& deck) {
   const auto constant = [](const auto& driven) { return driven.constant; };
@@ -94,22 +104,57 @@ std::string warning_of_units(const Model& model, const Record& record) {
 }
 
 std::string warning_of_found(const Record& record) {
-  constexpr std::size_t most = 10;
   const std::vector<Index> early = found_that_ended_early(record);
   if (early.empty()) return {};
-  std::string list;
-  for (std::size_t i = 0; i < std::min(early.size(), most); ++i) list += (i > 0 ? ", " : "") + std::to_string(early[i]);
-  if (early.size() > most) list += ", …";
   return fmt::format(
       "{} of the branches that the search has found ended early ({}): events.txt says why. The status is that "
       "of the other branches",
-      early.size(), list);
+      early.size(), listed(early));
+}
+
+namespace {
+
+// By which an element turns [rad].
+double greatest_turn(const State& state, Index strands) {
+  const SlidingMesh& mesh = sliding_layout(state.piece).mesh();
+  const MeshState now = mesh_state_of(state);
+  double greatest = 0.0;
+  for (Index strand = 0; strand < strands; ++strand)
+    for (Index position = 1; position < mesh.nodes(strand); ++position)
+      greatest = std::max(
+          greatest, std::abs(mesh.node(strand, position, now).angle - mesh.node(strand, position - 1, now).angle));
+  return greatest;
+}
+
+}  // namespace
+
+std::string warning_of_bent(const Model& model, const Record& record) {
+  constexpr double most_turn = 0.3;  // of which elements tell how the body bends
+  constexpr Index looked_at = 10;    // points of a branch
+  if (model.sliding() == nullptr || model.in_increments()) return {};
+  std::vector<Index> bent;
+  double greatest = 0.0;
+  for (const RecordPoint& point : record.points) {
+    const Index every = std::max(record.branches[static_cast<std::size_t>(point.branch)].points / looked_at, Index{1});
+    if (point.contacts == 0 || point.step % every != 0 || (!bent.empty() && bent.back() == point.branch)) continue;
+    const double turn = greatest_turn(point.state, model.sliding_structure()->strands());
+    if (turn <= most_turn) continue;
+    bent.push_back(point.branch);
+    greatest = std::max(greatest, turn);
+  }
+  if (bent.empty()) return {};
+  return fmt::format(
+      "on branch{} {} elements turn by more than {} rad (by {:.1f}) where contact may slide along them: how many "
+      "directions are unstable there, and where contact changes, the mesh does not tell for sure. Give the members "
+      "more "
+      "elements",
+      bent.size() == 1 ? "" : "es", listed(bent), most_turn, greatest);
 }
 
 std::vector<std::string> run_warnings(const Model& model, const Record& record) {
   std::vector<std::string> all = model.warnings();
-  for (std::string warning :
-       {warning_of_start(model, record), warning_of_units(model, record), warning_of_found(record)})
+  for (std::string warning : {warning_of_start(model, record), warning_of_units(model, record),
+                              warning_of_found(record), warning_of_bent(model, record)})
     if (!warning.empty()) all.push_back(std::move(warning));
   return all;
 }

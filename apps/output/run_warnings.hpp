@@ -20,7 +20,12 @@ std::string warning_of_units(const Model& model, const Record& record);
 /// Which branches that a search has found ended early; empty where none did. The status of a run does not tell it.
 std::string warning_of_found(const Record& record);
 
-/// The warnings of the deck, of the start, of the units and of what was found.
+/// On which branches an element of a member that a wall holds turns by more than 0.3 rad: there the mesh does not tell
+/// what the contact's sliding does to the number of unstable directions. Empty where none does; some of the points of
+/// each branch are looked at.
+std::string warning_of_bent(const Model& model, const Record& record);
+
+/// The warnings of the deck, of the start, of the units, of what was found and of coarse elements.
 std::vector<std::string> run_warnings(const Model& model, const Record& record);
 
 }  // namespace arcwall

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "model/deck_family.hpp"
 #include "model/event_names.hpp"
 
 namespace arcwall::verify {
@@ -45,12 +46,18 @@ struct EventsOfBranch {
   bool cut = false;  // by a limit
 };
 
-// Without the ends that limits made.
+// Where a branch that was found has come to what is traced already: it is seen where it passes the λ at which branches
+// began, and which of two branches goes on beyond hangs on their order.
+bool is_known_beyond(EndReason reason) { return reason == EndReason::joined || reason == EndReason::closed_loop; }
+
+// Without the ends that limits made, or the order of branches that were found.
 EventsOfBranch events_of_branch(const Record& record, Index id) {
   EventsOfBranch branch;
+  const bool found = id >= 0 && record.branches[static_cast<std::size_t>(id)].found;
   for (const RecordEvent& event : record.events) {
     if (event.branch != id) continue;
-    if (event.branch_end && is_limit(event.branch_end->reason))
+    if (event.branch_end &&
+        (is_limit(event.branch_end->reason) || (found && is_known_beyond(event.branch_end->reason))))
       branch.cut = true;
     else
       branch.events.push_back(&event);
@@ -106,19 +113,36 @@ class Comparer {
       : stored_(stored), again_(again), allowed_(discretisation * range_of_lambda(stored)) {}
 
   Comparison compare() {
-    const std::size_t branches = std::max(stored_.branches.size(), again_.branches.size());
-    for (std::size_t id = 0; id < branches; ++id)
-      if (!is_found(id)) compare_branch(static_cast<Index>(id));
-    if (stored_.branches.back().found)
-      comparison_.reservations.emplace_back("branches that were found by a search are not traced again");
+    for (const bool found : {false, true}) {
+      const std::vector<Index> stored = branches(stored_, found), again = branches(again_, found);
+      for (std::size_t i = 0; i < std::max(stored.size(), again.size()); ++i) {
+        if (found && i >= again.size())
+          not_reached(stored[i]);
+        else
+          compare_branches(i < stored.size() ? stored[i] : -1, i < again.size() ? again[i] : -1);
+      }
+    }
     return std::move(comparison_);
   }
 
  private:
-  bool is_found(std::size_t id) const { return id < stored_.branches.size() && stored_.branches[id].found; }
+  // Those that were found, or the others, in their order.
+  static std::vector<Index> branches(const Record& record, bool found) {
+    std::vector<Index> ids;
+    for (const RecordBranch& branch : record.branches)
+      if (branch.found == found) ids.push_back(branch.id);
+    return ids;
+  }
 
-  void compare_branch(Index id) {
-    EventsOfBranch first = events_of_branch(stored_, id), second = events_of_branch(again_, id);
+  // The branches before it took the points that the second run may have, or its mesh is another one.
+  void not_reached(Index id) {
+    comparison_.reservations.push_back(
+        fmt::format("branch {}, which a search has found, was not traced again: the other run ended before", id));
+  }
+
+  // −1: it has none
+  void compare_branches(Index stored, Index again) {
+    EventsOfBranch first = events_of_branch(stored_, stored), second = events_of_branch(again_, again);
     sort_at_one_lambda(first.events, allowed_);
     sort_at_one_lambda(second.events, allowed_);
     const auto pairs = paired(first.events.size(), second.events.size(), [&](std::size_t i, std::size_t j) {
@@ -166,6 +190,22 @@ class Comparer {
   Comparison comparison_{};
 };
 
+// Where the branches of a search began, in the terms of another model of the deck; as far as its mesh is the same.
+std::vector<BranchStart> found_starts(const Record& record, const Model& model) {
+  std::vector<BranchStart> starts;
+  for (const RecordBranch& branch : record.branches) {
+    if (!branch.found) continue;
+    const auto first = std::find_if(record.points.begin(), record.points.end(),
+                                    [&](const RecordPoint& point) { return point.branch == branch.id; });
+    if (first == record.points.end()) break;
+    std::optional<State> state = state_on(model, first->state);
+    if (!state) break;
+    const bool falls = branch.points > 1 && (first + 1)->lambda < first->lambda;
+    starts.push_back({.state = std::move(*state), .sense = falls ? -1 : 1});
+  }
+  return starts;
+}
+
 // With a point or an exponent, as TOML wants its floats.
 std::string toml_number(double value) {
   const std::string text = round_trip(value);
@@ -183,11 +223,13 @@ std::optional<Session> traced_again(const Session& run) {
   shorter.assignments.push_back("path.step=" + toml_number(0.25 * path.step));
   shorter.assignments.push_back("path.max_step=" + toml_number(greatest));
   shorter.assignments.push_back("path.max_points=" + std::to_string(points));
-  // What was found began at states that Newton's method came to, which nothing else leads to.
+  // What was found began at states that Newton's method came to, which nothing else leads to: branches begin there
+  // anew.
   shorter.assignments.emplace_back("path.search=false");
   shorter.assignments.emplace_back("path.landing=false");  // falls have no steps of the path
   std::optional<Session> again(std::in_place, std::move(shorter));
   if (!again->begin()) return std::nullopt;
+  again->trace_also(found_starts(run.record(), again->model()));
   while (again->next() != nullptr) {
   }
   return again;

@@ -19,11 +19,13 @@ struct Comparison {
   std::vector<std::string> reservations{};  ///< one sentence each: what cannot be told
 };
 
-/// The session of a run traced anew with a quarter of its first and of its greatest step. It has at most four times the
-/// points of the run, and a hundred; nothing where it finds no start.
+/// The session of a run traced anew with a quarter of its first and of its greatest step; branches that a search has
+/// found begin where they began. It has at most four times the points of the run, and a hundred; nothing where it finds
+/// no start.
 std::optional<Session> traced_again(const Session& run);
 
-/// Events of branches with the same number, in their order: kinds, contacts and monitors, λ, and how branches end.
+/// Events of branches with the same number, of those that were found in the order in which they were, in their order:
+/// kinds, contacts and monitors, λ, and how branches end.
 ///
 /// λ may differ by what both events say is uncertain (`localised`), and by `discretisation` times the range of λ.
 /// Events that are suspected in either run are reservations; so is all that follows where a run was stopped by a limit.

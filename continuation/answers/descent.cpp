@@ -14,9 +14,11 @@ namespace {
 // All lengths in the path metric, without multipliers.
 constexpr int most_steps = 1000, most_iterations = 25, most_changes = 60;
 constexpr int changes_at_once = 12;         // of contacts; then one after the other
-constexpr double longest_motion = 0.05;     // of the motion
-constexpr double short_motion = 0.02;       // below it the time step grows
-constexpr double newton_arrived = 1e-12;    // of Newton's last correction
+constexpr double longest_motion = 0.1;      // of the motion
+constexpr double wanted_motion = 0.08;      // the time step is chosen for it,
+constexpr double longer_time = 10.0;        // but grows no faster than this
+constexpr double newton_arrived = 1e-12;    // of Newton's last correction at rest,
+constexpr double newton_near = 1e-4;        // and on the way, where the next step begins anew
 constexpr double no_motion = 1e-8;          // of a step, below which rest is looked for
 constexpr double contact_violated = 1e-10;  // [scale of guards]
 constexpr double far_away = 10.0;           // of the start
@@ -44,6 +46,7 @@ class HeldMinimum {
   bool minimise(const State& from, double mu, State& state) {
     const Vector weights = system_.weights(state.piece);
     const Index multipliers = system_.multiplier_count(state.piece), n = weights.size() - multipliers;
+    const double arrived = mu > 0.0 ? newton_near : newton_arrived;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       if (left_-- <= 0) return false;
       system_.linearize(state, now_);
@@ -60,7 +63,7 @@ class HeldMinimum {
       state.x += step.col(0);
       const double length = std::sqrt((weights.array() * step.col(0).array().square()).sum());
       if (length > far_away) return false;
-      if (length <= newton_arrived) return true;
+      if (length <= arrived) return true;
     }
     return false;
   }
@@ -143,7 +146,7 @@ Descent descend(const UnilateralSystem& system, const State& start, const MakeFa
       }
       if (mu <= least) return descent;
     }
-    if (length <= short_motion) mu = std::max(0.3 * mu, least);
+    mu = std::max(std::clamp(length / wanted_motion, 1.0 / longer_time, 1.0) * mu, least);
   }
   return descent;
 }

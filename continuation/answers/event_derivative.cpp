@@ -13,14 +13,22 @@ namespace arcwall {
 namespace {
 
 constexpr double longest_step =
-    6.4e-2;                          // h of differences of J along a direction [path metric]; the best is looked for,
-constexpr int steps = 7;             // each half as long as the one before
-constexpr double vanishing = 1e-8;   // guards below this are zero at the event, which is landed on
-constexpr double negligible = 1e-9;  // of what changes a guard: it does not tell
-constexpr double agreeing = 1e-6;    // relative difference of what several guards say
-constexpr double persistent = 1e-6;  // of the most that it could be wᵀ F_κ is zero
-constexpr double roundoff = 1e-10;   // of the loads in what a step of the number changes
-constexpr double symmetric = 1e-6;   // a ratio of two coefficients below which the first is zero
+    6.4e-2;  // h of differences of J along a direction [path metric]; the best is looked for,
+constexpr int halvings = 6;
+constexpr double longest_turn = 3.2e-2;  // the same of the rate of a monitor, at equilibria along the path
+constexpr int turn_halvings = 7;
+constexpr double short_enough = 1e-6;  // difference of fourth and sixth order of a rate by κ, of which the latter is
+                                       // much less off
+constexpr int most_passes = 12;        // of the rate of F along the change of the equilibrium,
+constexpr double nearly_followed = 1e-6;  // of it, below which round-off may stop that
+constexpr double moves_no_more = 1e-11;   // or of what a step of the number changes,
+constexpr double followed_to = 1e-12;     // of which as much is left
+constexpr double vanishing = 1e-8;        // guards below this are zero at the event, which is landed on
+constexpr double negligible = 1e-9;       // of what changes a guard: it does not tell
+constexpr double agreeing = 1e-6;         // relative difference of what several guards say
+constexpr double persistent = 1e-6;       // of the most that it could be wᵀ F_κ is zero
+constexpr double roundoff = 1e-10;        // of the loads in what a step of the number changes
+constexpr double symmetric = 1e-6;        // a ratio of two coefficients below which the first is zero
 constexpr double singular_beside = 1e-7;  // where K is singular to the last digit its null vectors come from beside
 
 bool is_change_of_contact(EventKind kind) {
@@ -72,25 +80,29 @@ Vector directional(const Equations& system, const State& state, const Direction&
   return product(workspace, k.dx).col(0) + k.dlambda * workspace.F_lambda;
 }
 
-// dF/dκ, and d(J k_x + F_λ k_λ)/dκ, at the same state.
-Vector residual_rate(const std::vector<SystemSample>& samples) {
-  Vector sum, F;
+// dQ/dκ of a quantity of a sample's system and a state, along states that move by d with κ; `coarse`: of lower order.
+template <typename Function>
+auto rate_along(const std::vector<SystemSample>& samples, const Direction& d, const Function& quantity,
+                bool coarse = false) {
+  std::optional<std::decay_t<decltype(quantity(samples.front(), samples.front().state))>> sum;
   for (const SystemSample& sample : samples) {
-    F.resize(sample.state.x.size());
-    sample.system->residual(sample.state, F);
-    if (sum.size() == 0) sum = Vector::Zero(F.size());
-    sum += sample.weight * F;
+    const double weight = coarse ? sample.coarse_weight : sample.weight;
+    auto part = quantity(sample, moved(sample.state, d, sample.offset));
+    part *= weight;
+    if (sum)
+      *sum += part;
+    else
+      sum = std::move(part);
   }
-  return sum;
+  return *sum;
 }
 
-Vector directional_rate(const std::vector<SystemSample>& samples, const Direction& k) {
-  Vector sum = Vector::Zero(k.dx.size());
-  for (const SystemSample& sample : samples) {
-    Linearization of_sample;
-    sum += sample.weight * directional(*sample.system, sample.state, k, of_sample);
-  }
-  return sum;
+Vector residual_rate(const std::vector<SystemSample>& samples, const Direction& d) {
+  return rate_along(samples, d, [](const SystemSample& sample, const State& state) {
+    Vector F(state.x.size());
+    sample.system->residual(state, F);
+    return F;
+  });
 }
 
 // Σ weight f(offset · h)/h, at states along d
@@ -114,6 +126,13 @@ double step_of(const std::vector<SystemSample>& samples) {
 
 EventDerivative none(std::string why) { return {.value = std::nullopt, .why_none = std::move(why)}; }
 
+EventDerivative too_far() {
+  EventDerivative none_here = none("the structure is not followed to other values, even near by");
+  none_here.steps_too_long = true;
+  none_here.off = infinity;
+  return none_here;
+}
+
 EventDerivative known(double value) {
   if (!std::isfinite(value)) return none("the equations are singular at the event");
   return {.value = value, .why_none = {}};
@@ -124,11 +143,11 @@ EventDerivative known(double value) {
 // Long steps have an error of their own, where contacts slide over bends or elements are slender, short ones that of
 // round-off: of the two steps in a row whose derivatives differ least the longer one is taken.
 template <typename Function>
-EventDerivatives::Settled EventDerivatives::with_best_step(const Function& derivative) {
+EventDerivatives::Settled EventDerivatives::with_best_step(double longest, int halvings, const Function& derivative) {
   Settled best{.value = std::nan(""), .off = infinity};
-  double before = derivative(longest_step);
-  for (int i = 1; i < steps; ++i) {
-    const double now = derivative(std::ldexp(longest_step, -i));
+  double before = derivative(longest);
+  for (int i = 1; i <= halvings; ++i) {
+    const double now = derivative(std::ldexp(longest, -i));
     if (std::abs(now - before) < best.off) best = {.value = before, .off = std::abs(now - before)};
     before = now;
   }
@@ -139,6 +158,8 @@ EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const E
                                    double lambda_scale, const MakeFactorization& factorization)
     : system_(system),
       metric_(system.weights(event.state.piece), lambda_scale),
+      lambda_scale_(lambda_scale),
+      factorization_(factorization),
       corrector_(system, {}, lambda_scale, factorization),
       state_(event.state),
       turning_(turning) {
@@ -175,7 +196,10 @@ bool EventDerivatives::begin_regular(const Direction& along) {
     for (Index j = 0; j < guards.size(); ++j)
       if (std::abs(guards[j]) <= vanishing) guards_.push_back(j);
   }
-  if (condition_ == Condition::turning) turning_along_ = turning_rate(tangent_, Vector::Zero(state_.x.size()), 0.0);
+  if (condition_ == Condition::turning) {
+    turning_along_ = turning_along();
+    turning_here_ = turning_rate(tangent_, Vector::Zero(state_.x.size()), 0.0);
+  }
   return true;
 }
 
@@ -216,31 +240,74 @@ Vector EventDerivatives::second_derivative(const Direction& k, const Direction& 
 
 // wᵀ D²F[k, d]
 EventDerivatives::Settled EventDerivatives::bend(const Direction& k, const Direction& d) {
-  return with_best_step([&](double h) { return left_.dot(second_derivative(k, d, h)); });
+  return with_best_step(longest_step, halvings, [&](double h) { return left_.dot(second_derivative(k, d, h)); });
 }
 
-// The change of the equilibrium that answers f, across the path:  J δx + F_λ δλ = f,  ⟨t, δ⟩ = 0
-Direction EventDerivatives::along_path(const Vector& f) {
-  auto solution = corrector_.factorized().solver().solve(metric_.row(tangent_), f, 0.0);
-  if (!solution) return {.dx = Vector::Constant(f.size(), std::nan("")), .dlambda = std::nan("")};
-  return std::move(*solution);
+// The change of the equilibrium with κ. Where that moves a support, say, F_κ at the same state strains one element
+// alone, by forces that are far greater than those of the path, and no step is short enough for all digits. So the rate
+// is taken again along the change that is known, until nothing is left of it:
+//
+//     J δ_x + F_λ δ_λ = −dF(x + κ v_x, λ + κ v_λ; κ)/dκ,    v ← v + δ
+template <typename Solve>
+std::optional<Direction> EventDerivatives::followed(const std::vector<SystemSample>& samples,
+                                                    const Solve& solve) const {
+  Direction v{.dx = Vector::Zero(state_.x.size()), .dlambda = 0.0};
+  const double roundoff_of_v = moves_no_more / step_of(samples);
+  double before = infinity;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const std::optional<Direction> change = solve(-residual_rate(samples, v));
+    if (!change) return std::nullopt;
+    const double length = metric_.norm(*change);
+    if (length <= nearly_followed * metric_.norm(v) + roundoff_of_v && !(length < 0.5 * before)) return v;
+    v.dx += change->dx;
+    v.dlambda += change->dlambda;
+    if (length <= followed_to * metric_.norm(v)) return v;
+    before = length;
+  }
+  return std::nullopt;
+}
+
+// Across the path:  J δx + F_λ δλ = f,  ⟨t, δ⟩ = 0
+std::optional<Direction> EventDerivatives::along_path(const Vector& f) {
+  return corrector_.factorized().solver().solve(metric_.row(tangent_), f, 0.0);
+}
+
+// At the λ of a branch point, without a part along the critical mode.
+std::optional<Direction> EventDerivatives::across_crossing(const Vector& f) {
+  auto response = corrector_.response_across(metric_.row(kernel_.front()), f);
+  if (!response) return std::nullopt;
+  return Direction{.dx = std::move(*response), .dlambda = 0.0};
 }
 
 EventDerivative EventDerivatives::by(const std::vector<SystemSample>& samples) {
   if (!why_none_.empty()) return none(why_none_);
-  const Vector F_kappa = residual_rate(samples);
-  if (condition_ == Condition::crossing) return by_crossing(F_kappa, samples);
-  const Direction response = along_path(-F_kappa);
+  if (condition_ == Condition::crossing) return by_crossing(samples);
+  const auto response = followed(samples, [&](const Vector& f) { return along_path(f); });
+  if (!response) return too_far();
   switch (condition_) {
     case Condition::guards:
-      return by_guards(response, samples);
+      return by_guards(*response, samples);
     case Condition::turning:
-      return by_turning(response, samples);
+      return by_turning(*response, samples);
     case Condition::limit:  // along the path λ does not change
     case Condition::crossing:
       break;
   }
-  return known(response.dlambda);
+  return known(response->dlambda);
+}
+
+// dg/dκ of a guard, the structure following κ. By its gradient it has the fewest errors of round-off, unless what κ
+// does at the event's own state is no small change: then it is told by states that follow κ.
+double EventDerivatives::guard_rate(Index j, const Row& gradient, const Direction& response,
+                                    const std::vector<SystemSample>& samples) const {
+  const Direction stays{.dx = Vector::Zero(response.dx.size()), .dlambda = 0.0};
+  const auto rate = [&](const Direction& d) {
+    const auto guard = [&](const SystemSample& sample, const State& state) { return sample.system->guard(state, j); };
+    const double value = rate_along(samples, d, guard);
+    return Settled{.value = value, .off = std::abs(value - rate_along(samples, d, guard, true))};
+  };
+  const Settled following = rate(response), at_rest = rate(stays);
+  return at_rest.off <= following.off ? apply(gradient, response) + at_rest.value : following.value;
 }
 
 // Where λ moves along the path by −t_λ (dg/dκ)/(dg/ds), the guard stays zero. Those that vanish together must agree,
@@ -251,8 +318,7 @@ EventDerivative EventDerivatives::by_guards(const Direction& response, const std
   for (const Index j : guards_) {
     const Row row = system_.guard_gradient(state_, j);
     const double rate = apply(row, tangent_);
-    double by_number = apply(row, response);
-    for (const SystemSample& sample : samples) by_number += sample.weight * sample.system->guard(sample.state, j);
+    const double by_number = guard_rate(j, row, response, samples);
     if (std::abs(rate) <= negligible && std::abs(by_number) * size <= negligible) continue;
     const double moves = response.dlambda - by_number / rate * tangent_.dlambda;
     if (std::abs(rate) <= negligible) return none("a contact is only touched there");
@@ -265,29 +331,82 @@ EventDerivative EventDerivatives::by_guards(const Direction& response, const std
   return known(*found);
 }
 
+// The rate m′ = ∇m · t of a monitor at the equilibrium of a system near a guess that is as far along the path.
+double EventDerivatives::turning_beside(Corrector& corrector, const Observable& turning, const State& guess,
+                                        double along) const {
+  State origin = state_;
+  origin.piece = guess.piece;
+  const PlaneConstraint plane(metric_, origin, tangent_, along);
+  const CorrectorResult arrived =
+      corrector.correct(guess, plane, metric_, tangent_, std::abs(along) + longest_turn, Wanted::tangent);
+  if (!arrived.converged()) return std::nan("");
+  const CorrectorResult there =
+      corrector.inspect(arrived.state, metric_, tangent_);  // whose tangent is that of the end
+  if (!there.converged()) return std::nan("");
+  const double rate = apply(turning.gradient(there.state), there.tangent);
+  return metric_.inner(there.tangent, tangent_) < 0.0 ? -rate : rate;
+}
+
+// The rate of m′ along the path.
+EventDerivatives::Settled EventDerivatives::turning_along() const {
+  Corrector corrector(system_, {}, lambda_scale_, factorization_);
+  return with_best_step(longest_turn, turn_halvings, [&](double h) {
+    double sum = 0.0;
+    for (const DifferencePlace& place : central_difference)
+      sum += place.weight / h *
+             turning_beside(corrector, *turning_, moved(state_, tangent_, place.offset * h), place.offset * h);
+    return sum;
+  });
+}
+
 // The rate along d of the rate m′ = ∇m · t of a monitor: t changes by
 //
 //   J δt_x + F_λ δt_λ = −D²F[t, d] − more,    ⟨t, δt⟩ = 0
 EventDerivatives::Settled EventDerivatives::turning_rate(const Direction& d, const Vector& more,
                                                          double more_of_gradient) {
   const Row gradient = turning_->gradient(state_);
-  return with_best_step([&](double h) {
-    const Direction change = along_path(-second_derivative(tangent_, d, h) - more);
+  return with_best_step(longest_step, halvings, [&](double h) {
+    const auto change = along_path(-second_derivative(tangent_, d, h) - more);
+    if (!change) return std::nan("");
     const double of_gradient = difference_along(
         metric_, state_, d, h, [&](const State& at) { return apply(turning_->gradient(at), tangent_); });
-    return apply(gradient, change) + of_gradient + more_of_gradient;
+    return apply(gradient, *change) + of_gradient + more_of_gradient;
   });
 }
 
+// m′ stays zero: where it changes by κ across the path, the event moves along the path.
+EventDerivatives::Settled EventDerivatives::turned(const Settled& along, const Settled& rate,
+                                                   const Direction& response) const {
+  const double moves = rate.value / along.value;
+  return {.value = response.dlambda - moves * tangent_.dlambda,
+          .off = std::abs(tangent_.dlambda / along.value) * (rate.off + std::abs(moves) * along.off)};
+}
+
+// By equilibria beside the event and by second derivatives of the equations: axial forces of slender members drown the
+// latter in round-off, the former is lost where a reaction is a small difference of great forces.
 EventDerivative EventDerivatives::by_turning(const Direction& response, const std::vector<SystemSample>& samples) {
-  double of_gradient = 0.0;
-  for (const SystemSample& sample : samples)
+  Settled rate;
+  double coarse = 0.0, of_gradient = 0.0;
+  for (const SystemSample& sample : samples) {
+    Corrector corrector(*sample.system, {}, lambda_scale_, factorization_);
+    const double there = turning_beside(corrector, *sample.turning, moved(sample.state, response, sample.offset), 0.0);
+    rate.value += sample.weight * there;
+    coarse += sample.coarse_weight * there;
     of_gradient += sample.weight * apply(sample.turning->gradient(sample.state), tangent_);
-  const Settled rate = turning_rate(response, directional_rate(samples, tangent_), of_gradient);
-  const double along = turning_along_.value, moves = rate.value / along;
-  return settled({.value = response.dlambda - moves * tangent_.dlambda,
-                  .off = std::abs(tangent_.dlambda / along) * (rate.off + std::abs(moves) * turning_along_.off)},
-                 samples);
+  }
+  rate.off = std::abs(rate.value - coarse);
+  const Direction stays{.dx = Vector::Zero(response.dx.size()), .dlambda = 0.0};
+  const Vector more = rate_along(samples, stays, [&](const SystemSample& sample, const State& state) {
+    Linearization of_sample;
+    return directional(*sample.system, state, tangent_, of_sample);
+  });
+  const Settled by_equilibria = turned(turning_along_, rate, response);
+  const Settled by_equations = turned(turning_here_, turning_rate(response, more, of_gradient), response);
+  const bool equilibria_tell = by_equilibria.off < by_equations.off || !std::isfinite(by_equations.off);
+  EventDerivative found = settled(equilibria_tell ? by_equilibria : by_equations, samples);
+  found.off = rate.off;
+  found.steps_too_long = equilibria_tell && !(rate.off <= short_enough * std::abs(rate.value));
+  return found;
 }
 
 // Laws with kinks and walls whose curvature jumps have no second derivatives that differences come to.
@@ -310,20 +429,24 @@ double EventDerivatives::greatest_work(const Vector& f) const {
 
 // The two null vectors k_i of [J F_λ] remain null vectors, as wᵀ sees them, while the point moves by c k₁ + λ′ k₂ + v:
 //
-//   [ B₁₁ B₁₂ ] [c ]     [ wᵀ(D²F[k₁, v] + DF_κ k₁) ]
-//   [ B₂₁ B₂₂ ] [λ′] = − [ wᵀ(D²F[k₂, v] + DF_κ k₂) ],    B_ij = wᵀ D²F[k_i, k_j],    J v = −F_κ
-EventDerivative EventDerivatives::by_crossing(const Vector& F_kappa, const std::vector<SystemSample>& samples) {
+//   [ B₁₁ B₁₂ ] [c ]     [ wᵀ d(J k₁)/dκ ]
+//   [ B₂₁ B₂₂ ] [λ′] = − [ wᵀ d(J k₂)/dκ ],    B_ij = wᵀ D²F[k_i, k_j],    J v = −F_κ,
+//
+// with d/dκ along x + κ v.
+EventDerivative EventDerivatives::by_crossing(const std::vector<SystemSample>& samples) {
+  const Vector F_kappa = residual_rate(samples, {.dx = Vector::Zero(state_.x.size()), .dlambda = 0.0});
   if (std::abs(left_.dot(F_kappa)) > persistent * greatest_work(F_kappa) + load_work_ * roundoff / step_of(samples))
     return none("the branch point does not persist: for other values the branches do not meet");
-  auto v = corrector_.response_across(metric_.row(kernel_.front()), -F_kappa);
-  if (!v) return none("the equations are singular at the event");
-  const Direction response{.dx = std::move(*v), .dlambda = 0.0};
+  const auto v = followed(samples, [&](const Vector& f) { return across_crossing(f); });
+  if (!v) return too_far();
   Eigen::Vector2d right, off;
   for (Index i = 0; i < 2; ++i) {
-    const Direction& k = kernel_[static_cast<std::size_t>(i)];
-    const Settled of = bend(k, response);
-    right[i] = of.value + left_.dot(directional_rate(samples, k));
-    off[i] = of.off;
+    const auto work = [&](const SystemSample& sample, const State& state) {
+      Linearization of_sample;
+      return left_.dot(directional(*sample.system, state, kernel_[static_cast<std::size_t>(i)], of_sample));
+    };
+    right[i] = rate_along(samples, *v, work);
+    off[i] = std::abs(right[i] - rate_along(samples, *v, work, true));
   }
   if (is_symmetric_) {
     const double slope = -right[0] / bend_(0, 1);

@@ -19,13 +19,17 @@ struct SystemSample {
   const System* system = nullptr;               ///< must outlive its use
   State state{};                                ///< the event's, in the unknowns of this system
   std::shared_ptr<const Observable> turning{};  ///< the quantity that turns at a displacement limit, of this system
+  double offset = 0.0;                          ///< its value of κ less the event's [κ]
   double weight = 0.0;                          ///< [1/κ]
+  double coarse_weight = 0.0;                   ///< the same of differences of a lower order, which tell the error
 };
 
 /// dλ/dκ of an event, or in words why there is none.
 struct EventDerivative {
   std::optional<double> value{};
   std::string why_none{};
+  bool steps_too_long = false;  ///< whether samples nearer to the event's κ may tell it better
+  double off = 0.0;             ///< then, by which differences of lower order differ
 };
 
 /// How an event moves along λ where a number of the model changes (docs/theory.md, section 12): along the equilibria
@@ -51,20 +55,30 @@ class EventDerivatives {
 
   bool begin_regular(const Direction& along);
   bool begin_crossing(const BranchPoint& point);
-  Vector second_derivative(const Direction& k, const Direction& d, double h);
   Settled bend(const Direction& k, const Direction& d);
-  Direction along_path(const Vector& f);
+  template <typename Solve>
+  std::optional<Direction> followed(const std::vector<SystemSample>& samples, const Solve& solve) const;
+  std::optional<Direction> along_path(const Vector& f);
+  std::optional<Direction> across_crossing(const Vector& f);
+  double guard_rate(Index j, const Row& gradient, const Direction& response,
+                    const std::vector<SystemSample>& samples) const;
   EventDerivative by_guards(const Direction& response, const std::vector<SystemSample>& samples) const;
   EventDerivative by_turning(const Direction& response, const std::vector<SystemSample>& samples);
+  double turning_beside(Corrector& corrector, const Observable& turning, const State& guess, double along) const;
+  Settled turning_along() const;
+  Vector second_derivative(const Direction& k, const Direction& d, double h);
   Settled turning_rate(const Direction& d, const Vector& more, double more_of_gradient);
+  Settled turned(const Settled& along, const Settled& rate, const Direction& response) const;
   double greatest_work(const Vector& f) const;
   EventDerivative settled(const Settled& slope, const std::vector<SystemSample>& samples) const;
   template <typename Function>
-  static Settled with_best_step(const Function& derivative);
-  EventDerivative by_crossing(const Vector& F_kappa, const std::vector<SystemSample>& samples);
+  static Settled with_best_step(double longest, int halvings, const Function& derivative);
+  EventDerivative by_crossing(const std::vector<SystemSample>& samples);
 
   const System& system_;
   Metric metric_;
+  double lambda_scale_;
+  MakeFactorization factorization_;
   Corrector corrector_;
   Linearization workspace_;
   State state_;
@@ -72,7 +86,8 @@ class EventDerivatives {
   std::string why_none_;
   Direction tangent_;                    // of the path; of a branch point none
   const Observable* turning_ = nullptr;  // of a displacement limit
-  Settled turning_along_;                // the rate of its rate along the path
+  Settled turning_along_;                // the rate of its rate along the path, by equilibria
+  Settled turning_here_;                 // and by the second derivatives of the equations
   std::vector<Index> guards_;            // that vanish
   Vector left_;                          // of a branch point: the left null vector w,
   double load_work_ = 0.0;               // the most work of the loads along it,

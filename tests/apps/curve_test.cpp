@@ -170,6 +170,48 @@ TEST(EventCurve, OfAThirdHarmonicFollowsTheSquareRootLawSlow) {
   EXPECT_NEAR((at(curve, 1e-8).lambda - at(curve, 4e-8).lambda) / 1e-4, 16.31306, 2e-2);
 }
 
+// Roorda's frame under a load and a moment e at its corner: to first order the limit load is P_c (1 − 1.15139 √e), P_c
+// = 13.885942905964721 (3 (1 − k cot k) + k² = 0, P = k²; the factor by Koiter's slope, shooting of the inextensible
+// elastica). A column that shortens acts like a moment of about 3/EA: the curve turns where e makes up for that, at a
+// cusp, beyond which it is that of the least loads of the branch on the other side. Half the distance of the two goes
+// with the root of e counted from there, and has no part that goes with e itself.
+TEST(EventCurve, OfRoordasFrameFollowsTheSquareRootLawSlow) {
+  const std::string deck = R"toml(
+title = "Roorda's frame"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e6, I = 1.0 }
+point = { foot = [0.0, 0.0], corner = [0.0, 1.0], end = [1.0, 1.0] }
+support = { foot = ["x", "z"], end = ["x", "z"] }
+load = [{ at = "corner", force = [0.0, -1.0] }, { at = "corner", moment = 1e-3 }]
+path = { step = 1.0, branches = "primary", stop = { event = "limit-point", turn = [-0.8, 0.8] } }
+monitor = [{ name = "turn", at = "corner", component = "rotation" }]
+member.column = { from = "foot", to = "corner", theory = "elastica", elements = 8, material = "m", section = "s" }
+member.beam = { from = "corner", to = "end", theory = "elastica", elements = 8, material = "m", section = "s" }
+curve = { event = { kind = "limit-point" }, over = "load.1.moment", range = [-1e-3, 1e-3] }
+)toml";
+  constexpr double critical = 13.885942905964721;
+  const auto cusps = specials(curve_of(deck), CurveSpecialKind::cusp);
+  ASSERT_EQ(cusps.size(), 1U);
+  EXPECT_NEAR(cusps[0].key, -3e-6, 1e-9);
+  EXPECT_NEAR(cusps[0].lambda, critical, 2e-5 * critical);
+
+  const std::vector<double> distances{1e-8, 1e-7, 1e-6, 1e-5, 1e-4};
+  std::string land;
+  for (const double distance : distances) land += fmt::format("{:.17g}, ", cusps[0].key + distance);
+  const EventCurve curve = curve_of(deck, {"curve.land=[" + land + "]"});
+  std::vector<double> halves;
+  for (const double distance : distances) {
+    std::vector<double> loads;
+    for (const CurvePoint& point : curve.points)
+      if (point.key == cusps[0].key + distance) loads.push_back(point.lambda);
+    ASSERT_EQ(loads.size(), 2U) << distance;
+    halves.push_back(0.5 * std::abs(loads[1] - loads[0]));
+  }
+  for (std::size_t i = 0; i + 1 < halves.size(); ++i)
+    EXPECT_NEAR(std::log(halves[i + 1] / halves[i]) / std::log(10.0), 0.5, 1e-3) << distances[i];
+  EXPECT_NEAR(halves.front() / (critical * 1e-4), 1.15139, 1e-3);
+}
+
 // λ is the end shortening, and the reaction turns before it does.
 TEST(EventCurve, OfAMonitorThatTurnsIsThatOfOtherRunsSlow) {
   std::string deck =

@@ -4,6 +4,7 @@
 // M/EI, (x′, z′) = (1 + N/EA)(cos θ, sin θ), M′ = −(1 + N/EA) Q, by Runge-Kutta's method of order 4 from one end to the
 // touch and on to the other, with what is not known there and the touch by Newton's method; all digits given stay with
 // half the steps.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -313,6 +314,79 @@ TEST_P(DeckAnswers, HoldAndAreVerified) {
 
 INSTANTIATE_TEST_SUITE_P(Decks, DeckAnswers, testing::ValuesIn(answers()),
                          [](const auto& answer) { return answer.param.name; });
+
+// --- columns in channels, arches above floors: shooting from a support to the middle
+// -----------------------------------
+
+const std::string materials = R"toml(
+material.m = { E = 21000.0 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+)toml";
+
+// A straight column of length 2 between walls that its axis may touch at a distance g: at the touch θ = 0 and z = g in
+// the middle, where contact spreads M = 0 as well.
+TEST(PerfectColumn, TouchesAndSpreadsInChannelsOfAnyWidth) {
+  struct Case {
+    double gap, touch, spreads;
+  };
+  for (const Case& one : {Case{0.05, 0.433020940042, 1.73995167965}, Case{0.1, 0.434031065441, 1.73488787057},
+                          Case{0.2, 0.438187297779, 1.71393008407}, Case{0.25, 0.441433401966, 1.69740715034}}) {
+    SCOPED_TRACE(one.gap);
+    const std::string deck = "title = \"A straight column\"" + materials +
+                             fmt::format(R"toml(
+point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
+support = {{ A = ["x", "z"], B = ["z"] }}
+load = [{{ at = "B", force = [-1.0, 0.0] }}]
+path = {{ step = 0.05, landing = false, stop = {{ lambda = [-1.0, 2.0] }} }}
+wall = [
+  {{ name = "upper", side = "above", acts_on = "axis", profile = {{ type = "flat", z = {0} }} }},
+  {{ name = "lower", side = "below", acts_on = "axis", profile = {{ type = "flat", z = -{0} }} }},
+]
+member.c = {{ from = "A", to = "B", theory = "elastica", elements = 20, material = "m", section = "s" }}
+)toml",
+                                         one.gap);
+    const test::TracedDeck traced(deck);
+    EXPECT_NEAR(event_of(traced, EventKind::contact_closes).lambda, one.touch, 1e-8);
+    EXPECT_NEAR(event_of(traced, EventKind::contact_spreads).lambda, one.spreads, 1e-7);
+  }
+}
+
+// A pinned sine arch of span 2 under a force on its crown, and a floor 0.02 below its ends. What the arch of that
+// height carries is what the floor does not: it is the load at the touch, and less than that of the limit point by the
+// force on the floor behind the fall.
+TEST(SineArch, FallsFromItsLimitPointOntoAFloor) {
+  struct Case {
+    double rise, limit, touch;
+  };
+  for (const Case& one : {Case{0.08, 0.10502374698, 0.068455396147}, Case{0.1, 0.17024981411, 0.067908233099},
+                          Case{0.12, 0.26229387761, 0.062487729642}}) {
+    SCOPED_TRACE(one.rise);
+    const std::string deck = "title = \"An arch above a floor\"" + materials +
+                             fmt::format(R"toml(
+point = {{ l = [0.0, 0.0], r = [2.0, 0.0] }}
+support = {{ l = ["x", "z"], r = ["x", "z"] }}
+load = [{{ at = "arch:0.5", force = [0.0, -1.0] }}]
+path = {{ step = 0.01, branches = "primary", landing = true, stop = {{ lambda = [-0.5, 0.5] }} }}
+wall = [{{ name = "floor", side = "below", acts_on = "axis", profile = {{ type = "flat", z = -0.02 }} }}]
+member.arch = {{ from = "l", to = "r", sine = {{ rise = {}, waves = 1 }}, theory = "elastica", elements = 20, material = "m", section = "s" }}
+)toml",
+                                         one.rise);
+    const test::TracedDeck traced(deck);
+    const RecordEvent& limit = event_of(traced, EventKind::limit_point);
+    EXPECT_NEAR(limit.lambda, one.limit, 1e-8);
+    EXPECT_NEAR(event_of(traced, EventKind::contact_closes).lambda, one.touch, 1e-8);
+    ASSERT_TRUE(limit.landing && limit.landing->reason.empty());
+    EXPECT_EQ(limit.landing->word, "floor");
+    ASSERT_EQ(limit.landing->contacts.size(), 1U);
+    EXPECT_NEAR(limit.landing->contacts[0].force, one.limit - one.touch, 2e-8);
+    // Taken back, the load goes into the floor alone, and nothing moves until that lets go; the highest arch sways
+    // before.
+    if (one.rise < 0.12) {
+      ASSERT_TRUE(limit.landing->back);
+      EXPECT_NEAR(limit.landing->back->lambda, one.touch, 1e-8);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace arcwall::deck_answers_test

@@ -97,4 +97,13 @@ TEST_F(RunWarningsTest, RunPrintsItOnce) {
 }
 
 }  // namespace
+// The column that has jumped into three arcs turns by some 2 rad from support to support.
+TEST(WarningOfBent, NamesBranchesWhoseElementsTurnFar) {
+  const std::string deck(test::example("channel"));
+  const test::TracedDeck coarse(deck, {"member.column.elements=8", "path.landing=false"});
+  EXPECT_NE(warning_of_bent(coarse.model(), coarse.record()).find("branch 0 elements turn"), std::string::npos);
+  const test::TracedDeck fine(deck, {"path.landing=false"});
+  EXPECT_EQ(warning_of_bent(fine.model(), fine.record()), "");
+}
+
 }  // namespace arcwall::run_warnings_test

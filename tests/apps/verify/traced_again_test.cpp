@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
 #include "tests/apps/verify/decks_with_events.hpp"
 
@@ -28,6 +29,36 @@ TEST(TracedAgain, RightRunsAgree) {
     EXPECT_GE(comparison.same, 2);
     EXPECT_GT(comparison.worst_allowed, 0.0);
   }
+}
+
+// The bars' branch up to its snap, and what a search finds beyond: the inverted state and the way to it.
+TEST(TracedAgain, BranchesThatWereFoundBeginWhereTheyBegan) {
+  const TracedDeck traced(test::low_truss + R"toml([path]
+step = 0.3
+branches = "primary"
+search = true
+search_at = [1.0]
+search_tries = 20
+stop = { lambda = [-2.0, 5.0], event = "limit-point" }
+)toml");
+  const auto found = [](const Record& record) {
+    return std::count_if(record.branches.begin(), record.branches.end(),
+                         [](const auto& branch) { return branch.found; });
+  };
+  ASSERT_GT(found(traced.record()), 0);
+  const auto again = traced_again(traced.session());
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(found(again->record()), found(traced.record()));
+  const Comparison right = compare(traced.record(), again->record(), step_discretisation(traced.model()));
+  EXPECT_TRUE(right.differences.empty()) << right.differences.front();
+  Record record = traced.record();
+  const auto on_found = [&](const RecordEvent& event) {
+    return event.kind == EventKind::limit_point && record.branches[static_cast<std::size_t>(event.branch)].found;
+  };
+  const auto turn = std::find_if(record.events.begin(), record.events.end(), on_found);
+  ASSERT_NE(turn, record.events.end());
+  turn->lambda += 1e-3;
+  EXPECT_EQ(compare(record, again->record(), step_discretisation(traced.model())).differences.size(), 1U);
 }
 
 TEST(TracedAgain, AnEventInOneRunOnlyIsNamedWithItsPlace) {
