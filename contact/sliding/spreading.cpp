@@ -116,33 +116,16 @@ void grow_with_new_parts(const NeutralSides& sides, double length, LayoutEdit& e
   }
 }
 
-// Where a stretch about a point has no moment at its ends, a and b from the point, the moments of the point's shear
-// forces A and B have fallen alike, A a = B b: so it begins with b/(a + b) = A/(A + B) of its length behind the point,
-// and these are the parts of the point's force at its ends. The gaps beside the point, A h³/6EI and B h³/6EI, tell
-// them; where they do not, the point is in the middle.
-double share_behind(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  constexpr double near = 0.2, least = 0.02;  // of an element; of the length
-  const Touch touch = touch_of_contact(setting, at.layout, point);
-  const double L = setting.body.length(touch.strand), here = at.s(static_cast<Index>(point));
-  const double h = near * L / setting.body.elements_between(touch.strand, 0.0, L);
-  const auto gap_at = [&](double s) {
-    const AxisPlace axis = at.mesh.place({.strand = touch.strand, .s = std::clamp(s, 0.0, L)}, at.now);
-    return face_gap(setting.obstacles[touch.obstacle], touch.offset, axis, at.now.lambda);
-  };
-  const double before = gap_at(here - h), behind = gap_at(here + h);
-  if (!(std::min(before, behind) > 0.0)) return 0.5;
-  return std::clamp(before / (before + behind), least, 1.0 - least);
-}
-
-// The same of a new stretch. Under a point load that it would arch over the body stays on the wall: there the point
-// stays, and the stretch begins on its other side.
-double share_of_new(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span between,
+// How much of a new stretch lies behind its point. Under a point load that it would arch over the body stays on the
+// wall: there the point stays, and the stretch begins on its other side.
+double share_behind(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span between,
                     double length) {
-  const double share = share_behind(setting, at, point), here = at.s(static_cast<Index>(point));
+  constexpr double half = 0.5;
+  if (between != Span::free || lies_by_itself(setting, at, point)) return half;
+  const double here = at.s(static_cast<Index>(point));
   const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
-  if (between != Span::free || lies_by_itself(setting, at, point)) return share;
-  if (has_load_between(setting, strand, here, here + share * length)) return 0.0;
-  return has_load_between(setting, strand, here - (1.0 - share) * length, here) ? 1.0 : share;
+  if (has_load_between(setting, strand, here, here + half * length)) return 0.0;
+  return has_load_between(setting, strand, here - half * length, here) ? 1.0 : half;
 }
 
 // Each of the points, ascending, becomes two, a short way apart; `neutral`: spans beside them that are then. Where the
@@ -156,7 +139,7 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
   }
   for (auto k = points.rbegin(); k != points.rend(); ++k) {
     const int behind = edit.elements_behind(*k);
-    const double share = share_of_new(setting, at, *k, between, length), force = edit.forces[*k];
+    const double share = share_behind(setting, at, *k, between, length), force = edit.forces[*k];
     double& s = edit.place(*k);
     s -= (1.0 - share) * length;
     Span span = between;
