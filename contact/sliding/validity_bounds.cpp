@@ -34,7 +34,8 @@ bool has_tail(const SlidingBody& body, const SlidingContactLayout& on, Index str
 void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std::size_t i, Bounds& to) {
   const SlidingContactLayout::Segment& segment = on.segments()[i];
   const bool touched = segment.first_point >= 0 || segment.last_point >= 0;
-  const bool flat = segment.span == Span::flat && segment.first_point >= 0 && segment.last_point >= 0;
+  const bool between_points = segment.first_point >= 0 && segment.last_point >= 0;
+  const bool flat = segment.span == Span::flat && between_points;
   const bool to_load = touched && (segment.first_load >= 0 || segment.last_load >= 0);
   add_if<LengthBound>(on.joins_one_obstacle(segment), to, static_cast<std::size_t>(segment.first_point));
   add_if<LoadAheadBound>(to_load, to, i);
@@ -43,7 +44,6 @@ void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std
   add_if<RoomBound>(touched && !to_load && !is_tail && !on.joins_one_obstacle(segment), to, i);
   add_if<HalfWaveBound>(flat && segment.elements == 1, to, i);
   add_if<StraightBound>(flat && segment.elements > 1, to, i);
-  const bool between_points = segment.first_point >= 0 && segment.last_point >= 0;
   add_if<LoadedPartBound>(segment.span == Span::pressed && between_points && on.hands_loads_on(i), to, i);
   if (flat || on.points().empty()) return;
   add_if<CoarseBound>(true, to, i);

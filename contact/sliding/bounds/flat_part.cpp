@@ -14,55 +14,50 @@ namespace {
 constexpr double shortest_flat = 0.8;    // of a half wave, below which a flat part has one element
 constexpr double held_half_waves = 4.0;  // squared: a stretch whose slope is held at both ends buckles in a whole wave
 
-// A stretch of a straight part, of which the ends are tracked points or stay; `inside`: a point at an end of the part.
+// A stretch of a straight part between two points.
 struct Stretch {
   double from, to;
-  std::optional<Index> first, last;  ///< the points at its ends
-  Index inside;
-  SlidingMesh::At side;  ///< of that point, on which the part is
+  std::optional<Index> first, last;  ///< the tracked points at its ends; empty: a load, which stays
 };
 
 Stretch whole_part(const SlidingState& at, std::size_t segment) {
   const Index k = at.layout.segments()[segment].last_point;
-  return {.from = at.s(k - 1), .to = at.s(k), .first = k - 1, .last = k, .inside = k, .side = SlidingMesh::At::before};
+  return {.from = at.s(k - 1), .to = at.s(k), .first = k - 1, .last = k};
 }
 
 // The longest one between the ends of a part and the point loads that it hands on.
 Stretch longest_between_loads(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
   const Stretch whole = whole_part(at, segment);
-  const Index strand = at.layout.segments()[segment].strand;
-  const std::vector<double>& places = setting.body.point_loads(strand);
-  Stretch longest = whole, next = whole;
-  longest.to = longest.from;
-  const auto take = [&] {
-    if (next.to - next.from > longest.to - longest.from) longest = next;
+  const std::vector<double>& places = setting.body.point_loads(at.layout.segments()[segment].strand);
+  Stretch longest{.from = whole.from, .to = whole.from, .first = {}, .last = {}}, rest = whole;
+  const auto take = [&](const Stretch& stretch) {
+    if (stretch.to - stretch.from > longest.to - longest.from) longest = stretch;
   };
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!at.layout.hands_on(segment, static_cast<Index>(i))) continue;
-    next.to = places[i];
-    next.last.reset();
-    take();
-    next = {
-        .from = places[i], .to = whole.to, .first = {}, .last = whole.last, .inside = whole.inside, .side = whole.side};
+    take({.from = rest.from, .to = places[i], .first = rest.first, .last = {}});
+    rest.from = places[i];
+    rest.first.reset();
   }
-  take();
+  take(rest);
   return longest;
 }
 
-// (k d/π)² of a stretch, its length in half waves, squared: k² = P λ/EI is the wave number of a straight part under
-// the thrust P = EA (1 + e − λ), λ its stretch and e that without force.
-double squared_half_waves(const SlidingSetting& setting, const SlidingState& at, const Stretch& part) {
-  const Index strand = at.mesh.breakpoint(part.inside).first;
-  const double d = part.to - part.from, stretch = at.mesh.strain(part.inside, part.side, at.now).stretch;
+// (k d/π)² of a part of a segment, its length in half waves, squared: k² = P λ/EI is the wave number of a straight part
+// under the thrust P = EA (1 + e − λ), λ its stretch and e that without force.
+double squared_half_waves(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
+                          const Stretch& part) {
+  const Index strand = at.layout.segments()[segment].strand, point = at.layout.segments()[segment].last_point;
+  const double d = part.to - part.from, stretch = at.mesh.strain(point, SlidingMesh::At::before, at.now).stretch;
   const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
   const double free = 1.0 + setting.body.free_strain(strand, at.now.lambda).value;
   return EA * (free - stretch) * stretch / EI * d * d / (pi * pi);
 }
 
-Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingState& at, const Stretch& part,
-                                double sign) {
-  const Index strand = at.mesh.breakpoint(part.inside).first;
-  const AxisStrain strain = at.mesh.strain(part.inside, part.side, at.now);
+Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
+                                const Stretch& part, double sign) {
+  const Index strand = at.layout.segments()[segment].strand, point = at.layout.segments()[segment].last_point;
+  const AxisStrain strain = at.mesh.strain(point, SlidingMesh::At::before, at.now);
   const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
   const double d = part.to - part.from, factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
   const SlidingBody::FreeStrain heat = setting.body.free_strain(strand, at.now.lambda);
@@ -80,11 +75,11 @@ Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingStat
 }  // namespace
 
 double HalfWaveBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return 1.0 - squared_half_waves(setting, at, whole_part(at, segment_));
+  return 1.0 - squared_half_waves(setting, at, segment_, whole_part(at, segment_));
 }
 
 Row HalfWaveBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves_gradient(setting, at, whole_part(at, segment_), -1.0);
+  return squared_half_waves_gradient(setting, at, segment_, whole_part(at, segment_), -1.0);
 }
 
 std::vector<Transition> HalfWaveBound::transitions(const SlidingSetting& setting, const SlidingState& at,
@@ -95,11 +90,11 @@ std::vector<Transition> HalfWaveBound::transitions(const SlidingSetting& setting
 }
 
 double StraightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves(setting, at, whole_part(at, segment_)) - shortest_flat * shortest_flat;
+  return squared_half_waves(setting, at, segment_, whole_part(at, segment_)) - shortest_flat * shortest_flat;
 }
 
 Row StraightBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
-  return squared_half_waves_gradient(setting, at, whole_part(at, segment_), 1.0);
+  return squared_half_waves_gradient(setting, at, segment_, whole_part(at, segment_), 1.0);
 }
 
 std::vector<Transition> StraightBound::transitions(const SlidingSetting& setting, const SlidingState& at,
@@ -111,12 +106,14 @@ std::vector<Transition> StraightBound::transitions(const SlidingSetting& setting
 double LoadedPartBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   constexpr double far = 1.0;
   if (!part_needs_no_pressure(setting, at, segment_)) return far;
-  return 1.0 - squared_half_waves(setting, at, longest_between_loads(setting, at, segment_)) / held_half_waves;
+  return 1.0 -
+         squared_half_waves(setting, at, segment_, longest_between_loads(setting, at, segment_)) / held_half_waves;
 }
 
 Row LoadedPartBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   if (!part_needs_no_pressure(setting, at, segment_)) return at.no_slope();
-  return squared_half_waves_gradient(setting, at, longest_between_loads(setting, at, segment_), -1.0 / held_half_waves);
+  return squared_half_waves_gradient(setting, at, segment_, longest_between_loads(setting, at, segment_),
+                                     -1.0 / held_half_waves);
 }
 
 std::vector<Transition> LoadedPartBound::transitions(const SlidingSetting&, const SlidingState&, const Arrival&) const {
