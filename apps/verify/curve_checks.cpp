@@ -21,7 +21,7 @@ namespace {
 const char* const csv_check = "curve.csv tells the states";
 
 // Eigenvalues of a stiffness whose diagonal is one that are zero at an event.
-constexpr ZeroEigenvalue singular_zero{.least = 1e-6};
+constexpr ZeroEigenvalue singular_zero{.least = 1e-6, .of_parts = 1e-4};
 
 std::vector<std::string> assignments_at(const RunDescription& of, const std::string& key, double value) {
   std::vector<std::string> assignments = of.assignments;
@@ -103,7 +103,7 @@ class CurveVerifier {
     const bool slides = at.model.sliding() != nullptr && point.contacts > 0;
     if (curve_.event == EventKind::contact_closes) check_touch(at);
     if (!critical || structure_is_large(at)) return;
-    const CountRange range = range_at_singular(at, singular_zero);
+    const CountRange range = unstable_range(at, singular_zero);
     Findings& findings = verdict_.findings;
     if (!slides) findings.require("the stiffness is singular", range.most > range.least, "no eigenvalue is zero");
     if (!point.unstable_before || !point.unstable_after) return;

@@ -276,8 +276,7 @@ enum class Supports { held, dead };  // those that λ moves, or their forces in 
 // K of the elements, less p ∂²g of the contacts, plus their springs; on the motions that leave closed contacts closed.
 // What walls touch from opposite sides cannot move across them, with or without a force.
 // Lengths and angles are made comparable: D K D has a unit diagonal.
-CountRange range_of_counts(const PointAtHand& at, const ZeroEigenvalue& zero, Supports supports,
-                           double least_diagonal = 0.0) {
+CountRange range_of_counts(const PointAtHand& at, const ZeroEigenvalue& zero, Supports supports) {
   const auto slides = static_cast<Index>(at.touches.pinched.size());
   const Index n = structure_unknowns(at.model, at.point.state) + (supports == Supports::dead ? 1 : 0) + slides;
   Matrix K = Matrix::Zero(n, n), idle_springs = Matrix::Zero(n, n), strong(0, n), all(0, n);
@@ -313,9 +312,9 @@ CountRange range_of_counts(const PointAtHand& at, const ZeroEigenvalue& zero, Su
   for (const Pinched& pinched : at.touches.pinched)
     for (Matrix* held : {&all, &strong}) add_row(*held, pinched.along.unknowns, pinched.along.gradient());
   Vector least = Vector::Constant(n, 1e-300);
-  for (std::size_t e = 0; least_diagonal > 0.0 && e < at.potentials.size(); ++e)
+  for (std::size_t e = 0; zero.of_parts > 0.0 && e < at.potentials.size(); ++e)
     for (const Index unknown : at.potentials[e].unknowns)
-      if (unknown >= 0) least[unknown] += least_diagonal * at.stiffness[e].cwiseAbs().maxCoeff();
+      if (unknown >= 0) least[unknown] += zero.of_parts * at.stiffness[e].cwiseAbs().maxCoeff();
   const Vector scale = (K + idle_springs).diagonal().cwiseAbs().cwiseMax(least).cwiseSqrt().cwiseInverse();
   const auto scaled = [&](const Matrix& stiffness) {
     return Matrix(scale.asDiagonal() * stiffness * scale.asDiagonal());
@@ -330,11 +329,6 @@ CountRange range_of_counts(const PointAtHand& at, const ZeroEigenvalue& zero, Su
 
 CountRange unstable_range(const PointAtHand& at, const ZeroEigenvalue& zero) {
   return range_of_counts(at, zero, Supports::held);
-}
-
-CountRange range_at_singular(const PointAtHand& at, const ZeroEigenvalue& zero) {
-  constexpr double of_parts = 1e-4;
-  return range_of_counts(at, zero, Supports::held, of_parts);
 }
 
 std::optional<CountRange> unstable_dead_range(const PointAtHand& at, const ZeroEigenvalue& zero) {

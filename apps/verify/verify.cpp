@@ -84,7 +84,7 @@ void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& fi
 // length from where the other does, on coarse meshes, where the eigenvalue is a hundredth of the next.
 ZeroEigenvalue zero_eigenvalue(const Model& model, const Record& record, const RecordPoint& point) {
   constexpr double near = 1e-2;
-  constexpr ZeroEigenvalue regular{.least = 1e-11}, singular_zero{.least = 1e-6, .of_next = 1e-2};
+  constexpr ZeroEigenvalue regular{.least = 1e-11}, singular_zero{.least = 1e-6, .of_next = 1e-2, .of_parts = 1e-4};
   const bool slides = model.sliding() != nullptr && point.contacts > 0;
   const auto is_here = [&](double arc, Index step) {
     return slides ? std::abs(arc - point.arc) <= near : step == point.step;

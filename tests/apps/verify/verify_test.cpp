@@ -200,6 +200,29 @@ TEST(Verify, RunsOnWallsThatEndAndThatAreCurvedHold) {
   expect_confirmed(TracedDeck(portal_on_hill));
 }
 
+// The apex of a steep truss gives way sideways alone where its stiffness in that direction, the whole row of it, is
+// zero: by round-off it is on either side of zero at the place itself.
+TEST(Verify, AFreedomThatIsCriticalByItselfIsSeen) {
+  for (const double height : {3.0, 4.0, 5.0, 6.3, 7.0, 8.0}) {
+    SCOPED_TRACE(height);
+    const TracedDeck traced(fmt::format(R"(
+title = "A steep truss"
+material.m = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 1.0, I = 1.0 }}
+point = {{ left = [-1.0, 0.0], top = [0.0, {0}], right = [1.0, 0.0] }}
+member.a = {{ from = "left", to = "top", theory = "truss", strain = "green", material = "m", section = "s", elements = 1 }}
+member.b = {{ from = "top", to = "right", theory = "truss", strain = "green", material = "m", section = "s", elements = 1 }}
+support = {{ left = ["x", "z"], right = ["x", "z"] }}
+load = [{{ at = "top", force = [0.0, -1.0] }}]
+monitor = [{{ name = "w", at = "top", component = "z" }}]
+path = {{ method = "spherical", step = 0.005, branches = "follow", stop = {{ w = [-{0}, 0.5] }} }}
+)",
+                                        height));
+    EXPECT_GE(events_of(traced, EventKind::branch_point).size(), 1u);
+    expect_confirmed(traced);
+  }
+}
+
 // States of a strip that nothing touches, held against a peg that stands in its way between two nodes, and is a tenth
 // of an element wide: the elements' ends know nothing of it.
 TEST(Verify, APegBetweenTwoNodesIsSeen) {
