@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <unordered_map>
 
@@ -297,10 +298,12 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
   for (const deck::Wall& wall : deck.walls) {
     std::unordered_multimap<Index, std::pair<Vec2, double>> taken;  // of a node: members that meet share its point
     Penetration deepest;
+    std::map<double, std::shared_ptr<const Obstacle>> obstacles;  // by how far axes stay off
     for (const MemberMesh& mesh : structure.members()) {
       if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, problems)) continue;
       const double off = kept_off(wall, mesh.height.value_or(0.0));
-      const std::shared_ptr<const Obstacle> obstacle = obstacle_of(wall, off);
+      std::shared_ptr<const Obstacle>& obstacle = obstacles[off];
+      if (!obstacle) obstacle = obstacle_of(wall, off);
       if (wall.acts_on == deck::ActsOn::face && !wall.outline && !mesh.rotations.front()) {
         problems.add(wall.position, "wall.acts_on",
                      "member \"" + mesh.name + "\" is a truss and has no faces that turn", "use acts_on = \"axis\"");

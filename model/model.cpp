@@ -204,7 +204,7 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
 }  // namespace
 
 // The models of later stages are built once to see whether they can be.
-Model::Model(deck::Deck deck) : Model(deck, 0, things_to_drive(deck)) {
+Model::Model(deck::Deck deck) : Model(std::move(deck), 0, std::nullopt) {
   for (std::size_t stage = 1; stage < whole_deck_.stages.size(); ++stage)
     for (const std::string& warning : Model(whole_deck_, static_cast<Index>(stage), progress_).warnings_)
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
@@ -220,10 +220,10 @@ bool Model::begin_stage(double lambda) {
   return true;
 }
 
-Model::Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress)
+Model::Model(deck::Deck whole, Index stage, std::optional<std::vector<DrivenThing>> progress)
     : whole_deck_(std::move(whole)),
       stage_(stage),
-      progress_(std::move(progress)),
+      progress_(progress ? std::move(*progress) : things_to_drive(whole_deck_)),
       deck_(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_)) {
   DeckProblems problems(deck_.source);
   StructureOfDeck described = describe_structure(deck_, problems);

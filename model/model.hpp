@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -110,7 +111,8 @@ class Model {
 
  private:
   State begun_from(const State& state) const;
-  Model(deck::Deck whole, Index stage, std::vector<DrivenThing> progress);
+  // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
+  Model(deck::Deck whole, Index stage, std::optional<std::vector<DrivenThing>> progress);
   bool hold_loose_bodies();
   std::unique_ptr<Structure> held_structure(bool ramp) const;
   double lambda_scale_if_held(const deck::Deck& deck, bool ramp) const;
