@@ -36,6 +36,12 @@ struct QuadraticField {
   double rate = 0.0, x_rate = 0.0, z_rate = 0.0;
 };
 
+/// A corner of a surface that bodies touch with their axes, where it has no one direction: it is a knife edge to them.
+struct SharpCorner {
+  Vec2 place = Vec2::Zero();
+  Vec2 before = Vec2::UnitX(), behind = Vec2::UnitX();  ///< tangents on both sides, in the surface's direction
+};
+
 /// A rigid obstacle in the plane, which λ may move. Its surface is a curve that has a direction, and the body stays on
 /// one side of it: where the gap is not negative. All that contact asks is asked at a position and at λ.
 ///
@@ -84,6 +90,9 @@ class Obstacle {
 
   /// A place far inside a closed obstacle that a body is outside of, as it is at rest.
   virtual std::optional<Vec2> core() const { return std::nullopt; }
+
+  /// The corners that have no rounding, as the obstacle is at rest; none where the body's outside is off its axis.
+  virtual std::vector<SharpCorner> sharp_corners() const { return {}; }
 
   /// How far the body's outside is from a position that touches: half the height of a body whose axis is looked at for
   /// its faces [length].

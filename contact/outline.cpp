@@ -81,6 +81,10 @@ class OutlineObstacle final : public Obstacle {
   Side side() const override { return Side::below; }
   bool faces(const Vec2& position, double) const override { return !outline_->foot(position).beyond; }
 
+  std::vector<SharpCorner> sharp_corners() const override {
+    return half_height_ == 0.0 ? outline_->sharp_corners() : std::vector<SharpCorner>{};
+  }
+
   // ∇∇d = −κ t tᵀ
   QuadraticField gap(const Vec2& position, double) const override {
     const OutlineFoot at = outline_->foot(position);

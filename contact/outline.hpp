@@ -32,6 +32,9 @@ class Outline {
   virtual std::vector<double> knots() const { return {}; }
   virtual double period() const { return 0.0; }
 
+  /// Its corners, all of which point to the left.
+  virtual std::vector<SharpCorner> sharp_corners() const { return {}; }
+
   /// The greatest curvature to the left: a body of height h needs 1/κ > h/2 [1/length].
   virtual double sharpest_hollow() const = 0;
 

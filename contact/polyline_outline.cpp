@@ -105,6 +105,17 @@ class PolylineOutline final : public Outline {
     return knots;
   }
   double period() const override { return is_closed_ ? end_ : 0.0; }
+
+  std::vector<SharpCorner> sharp_corners() const override {
+    std::vector<SharpCorner> corners;
+    for (const Rounding& arc : roundings_) {
+      if (arc.radius > 0.0) continue;
+      const Vec2 behind = std::cos(arc.turn) * arc.first + std::sin(arc.turn) * perp(arc.first);
+      corners.push_back({.place = arc.centre, .before = -perp(arc.first), .behind = -perp(behind)});
+    }
+    return corners;
+  }
+
   double sharpest_hollow() const override { return sharpest_; }
   std::optional<Vec2> core() const override { return core_; }
 

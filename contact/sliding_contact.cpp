@@ -282,8 +282,12 @@ std::optional<SlidingContact::Entered> SlidingContact::entered(const State& stat
 std::vector<SlidingContact::PinchedPlace> SlidingContact::pinches() const {
   std::vector<PinchedPlace> places;
   for (const Pinch& pinch : setting_->pinches)
-    places.push_back(
-        {.obstacle = obstacles()[pinch.obstacle].name, .other = obstacles()[pinch.other].name, .place = pinch.place});
+    places.push_back({.obstacle = obstacles()[pinch.obstacle].name,
+                      .other = obstacles()[pinch.other].name,
+                      .place = pinch.place,
+                      .axis = {std::cos(pinch.angle), std::sin(pinch.angle)},
+                      .normal = pinch.normal,
+                      .knife_edges = !pinch.holds_direction()});
   return places;
 }
 

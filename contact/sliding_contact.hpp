@@ -115,6 +115,9 @@ class SlidingContact final : public System, public ContactQuery {
   struct PinchedPlace {
     std::string obstacle{}, other{};  ///< their names
     Vec2 place = Vec2::Zero();        ///< of the axis
+    Vec2 axis = Vec2::Zero();         ///< direction of the axis there at rest
+    Vec2 normal = Vec2::Zero();       ///< across it; the first obstacle presses along it
+    bool knife_edges = false;         ///< they leave the direction free
   };
   std::vector<PinchedPlace> pinches() const;
 

@@ -249,8 +249,15 @@ bool has_sharp_corners(const deck::Wall& wall) {
          std::get<deck::PolylineOutline>(*wall.outline).x.size() > 2;
 }
 
+// Whether a wall has a corner that is one of two knife edges.
+bool has_knife_edge(const deck::Wall& wall, const PinchedPlaces& known) {
+  return std::any_of(known.begin(), known.end(), [&](const SlidingContact::PinchedPlace& pinch) {
+    return pinch.knife_edges && (pinch.obstacle == wall.name || pinch.other == wall.name);
+  });
+}
+
 // Whether an outline can be touched by a member of some height at all; adds a problem if not.
-bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, DeckProblems& problems) {
+bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlaces& known, DeckProblems& problems) {
   if (!wall.outline) return true;
   if (wall.acts_on == deck::ActsOn::face && !mesh.thickness.empty()) {
     problems.add(wall.position, "wall.acts_on",
@@ -259,10 +266,12 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, DeckProblems& pro
     return false;
   }
   const double off = kept_off(wall, mesh.height.value_or(0.0));
-  if (has_sharp_corners(wall) && off == 0.0) {
-    problems.add(wall.position, "wall.corner_radius",
-                 "the corners of the outline are sharp, and members touch it with their axes: that is not modelled",
-                 "give a corner_radius, or let faces touch, with acts_on = \"face\"");
+  if (has_sharp_corners(wall) && off == 0.0 && !has_knife_edge(wall, known)) {
+    problems.add(
+        wall.position, "wall.corner_radius",
+        "the corners of the outline are sharp, and members touch it with their axes: that is modelled only where "
+        "two corners hold an axis between them from the start, as knife edges, and contact slides",
+        "give a corner_radius, or let faces touch, with acts_on = \"face\"");
     return false;
   }
   if (const double hollow = outline_of(wall)->sharpest_hollow(); off * hollow >= 1.0) {
@@ -300,7 +309,7 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
     Penetration deepest;
     std::map<double, std::shared_ptr<const Obstacle>> obstacles;  // by how far axes stay off
     for (const MemberMesh& mesh : structure.members()) {
-      if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, problems)) continue;
+      if (!concerns(wall, mesh.name) || !can_touch(wall, mesh, known, problems)) continue;
       const double off = kept_off(wall, mesh.height.value_or(0.0));
       std::shared_ptr<const Obstacle>& obstacle = obstacles[off];
       if (!obstacle) obstacle = obstacle_of(wall, off);

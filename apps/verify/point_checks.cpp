@@ -244,7 +244,7 @@ void add_moved_supports(const PointAtHand& at, Matrix& K) {
 void add_slides(const PointAtHand& at, Matrix& K) {
   const std::vector<Pinched>& pinched = at.touches.pinched;
   const auto slides = static_cast<Index>(pinched.size()), n = K.rows() - slides;
-  const double h = 1e-4 * at.scales.length;
+  const auto step = [&](Index i) { return pinched[static_cast<std::size_t>(i)].step; };
   const auto moved = [&](Index i, double by_i, Index j, double by_j) {
     State state = at.point.state;
     state.x[pinched[static_cast<std::size_t>(i)].coordinate] += by_i;
@@ -263,11 +263,14 @@ void add_slides(const PointAtHand& at, Matrix& K) {
     return sum;
   };
   for (Index i = 0; i < slides; ++i) {
+    const double h = step(i);
     K.col(n + i).head(n) = (forces_at(i, h) - forces_at(i, -h)) / (2.0 * h);
     K.row(n + i).head(n) = K.col(n + i).head(n).transpose();
-    for (Index j = 0; j < slides; ++j)
+    for (Index j = 0; j < slides; ++j) {
+      const double k = step(j);
       K(n + i, n + j) =
-          (energy(i, h, j, h) - energy(i, h, j, -h) - energy(i, -h, j, h) + energy(i, -h, j, -h)) / (4.0 * h * h);
+          (energy(i, h, j, k) - energy(i, h, j, -k) - energy(i, -h, j, k) + energy(i, -h, j, -k)) / (4.0 * h * k);
+    }
   }
 }
 

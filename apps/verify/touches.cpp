@@ -334,12 +334,27 @@ Pinched pinched_at(const std::shared_ptr<const Sliding>& at, const ContactLabel&
                    std::size_t point, double force) {
   Pinched pinched{.label = label, .along = at->unknowns(node), .force = force};
   pinched.coordinate = at->state.x.size() - at->mesh.breakpoints() + static_cast<Index>(point);
+  const auto s = [&](Index position) { return at->mesh.coordinate(node.strand, position, at->now.s); };
+  pinched.step = 1e-4 * std::min(s(node.position + 1) - s(node.position), s(node.position) - s(node.position - 1));
   const AxisPlace now = at->place(node, pinched.along, pinched.along.at);
   const Vec2 place = pinch_of(*at, label.wall, now.position).place, axis = direction(now.angle);
   pinched.along.of = [=, function = pinched.along](const Vector& u) {
     return axis.dot(at->place(node, function, u).position - place);
   };
   return pinched;
+}
+
+// At sharp corners walls have no normal of their own: knife edges press across the axis, as it is now. What is stored
+// is their force across and along the axis at rest.
+void press_across(const SlidingContact::PinchedPlace& pinch, double angle, Touch& first, Touch& other,
+                  Pinched& pinched) {
+  const Vec2 axis = direction(angle), across = perp(axis);
+  const Vec2 normal = across.dot(pinch.normal) >= 0.0 ? across : Vec2(-across);
+  first.gap.by_place = [normal](const Vector&) { return normal; };
+  other.gap.by_place = [normal](const Vector&) -> Vec2 { return -normal; };
+  const Vec2 force = first.force * pinch.normal + pinched.force * pinch.axis;
+  first.force = force.dot(normal);
+  pinched.force = force.dot(axis);
 }
 
 // One unknown is the force of both walls of a pinch, of either sign.
@@ -371,16 +386,21 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     const SlidingNode node{.strand = strand, .position = position};
     const PlainWall& wall = wall_of_obstacle(*at, walls, points[k].obstacle);
     const Touch& touch = add(wall, node, state.piece[k] != 0);
-    touches.tangencies.push_back(tangency(at, wall, touch, node, k));
-    touches.tangencies.back().moment = state.x[moments + static_cast<Index>(k)];
-    if (!points[k].is_pinched()) continue;
+    const AxisPlace axis = at->mesh.node(strand, position, at->now);
+    std::optional<SlidingContact::PinchedPlace> pinch;
+    if (points[k].is_pinched()) pinch = pinch_of(*at, wall.deck().name, axis.position);
+    if (!pinch || !pinch->knife_edges) {
+      touches.tangencies.push_back(tangency(at, wall, touch, node, k));
+      touches.tangencies.back().moment = state.x[moments + static_cast<Index>(k)];
+    }
+    if (!pinch) continue;
     const auto behind = std::find(pinched.begin(), pinched.end(), k);
     const Index along = moments - static_cast<Index>(tips.size()) - (pinched.end() - behind);
-    touches.pinched.push_back(pinched_at(at, touches.tangencies.back().label, node, k, state.x[along]));
-    const Vec2 place = at->mesh.node(strand, position, at->now).position;
-    const PlainWall& other = wall_of(walls, pinch_of(*at, wall.deck().name, place).other);
-    touches.all.push_back(sliding_touch(at, other, node));
-    part_pinching_force(touches.all[touches.all.size() - 2], touches.all.back());
+    touches.pinched.push_back(pinched_at(at, touch.label, node, k, state.x[along]));
+    touches.all.push_back(sliding_touch(at, wall_of(walls, pinch->other), node));
+    Touch &first = touches.all[touches.all.size() - 2], &other = touches.all.back();
+    if (pinch->knife_edges) press_across(*pinch, axis.angle, first, other, touches.pinched.back());
+    part_pinching_force(first, other);
   }
   for (std::size_t i = 0; i < tips.size(); ++i) {
     const SlidingNode node{.strand = tips[i].strand, .position = tips[i].position};

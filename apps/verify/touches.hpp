@@ -58,6 +58,7 @@ struct Pinched {
   NodeFunction along{};  ///< distance from the place [length]
   double force = 0.0;    ///< along the axis, as stored [force]
   Index coordinate = 0;  ///< of the material coordinate in State::x
+  double step = 0.0;     ///< of that, with which differences are taken: small against the elements beside [length]
 };
 
 struct Touches {

@@ -55,7 +55,11 @@ ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std
   Touch touch = touch_of_contact(setting, at.layout, j);
   touch.obstacle = obstacles_at(setting, at.layout, j)[other ? 1 : 0];
   touch.offset = setting.face_offset(touch.obstacle, touch.strand);
-  return at_node(setting, at, touch, std::max((other ? -1.0 : 1.0) * at.force(j), 0.0));
+  const PinchingForce force = pinching_force(setting, at, j);
+  const bool presses = other ? force.value < 0.0 : force.value > 0.0;
+  ContactPoint contact = at_node(setting, at, touch, presses ? std::abs(force.value) : 0.0);
+  contact.force_vector = presses ? force.vector : Vec2::Zero();
+  return contact;
 }
 
 }  // namespace

@@ -40,13 +40,24 @@ void for_each_constraint(const SlidingSetting& setting, const SlidingState& at, 
     const NodeUnknowns unknowns = unknowns_of(touch_of_contact(setting, on, k));
     if (at.is_closed(k)) visit([&] { return off_pinch(setting, at, k).across; }, unknowns, *at.index.force(k));
     visit([&] { return off_pinch(setting, at, k).along; }, unknowns, at.index.force_along(i));
-    visit([&] { return off_pinch(setting, at, k).turned; }, unknowns, at.index.moment(static_cast<Index>(k)));
+    if (holds_direction(setting, on, k))
+      visit([&] { return off_pinch(setting, at, k).turned; }, unknowns, at.index.moment(static_cast<Index>(k)));
   }
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i)
     visit_tilt(touch_of_tip(setting, on.pressed_tips()[i]), at.index.tip_moment(i));
   for (std::size_t k = 0; k < on.points().size(); ++k)
     if (!on.is_pinched(k)) visit_tilt(touch_of_contact(setting, on, k), at.index.moment(static_cast<Index>(k)));
 }
+
+// visit(index of the multiplier) for the moments at knife edges, which are 0. As a soft spring would have it, −m c = 0,
+// so that they count among the multipliers of K like all others.
+template <typename Visit>
+void for_each_free_direction(const SlidingSetting& setting, const SlidingState& at, const Visit& visit) {
+  for (const std::size_t k : at.layout.pinched_points())
+    if (!holds_direction(setting, at.layout, k)) visit(at.index.moment(static_cast<Index>(k)));
+}
+
+double compliance(const SlidingSetting& setting) { return 1.0 / (setting.scales.force * setting.scales.length); }
 
 // The loose span at one of whose ends point k is, if it is.
 const NeutralSpan* loose_span_at(const SlidingState& at, Index k) {
@@ -162,6 +173,7 @@ void residual(const SlidingSetting& setting, const SlidingState& at, Eigen::Ref<
   for_each_constraint(setting, at, [&](const auto& function, const NodeUnknowns& unknowns, Index multiplier) {
     add_to_residual(function(), unknowns, multiplier, at, F);
   });
+  for_each_free_direction(setting, at, [&](Index m) { F[m] = -at.state.x[m] * compliance(setting); });
   for (Index k = 0; k < at.index.points; ++k) F[at.index.coordinate(k)] = border_equation(setting, at, k).value;
 }
 
@@ -179,6 +191,10 @@ void linearize(const SlidingSetting& setting, const SlidingState& at, Linearizat
     const NodeFunction constraint = function();
     add_to_residual(constraint, unknowns, multiplier, at, out.F);
     add_constraint(constraint, unknowns, multiplier, at, out);
+  });
+  for_each_free_direction(setting, at, [&](Index m) {
+    out.F[m] = -at.state.x[m] * compliance(setting);
+    out.K.coeffRef(m, m) = -compliance(setting);
   });
   out.C.resize(at.index.points, at.index.size());
   for (Index k = 0; k < at.index.points; ++k) {

@@ -10,6 +10,7 @@
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
+#include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
 
@@ -73,6 +74,17 @@ bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t poi
   });
 }
 
+// Whether what is nearest to a least gap is a sharp corner, around which the body would turn at a point of its axis.
+bool is_at_sharp_corner(const SlidingSetting& setting, const SlidingState& at, const LeastGap& gap) {
+  const Obstacle& surface = *setting.obstacles[gap.obstacle].surface;
+  const std::vector<SharpCorner> corners = surface.sharp_corners();
+  const Vec2 place = face(setting.face_offset(gap.obstacle, gap.at.strand), at.mesh.place(gap.at, at.now));
+  return std::any_of(corners.begin(), corners.end(), [&](const SharpCorner& corner) {
+    const Vec2 arm = place - corner.place;
+    return corner.before.dot(arm) >= 0.0 && corner.behind.dot(arm) <= 0.0;
+  });
+}
+
 }  // namespace
 
 std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, const SlidingState& from,
@@ -84,6 +96,7 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   const double nearby = 0.25 * setting.body.length(strand);
   if (!start || std::abs(start->at.s - violated->at.s) > nearby) return std::nullopt;
   if (is_followed(setting, from, *start)) return std::nullopt;
+  if (is_at_sharp_corner(setting, from, *start)) return std::nullopt;
   LayoutEdit before = edit_of(setting.body, from);
   take_nodes_beside(start->at, before);
   const auto elements = elements_beside(before, *start, *violated);

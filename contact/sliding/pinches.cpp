@@ -23,6 +23,10 @@ NodeFunction distance(const Vec2& position, const Vec2& from, const Vec2& along)
 
 }  // namespace
 
+bool holds_direction(const SlidingSetting& setting, const SlidingContactLayout& on, std::size_t point) {
+  return pinch_of(setting, on, point).holds_direction();
+}
+
 OffPinch off_pinch(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Pinch& pinch = pinch_of(setting, at.layout, point);
   const AxisPlace axis = touch_of_contact(setting, at.layout, point).axis(at);
@@ -76,9 +80,10 @@ bool touches(const SlidingSetting& setting, const SlidingContactLayout& on, std:
   return pinch.obstacle == obstacle || pinch.other == obstacle;
 }
 
-CurvatureGap curvature_gap_beside(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
-                                  std::size_t obstacle, SlidingMesh::At side) {
+CurvatureGap curvature_gap_beside(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool other,
+                                  SlidingMesh::At side) {
   const auto [strand, position] = at.mesh.breakpoint(static_cast<Index>(point));
+  const std::size_t obstacle = obstacles_at(setting, at.layout, point)[other ? 1 : 0];
   const Touch touch{
       .strand = strand, .position = position, .obstacle = obstacle, .offset = setting.face_offset(obstacle, strand)};
   return gap_of_curvatures(setting, at, touch, at.mesh.strain(static_cast<Index>(point), side, at.now));
@@ -86,22 +91,105 @@ CurvatureGap curvature_gap_beside(const SlidingSetting& setting, const SlidingSt
 
 namespace {
 
-// Where a strand at rest touches an obstacle at a point.
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+// 1 where an axis of this direction runs with the surface at a corner, −1 where it runs against it.
+double travel(const SharpCorner& corner, const Vec2& axis) {
+  return axis.dot(corner.before + corner.behind) >= 0.0 ? 1.0 : -1.0;
+}
+
+}  // namespace
+
+// The surface turns to the right at its corner, and the body goes through it at a direction between.
+FlankAngle angle_to_flank(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool other,
+                          SlidingMesh::At side) {
+  const SharpCorner& corner = (*pinch_of(setting, at.layout, point).knife_edges)[other ? 1 : 0];
+  const Vec2 axis = direction(touch_of_contact(setting, at.layout, point).axis(at).angle);
+  const Vec2 along = travel(corner, axis) * axis;
+  if (side == SlidingMesh::At::before) return {.value = turn_between(along, corner.before), .by_rotation = -1.0};
+  return {.value = turn_between(corner.behind, along), .by_rotation = 1.0};
+}
+
+// Without friction the force of knife edges is across the axis, whichever way this has turned.
+PinchingForce pinching_force(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const Pinch& pinch = pinch_of(setting, at.layout, point);
+  const double across = at.force(point);
+  if (pinch.holds_direction()) return {.value = across, .vector = across * pinch.normal};
+  const auto& pinched = at.layout.pinched_points();
+  const auto number = static_cast<std::size_t>(std::find(pinched.begin(), pinched.end(), point) - pinched.begin());
+  const Vec2 vector = across * pinch.normal + at.state.x[at.index.force_along(number)] * direction(pinch.angle);
+  Vec2 normal = perp(direction(touch_of_contact(setting, at.layout, point).axis(at).angle));
+  if (normal.dot(pinch.normal) < 0.0) normal = -normal;
+  return {.value = vector.dot(normal), .vector = vector};
+}
+
+namespace {
+
+// Where a strand at rest touches an obstacle at a point: at a sharp corner, if it does so there.
 struct TouchAtRest {
   MaterialPoint at{};
   std::size_t obstacle = 0;
   Vec2 normal = Vec2::Zero();
+  std::optional<SharpCorner> corner{};
 };
 
-std::vector<TouchAtRest> touches_at_rest(const SlidingSetting& setting, const SlidingState& rest) {
-  constexpr double touching = 1e-9;  // of the length scale
+bool stands_still(const SlidingSetting& setting, std::size_t obstacle) {
+  return setting.obstacles[obstacle].surface->greatest_speed(setting.scales.length) == 0.0;
+}
+
+// The place of an element whose normal goes through a position; empty where it has none.
+std::optional<MaterialPoint> foot_in_element(const SlidingState& rest, Index strand, Index element,
+                                             const Vec2& position) {
+  constexpr double enough = 1e-14;  // of the element
+  const auto ahead = [&](double fraction) {
+    const AxisPlace place = rest.mesh.inside(strand, element, fraction, rest.now);
+    return direction(place.angle).dot(place.position - position);
+  };
+  double from = 0.0, to = 1.0;
+  if (ahead(from) > 0.0 || ahead(to) < 0.0) return std::nullopt;
+  while (to - from > enough) {
+    const double middle = 0.5 * (from + to);
+    (ahead(middle) < 0.0 ? from : to) = middle;
+  }
+  const double first = rest.mesh.coordinate(strand, element, rest.now.s);
+  const double last = rest.mesh.coordinate(strand, element + 1, rest.now.s);
+  return MaterialPoint{.strand = strand, .s = first + 0.5 * (from + to) * (last - first)};
+}
+
+// Where strands at rest go through sharp corners, between the directions of their flanks.
+std::vector<TouchAtRest> touches_at_corners(const SlidingSetting& setting, const SlidingState& rest, double touching) {
   std::vector<TouchAtRest> touches;
+  for (std::size_t w = 0; w < setting.obstacles.size(); ++w) {
+    if (!stands_still(setting, w)) continue;
+    for (const SharpCorner& corner : setting.obstacles[w].surface->sharp_corners())
+      for (Index strand = 0; strand < setting.body.strands(); ++strand) {
+        if (!setting.obstacles[w].concerns(strand)) continue;
+        for (Index element = 0; element + 1 < rest.mesh.nodes(strand); ++element) {
+          const auto foot = foot_in_element(rest, strand, element, corner.place);
+          if (!foot) continue;
+          const AxisPlace place = rest.mesh.place(*foot, rest.now);
+          const Vec2 along = travel(corner, direction(place.angle)) * direction(place.angle);
+          if ((place.position - corner.place).norm() > touching || cross(along, corner.before) <= 0.0 ||
+              cross(corner.behind, along) <= 0.0)
+            continue;
+          touches.push_back({.at = *foot, .obstacle = w, .normal = perp(along), .corner = corner});
+        }
+      }
+  }
+  return touches;
+}
+
+std::vector<TouchAtRest> touches_at_rest(const SlidingSetting& setting, const SlidingState& rest) {
+  const double touching = 1e-9 * setting.scales.length;
+  std::vector<TouchAtRest> touches = touches_at_corners(setting, rest, touching);
   for (const LeastGap& least : least_gaps(setting, rest)) {
-    const SlidingObstacle& obstacle = setting.obstacles[least.obstacle];
-    if (std::abs(least.gap) > touching * setting.scales.length) continue;
-    if (obstacle.surface->greatest_speed(setting.scales.length) > 0.0) continue;
+    const Obstacle& obstacle = *setting.obstacles[least.obstacle].surface;
+    if (std::abs(least.gap) > touching || !stands_still(setting, least.obstacle)) continue;
     const Vec2 place = face(setting.face_offset(least.obstacle, least.at.strand), rest.mesh.place(least.at, rest.now));
-    touches.push_back({.at = least.at, .obstacle = least.obstacle, .normal = obstacle.surface->normal(place, 0.0)});
+    const std::vector<SharpCorner> corners = obstacle.sharp_corners();
+    const auto is_here = [&](const SharpCorner& corner) { return (corner.place - place).norm() <= 2.0 * touching; };
+    if (std::any_of(corners.begin(), corners.end(), is_here)) continue;
+    touches.push_back({.at = least.at, .obstacle = least.obstacle, .normal = obstacle.normal(place, 0.0)});
   }
   return touches;
 }
@@ -110,7 +198,7 @@ std::vector<TouchAtRest> touches_at_rest(const SlidingSetting& setting, const Sl
 bool are_opposite(const TouchAtRest& a, const TouchAtRest& b, double length) {
   constexpr double near = 1e-6, opposite = 1e-9;  // of the length; of the normals
   return a.at.strand == b.at.strand && std::abs(a.at.s - b.at.s) <= near * length &&
-         1.0 + a.normal.dot(b.normal) <= opposite;
+         a.corner.has_value() == b.corner.has_value() && 1.0 + a.normal.dot(b.normal) <= opposite;
 }
 
 }  // namespace
@@ -138,6 +226,7 @@ std::vector<Pinch> pinches_at_rest(const SlidingSetting& setting, const SlidingS
                          .place = axis.position,
                          .angle = axis.angle,
                          .normal = a.normal});
+      if (a.corner) pinches.back().knife_edges = {*a.corner, *b.corner};
     }
   std::sort(pinches.begin(), pinches.end(),
             [](const Pinch& a, const Pinch& b) { return a.strand != b.strand ? a.strand < b.strand : a.s < b.s; });

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "contact/contact_scales.hpp"
@@ -37,7 +39,8 @@ struct FreeEnd {
 };
 
 /// A place where two obstacles leave a strand no clearance, from one side each: the axis goes through it for good,
-/// along one line if the obstacles have a direction there. The strand may slide through.
+/// along one line if the obstacles are smooth there, at any angle between their flanks if they are knife edges. The
+/// strand may slide through.
 struct Pinch {
   Index strand = 0;
   double s = 0.0;                       ///< material coordinate of what is there at rest [length]
@@ -45,6 +48,9 @@ struct Pinch {
   Vec2 place = Vec2::Zero();            ///< of the axis
   double angle = 0.0;                   ///< of the axis there, continuous along the strand at rest [rad]
   Vec2 normal = Vec2::Zero();           ///< across the axis
+  std::optional<std::array<SharpCorner, 2>> knife_edges{};  ///< of both obstacles; empty where these are smooth
+
+  bool holds_direction() const { return !knife_edges; }
 };
 
 /// A body among obstacles: all that contact which slides depends on and that stays the same along a path. The contacts

@@ -1,5 +1,7 @@
 // Stops without clearance: two smooth ones that touch each other across a member hold the place of its axis and the
-// direction there, and let it slide through. The references are closed forms of the extensible elastica.
+// direction there, two sharp corners the place alone, and both let it slide through. The references are closed forms of
+// the extensible elastica.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,11 +21,21 @@ using test::traced;
 
 constexpr double EA = 1e5, radius = 0.02;
 
-// A pinned column of EI = 1, EA = 1e5 and length 1, with two round pegs that touch each other on its axis.
-std::string column(double at, const std::string& path) {
-  const auto peg = [&](const std::string& name, double z) {
-    return "{ name = \"" + name + "\", acts_on = \"axis\", outline = { type = \"circle\", centre = [" + round_trip(at) +
-           ", " + round_trip(z) + "], radius = 0.02 } }";
+enum class Stops { pegs, wedges, flat_wedges };
+
+// Round ones, and wedges whose flanks are at atan 2 or atan 0.2 against the axis; `up`: the stop is above the axis.
+std::string outline(Stops stops, double at, bool up) {
+  const double sign = up ? 1.0 : -1.0, height = sign * (stops == Stops::wedges ? 0.2 : 0.02);
+  if (stops == Stops::pegs)
+    return fmt::format(R"({{ type = "circle", centre = [{}, {}], radius = {} }})", at, sign * radius, radius);
+  return fmt::format(R"({{ type = "polyline", x = [{}, {}, {}], z = [{}, 0.0, {}] }})", at + 0.1 * sign, at,
+                     at - 0.1 * sign, height, height);
+}
+
+// A pinned column of EI = 1, EA = 1e5 and length 1, with two stops that touch each other on its axis.
+std::string column(double at, const std::string& path, Stops stops = Stops::pegs) {
+  const auto stop = [&](const std::string& name, bool up) {
+    return "{ name = \"" + name + "\", acts_on = \"axis\", outline = " + outline(stops, at, up) + " }";
   };
   return std::string(R"toml(
 title = "A column between pegs"
@@ -41,7 +53,7 @@ monitor = [
   { name = "below", wall = "under", component = "force-z" },
 ]
 )toml") + "wall = [" +
-         peg("over", radius) + ", " + peg("under", -radius) + "]\n" + path + "\n";
+         stop("over", true) + ", " + stop("under", false) + "]\n" + path + "\n";
 }
 
 // The load at which a column, pinned at its ends and clamped at the fraction `at` of its span where it slides through,
@@ -59,6 +71,20 @@ double first_load(double at) {
   double low = 0.0, high = 0.01 * EA;
   for (int i = 0; i < 200; ++i) (unbalanced(0.5 * (low + high)) > 0.0 ? high : low) = 0.5 * (low + high);
   return std::min(of_held, low);
+}
+
+// The load at which a pinned column that slides through a hinge at the fraction `at` of its span is neutral first: both
+// parts, whose stress-free lengths l are those of first_load(), turn there by M (1 − k l cot k l)/(P l) under a moment.
+double first_load_on_knife_edges(double at) {
+  const auto unbalanced = [&](double P) {
+    const double k = std::sqrt(P * (1.0 - P / EA)), held = at / (1.0 - P / EA), other = 1.0 - held;
+    const auto turn = [&](double l) { return std::sin(k * l) - k * l * std::cos(k * l); };
+    return other * std::sin(k * other) * turn(held) + held * std::sin(k * held) * turn(other);
+  };
+  double low = 0.1, high = 0.1;
+  while (unbalanced(high += 0.1) > 0.0) low = high;
+  for (int i = 0; i < 100; ++i) (unbalanced(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  return low;
 }
 
 const RecordEvent* first_branch_point(const Session& run) {
@@ -89,10 +115,50 @@ TEST(Pinches, PegsHoldTheSlope) {
     }
 }
 
+// With one in the middle 4 π² EI/L², less what the column shortens.
+TEST(Pinches, KnifeEdgesHoldThePlaceAlone) {
+  EXPECT_NEAR(first_load_on_knife_edges(0.5), 39.49401537685698, 2e-5);  // P (1 − P/EA) = 4 π² but for (P/EA)²
+  for (const std::string theory : {"classic", "elastica"})
+    for (const double at : {0.5, 0.4}) {
+      SCOPED_TRACE(theory + " " + round_trip(at));
+      const double load = first_load_on_knife_edges(at);
+      const Session run = traced(column(at,
+                                        "path = { step = 5.0, branches = \"primary\", stop = { lambda = [-1.0, " +
+                                            round_trip(1.01 * load) + "] } }",
+                                        Stops::wedges),
+                                 {"member.column.theory = \"" + theory + "\""});
+      EXPECT_EQ(run.record().branches[0].end->reason, EndReason::stop);
+      const RecordEvent* leaves = first_branch_point(run);
+      ASSERT_NE(leaves, nullptr);
+      EXPECT_NEAR(leaves->lambda, load, (theory == "classic" ? 1e-5 : 1e-8) * load);
+      EXPECT_EQ(leaves->unstable_before, Index{0});
+      EXPECT_EQ(leaves->unstable_after, Index{1});
+      for (const RecordPoint& point : run.points()) EXPECT_EQ(point.contacts, 2);
+    }
+}
+
+// Behind the branch point the member turns in the wedges until it comes to lie along a flank.
+TEST(Pinches, KnifeEdgesLetTheMemberTurnBetweenTheirFlanks) {
+  const Session run =
+      traced(column(0.5, "path = { step = 5.0, max_step = 0.05, stop = { off = [-0.6, 0.6] } }", Stops::flat_wedges));
+  ASSERT_EQ(run.record().branches.size(), 2U);
+  const auto& end = *run.record().branches[1].end;
+  EXPECT_EQ(end.reason, EndReason::unsupported);
+  EXPECT_NE(end.detail.find("over and under"), std::string::npos) << end.detail;
+  const State& last = run.points().back().state;
+  const SlidingContactLayout& on = sliding_layout(last.piece);
+  const auto [strand, position] = on.mesh().breakpoint(0);
+  const MeshState now{.x = last.x.head(on.mesh().unknowns()), .s = last.x.tail(1), .lambda = last.lambda};
+  EXPECT_NEAR(std::abs(on.mesh().node(strand, position, now).angle), std::atan(0.2), 1e-6);
+}
+
 // Of the equations with a pinch, in a bent state.
-TEST(Pinches, DerivativesAreConsistent) {
-  const Model model(
-      deck::read_deck_text(column(0.4, "path = { step = 5.0, stop = { lambda = [-1.0, 1.0] } }"), "deck.toml", {}));
+class PinchesOfBothKinds : public testing::TestWithParam<Stops> {};
+INSTANTIATE_TEST_SUITE_P(, PinchesOfBothKinds, testing::Values(Stops::pegs, Stops::wedges));
+
+TEST_P(PinchesOfBothKinds, DerivativesAreConsistent) {
+  const Model model(deck::read_deck_text(
+      column(0.4, "path = { step = 5.0, stop = { lambda = [-1.0, 1.0] } }", GetParam()), "deck.toml", {}));
   std::string reason;
   State state = *model.start(reason);
   EXPECT_TRUE(model.system().is_two_sided(state.piece, 0));
@@ -104,8 +170,9 @@ TEST(Pinches, DerivativesAreConsistent) {
 
 // Off the straight way the moments on both sides differ, and with them the thrusts, as nothing but the energy says what
 // slides through: λ is its rate by the way of the load. By the trapezoidal rule.
-TEST(Pinches, TheEnergyGrowsByTheWorkOfTheLoadAlone) {
-  const Session run = traced(column(0.4, "path = { step = 5.0, max_step = 0.02, stop = { off = [-0.05, 0.05] } }"));
+TEST_P(PinchesOfBothKinds, TheEnergyGrowsByTheWorkOfTheLoadAlone) {
+  const Session run =
+      traced(column(0.4, "path = { step = 5.0, max_step = 0.02, stop = { off = [-0.05, 0.05] } }", GetParam()));
   ASSERT_EQ(run.record().branches.size(), 2U);
   EXPECT_EQ(run.record().branches[1].end->reason, EndReason::stop);
   double work = 0.0, energy = 0.0;

@@ -2,18 +2,24 @@
 
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "contact/sliding/touch.hpp"
 
 namespace arcwall::sliding {
 
 double PinchBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  const std::size_t obstacle = obstacles_at(setting, at.layout, point_)[other_ ? 1 : 0];
-  return curvature_gap_beside(setting, at, point_, obstacle, side_).value * setting.scales.length;
+  if (!holds_direction(setting, at.layout, point_)) return angle_to_flank(setting, at, point_, other_, side_).value;
+  return curvature_gap_beside(setting, at, point_, other_, side_).value * setting.scales.length;
 }
 
 Row PinchBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = at.no_slope();
-  const std::size_t obstacle = obstacles_at(setting, at.layout, point_)[other_ ? 1 : 0];
-  curvature_gap_beside(setting, at, point_, obstacle, side_).add_to(row, setting.scales.length, at.index);
+  if (holds_direction(setting, at.layout, point_)) {
+    curvature_gap_beside(setting, at, point_, other_, side_).add_to(row, setting.scales.length, at.index);
+    return row;
+  }
+  const Touch touch = touch_of_contact(setting, at.layout, point_);
+  const double by_rotation = angle_to_flank(setting, at, point_, other_, side_).by_rotation;
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), {0.0, 0.0, by_rotation}, row.dx);
   return row;
 }
 

@@ -4,8 +4,9 @@
 
 namespace arcwall::sliding {
 
-/// How much more an obstacle of a pinch bends towards the body than the body does on one side: behind the bound the
-/// body would wrap round that obstacle, which is not modelled.
+/// How much more an obstacle of a pinch bends towards the body than the body does on one side, or by what angle the
+/// body is off a flank of a knife edge: behind the bound the body would wrap round that obstacle, which is not
+/// modelled.
 class PinchBound final : public ValidityBound {
  public:
   /// `other`: the second of the pinch's obstacles.

@@ -200,6 +200,26 @@ TEST(Verify, RunsOnWallsThatEndAndThatAreCurvedHold) {
   expect_confirmed(TracedDeck(portal_on_hill));
 }
 
+// Sharp corners have no normal of their own where they hold a column between them, which has turned there; it is drawn
+// through them to its end, where next to nothing of it is left on one side.
+TEST(Verify, KnifeEdgesPressAcrossTheAxis) {
+  expect_confirmed(TracedDeck(R"(
+title = "A column between knife edges"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e5, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+member.column = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 24 }
+support = { a = ["x", "z"], b = ["z"] }
+load = [{ at = "b", force = [-1.0, 0.0] }]
+wall = [
+  { name = "over", acts_on = "axis", outline = { type = "polyline", x = [0.6, 0.5, 0.4], z = [0.2, 0.0, 0.2] } },
+  { name = "under", acts_on = "axis", outline = { type = "polyline", x = [0.4, 0.5, 0.6], z = [-0.2, 0.0, -0.2] } },
+]
+monitor = [{ name = "off", at = "column:0.75", component = "z" }]
+path = { step = 5.0, max_step = 0.05, stop = { off = [-0.6, 0.6] } }
+)"));
+}
+
 // The apex of a steep truss gives way sideways alone where its stiffness in that direction, the whole row of it, is
 // zero: by round-off it is on either side of zero at the place itself.
 TEST(Verify, AFreedomThatIsCriticalByItselfIsSeen) {
