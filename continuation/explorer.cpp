@@ -81,18 +81,21 @@ std::optional<Index> unstable_at(const Event& event, const std::vector<TriedWay>
   return least;
 }
 
+// No farther than where the way is known to be free: the first step must not find a wall ahead, for whose sake its
+// start, at which K is singular, would be described anew.
 BranchStart start_along(const Event& event, const TriedWay& tried, std::optional<Index> unstable) {
   const BranchPoint& point = *event.branching;
   BranchStart start{.state = point.state};
   start.state.piece = tried.step.state.piece;
   start.forward = tried.way.forward;
   start.mode = tried.way.across;
+  start.distance = tried.step.distance;
   start.unstable = unstable;
   return start;
 }
 
-BranchStart start_along(const System& system, const Event& event, const BranchPoint::Way& way) {
-  BranchStart start{.state = system.with_piece(event.branching->state, way.piece)};
+BranchStart start_along(const System& system, const Event& event, const BranchPoint::Way& way, double distance) {
+  BranchStart start{.state = system.with_piece(event.branching->state, way.piece), .distance = distance};
   start.forward = start.mode = way.direction;
   start.unstable = event.unstable_before;
   return start;
@@ -181,7 +184,8 @@ void Explorer::look_at(const Event& event) {
   const bool mirror_ahead = point.ends_its_own_branch();
   if (!point.ways.empty() && !mirror_ahead) {
     if (options_.policy == BranchPolicy::all)
-      for (const BranchPoint::Way& way : point.ways) enqueue(event, start_along(system_, event, way), 1, false);
+      for (const BranchPoint::Way& way : point.ways)
+        enqueue(event, start_along(system_, event, way, options_.distance), 1, false);
     return;  // the tracer has taken the one that `follow` wants
   }
   const bool ahead_is_stable = event.unstable_after == Index{0} && !mirror_ahead;
@@ -222,7 +226,6 @@ void Explorer::look_at(const Event& event) {
 void Explorer::enqueue(const Event& event, BranchStart start, int sign, bool mirrored) {
   const BranchRecord& here = branches_[static_cast<std::size_t>(current_)];
   start.lambda_scale = lambda_scale_;
-  start.distance = options_.distance;
   queue_.push_back({.start = std::move(start),
                     .record = {.parent = current_,
                                .origin = event.branching,

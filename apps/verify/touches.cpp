@@ -235,8 +235,18 @@ Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& w
   return touch;
 }
 
-// The spring p λ / g″ on the tilt, g″/λ = ±(κ − λ κ̂) by what the element on the free side carries: κ = κ₀ + M/EI, λ = 1
-// + N/EA; κ̂ is the curvature of the line on which the axis would lie (docs/theory.md, section 8).
+// The curvature of the curve along which what touches slides: of a face that of the wall, of an axis that of the curve
+// at half the height from an outline.
+double curvature_touched(const PlainWall& wall, const Vec2& face, double half_height) {
+  const double surface = wall.curvature(face);  // infinite at a sharp corner
+  const double off = wall.kept_off(half_height);
+  if (off == 0.0) return surface;
+  return std::isfinite(surface) ? surface / (1.0 - off * surface) : -1.0 / off;
+}
+
+// The spring c = p Λ_f/|κ − Λ_f κ_w| of (8.8) on the tilt, by what the element on the free side carries: κ = κ₀ + M/EI,
+// Λ = 1 + N/EA. What touches a profile is the face at the offset o, stretched by Λ_f = Λ − o κ; what touches an outline
+// is the axis.
 std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, const SlidingNode& node,
                                      std::size_t point, double force) {
   const bool before = at.on.span_before(point) == Span::free;
@@ -245,20 +255,20 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   const Eigen::Vector3d& end = ends[before ? 1 : 0];
   const AxisPlace place = at.mesh.node(node.strand, node.position, at.now);
   const double s = at.mesh.coordinate(node.strand, node.position, at.now.s), half = at.body.half_height(node.strand);
-  const double curvature = at.body.natural_curvature({.strand = node.strand, .s = s}, at.now.lambda) +
-                           sign * end[2] / at.body.bending_stiffness(node.strand);
-  const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
-                         sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
   const Vec2 face = face_towards(wall, half, place);
   const double against = wall.has_outline() ? wall.slope_angle(face) : 0.0;
   const double travel = std::cos(place.angle - against) >= 0.0 ? 1.0 : -1.0;
-  const double offset = wall.deck().acts_on == deck::ActsOn::face ? -wall.side() * half : 0.0;
-  const double surface = wall.curvature(face);  // infinite at a sharp corner
-  const double parallel = std::isfinite(surface) ? surface / (1.0 + offset * surface) : 1.0 / offset;
-  const double opening = wall.side() * (travel * curvature - stretch * parallel);
+  const double curvature = travel * (at.body.natural_curvature({.strand = node.strand, .s = s}, at.now.lambda) +
+                                     sign * end[2] / at.body.bending_stiffness(node.strand));
+  const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
+                         sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
+  const bool is_face = !wall.has_outline() && wall.deck().acts_on == deck::ActsOn::face;
+  const double offset = is_face ? -wall.side() * half : 0.0;
+  const double stretch_there = stretch - offset * curvature;
+  const double opening = wall.side() * (curvature - stretch_there * curvature_touched(wall, face, half));
   constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
   if (opening * at.body.length_scale() <= touching) return std::nullopt;
-  return force * stretch / opening;
+  return force * stretch_there / opening;
 }
 
 // An element that turns farther does not tell how the body bends [rad].

@@ -171,7 +171,7 @@ std::optional<SteppedOff> step_off(const System& system, Corrector& corrector, c
       const bool leaves = metric.inner(chord, way.forward) >= std::abs(metric.inner(chord, point.along));
       if (to == Way::is_free && leaves && metric.norm(chord) <= 2.0 * distance) {
         Direction tangent = metric.inner(at.tangent, chord) >= 0.0 ? at.tangent : reversed(at.tangent);
-        return SteppedOff{.state = std::move(at.state), .tangent = std::move(tangent)};
+        return SteppedOff{.state = std::move(at.state), .tangent = std::move(tangent), .distance = distance};
       }
     }
     ++failures;

@@ -44,7 +44,8 @@ double roundoff_width(Corrector& corrector, const Metric& metric, const Singular
 /// A first point on a bifurcated branch.
 struct SteppedOff {
   State state{};
-  Direction tangent{};  ///< away from the branch point, of unit length
+  Direction tangent{};    ///< away from the branch point, of unit length
+  double distance = 0.0;  ///< along the way that led there [path metric]
 };
 
 /// Leaves the branch point along a way by `distance`, halved until it fits before the walls that are near, and some

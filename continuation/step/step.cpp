@@ -60,12 +60,24 @@ CorrectorResult corrected(TraceTools& tools, const StepOrigin& origin, double s)
   return result;
 }
 
-// Why the end of a step is not the continuation of its start: it is far off the predictor, or has turned too much.
+// Whether a step leads aside: its chord lies by more than half the turn off the mean of the tangents at its ends. Where
+// a path bends one way the chord lies between both tangents, and where it bends to and fro by less the shorter the
+// step. So either the step is too long for what it passes, or its end is on another branch that runs beside the first.
+bool leads_aside(const StepOrigin& origin, const StepEnd& end, const Direction& chord) {
+  constexpr double bends_back = 0.1;  // that a step may do [rad]
+  const Direction &a = origin.point().tangent, &b = end.point.tangent;
+  const Direction mean{.dx = a.dx + b.dx, .dlambda = a.dlambda + b.dlambda};
+  return angle_between(origin.metric, mean, chord) > 0.5 * end.turn + bends_back;
+}
+
+// Why the end of a step is not the continuation of its start: it is far off the predictor, has turned too much or lies
+// aside.
 std::optional<StepOutcome> strayed(const StepOrigin& origin, const StepEnd& end, double s, double max_turn) {
   if (end.turn > max_turn) return StepOutcome::turned;
   const Direction chord = difference(end.point.state, origin.point().state);
   const bool near = end.turn <= max_turn && origin.metric.norm(chord) <= 2.0 * s &&
-                    angle_between(origin.metric, origin.point().tangent, chord) <= max_turn;
+                    angle_between(origin.metric, origin.point().tangent, chord) <= max_turn &&
+                    !leads_aside(origin, end, chord);
   return near ? std::nullopt : std::optional(StepOutcome::strayed);
 }
 

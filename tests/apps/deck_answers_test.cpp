@@ -388,5 +388,38 @@ member.arch = {{ from = "l", to = "r", sine = {{ rise = {}, waves = 1 }}, theory
   }
 }
 
+// A clamped toggle sways and comes back upright, where its path ends at a pitchfork on the upright one, which is stable
+// from there on and comes down onto a floor with both halves at once. Shooting from a clamp to the top, which stays
+// upright: θ = 0 where the face is on the floor.
+TEST(SwayingToggle, ComesBackUprightAndLandsWithBothHalves) {
+  constexpr double touch = 0.723459463513;
+  for (const std::string step : {"0.05", "0.0125", "0.005"}) {
+    SCOPED_TRACE(step);
+    const test::TracedDeck traced(R"toml(
+title = "A clamped toggle above a floor"
+material.m = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 1.0, height = 0.3 }
+point = { a = [0.0, 0.0], top = [10.0, 0.85], b = [20.0, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["x", "z", "rotation"] }
+member.west = { from = "a", to = "top", theory = "elastica", material = "m", section = "s", elements = 20 }
+member.east = { from = "top", to = "b", theory = "elastica", material = "m", section = "s", elements = 20 }
+load = [{ at = "top", force = [0.0, -1.0] }]
+wall = [{ name = "floor", side = "below", profile = { type = "flat", z = -0.63 } }]
+monitor = [{ name = "down", at = "top", component = "z", sign = -1 }]
+path = { step = 0.05, landing = false, stop = { lambda = [-3.0, 3.0] } }
+)toml",
+                                  {"path.step=" + step});
+    const Record& record = traced.record();
+    ASSERT_EQ(record.branches.size(), 3U);
+    EXPECT_EQ(record.branches.back().end.value().reason, EndReason::stop);
+    EXPECT_NEAR(record.points.back().lambda, 3.0, 1e-12);
+    const RecordEvent& landing = event_of(traced, EventKind::contact_closes);
+    EXPECT_EQ(landing.contacts.size(), 2U);
+    EXPECT_NEAR(landing.lambda, touch, 1e-8);
+    EXPECT_EQ(landing.unstable_before, 0);
+    EXPECT_EQ(landing.unstable_after, 0);
+  }
+}
+
 }  // namespace
 }  // namespace arcwall::deck_answers_test

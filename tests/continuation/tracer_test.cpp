@@ -120,6 +120,31 @@ TEST(Tracer, FindsBothFoldsOfACuspHoweverNearTheyAre) {
   }
 }
 
+// λ = b (x − c tanh x/d): two straight branches side by side, 2 c b/√(1 + b²) apart, and between them a steep one from
+// the fold at x = −d arcosh √(c/d) to that at +d arcosh √(c/d). A step that is longer than the way between the branches
+// ends on the second with the tangent of the first.
+TEST(Tracer, DoesNotStepOverTwoFoldsOntoTheBranchBeside) {
+  constexpr double b = 5.0, c = 0.025, d = 0.005;
+  test::SmoothToy system;
+  system.F = [](const Vector& x, double l) { return test::scalar(b * (x[0] - c * std::tanh(x[0] / d)) - l); };
+  system.K = [](const Vector& x, double) {
+    return test::scalar_matrix(b * (1.0 - c / d / std::pow(std::cosh(x[0] / d), 2)));
+  };
+  system.F_lambda = [](const Vector&, double) { return test::scalar(-1.0); };
+  const double fold = d * std::acosh(std::sqrt(c / d)), expected = b * (c * std::tanh(fold / d) - fold);
+  for (int i = 0; i < 20; ++i) {
+    const double from = -1.0 - 0.01 * i;
+    SCOPED_TRACE(from);
+    const TraceOptions options{.step = {.first = 0.1}, .target_values = {stop_at_lambda(1.0)}, .lambda_scale = 1.0};
+    const Branch branch = trace(system, options, at(from / b - c, from));
+    EXPECT_EQ(branch.end.reason, EndReason::stop);
+    const auto folds = events_of(branch, EventKind::limit_point);
+    ASSERT_EQ(folds.size(), 2U);
+    EXPECT_NEAR(folds[0].state.lambda, expected, 1e-12);
+    EXPECT_NEAR(folds[1].state.lambda, -expected, 1e-12);
+  }
+}
+
 TEST(Tracer, AnInflectionWithALevelTangentIsASuspectedLimitPointAtMost) {
   const test::SmoothToy system = test::cusp(0.0);
   const Branch branch = trace(system, {.target_values = {stop_at_x(-1.0)}}, at(1.0, -1.0));
