@@ -333,8 +333,22 @@ TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   EXPECT_EQ(json["specials"].back()["reason"], "stop");
   EXPECT_DOUBLE_EQ(json["specials"].back()["key"].get<double>(), 0.21);
   // Shapes had no walls, and their contacts stood outside of them.
-  EXPECT_NE(curve_html(curve).find("<path class=\"moving\" data-path=\"1\" d=\"M"), std::string::npos);
+  EXPECT_NE(curve_html(curve, {}).find("<path class=\"moving\" data-path=\"1\" d=\"M"), std::string::npos);
   EXPECT_EQ(curve_status(curve), ExitStatus::success);
+}
+
+// As the page of a run has it; along a curve over the load itself there is no one size of what λ multiplies.
+TEST(EventCurve, SaysOnItsPageWhatLambdaMultiplies) {
+  const deck::Deck deck = deck::read_deck_text(
+      channel("event = { kind = \"contact-closes\" }\nover = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n"),
+      "deck.toml", {"units.length='cm'", "units.force='kN'", "load.0.force=[-2.0, 0.0]"});
+  const std::vector<LoadText> loads = driven_by_lambda(deck);
+  EventCurve curve{.key = deck.curve->over, .key_unit = "cm"};
+  const std::string with_size = "load factor λ, times 2 kN</text>", without = "load factor λ</text>";
+  EXPECT_NE(curve_html(curve, loads).find(with_size), std::string::npos);
+  EXPECT_NE(curve_picture(curve, loads).find(with_size), std::string::npos);
+  curve.key = "load.0.force.0";
+  EXPECT_NE(curve_html(curve, loads).find(without), std::string::npos);
 }
 
 }  // namespace arcwall::curve_test
