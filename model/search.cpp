@@ -10,6 +10,7 @@
 #include "continuation/tracer.hpp"
 #include "core/algebra/near_null.hpp"
 #include "model/contact_words.hpp"
+#include "model/element_slopes.hpp"
 #include "model/path_at_lambda.hpp"
 
 namespace arcwall {
@@ -23,6 +24,11 @@ constexpr double least_push = 0.02, greatest_push = 0.5;
 bool is_one(const DeckMesh& mesh, const CountedState& a, const CountedState& b) {
   return a.count.unstable == b.count.unstable &&
          mesh.distance(mesh.unknowns(a.state), mesh.unknowns(b.state)) <= DeckMesh::same_on_path;
+}
+
+// Whether the mesh tells how the body bends: else the state may be none of the body.
+bool is_resolved(const Model& model, const State& state) {
+  return greatest_slope(model, state) <= greatest_resolved_slope;
 }
 
 // Numbers from a seed that are the same everywhere: the standard fixes the engine, not the distributions.
@@ -158,16 +164,21 @@ class SearchAt {
     if (result.end == DeflatedEnd::known) return count(SearchOutcome::known);
     const std::vector<CountedState> there = in_path_formulation(result.state);
     std::vector<OfShape> added;
+    bool is_of_mesh = there.empty();
     for (const CountedState& one : there) {
       const OfShape shape = shape_of(one);
       if (is_known(shape)) continue;
+      if (!is_resolved(model_, one.state)) {
+        is_of_mesh = true;
+        continue;
+      }
       found_.push_back(one);
       known_.push_back(shape);
       added.push_back(shape);
     }
     if (added.empty()) {
       newton_.deflate(unknowns(result.state));
-      return count(there.empty() ? SearchOutcome::nodes_only : SearchOutcome::known);
+      return count(is_of_mesh ? SearchOutcome::nodes_only : SearchOutcome::known);
     }
     count(SearchOutcome::found);
     add_images(add_source(result.state), added);
@@ -329,7 +340,13 @@ std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& r
   constexpr double near = 0.1;  // of two steps that pass one state [path metric]
   constexpr Index fewest = 4;   // points of a loop
   const RecordBranch& branch = record.branches.back();
-  if (!branch.found || branch.points < fewest) return std::nullopt;
+  if (!branch.found) return std::nullopt;
+  if (!is_resolved(model, record.points.back().state))
+    return BranchEnd{.reason = EndReason::unsupported,
+                     .detail =
+                         "an element is bent so far there that this mesh does not tell what lies ahead; give the "
+                         "members more elements"};
+  if (branch.points < fewest) return std::nullopt;
   const std::size_t last = record.points.size() - 2;
   const double lambda = record.points[last + 2 - static_cast<std::size_t>(branch.points)].lambda;  // where it began
   std::vector<std::size_t> passed = crossings(record, lambda);

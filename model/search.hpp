@@ -63,8 +63,9 @@ class Search {
 };
 
 /// The end of a branch that was found, where its last step in the record has passed a state at the λ where it began
-/// that it, or another branch, has passed before: it has gone around a loop, or goes on along that one. Empty if it has
-/// not. Where contact slides, branches meet on different meshes, so that the tracer does not see it.
+/// that it, or another branch, has passed before: it has gone around a loop, or goes on along that one; or where its
+/// last point is one that the mesh is too coarse for. Empty elsewhere. Where contact slides, branches meet on different
+/// meshes, so that the tracer does not see it.
 std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& record);
 
 }  // namespace arcwall

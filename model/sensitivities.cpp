@@ -40,8 +40,15 @@ std::shared_ptr<const Observable> turning_of(const Model& model, const Event& ev
   return nullptr;
 }
 
-// Of a number's natural step, where that is too long.
-constexpr double shortenings[] = {1.0, 1e-1, 1e-2, 1e-3};
+// Steps of a number, by its natural one: that, shorter ones where it is too long, and a longer one.
+constexpr double steps[] = {10.0, 1.0, 1e-1, 1e-2, 1e-3};
+constexpr std::size_t longer_step = 0, natural = 1;
+
+// Sections and materials are measured by themselves: a wire's second moment is next to nothing beside L⁴.
+bool is_measured_by_itself(const deck::DeckNumber& number) {
+  const auto is_in = [&](const char* table) { return number.key.starts_with(table); };
+  return (is_in("section.") || is_in("material.")) && number.unit.force == 0 && number.value != 0.0;
+}
 
 bool has_sensitivity(EventKind kind) {
   return kind != EventKind::start && kind != EventKind::end && kind != EventKind::user;
@@ -51,12 +58,9 @@ bool has_sensitivity(EventKind kind) {
 
 double natural_step(const deck::DeckNumber& number, const Structure& structure) {
   constexpr double of_force = 3e-3, of_value = 1e-3, of_unit = 1e-5;
-  const auto is_in = [&](const char* table) { return number.key.starts_with(table); };
   const double unit = std::pow(structure.length_scale(), number.unit.length) *
                       std::pow(std::max(structure.force_scale(), 1e-300), number.unit.force);
-  // Sections and materials are measured by themselves: a wire's second moment is next to nothing beside L⁴.
-  const bool by_itself = (is_in("section.") || is_in("material.")) && number.unit.force == 0;
-  if (by_itself && number.value != 0.0) return of_value * std::abs(number.value);
+  if (is_measured_by_itself(number)) return of_value * std::abs(number.value);
   if (number.unit.force != 0) return number.value != 0.0 ? of_force * std::abs(number.value) : of_unit * unit;
   return std::max(of_value * std::abs(number.value), of_unit * unit);
 }
@@ -120,22 +124,22 @@ Sensitivities::Sensitivities(const Model& model, std::vector<double> ended_stage
     : model_(model), ended_stages_(std::move(ended_stages)) {
   for (const std::string& key : model.whole_deck().path.sensitivity)
     numbers_.push_back(std::get<deck::DeckNumber>(deck::number_of(model.whole_deck(), key)));
-  for (std::size_t i = 0; i < numbers_.size(); ++i) beside_.emplace_back(std::size(shortenings));
+  for (std::size_t i = 0; i < numbers_.size(); ++i) beside_.emplace_back(std::size(steps));
 }
 
 Sensitivities::~Sensitivities() = default;
 
 // Shorter steps serve where a longer one makes a wrong deck: a member inside a wall, say.
-const Sensitivities::Beside& Sensitivities::beside(std::size_t number, std::size_t shorter) {
-  std::unique_ptr<Beside>& kept = beside_[number][shorter];
-  const bool shortest = shorter + 1 == std::size(shortenings);
+const Sensitivities::Beside& Sensitivities::beside(std::size_t number, std::size_t step) {
+  std::unique_ptr<Beside>& kept = beside_[number][step];
+  const bool shortest = step + 1 == std::size(steps);
   if (!kept) {
     const deck::DeckNumber& varied = numbers_[number];
     kept = std::make_unique<Beside>();
-    kept->build(without_answers(model_.whole_deck()), varied,
-                shortenings[shorter] * natural_step(varied, model_.structure()), ended_stages_);
+    kept->build(without_answers(model_.whole_deck()), varied, steps[step] * natural_step(varied, model_.structure()),
+                ended_stages_);
   }
-  return kept->problem.empty() || shortest ? *kept : beside(number, shorter + 1);
+  return kept->problem.empty() || shortest ? *kept : beside(number, step + 1);
 }
 
 // Empty where their mesh is another one.
@@ -155,18 +159,31 @@ std::optional<std::vector<SystemSample>> Sensitivities::samples_of(const Beside&
   return samples;
 }
 
-EventDerivative Sensitivities::by(std::size_t number, EventDerivatives& derivatives, const Event& event) {
+EventDerivative Sensitivities::by_steps_from(std::size_t first, std::size_t number, EventDerivatives& derivatives,
+                                             const Event& event) {
   EventDerivative best;
-  for (std::size_t shorter = 0; shorter < std::size(shortenings); ++shorter) {
-    const Beside& decks = beside(number, shorter);
+  for (std::size_t step = first; step < std::size(steps); ++step) {
+    const Beside& decks = beside(number, step);
     if (!decks.problem.empty()) return {.value = std::nullopt, .why_none = decks.problem};
     const auto samples = samples_of(decks, event);
     if (!samples) return {.value = std::nullopt, .why_none = "beside this value the mesh is another one"};
     EventDerivative derivative = derivatives.by(*samples);
     if (!derivative.steps_too_long) return derivative;
-    if (shorter == 0 || derivative.off < best.off) best = std::move(derivative);
+    if (step == first || derivative.off < best.off) best = std::move(derivative);
   }
   return best;
+}
+
+// Where λ depends on an area by the members' extension alone, the natural step changes it by little more than
+// round-off.
+EventDerivative Sensitivities::by(std::size_t number, EventDerivatives& derivatives, const Event& event) {
+  constexpr double hardly = 1e-2;  // of λ by all of the number
+  EventDerivative found = by_steps_from(natural, number, derivatives, event);
+  const deck::DeckNumber& varied = numbers_[number];
+  if (!is_measured_by_itself(varied) || !found.value) return found;
+  if (std::abs(*found.value * varied.value) > hardly * std::abs(event.state.lambda)) return found;
+  EventDerivative surer = by_steps_from(longer_step, number, derivatives, event);
+  return surer.value ? surer : found;
 }
 
 std::vector<RecordSensitivity> Sensitivities::of(const Arc& arc, const Event& event) {

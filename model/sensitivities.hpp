@@ -39,14 +39,16 @@ class Sensitivities {
  private:
   struct Beside;
 
-  const Beside& beside(std::size_t number, std::size_t shorter);
+  const Beside& beside(std::size_t number, std::size_t step);
   std::optional<std::vector<SystemSample>> samples_of(const Beside& beside, const Event& event) const;
   EventDerivative by(std::size_t number, EventDerivatives& derivatives, const Event& event);
+  EventDerivative by_steps_from(std::size_t first, std::size_t number, EventDerivatives& derivatives,
+                                const Event& event);
 
   const Model& model_;
   std::vector<double> ended_stages_;
   std::vector<deck::DeckNumber> numbers_;
-  std::vector<std::vector<std::unique_ptr<Beside>>> beside_;  // of each number, with shorter and shorter steps
+  std::vector<std::vector<std::unique_ptr<Beside>>> beside_;  // of each number, for each of the steps
 };
 
 }  // namespace arcwall

@@ -35,7 +35,8 @@ void write_files(const CurveSession& session, const EventCurve& curve, const Out
   const bool pictures = options.pictures == CallOptions::Pictures::written;
   const RunDescription& of = session.description();
   FileSet files(folder, options.scratch ? Flush::left_to_the_system : Flush::to_the_disk);
-  for (const auto& [name, content] : curve_files(curve, of.units, of.deck_text, of.assignments))
+  const std::vector<LoadText> loads = driven_by_lambda(session.deck());
+  for (const auto& [name, content] : curve_files(curve, loads, of.units, of.deck_text, of.assignments))
     if (pictures || name != "report.html") files.write(name, content);
   files.put_in_place();
   std::error_code error;

@@ -90,10 +90,10 @@ OrderedJson curve_json(const EventCurve& curve, std::string_view deck_text,
   return json;
 }
 
-NamedTexts curve_files(const EventCurve& curve, UnitLabels labels, std::string_view deck_text,
-                       const std::vector<std::string>& assignments) {
+NamedTexts curve_files(const EventCurve& curve, const std::vector<LoadText>& loads, UnitLabels labels,
+                       std::string_view deck_text, const std::vector<std::string>& assignments) {
   return {{"curve.csv", curve_csv(curve, labels)},
-          {"report.html", curve_html(curve)},
+          {"report.html", curve_html(curve, loads)},
           {"curve.json", to_text(curve_json(curve, deck_text, assignments), JsonLayout::lines)}};
 }
 

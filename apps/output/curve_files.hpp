@@ -24,9 +24,10 @@ nlohmann::ordered_json curve_json(const EventCurve& curve, std::string_view deck
                                   const std::vector<std::string>& assignments);
 
 /// The files of a curve by their names, in the order in which they are written: curve.csv, report.html, curve.json.
+/// `loads`: what λ multiplies.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
-NamedTexts curve_files(const EventCurve& curve, UnitLabels labels, std::string_view deck_text,
-                       const std::vector<std::string>& assignments);
+NamedTexts curve_files(const EventCurve& curve, const std::vector<LoadText>& loads, UnitLabels labels,
+                       std::string_view deck_text, const std::vector<std::string>& assignments);
 
 /// Throws OutputError if a folder is that of a run, whose report.html the curve's would replace, and that is to be
 /// refused.

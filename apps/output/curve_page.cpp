@@ -60,6 +60,13 @@ Chart chart_of(const EventCurve& curve, const std::string& up, double (*value)(c
   return chart;
 }
 
+// What λ multiplies has no one size along a curve over a number of its own.
+std::string title_of_lambda(const EventCurve& curve, std::vector<LoadText> loads) {
+  for (LoadText& load : loads)
+    if (curve.key.starts_with(load.key + ".")) load.size.clear();
+  return title_of_lambda(loads);
+}
+
 double lambda_of(const CurvePoint& point, std::size_t) { return point.lambda; }
 double monitor_of(const CurvePoint& point, std::size_t i) { return point.monitors[i]; }
 
@@ -155,11 +162,11 @@ std::string head_of(const std::string& title) {
 
 }  // namespace
 
-std::string curve_html(const EventCurve& curve) {
+std::string curve_html(const EventCurve& curve, const std::vector<LoadText>& loads) {
   const std::string title = curve.title.empty() ? curve.deck : curve.title;
   std::string html = head_of(title) + "<body>\n<header>\n<h1>" + escaped(title) + "</h1>\n<p class=\"outcome\">" +
                      escaped(followed_event(curve)) + "</p>\n</header>\n<main>\n<div class=\"views\">\n";
-  html += chart_section("Load factor of the event", chart_of(curve, "load factor λ", lambda_of, 0),
+  html += chart_section("Load factor of the event", chart_of(curve, title_of_lambda(curve, loads), lambda_of, 0),
                         "<p class=\"note\">Solid: the path is stable on one side of the event. Dashed: on neither. "
                         "Dotted: not counted.</p>\n");
   html += "<section>\n<h2>Special points</h2>\n" + specials_html(curve) +
@@ -175,6 +182,8 @@ std::string curve_html(const EventCurve& curve) {
          program_version() + "</p>\n</main>\n</body>\n</html>\n";
 }
 
-std::string curve_picture(const EventCurve& curve) { return framed_chart(chart_of(curve, "λ", lambda_of, 0)); }
+std::string curve_picture(const EventCurve& curve, const std::vector<LoadText>& loads) {
+  return framed_chart(chart_of(curve, title_of_lambda(curve, loads), lambda_of, 0));
+}
 
 }  // namespace arcwall

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "apps/output/load_text.hpp"
 #include "model/event_curve.hpp"
 
 namespace arcwall {
 
-/// report.html of a curve: λ and the monitors over the number, and the shape at some points.
-std::string curve_html(const EventCurve& curve);
+/// report.html of a curve: λ and the monitors over the number, and the shape at some points. `loads`: what λ
+/// multiplies.
+std::string curve_html(const EventCurve& curve, const std::vector<LoadText>& loads);
 
 /// Its first chart alone, λ over the number, as an element for other pages.
-std::string curve_picture(const EventCurve& curve);
+std::string curve_picture(const EventCurve& curve, const std::vector<LoadText>& loads);
 
 }  // namespace arcwall

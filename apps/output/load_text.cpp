@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <variant>
 
+#include "apps/output/report_data.hpp"
 #include "model/deck/key_list.hpp"
 #include "model/deck/words.hpp"
 
@@ -134,16 +136,23 @@ LoadText movement_text(const deck::Wall& wall, const deck::Units& units) {
 std::vector<LoadText> driven_by_lambda(const deck::Deck& deck, const deck::Stage* stage) {
   std::vector<LoadText> driven;
   const auto is_driven = [&](const std::string& thing) { return stage == nullptr || drives(*stage, thing); };
+  const auto add = [&](LoadText text, std::string key) {
+    text.key = std::move(key);
+    driven.push_back(std::move(text));
+  };
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
-    if (deck.loads[i].constant || !is_driven(deck::driven_thing("load", i))) continue;
-    driven.push_back(load_text(deck.loads[i], deck.units));
+    const std::string thing = deck::driven_thing("load", i);
+    if (deck.loads[i].constant || !is_driven(thing)) continue;
+    add(load_text(deck.loads[i], deck.units), thing);
     driven.back().text = "load " + driven.back().text;
   }
-  for (std::size_t i = 0; i < deck.prescribed.size(); ++i)
-    if (!deck.prescribed[i].constant && is_driven(deck::driven_thing("prescribed", i)))
-      driven.push_back(movement_text(deck.prescribed[i], deck.units));
+  for (std::size_t i = 0; i < deck.prescribed.size(); ++i) {
+    const std::string thing = deck::driven_thing("prescribed", i);
+    if (!deck.prescribed[i].constant && is_driven(thing)) add(movement_text(deck.prescribed[i], deck.units), thing);
+  }
   for (const deck::Wall& wall : deck.walls)
-    if (wall.motion && is_driven("wall." + wall.name)) driven.push_back(movement_text(wall, deck.units));
+    if (wall.motion && is_driven("wall." + wall.name))
+      add(movement_text(wall, deck.units), "wall." + wall.name + ".motion");
   return driven;
 }
 
@@ -151,6 +160,12 @@ std::string name_of_lambda(const deck::Deck& deck, const deck::Stage* stage) {
   const std::vector<LoadText> driven = driven_by_lambda(deck, stage);
   if (driven.size() != 1 || driven.front().name == LoadText{}.name) return "";
   return driven.front().name + (driven.front().size.empty() ? "" : ", times " + driven.front().size);
+}
+
+std::string title_of_lambda(const std::vector<LoadText>& driven) {
+  if (driven.size() != 1) return "load factor λ";
+  const LoadText& one = driven.front();
+  return shown_name(one.name) + " λ" + (one.size.empty() ? "" : ", times " + shown_name(one.size));
 }
 
 std::vector<std::string> names_of_lambda(const deck::Deck& deck) {

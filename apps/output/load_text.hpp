@@ -12,6 +12,7 @@ struct LoadText {
   std::string text{};                ///< `load at right force (-1, 0) kN`, `displacement in x of B -1 cm`
   std::string name = "load factor";  ///< of λ where this alone varies: `displacement in x of B`
   std::string size{};                ///< `2 kN`; empty without units, and of a force together with a moment
+  std::string key{};                 ///< of the deck, under which its numbers stand: `load.0`, `wall.hill.motion`
 };
 
 /// A number with its unit; alone where the deck has no units.
@@ -29,6 +30,9 @@ std::vector<LoadText> driven_by_lambda(const deck::Deck& deck, const deck::Stage
 
 /// What λ is where one thing alone varies that has a name: `displacement in x of B, times 2 cm`; else empty.
 std::string name_of_lambda(const deck::Deck& deck, const deck::Stage* stage = nullptr);
+
+/// λ as the title of an axis, with what it multiplies where that is one thing: `load factor λ, times 2 kN`.
+std::string title_of_lambda(const std::vector<LoadText>& driven);
 
 /// That of each stage, or of a deck without any.
 std::vector<std::string> names_of_lambda(const deck::Deck& deck);

@@ -123,13 +123,6 @@ std::string event_text(const Record& record, const RecordEvent& event, const std
   return text;
 }
 
-// With what λ multiplies, where that is one thing: then the axis has a unit.
-std::string load_title(const ReportContent& content) {
-  if (content.loads.size() != 1) return "load factor λ";
-  const LoadText& one = content.loads.front();
-  return shown_name(one.name) + " λ" + (one.size.empty() ? "" : ", times " + shown_name(one.size));
-}
-
 // Other runs, each line of which is a branch, and measured points.
 void add_overlays(const ReportContent& content, const std::string& across, Chart& chart) {
   for (std::size_t i = 0; i < content.overlays.size(); ++i) {
@@ -151,7 +144,7 @@ void add_overlays(const ReportContent& content, const std::string& across, Chart
 Chart chart(const Record& record, const ReportContent& content, std::optional<std::size_t> monitor) {
   const auto across = [&](const RecordPoint& point) { return monitor ? point.monitors[*monitor] : point.arc; };
   const std::string axis = monitor ? shown_title(record.columns[*monitor]) : "arc length";
-  Chart result{.name = "Load factor over " + axis, .across = axis, .up = load_title(content)};
+  Chart result{.name = "Load factor over " + axis, .across = axis, .up = title_of_lambda(content.loads)};
   for (const PathLine& line : path_lines(record)) {
     ChartLine& added = result.lines.emplace_back();
     added.colour = branch_colour(line.branch);
@@ -421,7 +414,7 @@ std::string load_note(const ReportContent& content) {
 
 nlohmann::ordered_json data_of(const Record& record, const ReportContent& content) {
   nlohmann::ordered_json data = report_data(record, content.shapes);
-  data["load_title"] = load_title(content);
+  data["load_title"] = title_of_lambda(content.loads);
   data["overlays"] = overlays_json(content.overlays);
   return data;
 }

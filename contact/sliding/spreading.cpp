@@ -301,32 +301,53 @@ std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, c
   return transitions;
 }
 
-// Free spans between two of the points on a straight wall on which the body comes to lie from one to the other, as a
-// load along it that λ drives vanishes: behind that it is pressed there. Empty where there are none.
+// Whether the body is straight from a point to the next one.
+bool is_straight_behind(const SlidingState& at, std::size_t point) {
+  constexpr double straight = 1e-6;  // [rad]
+  const auto [strand, first] = at.mesh.breakpoint(static_cast<Index>(point));
+  const Index last = at.mesh.breakpoint(static_cast<Index>(point + 1)).second;
+  const double angle = at.mesh.node(strand, first, at.now).angle;
+  for (Index position = first + 1; position <= last; ++position)
+    if (!(std::abs(at.mesh.node(strand, position, at.now).angle - angle) <= straight)) return false;
+  return true;
+}
+
+// As what the body comes to lie on a straight wall behind a point, up to the next one, where it was free between them:
+// it is pressed there as a load along it that λ drives vanishes; flat where nothing acts on it, as the buckle of a flat
+// part goes back to nothing at k d = 2π. Empty where it does not.
+std::optional<Span> lies_down_as(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  const auto is_behind = [&](const SlidingContactLayout::Segment& segment) {
+    return segment.span == Span::free && segment.first_point == static_cast<Index>(point) &&
+           segment.last_point == static_cast<Index>(point + 1) && at.layout.joins_one_obstacle(segment) &&
+           obstacle_is_straight(setting, at, point, at.s(segment.last_point) - at.s(segment.first_point));
+  };
+  if (std::none_of(at.layout.segments().begin(), at.layout.segments().end(), is_behind)) return std::nullopt;
+  if (holding_pressure_rate(setting, at, point) != 0.0) return Span::pressed;
+  const bool by_itself = lies_by_itself(setting, at, point) && lies_by_itself(setting, at, point + 1);
+  return by_itself && is_straight_behind(at, point) ? std::optional(Span::flat) : std::nullopt;
+}
+
+// Free spans between two of the points on which the body comes to lie from one to the other. Empty where there are
+// none.
 std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const SlidingState& at, const Points& points,
                                          const Direction& forward) {
-  Points lying;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const std::size_t k = points[i];
-    const auto joins_them = [&](const SlidingContactLayout::Segment& segment) {
-      return segment.span == Span::free && segment.first_point == static_cast<Index>(k) &&
-             segment.last_point == static_cast<Index>(k + 1) && at.layout.joins_one_obstacle(segment) &&
-             holding_pressure_rate(setting, at, k) != 0.0 &&
-             obstacle_is_straight(setting, at, k, at.s(segment.last_point) - at.s(segment.first_point));
-    };
-    if (std::any_of(at.layout.segments().begin(), at.layout.segments().end(), joins_them)) lying.push_back(k);
-  }
+  constexpr int fewest_of_buckling = 8;  // elements of a flat part that may buckle
+  std::vector<std::pair<std::size_t, Span>> lying;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    if (const auto span = lies_down_as(setting, at, points[i])) lying.emplace_back(points[i], *span);
   if (lying.empty()) return std::nullopt;
   Transition transition = remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
-    for (const std::size_t k : lying) {
-      edit.points[k].behind = Span::pressed;
+    for (const auto& [k, span] : lying) {
+      edit.points[k].behind = span;
       int& elements = edit.elements_behind(k);
-      elements = std::max(elements, fewest_pressed(true));
+      elements = std::max(elements, span == Span::flat ? fewest_of_buckling : fewest_pressed(true));
     }
   });
   transition.change = Transition::Change::spreads;
-  for (const std::size_t k : lying)
+  for (const auto& [k, span] : lying) {
+    if (span == Span::flat) transition.from_singular = true;  // the part is at its buckling load
     for (const std::size_t point : {k, k + 1}) transition.contacts.push_back(static_cast<Index>(point));
+  }
   return transition;
 }
 
@@ -361,8 +382,11 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
     transitions.push_back(end_before(common));
   } else {
     transitions = spreads_with_those_near(setting, at, points);
-    if (auto lie_down = spans_lie_down(setting, at, points, forward))
-      transitions.insert(transitions.begin(), std::move(*lie_down));
+    if (auto lie_down = spans_lie_down(setting, at, points, forward)) {
+      // A part that has just begun to buckle is straight, too: a flat one is the last that is tried.
+      const bool is_flat = lie_down->from_singular;
+      transitions.insert(is_flat ? transitions.end() - 1 : transitions.begin(), std::move(*lie_down));
+    }
   }
   if (!neutral.any()) return transitions;
   transitions.insert(transitions.begin(), spread(setting, at, points, Span::flat, length, &neutral));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "continuation/step/corrector.hpp"
@@ -44,10 +43,10 @@ enum class Differences { simple, fine };
 struct Place {
   double offset, weight;  // in steps
 };
-constexpr Place simple_places[] = {{1.0, 0.5}, {-1.0, -0.5}};
-constexpr Place fine_places[] = {{1.0, 2.0 / 3.0}, {-1.0, -2.0 / 3.0}, {2.0, -1.0 / 12.0}, {-2.0, 1.0 / 12.0}};
+constexpr Place fourth_order[] = {{1.0, 2.0 / 3.0}, {-1.0, -2.0 / 3.0}, {2.0, -1.0 / 12.0}, {-2.0, 1.0 / 12.0}};
 
-// The derivative along d of a function that gives rows.
+// The derivative along d of a function that gives rows. Over h a difference of second order would be off by EA h²
+// beside EI, which makes Newton's method slow for slender members.
 template <typename Function>
 Row rows_differenced_along(const Metric& metric, const State& state, const Direction& d, Differences how,
                            const Function& f) {
@@ -55,11 +54,9 @@ Row rows_differenced_along(const Metric& metric, const State& state, const Direc
   const double length = metric.norm(d), greatest = d.dx.size() > 0 ? d.dx.cwiseAbs().maxCoeff() : 0.0;
   Row sum{.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   if (length == 0.0 && greatest == 0.0) return sum;
-  const bool fine = how == Differences::fine;
   // Forces alone have no length, and equations are linear in them.
-  const double h = length > 0.0 ? (fine ? fine_step : simple_step) / length : 1.0 / greatest;
-  for (const Place& place : fine ? std::span<const Place>(fine_places) : std::span<const Place>(simple_places))
-    add(sum, place.weight / h, f(moved(state, d, place.offset * h)));
+  const double h = length > 0.0 ? (how == Differences::fine ? fine_step : simple_step) / length : 1.0 / greatest;
+  for (const Place& place : fourth_order) add(sum, place.weight / h, f(moved(state, d, place.offset * h)));
   return sum;
 }
 
@@ -124,9 +121,12 @@ class BorderedMatrix {
   BorderedSolver transposed_solver_;
 };
 
-BorderedMatrix matrix_of(Criterion criterion, const SystemFamily::Member& at, const EventBorder& border,
-                         Linearization& equations, const MakeFactorization& make) {
-  return {at, equations, criterion == Criterion::crossing ? border.column : equations.F_lambda, border.row, make};
+// Whether the border is that of J's null vectors.
+bool is_of_mode(const EventBorder& border) { return border.column.size() > 0; }
+
+BorderedMatrix matrix_of(const SystemFamily::Member& at, const EventBorder& border, Linearization& equations,
+                         const MakeFactorization& make) {
+  return {at, equations, is_of_mode(border) ? border.column : equations.F_lambda, border.row, make};
 }
 
 // A scalar σ of A with  dσ = −wᵀ (dJ d_x + dF_λ d_λ).
@@ -193,6 +193,17 @@ std::optional<std::vector<EventEquation>> turning_equation(const SystemFamily::M
   return std::vector{std::move(equation)};
 }
 
+// A limit point that is, or nearly is, an asymmetric branch point: σ vanishes in A (v, σ) = (0, 1); Aᵀ (w, σ) = (0, 1).
+// That says no more than that J is singular, and is regular there, where the path has two directions.
+std::optional<std::vector<EventEquation>> limit_equation(const SystemFamily::Member& at, BorderedMatrix& A,
+                                                         std::vector<WeightedMember>& samples, const Metric& metric) {
+  const Vector zero = Vector::Zero(at.state.x.size());
+  const auto right = A.solve(zero, 1.0), left = A.solve_transposed(zero, 1.0);
+  if (!right || !left) return std::nullopt;
+  return std::vector{equation_of({.value = right->dlambda, .w = left->dx, .d = {.dx = right->dx, .dlambda = 0.0}}, at,
+                                 equations_of(samples, Differences::simple), metric, Differences::simple)};
+}
+
 // A crossing: both σ₁ and σ₂ vanish in A (v₁, σ₁) = (0, 1) and A (v₂, σ₂) = (−F_λ, 0); Aᵀ (w, σ₁) = (0, 1).
 std::optional<std::vector<EventEquation>> crossing_equations(const SystemFamily::Member& at, BorderedMatrix& A,
                                                              const Vector& F_lambda,
@@ -223,8 +234,8 @@ std::optional<NearNull> critical_pair(Corrector& corrector, const SystemFamily::
 
 Direction in_x(Vector dx) { return {.dx = std::move(dx), .dlambda = 0.0}; }
 
-std::optional<EventBorder> crossing_border(const SystemFamily::Member& at, const Metric& metric, Corrector& corrector,
-                                           const Vector& mode) {
+std::optional<EventBorder> border_of_mode(const SystemFamily::Member& at, const Metric& metric, Corrector& corrector,
+                                          const Vector& mode) {
   const Vector left = corrector.left_null(mode);
   auto right = corrector.right_null(left);
   if (!right) return std::nullopt;
@@ -238,22 +249,41 @@ std::optional<EventBorder> crossing_border(const SystemFamily::Member& at, const
   return border;
 }
 
+// Whether F_λ does next to no work along the left null vector: where it does none branches cross.
+bool load_does_no_work(Corrector& corrector, const Metric& metric, const Vector& mode) {
+  constexpr double next_to_none = 1e-4;  // of the most that it could do
+  const Vector left = corrector.left_null(mode), &F_lambda = corrector.factorized().equations().F_lambda;
+  return std::abs(left.dot(F_lambda)) <= next_to_none * metric.norm(in_x(left)) * metric.dual_norm(F_lambda);
+}
+
+// The direction of the path at a limit point is r, which keeps its sense.
+void keep_sense(const Direction& before, EventBorder& border) {
+  if (!(apply(border.row, before) < 0.0)) return;
+  border.row.dx = -border.row.dx;
+  border.row.dlambda = -border.row.dlambda;
+}
+
 }  // namespace
 
 std::optional<EventBorder> event_border(Criterion criterion, const SystemFamily::Member& at, const Metric& metric,
                                         const MakeFactorization& make, const Direction* before) {
   Corrector corrector(*at.system, {}, metric.lambda_scale(), make);
-  // At a limit point the path goes along K's null vector, where a monitor turns or a contact changes K is regular.
   Direction along{.dx = Vector::Zero(at.state.x.size()), .dlambda = 1.0};
-  const bool singular = criterion == Criterion::crossing || (criterion == Criterion::turning && !at.turning);
-  if (before != nullptr && criterion != Criterion::crossing) {
-    along = *before;
-  } else if (singular) {
+  if (before != nullptr) along = *before;
+  if (criterion == Criterion::crossing || (criterion == Criterion::turning && !at.turning)) {
     const auto pair = critical_pair(corrector, at, metric);
     if (!pair) return std::nullopt;
-    if (criterion == Criterion::crossing) return crossing_border(at, metric, corrector, pair->vectors->col(0));
-    along = in_x(Vector::Zero(at.state.x.size()));
-    along.dx.head(pair->vectors->rows()) = pair->vectors->col(0);
+    const bool crosses = criterion == Criterion::crossing;
+    const Vector mode = pair->vectors->col(0);
+    if (crosses || load_does_no_work(corrector, metric, mode)) {
+      auto border = border_of_mode(at, metric, corrector, mode);
+      if (border && before != nullptr && !crosses) keep_sense(*before, *border);
+      return border;
+    }
+    if (before == nullptr) {
+      along = in_x(Vector::Zero(at.state.x.size()));
+      along.dx.head(mode.size()) = mode;
+    }
   }
   const CorrectorResult here = corrector.inspect(at.state, metric, along);
   if (!here.converged()) return std::nullopt;
@@ -266,8 +296,10 @@ std::optional<std::vector<EventEquation>> singular_equations(Criterion criterion
                                                              const EventBorder& border, Linearization& equations,
                                                              std::vector<WeightedMember>& samples, const Metric& metric,
                                                              const MakeFactorization& make) {
-  BorderedMatrix A = matrix_of(criterion, at, border, equations, make);
-  if (criterion == Criterion::turning) return turning_equation(at, border, A, samples, metric);
+  BorderedMatrix A = matrix_of(at, border, equations, make);
+  if (criterion == Criterion::turning)
+    return is_of_mode(border) ? limit_equation(at, A, samples, metric)
+                              : turning_equation(at, border, A, samples, metric);
   return crossing_equations(at, A, equations.F_lambda, samples, metric);
 }
 
@@ -275,23 +307,23 @@ std::optional<Direction> path_direction(Criterion criterion, const SystemFamily:
                                         const Metric& metric, const MakeFactorization& make) {
   Linearization equations;
   at.system->linearize(at.state, equations);
-  BorderedMatrix A = matrix_of(criterion, at, border, equations, make);
+  BorderedMatrix A = matrix_of(at, border, equations, make);
   const bool crosses = criterion == Criterion::crossing;
   auto t = crosses ? A.solve(-equations.F_lambda, 0.0) : A.solve(Vector::Zero(at.state.x.size()), 1.0);
   if (!t) return std::nullopt;
-  if (crosses) t->dlambda = 1.0;
+  if (is_of_mode(border)) t->dlambda = crosses ? 1.0 : 0.0;
   return unit(metric, std::move(*t));
 }
 
-double border_fits(Criterion criterion, const SystemFamily::Member& at, const EventBorder& border, const Metric& metric,
+double border_fits(const SystemFamily::Member& at, const EventBorder& border, const Metric& metric,
                    const MakeFactorization& make) {
   Linearization equations;
   at.system->linearize(at.state, equations);
-  BorderedMatrix A = matrix_of(criterion, at, border, equations, make);
+  BorderedMatrix A = matrix_of(at, border, equations, make);
   const Vector zero = Vector::Zero(at.state.x.size());
   const auto right = A.solve(zero, 1.0);
   if (!right) return 0.0;
-  if (criterion != Criterion::crossing) return 1.0 / metric.norm(*right);
+  if (!is_of_mode(border)) return 1.0 / metric.norm(*right);
   const auto left = A.solve_transposed(zero, 1.0);
   if (!left) return 0.0;
   const double column = metric.dual_norm(border.column);  // wᵀ f = 1 where A is regular

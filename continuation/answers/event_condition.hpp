@@ -39,7 +39,7 @@ struct EventEquation {
 ///
 /// which is regular near an event where J is singular. The event's equations do not depend on it, but for their scale.
 struct EventBorder {
-  Vector column{};     ///< f of a crossing [force]; elsewhere f is F_λ
+  Vector column{};     ///< f of a crossing, and of a limit point near one [force]; empty: f is F_λ
   Row row{};           ///< r
   double scale = 1.0;  ///< of the equation of what turns
 };
@@ -63,7 +63,7 @@ std::optional<std::vector<EventEquation>> singular_equations(Criterion criterion
 
 /// The cosine between the border and what is singular at a state, at least of what A's solutions show: near zero A is
 /// nearly singular and another border is due. Zero where A is singular.
-double border_fits(Criterion criterion, const SystemFamily::Member& at, const EventBorder& border, const Metric& metric,
+double border_fits(const SystemFamily::Member& at, const EventBorder& border, const Metric& metric,
                    const MakeFactorization& make);
 
 }  // namespace arcwall

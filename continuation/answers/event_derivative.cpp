@@ -383,7 +383,8 @@ EventDerivatives::Settled EventDerivatives::turned(const Settled& along, const S
 }
 
 // By equilibria beside the event and by second derivatives of the equations: axial forces of slender members drown the
-// latter in round-off, the former is lost where a reaction is a small difference of great forces.
+// latter in round-off, the former is lost where a reaction is a small difference of great forces. Of the latter two
+// steps may agree better than they are right, so that they are asked only where the former is unsure.
 EventDerivative EventDerivatives::by_turning(const Direction& response, const std::vector<SystemSample>& samples) {
   Settled rate;
   double coarse = 0.0, of_gradient = 0.0;
@@ -402,7 +403,8 @@ EventDerivative EventDerivatives::by_turning(const Direction& response, const st
   });
   const Settled by_equilibria = turned(turning_along_, rate, response);
   const Settled by_equations = turned(turning_here_, turning_rate(response, more, of_gradient), response);
-  const bool equilibria_tell = by_equilibria.off < by_equations.off || !std::isfinite(by_equations.off);
+  const bool equilibria_tell = by_equilibria.off <= short_enough * std::abs(by_equilibria.value) ||
+                               by_equilibria.off < by_equations.off || !std::isfinite(by_equations.off);
   EventDerivative found = settled(equilibria_tell ? by_equilibria : by_equations, samples);
   found.off = rate.off;
   found.steps_too_long = equilibria_tell && !(rate.off <= short_enough * std::abs(rate.value));

@@ -333,7 +333,7 @@ std::vector<Transition> EventSystem::transitions(const State& state, const Direc
 bool EventSystem::admissible(const State& state, double margin) const {
   const auto member = at(state);
   if (!member || !member->system->admissible(member->state, margin)) return false;
-  return border_fits(event_.criterion, *member, layout_of(state.piece).border, metric_of(*member), make_) >= least_fit;
+  return border_fits(*member, layout_of(state.piece).border, metric_of(*member), make_) >= least_fit;
 }
 
 std::optional<Transition> EventSystem::with_inserted_contact(const State& from, const Direction& forward,

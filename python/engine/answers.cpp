@@ -110,9 +110,10 @@ py::tuple event_curve(const std::string& file, const std::string& text, const As
   require(deck, Question::curve);
   const EventCurve curve = without_lock([&](const auto& stopped) { return trace_event_curve(deck, stopped); });
   if (!curve.problem.empty()) raise("NoAnswer", curve.problem);
+  const std::vector<LoadText> loads = driven_by_lambda(deck);
   return py::make_tuple(to_python(curve_json(curve, text, assignments)), columns(curve), shapes(curve),
-                        files_dict(curve_files(curve, UnitLabels::shown, text, assignments)), curve_text(curve),
-                        curve_picture(curve));
+                        files_dict(curve_files(curve, loads, UnitLabels::shown, text, assignments)), curve_text(curve),
+                        curve_picture(curve, loads));
 }
 
 // The content of curve.json and the program's table.

@@ -55,6 +55,24 @@ void expect_runs(const std::string& deck, const EventCurve& curve, std::size_t p
 
 std::string truss(const std::string& curve) { return test::truss_on_spring + "[curve]\n" + curve; }
 
+// Roorda's frame of EI = 1 and L = 1, over the moment at its corner.
+std::string roorda(const std::string& EA) {
+  std::string deck = R"toml(
+title = "Roorda's frame"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = %EA, I = 1.0 }
+point = { foot = [0.0, 0.0], corner = [0.0, 1.0], end = [1.0, 1.0] }
+support = { foot = ["x", "z"], end = ["x", "z"] }
+load = [{ at = "corner", force = [0.0, -1.0] }, { at = "corner", moment = 1e-3 }]
+path = { step = 1.0, branches = "primary", stop = { event = "limit-point", turn = [-0.8, 0.8] } }
+monitor = [{ name = "turn", at = "corner", component = "rotation" }]
+member.column = { from = "foot", to = "corner", theory = "elastica", elements = 8, material = "m", section = "s" }
+member.beam = { from = "corner", to = "end", theory = "elastica", elements = 8, material = "m", section = "s" }
+curve = { event = { kind = "limit-point" }, over = "load.1.moment", range = [-1e-3, 1e-3] }
+)toml";
+  return deck.replace(deck.find("%EA"), 3, EA);
+}
+
 }  // namespace
 
 // P = EA w (w − h)(w − 2h)/L³ + k w in the depth w: limit points where P′ = 0. They end at a cusp where P′ and P″
@@ -176,19 +194,7 @@ TEST(EventCurve, OfAThirdHarmonicFollowsTheSquareRootLawSlow) {
 // cusp, beyond which it is that of the least loads of the branch on the other side. Half the distance of the two goes
 // with the root of e counted from there, and has no part that goes with e itself.
 TEST(EventCurve, OfRoordasFrameFollowsTheSquareRootLawSlow) {
-  const std::string deck = R"toml(
-title = "Roorda's frame"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 1e6, I = 1.0 }
-point = { foot = [0.0, 0.0], corner = [0.0, 1.0], end = [1.0, 1.0] }
-support = { foot = ["x", "z"], end = ["x", "z"] }
-load = [{ at = "corner", force = [0.0, -1.0] }, { at = "corner", moment = 1e-3 }]
-path = { step = 1.0, branches = "primary", stop = { event = "limit-point", turn = [-0.8, 0.8] } }
-monitor = [{ name = "turn", at = "corner", component = "rotation" }]
-member.column = { from = "foot", to = "corner", theory = "elastica", elements = 8, material = "m", section = "s" }
-member.beam = { from = "corner", to = "end", theory = "elastica", elements = 8, material = "m", section = "s" }
-curve = { event = { kind = "limit-point" }, over = "load.1.moment", range = [-1e-3, 1e-3] }
-)toml";
+  const std::string deck = roorda("1e6");
   constexpr double critical = 13.885942905964721;
   const auto cusps = specials(curve_of(deck), CurveSpecialKind::cusp);
   ASSERT_EQ(cusps.size(), 1U);
@@ -210,6 +216,22 @@ curve = { event = { kind = "limit-point" }, over = "load.1.moment", range = [-1e
   for (std::size_t i = 0; i + 1 < halves.size(); ++i)
     EXPECT_NEAR(std::log(halves[i + 1] / halves[i]) / std::log(10.0), 0.5, 1e-3) << distances[i];
   EXPECT_NEAR(halves.front() / (critical * 1e-4), 1.15139, 1e-3);
+}
+
+// The steps of a curve are those of its own bend, however stiff the members are beside it: some sixty points, with EA =
+// 1e7 as with 1e5. At the cusp, where the column's shortening acts like a moment of 3/EA, two branches cross; the curve
+// comes through that point, landed on to the last digit, as well.
+TEST(EventCurve, TakesStepsThatDoNotHangOnAxialStiffnessSlow) {
+  for (const double EA : {1e5, 1e6, 1e7}) {
+    SCOPED_TRACE(EA);
+    const EventCurve curve = curve_of(roorda(fmt::format("{:.1f}", EA)));
+    const auto cusps = specials(curve, CurveSpecialKind::cusp);
+    ASSERT_EQ(cusps.size(), 1U);
+    EXPECT_NEAR(cusps[0].key * EA, -3.0, 1e-3);
+    EXPECT_EQ(curve.points.front().key, 1e-3);
+    EXPECT_EQ(curve.points.back().key, 1e-3);
+    EXPECT_LE(curve.points.size(), 100U);
+  }
 }
 
 // λ is the end shortening, and the reaction turns before it does.
@@ -333,8 +355,22 @@ TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   EXPECT_EQ(json["specials"].back()["reason"], "stop");
   EXPECT_DOUBLE_EQ(json["specials"].back()["key"].get<double>(), 0.21);
   // Shapes had no walls, and their contacts stood outside of them.
-  EXPECT_NE(curve_html(curve).find("<path class=\"moving\" data-path=\"1\" d=\"M"), std::string::npos);
+  EXPECT_NE(curve_html(curve, {}).find("<path class=\"moving\" data-path=\"1\" d=\"M"), std::string::npos);
   EXPECT_EQ(curve_status(curve), ExitStatus::success);
+}
+
+// As the page of a run has it; along a curve over the load itself there is no one size of what λ multiplies.
+TEST(EventCurve, SaysOnItsPageWhatLambdaMultiplies) {
+  const deck::Deck deck = deck::read_deck_text(
+      channel("event = { kind = \"contact-closes\" }\nover = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n"),
+      "deck.toml", {"units.length='cm'", "units.force='kN'", "load.0.force=[-2.0, 0.0]"});
+  const std::vector<LoadText> loads = driven_by_lambda(deck);
+  EventCurve curve{.key = deck.curve->over, .key_unit = "cm"};
+  const std::string with_size = "load factor λ, times 2 kN</text>", without = "load factor λ</text>";
+  EXPECT_NE(curve_html(curve, loads).find(with_size), std::string::npos);
+  EXPECT_NE(curve_picture(curve, loads).find(with_size), std::string::npos);
+  curve.key = "load.0.force.0";
+  EXPECT_NE(curve_html(curve, loads).find(without), std::string::npos);
 }
 
 }  // namespace arcwall::curve_test

@@ -198,6 +198,21 @@ TEST(Sensitivity, OfEveryExampleIsThatOfOtherRunsSlow) {
   }
 }
 
+// EA and EI alone make the loads of Lee's frame, all of which go with E: E λ_E = A λ_A + I λ_I = λ (Euler). The
+// extension of its members has a part of 1e-4 in them.
+TEST(Sensitivity, ByAreaAndBySecondMomentMakeUpTheLoad) {
+  const TracedDeck traced(device("lee"), {names_of({"material.alloy.E", "section.bar.A", "section.bar.I"})});
+  const auto events = located(traced);
+  ASSERT_EQ(events.size(), 4U);
+  for (const RecordEvent& event : events) {
+    SCOPED_TRACE(fmt::format("{} {}", to_text(event.kind), event.lambda));
+    const auto part = [&](std::size_t n) { return event.sensitivity.at(n).value * event.sensitivity[n].slope.value(); };
+    const double tolerance = 2e-9 * std::abs(event.lambda);  // 1e-9 of each of two
+    EXPECT_NEAR(part(0), event.lambda, tolerance);
+    EXPECT_NEAR(part(1) + part(2), event.lambda, tolerance);
+  }
+}
+
 // A straight column buckles at P with P (1 − P/EA) = π² EI/L², a pitchfork of a symmetric branch. It moves with L and
 // EA; an imperfection breaks it.
 TEST(Sensitivity, OfAPitchforkThatPersists) {

@@ -237,4 +237,34 @@ TEST(Lying, ABeamIsLeftByAFloorThatSinks) {
   }
 }
 
+// A perfect column snaps twice in a wide channel, and the path then leads back, in a shape that is not symmetric, to
+// where a flat part has buckled off the upper wall: its length is a whole wave there, k d = 2π, with k² = P Λ/EI of the
+// elastica under the thrust P, whose stretch is Λ = 1 − P/EA.
+TEST(Lying, APartThatHasBuckledIsFlatAgainAtItsBucklingLoadSlow) {
+  const Session run = traced(R"toml(
+title = "A perfect column in a wide channel"
+material.m = { E = 21000.0 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { a = [0.0, 0.0], b = [2.0, 0.0] }
+support = { a = ["x", "z"], b = ["z"] }
+member.column = { from = "a", to = "b", theory = "classic", elements = 40, material = "m", section = "s" }
+load = [{ at = "b", force = [-1.0, 0.0] }]
+wall = [
+  { name = "upper", side = "above", profile = { type = "flat", z = 0.3 } },
+  { name = "lower", side = "below", profile = { type = "flat", z = -0.3 } },
+]
+monitor = [{ name = "mid", at = "column:0.5", component = "z" }]
+path = { step = 0.05, branches = "follow", stop = { lambda = [-1.0, 10.0] } }
+)toml",
+                             {});
+  expect_stop(run);
+  const auto again = std::find_if(run.events().begin(), run.events().end(), [](const RecordEvent& event) {
+    return event.kind == EventKind::contact_spreads && event.contacts.size() == 2;
+  });
+  ASSERT_NE(again, run.events().end());
+  const double column_EI = 0.175, column_EA = 210.0, column_length = 2.0, P = again->lambda;
+  const double d = column_length * std::abs(again->contacts[1].label.fraction - again->contacts[0].label.fraction);
+  EXPECT_NEAR(std::sqrt(P * (1.0 - P / column_EA) / column_EI) * d, 2.0 * pi, 1e-5);
+}
+
 }  // namespace arcwall::lying_test
