@@ -51,6 +51,10 @@ const ring_at = async (page, point) => {
   }, { x, y });
 };
 
+// A point of the channel's curve that lies many pixels from its neighbours: beside the mark of an event a click selects
+// the event.
+const apart = 40;
+
 // The page as a build without plotly writes it.
 const without_plotly = () => {
   const text = readFileSync(channel, 'utf8');
@@ -75,15 +79,15 @@ for (const [kind, file_of] of [['as it is', () => channel], ['without plotly', w
     assert.notEqual(await shape(page), first, 'the slider moves the shape');
     const at_20 = await lambda(page);
 
-    await click_on_curve(page, 30);
-    assert.equal(await page.inputValue('#slider'), '30', 'a click on the curve selects its point');
+    await click_on_curve(page, apart);
+    assert.equal(await page.inputValue('#slider'), String(apart), 'a click on the curve selects its point');
     assert.notEqual(await lambda(page), at_20);
-    await ring_at(page, 30);
+    await ring_at(page, apart);
 
     await page.focus('#slider');
     await page.keyboard.press('ArrowRight');
-    assert.equal(await page.inputValue('#slider'), '31');
-    await ring_at(page, 31);
+    assert.equal(await page.inputValue('#slider'), String(apart + 1));
+    await ring_at(page, apart + 1);
     await page.keyboard.press('PageDown');
     assert.match(await page.textContent('#happening'), /contact closes/, 'Page down goes to the next event');
 
