@@ -204,84 +204,84 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
 }  // namespace
 
 // The models of later stages are built once to see whether they can be.
-Model::Model(deck::Deck deck) : Model(std::move(deck), 0, std::nullopt) {
-  for (std::size_t stage = 1; stage < whole_deck_.stages.size(); ++stage)
+Model::Model(deck::Deck deck) : Model(std::make_shared<const deck::Deck>(std::move(deck)), 0, std::nullopt) {
+  for (std::size_t stage = 1; stage < whole_deck_->stages.size(); ++stage)
     for (const std::string& warning : Model(whole_deck_, static_cast<Index>(stage), progress_).warnings_)
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
 bool Model::begin_stage(double lambda) {
   const std::size_t ended = ended_stages_.size();
-  if (ended + 1 >= whole_deck_.stages.size()) return false;
+  if (ended + 1 >= whole_deck_->stages.size()) return false;
   const Model& last = at_stage(static_cast<Index>(ended));
-  auto progress = progress_after(whole_deck_.stages[ended], lambda, last.progress_);
+  auto progress = progress_after(whole_deck_->stages[ended], lambda, last.progress_);
   later_.push_back(std::unique_ptr<Model>(new Model(whole_deck_, static_cast<Index>(ended) + 1, std::move(progress))));
   ended_stages_.push_back(lambda);
   return true;
 }
 
-Model::Model(deck::Deck whole, Index stage, std::optional<std::vector<DrivenThing>> progress)
+Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional<std::vector<DrivenThing>> progress)
     : whole_deck_(std::move(whole)),
       stage_(stage),
-      progress_(progress ? std::move(*progress) : things_to_drive(whole_deck_)),
+      progress_(progress ? std::move(*progress) : things_to_drive(*whole_deck_)),
       deck_(deck_of_stage(whole_deck_, static_cast<std::size_t>(stage), progress_)) {
-  DeckProblems problems(deck_.source);
-  StructureOfDeck described = describe_structure(deck_, problems);
+  DeckProblems problems(deck_->source);
+  StructureOfDeck described = describe_structure(*deck_, problems);
   problems.raise();
-  if (hold_loose_bodies()) described = describe_structure(deck_, problems);
-  hold_between_walls(deck_, described.builder);
-  check_mechanism(deck_, problems);
+  if (hold_loose_bodies()) described = describe_structure(*deck_, problems);
+  hold_between_walls(*deck_, described.builder);
+  check_mechanism(*deck_, problems);
   problems.raise();
 
   structure_ = described.builder.build();
-  if (!moves_something(*structure_) && (structure_->size({}) == 0 || !moves_walls(deck_)))
-    report_nothing_moves(whole_deck_, static_cast<std::size_t>(stage_), structure_->size({}) == 0, problems);
-  if (takes_increments(deck_, *structure_, problems))
+  if (!moves_something(*structure_) && (structure_->size({}) == 0 || !moves_walls(*deck_)))
+    report_nothing_moves(*whole_deck_, static_cast<std::size_t>(stage_), structure_->size({}) == 0, problems);
+  if (takes_increments(*deck_, *structure_, problems))
     incremental_structure_ = std::make_unique<IncrementalStructure>(*structure_);
-  DeckProblems not_at_rest(deck_.source);  // where a stage begins the structure is no longer there
-  if (may_slide(deck_, described.builder)) sliding_structure_ = sliding_structure(described.builder, false);
-  const PinchedPlaces pinched = sliding_structure_ ? pinched_places(deck_, *sliding_structure_) : PinchedPlaces{};
-  auto candidates = contact_candidates(deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
-  const bool sliding = slides(deck_, described.builder, candidates, problems);
+  DeckProblems not_at_rest(deck_->source);  // where a stage begins the structure is no longer there
+  if (may_slide(*deck_, described.builder)) sliding_structure_ = sliding_structure(described.builder, false);
+  const PinchedPlaces pinched = sliding_structure_ ? pinched_places(*deck_, *sliding_structure_) : PinchedPlaces{};
+  auto candidates = contact_candidates(*deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
+  const bool sliding = slides(*deck_, described.builder, candidates, problems);
   if (!sliding) sliding_structure_.reset();
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   for (const LooseHolds::Hold& hold : loose_holds_.holds)
     held_.push_back(described.places.find(hold.at, structure_->members()).node);
   if (sliding_ && stage_ == 0 && problems.empty())
-    check_between_nodes(deck_, sliding_ramp_ ? *sliding_ramp_ : *sliding_, problems);
+    check_between_nodes(*deck_, sliding_ramp_ ? *sliding_ramp_ : *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
-                  : body_of(*structure_, theories_of(deck_), incremental_structure_.get());
+                  : body_of(*structure_, theories_of(*deck_), incremental_structure_.get());
   const Measured read_off{.structure = *structure_,
                           .body = *body_,
                           .places = described.places,
                           .contacts = contacts(),
                           .system = &system()};
-  monitors_ = monitor_columns(deck_, read_off, problems);
+  monitors_ = monitor_columns(*deck_, read_off, problems);
   structure_->nodal_terms().for_each_moved_support(
       [&](Index freedom, double rate) { moved_.push_back({.rate = rate, .reaction = body_->reaction(freedom)}); });
-  options_ = trace_options(deck_, read_off, monitors_, problems);
-  check_watched(deck_, problems);
+  options_ = trace_options(*deck_, read_off, monitors_, problems);
+  check_watched(*deck_, problems);
   if (problems.empty()) check_search(*this, problems);
-  if (stage_ == 0) check_sensitivity(whole_deck_, problems);
-  if (stage_ == 0) check_curve(whole_deck_, problems);
+  if (stage_ == 0) check_sensitivity(*whole_deck_, problems);
+  if (stage_ == 0) check_curve(*whole_deck_, problems);
   problems.raise();
   if (!loose_holds_.empty()) {
-    options_.lambda_scale = lambda_scale_if_held(deck_, false);
+    options_.lambda_scale = lambda_scale_if_held(*deck_, false);
     options_.corner.max_enumerated = 0;
   }
 
-  for (const std::string& name : deck_.path.watch)
+  for (const std::string& name : deck_->path.watch)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
-  explore_.policy = deck_.path.branches;
-  explore_.depth = deck_.path.depth;
+  explore_.policy = deck_->path.branches;
+  explore_.depth = deck_->path.depth;
   for (const MonitorColumn& monitor : monitors_)
     if (!monitor.is_place) explore_.preference.push_back(monitor.raw);
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
-  if (is_unbounded(deck_.path))
+  if (is_unbounded(deck_->path))
     warnings_.push_back("nothing in [path.stop] ends the path: it goes on to path.max_points = " +
-                        std::to_string(deck_.path.max_points) +
+                        std::to_string(deck_->path.max_points) +
                         ", the default, whatever λ is then; give bounds, as stop = { lambda = [-1.0, 10.0] }");
-  if (const std::string warning = start_outside_bounds(deck_.path); !warning.empty() && !increments_of(deck_))
+  if (const std::string warning = start_outside_bounds(deck_->path); !warning.empty() && !increments_of(*deck_))
     warnings_.push_back(warning);
   options_.node_contacts =
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);
@@ -289,24 +289,26 @@ Model::Model(deck::Deck whole, Index stage, std::optional<std::vector<DrivenThin
 
 // Springs for what nothing but contact holds are part of the deck that is traced.
 bool Model::hold_loose_bodies() {
-  DeckProblems mechanism(deck_.source);
-  check_mechanism(deck_, mechanism);
+  DeckProblems mechanism(deck_->source);
+  check_mechanism(*deck_, mechanism);
   if (mechanism.empty()) return false;
-  loose_holds_ = loose_holds(deck_);
+  loose_holds_ = loose_holds(*deck_);
   const std::vector<deck::Spring> springs = loose_holds_.springs();
-  deck_.springs.insert(deck_.springs.end(), springs.begin(), springs.end());
-  if (!loose_holds_.empty()) warnings_.push_back(loose_holds_.warning(deck_.units));
+  deck::Deck held = *deck_;
+  held.springs.insert(held.springs.end(), springs.begin(), springs.end());
+  deck_ = std::make_shared<const deck::Deck>(std::move(held));
+  if (!loose_holds_.empty()) warnings_.push_back(loose_holds_.warning(deck_->units));
   return !loose_holds_.empty();
 }
 
 // The structure with springs as stiff as its members in place of those that hold loose bodies.
 std::unique_ptr<Structure> Model::held_structure(bool ramp) const {
-  deck::Deck held = deck_;
+  deck::Deck held = *deck_;
   held.springs.resize(held.springs.size() - loose_holds_.holds.size());
   double softest = 0.0;
   for (const LooseHolds::Hold& hold : loose_holds_.holds)
     softest = std::max({softest, hold.stiffness.x, hold.stiffness.z});
-  const std::vector<deck::Spring> springs = loose_holds_.springs(softest_stiffness(deck_, *structure_) / softest);
+  const std::vector<deck::Spring> springs = loose_holds_.springs(softest_stiffness(*deck_, *structure_) / softest);
   held.springs.insert(held.springs.end(), springs.begin(), springs.end());
   DeckProblems known(held.source);
   StructureOfDeck described = describe_structure(held, known);
@@ -342,20 +344,20 @@ std::optional<std::string> Model::adrift(const State& state) const {
 void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding) {
   const auto constant = [](const auto& driven) { return driven.constant; };
   const bool ramp =
-      stage_ == 0 &&
-      (std::any_of(whole_deck_.loads.begin(), whole_deck_.loads.end(), constant) ||
-       std::any_of(whole_deck_.prescribed.begin(), whole_deck_.prescribed.end(), constant) || has_interference(deck_));
+      stage_ == 0 && (std::any_of(whole_deck_->loads.begin(), whole_deck_->loads.end(), constant) ||
+                      std::any_of(whole_deck_->prescribed.begin(), whole_deck_->prescribed.end(), constant) ||
+                      has_interference(*deck_));
   if (ramp) ramp_structure_ = builder.build(true);
-  if (!deck_.walls.empty()) {
+  if (!deck_->walls.empty()) {
     const auto held = loose_holds_.empty() ? nullptr : held_structure(false);
-    const ContactScales scales = contact_scales(deck_, *structure_, held ? *held : *structure_, deck_.path.step);
+    const ContactScales scales = contact_scales(*deck_, *structure_, held ? *held : *structure_, deck_->path.step);
     const System& inner = incremental_structure_ ? static_cast<const System&>(*incremental_structure_) : *structure_;
-    const ContactLaw law{.method = deck_.contact.method, .stiffness = deck_.contact.penalty.value_or(0.0)};
+    const ContactLaw law{.method = deck_->contact.method, .stiffness = deck_->contact.penalty.value_or(0.0)};
     contact_ = std::make_unique<MultiplierContact>(inner, std::move(candidates), scales, law);
-    DeckProblems known(deck_.source);  // those of the structure itself
+    DeckProblems known(deck_->source);  // those of the structure itself
     if (ramp)
       ramp_contact_ = std::make_unique<MultiplierContact>(
-          *ramp_structure_, contact_candidates(with_walls_of_ramp(deck_, *structure_), *ramp_structure_, {}, known),
+          *ramp_structure_, contact_candidates(with_walls_of_ramp(*deck_, *structure_), *ramp_structure_, {}, known),
           scales, law);
     if (sliding) make_sliding(builder, ramp, scales);
   }
@@ -363,7 +365,7 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
 
 std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilder& builder, bool ramp) const {
   return builder.build_sliding(ramp, [this](const std::string& a, const std::string& b) {
-    return same_walls(deck_, a, b) && !is_driven_apart(whole_deck_, a) && !is_driven_apart(whole_deck_, b);
+    return same_walls(*deck_, a, b) && !is_driven_apart(*whole_deck_, a) && !is_driven_apart(*whole_deck_, b);
   });
 }
 
@@ -371,10 +373,10 @@ void Model::make_sliding(const StructureBuilder& builder, bool ramp, const Conta
   const auto on = [&](const SlidingStructure& structure, const deck::Deck& deck) {
     return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), scales, deck.path.continuum);
   };
-  sliding_ = on(*sliding_structure_, deck_);
+  sliding_ = on(*sliding_structure_, *deck_);
   if (!ramp) return;
   sliding_ramp_structure_ = sliding_structure(builder, true);
-  sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_of_ramp(deck_, *structure_));
+  sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_of_ramp(*deck_, *structure_));
 }
 
 const System& Model::system() const {
@@ -396,7 +398,7 @@ LoadIncrements Model::increments(State start) {
 std::optional<State> Model::start(std::string& reason) const {
   State state{.x = {}, .lambda = 0.0, .piece = contact_ ? contact_->open_piece() : Piece()};
   state.x = Vector::Zero(contact_ ? contact_->size(state.piece) : structure_->size({}));
-  if (sliding_) state = sliding_->start(deck_.path.step);
+  if (sliding_) state = sliding_->start(deck_->path.step);
   if (!ramp_structure_) return state;
   // What is constant grows from nothing along a path of their own, contacts included.
   TraceOptions options;
@@ -406,7 +408,7 @@ std::optional<State> Model::start(std::string& reason) const {
   options.target_values.push_back(
       {.quantity = std::make_shared<ParameterValue>(), .value = 1.0, .stops = true, .label = "all"});
   if (!loose_holds_.empty()) {
-    options.lambda_scale = lambda_scale_if_held(with_walls_of_ramp(deck_, *structure_), true);
+    options.lambda_scale = lambda_scale_if_held(with_walls_of_ramp(*deck_, *structure_), true);
     options.corner.max_enumerated = 0;
   }
   const System* ramp = ramp_structure_.get();
@@ -429,7 +431,7 @@ std::optional<State> Model::start(std::string& reason) const {
     return std::nullopt;
   }
   if (sliding_) {
-    state.lambda = deck_.path.step;
+    state.lambda = deck_->path.step;
     reason = sliding_->why_not_lying(sliding_->adopted(state));
   }
   state.lambda = 0.0;
@@ -440,7 +442,7 @@ std::optional<State> Model::start(std::string& reason) const {
 // λ goes from 0 on in the direction of the first step.
 State Model::begun_from(const State& state) const {
   if (!sliding_) return state;
-  return sliding_->with_flat_parts_loaded(sliding_->adopted(state), deck_.path.step);
+  return sliding_->with_flat_parts_loaded(sliding_->adopted(state), deck_->path.step);
 }
 
 State Model::taken_over(const State& last) const {

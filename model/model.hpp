@@ -37,10 +37,10 @@ class Model {
   explicit Model(deck::Deck deck);
 
   /// What is traced: of a deck with stages that of this model's stage.
-  const deck::Deck& deck() const { return deck_; }
+  const deck::Deck& deck() const { return *deck_; }
 
   /// What was given, with all stages.
-  const deck::Deck& whole_deck() const { return whole_deck_; }
+  const deck::Deck& whole_deck() const { return *whole_deck_; }
 
   /// Ends the stage that was begun last at λ and builds the model of the next one. False if there is none.
   bool begin_stage(double lambda);
@@ -55,7 +55,7 @@ class Model {
   /// Which stage this model is of, and its name; empty without stages.
   Index stage() const { return stage_; }
   std::string stage_name() const {
-    return whole_deck_.stages.empty() ? "" : whole_deck_.stages[static_cast<std::size_t>(stage_)].name;
+    return whole_deck_->stages.empty() ? "" : whole_deck_->stages[static_cast<std::size_t>(stage_)].name;
   }
   const Structure& structure() const { return *structure_; }
 
@@ -112,7 +112,7 @@ class Model {
  private:
   State begun_from(const State& state) const;
   // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
-  Model(deck::Deck whole, Index stage, std::optional<std::vector<DrivenThing>> progress);
+  Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional<std::vector<DrivenThing>> progress);
   bool hold_loose_bodies();
   std::unique_ptr<Structure> held_structure(bool ramp) const;
   double lambda_scale_if_held(const deck::Deck& deck, bool ramp) const;
@@ -121,12 +121,12 @@ class Model {
   void make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding);
   void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
 
-  deck::Deck whole_deck_;
+  std::shared_ptr<const deck::Deck> whole_deck_;
   Index stage_ = 0;
   std::vector<DrivenThing> progress_;  // before this stage
   std::vector<std::unique_ptr<Model>> later_;
   std::vector<double> ended_stages_;
-  deck::Deck deck_;
+  std::shared_ptr<const deck::Deck> deck_;  // of the stage
   LooseHolds loose_holds_;
   std::vector<Index> held_;  // nodes of their points
   std::unique_ptr<Structure> structure_, ramp_structure_;

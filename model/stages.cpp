@@ -64,8 +64,10 @@ std::vector<DrivenThing> things_to_drive(const deck::Deck& deck) {
   return progress;
 }
 
-deck::Deck deck_of_stage(const deck::Deck& deck, std::size_t stage, const std::vector<DrivenThing>& progress) {
-  if (deck.stages.empty()) return deck;
+std::shared_ptr<const deck::Deck> deck_of_stage(const std::shared_ptr<const deck::Deck>& whole, std::size_t stage,
+                                                const std::vector<DrivenThing>& progress) {
+  const deck::Deck& deck = *whole;
+  if (deck.stages.empty()) return whole;
   const deck::Stage& now = deck.stages[stage];
   deck::Deck result = deck;
   result.loads = in_stage(deck.loads, "load", now, progress);
@@ -80,7 +82,7 @@ deck::Deck deck_of_stage(const deck::Deck& deck, std::size_t stage, const std::v
   result.path.max_step = now.max_step.value_or(deck.path.max_step);
   result.path.branches = now.branches.value_or(deck.path.branches);
   result.stages.clear();
-  return result;
+  return std::make_shared<const deck::Deck>(std::move(result));
 }
 
 bool is_driven_apart(const deck::Deck& deck, const std::string& member) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ struct DrivenThing {
 std::vector<DrivenThing> things_to_drive(const deck::Deck& deck);
 
 /// The deck that a stage traces: λ multiplies what it drives, from where that has gone, and all else is constant there.
-/// A deck without stages is what it is.
-deck::Deck deck_of_stage(const deck::Deck& deck, std::size_t stage, const std::vector<DrivenThing>& progress);
+/// A deck without stages is traced itself.
+std::shared_ptr<const deck::Deck> deck_of_stage(const std::shared_ptr<const deck::Deck>& whole, std::size_t stage,
+                                                const std::vector<DrivenThing>& progress);
 
 /// Whether stages drive loads along a member, so that it and its neighbours may be loaded alike in one stage and not in
 /// another.
