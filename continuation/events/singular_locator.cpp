@@ -102,22 +102,28 @@ std::vector<SingularPlace> nearest_sample(const std::vector<PathSample>& seen, c
   return {place};
 }
 
-// Whether the points on both sides of a bracket follow each other along the path, however near they are. Where no point
-// is found between them they lie on branches that pass each other, and nothing is singular there.
-bool on_one_branch(SegmentSamples& on, CountBracket bracket) {
-  constexpr int halvings = 16;
+enum class Joined { yes, no, unknown };
+
+// Whether the points on both sides of a bracket follow each other along the path as it is halved. Where they do not,
+// they lie on branches that pass each other, and nothing is singular there. Unknown where the path has no point, or no
+// count, in the middle.
+Joined joined(SegmentSamples& on, CountBracket bracket) {
+  constexpr double bent_by_roundoff = 1e-6;  // brackets below it may be [path metric]
+  constexpr int most_halvings = 30;
   const auto at = [&](double t, const PathPoint& end) {
     PathPoint point{.state = end.state, .tangent = end.tangent};
     for (const PathSample& sample : on.seen)
       if (sample.t == t) point = {.state = sample.state, .tangent = sample.tangent};
     return point;
   };
-  for (int halving = 0; halving <= halvings; ++halving) {
+  for (int halving = 0; halving < most_halvings; ++halving) {
     const PathPoint before = at(bracket.from, on.segment.from()), after = at(bracket.to, on.segment.to());
-    if (!Segment(on.metric, before, after).follows_the_path()) return false;
-    if (halving < halvings && !halve(on, bracket)) return false;
+    const Segment inner(on.metric, before, after);
+    if (inner.length() <= bent_by_roundoff) return Joined::yes;
+    if (!inner.follows_the_path()) return Joined::no;
+    if (!halve(on, bracket)) return Joined::unknown;
   }
-  return true;
+  return Joined::unknown;
 }
 
 enum class Lies { on_path, doubtful, off };
@@ -157,7 +163,8 @@ std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segmen
   const Lies there = found.empty() || half_width > 0.01 ? Lies::off : lies(on, found.front().point);
   const bool telling = segment.length() > short_segment;
   if (there == Lies::off && telling) return {};
-  if (there != Lies::on_path && !on_one_branch(on, *bracket)) return {};
+  const Joined sides = joined(on, *bracket);
+  if (sides == Joined::no || (sides == Joined::unknown && there != Lies::on_path)) return {};
   // Where the path bends too sharply to be interpolated, shorter steps show more, and at last the nearest of its own
   // points has to do.
   if (there == Lies::off) return nearest_sample(on.seen, *bracket);

@@ -72,5 +72,11 @@ INSTANTIATE_TEST_SUITE_P(StepsThatGoTooFar, NearlyPerfectColumn,
                                          Column{0.0017, 0.00006, 0.05}, Column{0.0017, 0.0003, 0.01},
                                          Column{0.0023, 0.00006, 0.005}, Column{0.0023, 0.0003, 0.0125}));
 
+// The branches pass each other within some 1e-5 of the span here, and what the imperfection does along the critical
+// mode is lost in the round-off of the residual.
+INSTANTIATE_TEST_SUITE_P(HardlyAnyImperfection, NearlyPerfectColumn,
+                         testing::Values(Column{0.0003, 0.0002, 0.05}, Column{0.0005, 0.0002, 0.02},
+                                         Column{0.0008, 0.00003, 0.005}));
+
 }  // namespace
 }  // namespace arcwall::nearly_perfect_columns_test

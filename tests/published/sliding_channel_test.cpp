@@ -258,10 +258,15 @@ TEST(SlidingChannelEvents, ReachTheGreatestLoadOfAContinuum) {
     options.target_values.push_back(test::stop_at_lambda(17.0));
     options.target_values.back().stops = false;
     const auto branches = test::follow(model.system(), model.system().rest(), options, {middle(model)});
-    const auto& arcs = branches.back().arcs;
-    const auto begins = std::find_if(arcs.begin(), arcs.end(), [](const Arc& arc) {
+    const auto has_continuum = [](const Arc& arc) {
       return std::any_of(arc.events.begin(), arc.events.end(), [](const Event& event) { return event.continuum; });
+    };
+    const auto branch = std::find_if(branches.begin(), branches.end(), [&](const auto& one) {
+      return std::any_of(one.arcs.begin(), one.arcs.end(), has_continuum);
     });
+    ASSERT_NE(branch, branches.end());
+    const auto& arcs = branch->arcs;
+    const auto begins = std::find_if(arcs.begin(), arcs.end(), has_continuum);
     const auto at_17 =
         std::find_if(begins, arcs.end(), [](const Arc& arc) { return std::abs(arc.to.state.lambda - 17.0) <= 1e-12; });
     ASSERT_NE(at_17, arcs.end());
