@@ -136,4 +136,17 @@ std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lamb
   return moved;
 }
 
+Vec2 PlainWall::normal(const Vec2& point) const {
+  return faces(point) ? Vec2(perp(direction(slope_angle(point)))) : Vec2(Vec2::Zero());
+}
+
+Vec2 PlainWall::touched_by(const Vec2& point, double half_height) const {
+  const double off = kept_off(half_height);
+  return off > 0.0 && faces(point) ? Vec2(point - off * perp(direction(slope_angle(point)))) : point;
+}
+
+const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string& name) {
+  return *std::find_if(walls.begin(), walls.end(), [&](const PlainWall& wall) { return wall.deck().name == name; });
+}
+
 }  // namespace arcwall::verify

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "apps/verify/plain_outline.hpp"
@@ -50,6 +52,12 @@ class PlainWall {
     return faces(point) ? gap(point) - kept_off(half_height) : infinity;
   }
 
+  /// The slope of that by the point's place: the unit vector out of the wall; 0 where there is no surface.
+  Vec2 normal(const Vec2& point) const;
+
+  /// Where a member touches that has its face, or its axis, at a point.
+  Vec2 touched_by(const Vec2& point, double half_height) const;
+
   /// Of what stands out of the wall, as far as its outline tells: diameters; ∞ of straight ones [length].
   double width() const;
 
@@ -74,5 +82,10 @@ using WallsOfStages = std::vector<std::vector<PlainWall>>;
 
 /// The walls where they are at a λ.
 std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lambda);
+
+inline Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// The wall of that name, which there must be.
+const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string& name);
 
 }  // namespace arcwall::verify

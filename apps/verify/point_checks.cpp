@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "apps/verify/entries.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::verify {

@@ -1,0 +1,228 @@
+#include "apps/verify/sliding_touches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcwall::verify {
+
+namespace {
+
+using Span = SlidingContactLayout::Span;
+
+const PlainWall& wall_of_obstacle(const Sliding& at, const std::vector<PlainWall>& walls, std::size_t obstacle) {
+  return wall_of(walls, at.model.sliding()->obstacles()[obstacle].name);
+}
+
+Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const SlidingNode& node) {
+  const auto [member, fraction] =
+      at->body.label({.strand = node.strand, .s = at->mesh.coordinate(node.strand, node.position, at->now.s)});
+  Touch touch{.label = {.wall = wall.deck().name, .member = member, .fraction = fraction}, .gap = at->unknowns(node)};
+  const double half = at->body.half_height(node.strand);
+  const auto face = [=, &wall, function = touch.gap](const Vector& u) {
+    return face_towards(wall, half, at->place(node, function, u));
+  };
+  touch.place = wall.touched_by(face(touch.gap.at), half);
+  touch.gap.of = [face, half, &wall](const Vector& u) { return wall.gap_to(face(u), half); };
+  if (wall.has_outline()) touch.gap.by_place = [face, &wall](const Vector& u) { return wall.normal(face(u)); };
+  return touch;
+}
+
+// The curvature of the curve along which what touches slides: of a face that of the wall, of an axis that of the curve
+// at half the height from an outline.
+double curvature_touched(const PlainWall& wall, const Vec2& face, double half_height) {
+  const double surface = wall.curvature(face);  // infinite at a sharp corner
+  const double off = wall.kept_off(half_height);
+  if (off == 0.0) return surface;
+  return std::isfinite(surface) ? surface / (1.0 - off * surface) : -1.0 / off;
+}
+
+// The spring c = p Λ_f/|κ − Λ_f κ_w| of (8.8) on the tilt, by what the element on the free side carries: κ = κ₀ + M/EI,
+// Λ = 1 + N/EA. What touches a profile is the face at the offset o, stretched by Λ_f = Λ − o κ; what touches an outline
+// is the axis.
+std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, const SlidingNode& node,
+                                     std::size_t point, double force) {
+  const bool before = at.on.span_before(point) == Span::free;
+  const double sign = before ? 1.0 : -1.0;
+  const auto ends = at.mesh.end_forces(node.strand, before ? node.position - 1 : node.position, at.now);
+  const Eigen::Vector3d& end = ends[before ? 1 : 0];
+  const AxisPlace place = at.mesh.node(node.strand, node.position, at.now);
+  const double s = at.mesh.coordinate(node.strand, node.position, at.now.s), half = at.body.half_height(node.strand);
+  const Vec2 face = face_towards(wall, half, place);
+  const double against = wall.has_outline() ? wall.slope_angle(face) : 0.0;
+  const double travel = std::cos(place.angle - against) >= 0.0 ? 1.0 : -1.0;
+  const double curvature = travel * (at.body.natural_curvature({.strand = node.strand, .s = s}, at.now.lambda) +
+                                     sign * end[2] / at.body.bending_stiffness(node.strand));
+  const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
+                         sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
+  const bool is_face = !wall.has_outline() && wall.deck().acts_on == deck::ActsOn::face;
+  const double offset = is_face ? -wall.side() * half : 0.0;
+  const double stretch_there = stretch - offset * curvature;
+  const double opening = wall.side() * (curvature - stretch_there * curvature_touched(wall, face, half));
+  constexpr double touching = 1e-9;  // a line is about to form, or has just vanished
+  if (opening * at.body.length_scale() <= touching) return std::nullopt;
+  return force * stretch_there / opening;
+}
+
+bool is_unresolved(const Sliding& at, Index strand) {
+  double before = at.mesh.node(strand, 0, at.now).angle;
+  for (Index position = 1; position < at.mesh.nodes(strand); ++position) {
+    const double here = at.mesh.node(strand, position, at.now).angle;
+    if (std::abs(here - before) > most_turn) return true;
+    before = here;
+  }
+  return false;
+}
+
+// Of a point, or of a tip up to which the body is pressed.
+Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const Touch& touch,
+                  const SlidingNode& node, std::optional<std::size_t> point) {
+  Tangency tangency{.label = touch.label, .tilt = at->unknowns(node)};
+  const double half = at->body.half_height(node.strand);
+  tangency.tilt.of = [=, &wall, function = tangency.tilt](const Vector& u) {
+    const AxisPlace place = at->place(node, function, u);
+    return std::remainder(place.angle - wall.slope_angle(face_towards(wall, half, place)), pi);
+  };
+  if (!point || at->on.lies_pressed(*point)) tangency.end_of_pressed = true;
+  if (!point || at->on.lies_beside(*point)) return tangency;
+  if (at->on.points()[*point].is_pinched()) {  // its place is held besides, so that a couple alone holds its direction
+    const double angle = wall.slope_angle(face_towards(wall, half, at->place(node, tangency.tilt, tangency.tilt.at)));
+    tangency.tilt.of = [=, function = tangency.tilt](const Vector& u) {
+      return std::remainder(at->place(node, function, u).angle - angle, pi);
+    };
+    tangency.end_of_pressed = true;
+    return tangency;
+  }
+  tangency.spring = touch.closed ? contact_spring(*at, wall, node, *point, touch.force) : 0.0;
+  tangency.unresolved = touch.closed && is_unresolved(*at, node.strand);
+  return tangency;
+}
+
+// Free ends of runs, walls outside: the order in which a piece has them behind its points.
+std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& at,
+                                                                const std::vector<PlainWall>& walls) {
+  std::vector<std::pair<SlidingNode, const PlainWall*>> ends;
+  const auto concerns = [&](const PlainWall& wall, Index strand) {
+    return wall.concerns(at.body.label({.strand = strand, .s = 0.0}).first);
+  };
+  for (Index strand = 0; strand < at.body.strands(); ++strand)
+    for (const PlainWall& wall : walls)
+      for (const bool last : {false, true}) {
+        if (!concerns(wall, strand) || at.body.end_is_held(strand, last)) continue;
+        const bool on_axis = wall.has_outline() || wall.deck().acts_on == deck::ActsOn::axis;
+        const StrandEnd first = at.body.first_of_joint(strand, last, on_axis);
+        const bool is_as_thick = wall.deck().acts_on == deck::ActsOn::axis ||
+                                 at.body.half_height(first.strand) == at.body.half_height(strand);
+        if (first != StrandEnd{.strand = strand, .last = last} && is_as_thick && concerns(wall, first.strand)) continue;
+        ends.push_back({{.strand = strand, .position = last ? at.mesh.nodes(strand) - 1 : 0}, &wall});
+      }
+  return ends;
+}
+
+// The pinch of a wall that is nearest a place.
+SlidingContact::PinchedPlace pinch_of(const Sliding& at, const std::string& wall, const Vec2& place) {
+  const auto pinches = at.model.sliding()->pinches();
+  const auto distance = [&](const SlidingContact::PinchedPlace& pinch) {
+    return pinch.obstacle == wall ? (pinch.place - place).norm() : infinity;
+  };
+  return *std::min_element(pinches.begin(), pinches.end(),
+                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+}
+
+// What is at a pinch of the body, and the place that it has at rest.
+Pinched pinched_at(const std::shared_ptr<const Sliding>& at, const ContactLabel& label, const SlidingNode& node,
+                   std::size_t point, double force) {
+  Pinched pinched{.label = label, .along = at->unknowns(node), .force = force};
+  pinched.coordinate = at->state.x.size() - at->mesh.breakpoints() + static_cast<Index>(point);
+  const auto s = [&](Index position) { return at->mesh.coordinate(node.strand, position, at->now.s); };
+  pinched.step = 1e-4 * std::min(s(node.position + 1) - s(node.position), s(node.position) - s(node.position - 1));
+  const AxisPlace now = at->place(node, pinched.along, pinched.along.at);
+  const Vec2 place = pinch_of(*at, label.wall, now.position).place, axis = direction(now.angle);
+  pinched.along.of = [=, function = pinched.along](const Vector& u) {
+    return axis.dot(at->place(node, function, u).position - place);
+  };
+  return pinched;
+}
+
+// At sharp corners walls have no normal of their own: knife edges press across the axis, as it is now. What is stored
+// is their force across and along the axis at rest.
+void press_across(const SlidingContact::PinchedPlace& pinch, double angle, Touch& first, Touch& other,
+                  Pinched& pinched) {
+  const Vec2 axis = direction(angle), across = perp(axis);
+  const Vec2 normal = across.dot(pinch.normal) >= 0.0 ? across : Vec2(-across);
+  first.gap.by_place = [normal](const Vector&) { return normal; };
+  other.gap.by_place = [normal](const Vector&) -> Vec2 { return -normal; };
+  const Vec2 force = first.force * pinch.normal + pinched.force * pinch.axis;
+  first.force = force.dot(normal);
+  pinched.force = force.dot(axis);
+}
+
+// One unknown is the force of both walls of a pinch, of either sign.
+void part_pinching_force(Touch& first, Touch& other) {
+  const double force = first.force;
+  first.force = std::max(force, 0.0);
+  other.force = std::max(-force, 0.0);
+  first.against = other.force;
+  other.against = first.force;
+  first.two_sided = other.two_sided = other.closed = true;
+}
+
+}  // namespace
+
+Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& place) {
+  if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return place.position;
+  const Vec2 normal = perp(direction(place.angle));
+  return place.position - (normal.y() >= 0.0 ? 1.0 : -1.0) * wall.side() * half_height * normal;
+}
+
+Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
+  const auto at = std::make_shared<const Sliding>(Sliding{.model = model, .state = state});
+  Touches touches;
+  Index force = at->mesh.unknowns();
+  const auto add = [&](const PlainWall& wall, const SlidingNode& node, bool closed) -> const Touch& {
+    touches.all.push_back(sliding_touch(at, wall, node));
+    touches.all.back().closed = closed;
+    if (closed) touches.all.back().force = state.x[force++];
+    return touches.all.back();
+  };
+  const auto& points = at->on.points();
+  const auto& pinched = at->on.pinched_points();
+  const Index moments = state.x.size() - 2 * at->mesh.breakpoints();
+  const auto& tips = at->on.pressed_tips();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto [strand, position] = at->mesh.breakpoint(static_cast<Index>(k));
+    const SlidingNode node{.strand = strand, .position = position};
+    const PlainWall& wall = wall_of_obstacle(*at, walls, points[k].obstacle);
+    const Touch& touch = add(wall, node, state.piece[k] != 0);
+    const AxisPlace axis = at->mesh.node(strand, position, at->now);
+    std::optional<SlidingContact::PinchedPlace> pinch;
+    if (points[k].is_pinched()) pinch = pinch_of(*at, wall.deck().name, axis.position);
+    if (!pinch || !pinch->knife_edges) {
+      touches.tangencies.push_back(tangency(at, wall, touch, node, k));
+      touches.tangencies.back().moment = state.x[moments + static_cast<Index>(k)];
+    }
+    if (!pinch) continue;
+    const auto behind = std::find(pinched.begin(), pinched.end(), k);
+    const Index along = moments - static_cast<Index>(tips.size()) - (pinched.end() - behind);
+    touches.pinched.push_back(pinched_at(at, touch.label, node, k, state.x[along]));
+    touches.all.push_back(sliding_touch(at, wall_of(walls, pinch->other), node));
+    Touch &first = touches.all[touches.all.size() - 2], &other = touches.all.back();
+    if (pinch->knife_edges) press_across(*pinch, axis.angle, first, other, touches.pinched.back());
+    part_pinching_force(first, other);
+  }
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    const SlidingNode node{.strand = tips[i].strand, .position = tips[i].position};
+    const PlainWall& wall = wall_of_obstacle(*at, walls, tips[i].obstacle);
+    touches.tangencies.push_back(tangency(at, wall, sliding_touch(at, wall, node), node, std::nullopt));
+    touches.tangencies.back().moment = state.x[moments - static_cast<Index>(tips.size() - i)];
+  }
+  const auto ends = free_ends(*at, walls);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    add(*ends[i].second, ends[i].first, state.piece[points.size() + i] != 0);
+  for (const SlidingContactLayout::PressedNode& node : at->on.pressed_nodes()) {
+    add(wall_of_obstacle(*at, walls, node.obstacle), {.strand = node.strand, .position = node.position}, true);
+    touches.all.back().listed = false;
+  }
+  return touches;
+}
+
+}  // namespace arcwall::verify
