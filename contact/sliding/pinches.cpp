@@ -21,6 +21,8 @@ NodeFunction distance(const Vec2& position, const Vec2& from, const Vec2& along)
   return f;
 }
 
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
 }  // namespace
 
 bool holds_direction(const SlidingSetting& setting, const SlidingContactLayout& on, std::size_t point) {
@@ -31,7 +33,7 @@ OffPinch off_pinch(const SlidingSetting& setting, const SlidingState& at, std::s
   const Pinch& pinch = pinch_of(setting, at.layout, point);
   const AxisPlace axis = touch_of_contact(setting, at.layout, point).axis(at);
   OffPinch off{.across = distance(axis.position, pinch.place, pinch.normal),
-               .along = distance(axis.position, pinch.place, {std::cos(pinch.angle), std::sin(pinch.angle)}),
+               .along = distance(axis.position, pinch.place, direction(pinch.angle)),
                .turned = {.value = axis.angle - pinch.angle}};
   off.turned.gradient[2] = 1.0;
   return off;
@@ -91,10 +93,8 @@ CurvatureGap curvature_gap_beside(const SlidingSetting& setting, const SlidingSt
 
 namespace {
 
-Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 // 1 where an axis of this direction runs with the surface at a corner, −1 where it runs against it.
-double travel(const SharpCorner& corner, const Vec2& axis) {
+double sense_along(const SharpCorner& corner, const Vec2& axis) {
   return axis.dot(corner.before + corner.behind) >= 0.0 ? 1.0 : -1.0;
 }
 
@@ -105,7 +105,7 @@ FlankAngle angle_to_flank(const SlidingSetting& setting, const SlidingState& at,
                           SlidingMesh::At side) {
   const SharpCorner& corner = (*pinch_of(setting, at.layout, point).knife_edges)[other ? 1 : 0];
   const Vec2 axis = direction(touch_of_contact(setting, at.layout, point).axis(at).angle);
-  const Vec2 along = travel(corner, axis) * axis;
+  const Vec2 along = sense_along(corner, axis) * axis;
   if (side == SlidingMesh::At::before) return {.value = turn_between(along, corner.before), .by_rotation = -1.0};
   return {.value = turn_between(corner.behind, along), .by_rotation = 1.0};
 }
@@ -168,7 +168,7 @@ std::vector<TouchAtRest> touches_at_corners(const SlidingSetting& setting, const
           const auto foot = foot_in_element(rest, strand, element, corner.place);
           if (!foot) continue;
           const AxisPlace place = rest.mesh.place(*foot, rest.now);
-          const Vec2 along = travel(corner, direction(place.angle)) * direction(place.angle);
+          const Vec2 along = sense_along(corner, direction(place.angle)) * direction(place.angle);
           if ((place.position - corner.place).norm() > touching || cross(along, corner.before) <= 0.0 ||
               cross(corner.behind, along) <= 0.0)
             continue;
