@@ -234,6 +234,20 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
   return transition;
 }
 
+// Of new parts: a quarter of an element. On a straight wall they may be shorter, and are where that keeps the pressure
+// of one sign, so that no part is begun which has lifted off already.
+double first_length(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
+  const Index strand = at.mesh.breakpoint(static_cast<Index>(points.front())).first;
+  const double length = 2.0 * shortest_span(setting.body, strand);
+  const double least = 2.0 * shortest_span_on_straight(setting.body, strand);
+  if (!obstacle_is_straight(setting, at, points.front())) return length;
+  for (double shorter = length; shorter >= least; shorter *= 0.5)
+    if (std::none_of(points.begin(), points.end(),
+                     [&](std::size_t k) { return pressure_changes_sign(setting, at, k, shorter); }))
+      return shorter;
+  return length;
+}
+
 // Where the wall is straight and the body lies on it by itself, the part between is flat; else pressure holds it, or it
 // arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
 // begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be. Shorter
@@ -241,8 +255,7 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
 // the change a longer one may be on a part of the path that is still to come.
 std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
   constexpr double shorter = 0.6;
-  const Index strand = at.mesh.breakpoint(static_cast<Index>(points.front())).first;
-  const double length = 2.0 * shortest_span(setting.body, strand);
+  const double length = first_length(setting, at, points);
   const auto spread_to = [&](Span between, double factor) {
     return spread(setting, at, points, between, factor * length);
   };
