@@ -88,6 +88,7 @@ class Falls {
   // Where the structure falls to from an event at a point of the record; null where it stays beside it. From a branch
   // point in both senses.
   std::shared_ptr<const RecordLanding> from(const RecordEvent& event, std::size_t point) {
+    if (is_followed(event, point)) return nullptr;
     const Loss loss = recorded(event, point, 1);
     State rest, other_rest;
     auto landing = fall_and_back(event, point, loss, rest);
@@ -109,6 +110,17 @@ class Falls {
   }
 
  private:
+  // Whether a traced branch that leaves an event is stable and goes on as λ did: the structure follows it.
+  bool is_followed(const RecordEvent& event, std::size_t point) const {
+    const double ahead = point > 0 ? event.lambda - record_.points[point - 1].lambda : 0.0;
+    return std::any_of(event.branches.begin(), event.branches.end(), [&](Index branch) {
+      const auto next = std::find_if(record_.points.begin(), record_.points.end(),
+                                     [&](const RecordPoint& one) { return one.branch == branch && one.step > 0; });
+      return next != record_.points.end() && next->count.stability == Stability::stable &&
+             (next->lambda - event.lambda) * ahead > 0.0;
+    });
+  }
+
   std::shared_ptr<RecordLanding> fall_and_back(const RecordEvent& event, std::size_t point, const Loss& loss,
                                                State& rest) {
     auto landing = fall(loss, rest);
