@@ -104,9 +104,41 @@ BranchBegun begin_at_branch_point(TraceTools& tools, const TracerState& state) {
   return begun;
 }
 
+// Behind a corner its first points are known, and it is followed from there.
+BranchBegun begin_behind_corner(TraceTools& tools, const TracerState& state) {
+  const BranchStart& start = state.start;
+  const EnteredBranch& entered = *start.entered;
+  const auto point_at = [&](const State& there, const Direction& forward) {
+    const Metric metric = tools.metric_on(there.piece, state.lambda_scale);
+    CorrectorResult result = tools.corrector.inspect(there, metric, forward);
+    result.state = there;
+    return path_point(tools.system, metric, std::move(result), forward);
+  };
+  const auto counted = [&](const State& there) {
+    PathPoint at = point_at(there, entered.tangent);
+    decide_count(tools, at);
+    at.count = tools.counter.count(at.state, at.negative_eigenvalues);
+    return at;
+  };
+  PathPoint corner = point_at(start.state, {.dx = Vector::Zero(start.state.x.size()), .dlambda = 1.0});
+  corner.negative_eigenvalues = std::nullopt;
+  corner.count = {.unstable = start.unstable, .stability = Stability::undecided};
+  PathPoint first = counted(entered.first);
+  BranchBegun begun{.arc = first_arc(corner, {})};
+  begun.from.point = counted(entered.begin);
+  const PathPoint& from = begun.from.point;
+  begun.step_length = tools.metric_on(first.state.piece, state.lambda_scale).distance(first.state, from.state);
+  begun.from.signs = signs_at(tools.detectors, from);
+  begun.from.negative_eigenvalues = from.negative_eigenvalues;
+  begun.from.count_after = from.count;
+  begun.from.known_end = std::move(first);
+  return begun;
+}
+
 }  // namespace
 
 BranchBegun begin_branch(TraceTools& tools, const TracerState& state) {
+  if (state.start.entered) return begin_behind_corner(tools, state);
   return state.start.forward ? begin_at_branch_point(tools, state) : begin_at_state(tools, state);
 }
 

@@ -5,11 +5,22 @@
 #include <limits>
 #include <utility>
 
+#include "continuation/corners/entered_branch.hpp"
 #include "continuation/events/branch_point.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/stability.hpp"
 
 namespace arcwall {
+
+// A way off a branch point that was tried.
+struct TriedWay {
+  int sign = 1;
+  std::optional<EnteredBranch> entered{};  // of one in a corner, in place of `way`
+  WayOff way{};
+  SteppedOff step{};
+  double energy = 0.0;
+  StabilityCount count{};
+};
 
 namespace {
 
@@ -21,15 +32,6 @@ bool nearly_equal(double a, double b, double scale) {
   return std::abs(a - b) <= same_value * std::max(scale, std::abs(a) + std::abs(b));
 }
 
-// A way off a branch point that was tried.
-struct TriedWay {
-  int sign = 1;
-  WayOff way{};
-  SteppedOff step{};
-  double energy = 0.0;
-  StabilityCount count{};
-};
-
 std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace, const BranchPoint& point,
                                  const Metric& metric, double distance) {
   Corrector corrector(system, trace.corrector, std::abs(trace.step.first), trace.factorization);
@@ -37,9 +39,16 @@ std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace
   std::vector<TriedWay> ways;
   for (const int sign : {1, -1}) {
     TriedWay tried{.sign = sign, .way = way_off(point, sign)};
-    auto step = step_off(system, corrector, metric, point, tried.way, distance, trace.guard_tolerance);
-    if (!step) continue;
-    tried.step = std::move(*step);
+    if (point.at_corner) {
+      tried.entered = enter_branch(system, corrector, metric, point, sign, distance, trace.guard_tolerance);
+      if (!tried.entered) continue;
+      distance = tried.entered->distance;  // so that mirror images are compared at one distance
+      tried.step = {.state = tried.entered->first, .distance = tried.entered->distance};
+    } else {
+      auto step = step_off(system, corrector, metric, point, tried.way, distance, trace.guard_tolerance);
+      if (!step) continue;
+      tried.step = std::move(*step);
+    }
     tried.energy = system.energy(tried.step.state);
     tried.count = counter.count(tried.step.state, std::nullopt);
     ways.push_back(std::move(tried));
@@ -85,6 +94,7 @@ std::optional<Index> unstable_at(const Event& event, const std::vector<TriedWay>
 // start, at which K is singular, would be described anew.
 BranchStart start_along(const Event& event, const TriedWay& tried, std::optional<Index> unstable) {
   const BranchPoint& point = *event.branching;
+  if (tried.entered) return {.state = event.state, .entered = tried.entered, .unstable = unstable};
   BranchStart start{.state = point.state};
   start.state.piece = tried.step.state.piece;
   start.forward = tried.way.forward;
@@ -140,6 +150,7 @@ std::optional<Explorer::Step> Explorer::next() {
       lambda_scale_ = tracer_->lambda_scale();
     }
     if (auto arc = tracer_->next()) {
+      if (not_left_) look_behind(*std::exchange(not_left_, std::nullopt), *arc);
       for (const Event& event : arc->events)
         if (event.branching) look_at(event);
       return Step{.branch = current_, .arc = std::move(*arc)};
@@ -148,6 +159,7 @@ std::optional<Explorer::Step> Explorer::next() {
     if (const auto& end = tracer_->end(); end->reason == EndReason::joined && end->partner)
       drop_arrived_at(*end->partner);
     tracer_.reset();
+    not_left_.reset();
   }
 }
 
@@ -193,12 +205,46 @@ void Explorer::look_at(const Event& event) {
   if (options_.policy == BranchPolicy::follow && (ahead_is_stable || nothing_is_known)) return;
 
   const std::vector<TriedWay> ways = tried_ways(system_, trace_, point, metric, options_.distance);
-  if (ways.empty()) {
-    if (options_.policy == BranchPolicy::follow)
-      tracer_->stop({.reason = EndReason::min_step,
-                     .detail = "the path goes on unstable behind a branch point, and no step off that succeeds"});
-    return;
-  }
+  if (!ways.empty())
+    leave(event, point, ways);
+  else if (!point.at_corner)
+    not_left_ = event;
+  else
+    stop_unstable();
+}
+
+// A branch point that no step leaves, and the next arc. The branch may begin in a corner right behind it, where
+// contact spreads: in the continuum both are one place.
+void Explorer::look_behind(const Event& event, const Arc& arc) {
+  constexpr double of_mesh = 1e-3;  // between a branch point and a corner that are one but for the mesh [path metric]
+  const State& before = event.branching->state;
+  const bool spreads = std::any_of(arc.events.begin(), arc.events.end(), [&](const Event& next) {
+    return next.kind == EventKind::contact_spreads && next.state.piece == before.piece &&
+           Metric(system_.weights(before.piece), lambda_scale_).distance(next.state, before) <= of_mesh;
+  });
+  const PathPoint& behind = tracer_->here();
+  if (!spreads || tracer_->end() || behind.state.piece == before.piece) return stop_unstable();
+  const Metric metric(system_.weights(behind.state.piece), lambda_scale_);
+  Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first), trace_.factorization);
+  BranchPoint corner = branch_point_before(system_, corrector, metric, behind);
+  corner.at_corner = true;
+  const std::vector<TriedWay> ways = tried_ways(system_, trace_, corner, metric, options_.distance);
+  if (ways.empty()) return stop_unstable();
+  leave(event, corner, ways);
+}
+
+// Who wants the stable way is told that none was found.
+void Explorer::stop_unstable() {
+  if (options_.policy == BranchPolicy::follow && !tracer_->end())
+    tracer_->stop({.reason = EndReason::min_step,
+                   .detail = "the path goes on unstable behind a branch point, and no step off that succeeds"});
+}
+
+// Decides which of the ways off a branch point are traced. `point` is where they leave: that of the event, or a corner
+// right behind it.
+void Explorer::leave(const Event& event, const BranchPoint& point, const std::vector<TriedWay>& ways) {
+  const Metric metric(system_.weights(point.state.piece), lambda_scale_);
+  const bool mirror_ahead = point.ends_its_own_branch();
   const bool mirrored = mirror_images(ways);
   const std::optional<Index> unstable = unstable_at(
       event, mirror_ahead ? tried_ways(system_, trace_, point, metric, just_behind * options_.distance) : ways);

@@ -37,6 +37,8 @@ struct BranchRecord {
   std::optional<BranchEnd> end{};
 };
 
+struct TriedWay;
+
 /// Traces a branch and those that leave it, one after the other, by a policy.
 class Explorer {
  public:
@@ -70,7 +72,7 @@ class Explorer {
   template <typename Archive>
   void serialize(Archive& archive) {
     bool under_way = tracer_ != nullptr;
-    archive(lambda_scale_, current_, queue_, branches_, known_, stopped_, under_way);
+    archive(lambda_scale_, current_, queue_, branches_, known_, not_left_, stopped_, under_way);
     const auto goes_on = [&](std::size_t branch) {
       return under_way && !stopped_ && static_cast<int>(branch) == current_;
     };
@@ -95,6 +97,9 @@ class Explorer {
 
   std::unique_ptr<Tracer> make_tracer(BranchStart start) const;
   void look_at(const Event& event);
+  void look_behind(const Event& event, const Arc& arc);
+  void leave(const Event& event, const BranchPoint& point, const std::vector<TriedWay>& ways);
+  void stop_unstable();
   void enqueue(const Event& event, BranchStart start, int sign, bool mirrored);
   void drop_arrived_at(int other);
 
@@ -108,6 +113,7 @@ class Explorer {
   std::deque<Queued> queue_;
   std::vector<BranchRecord> branches_;
   std::vector<KnownPoint> known_;
+  std::optional<Event> not_left_{};  // the branch point just passed, off which no step has succeeded
   bool stopped_ = false;
 };
 

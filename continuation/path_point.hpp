@@ -69,6 +69,8 @@ struct BranchPoint {
   Index change = 0;                ///< of the number of negative eigenvalues across it
   double localised = 0.0;          ///< half-width in λ of what is left uncertain
   bool discretisation = false;     ///< contacts tied to nodes make it: the continuum has none
+  bool at_corner = false;          ///< its branches begin with a part that has no length there: `state` is a little
+                                   ///< behind it, on the path
 
   /// A pitchfork that the path comes to along the branch that bifurcates: beyond it lies the path's mirror image.
   bool ends_its_own_branch() const { return type == BranchType::symmetric && !ways.empty(); }

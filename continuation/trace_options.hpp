@@ -74,17 +74,27 @@ struct KnownPoint {
   int branch = 0;
 };
 
+/// The beginning of a branch that leaves a pitchfork in a corner (BranchPoint::at_corner). At the corner itself, where
+/// its new part has no length, K is singular, so that no step begins there.
+struct EnteredBranch {
+  State begin{};          ///< an equilibrium near the corner; the part may be shorter there than its bound allows
+  Direction tangent{};    ///< there, away from the corner, of unit length
+  State first{};          ///< the first equilibrium behind it at which all guards hold
+  double distance = 0.0;  ///< at which the branch was entered, along the mode [path metric]
+};
+
 /// Where a branch begins: at a state alone, forward with λ or against it; or at a branch point, along one of its
-/// tangents.
+/// tangents; or at a corner, behind which it was entered.
 struct BranchStart {
   State state{};
-  int sense = 1;                         ///< of a state alone: −1 against StepOptions::first
-  std::optional<Direction> forward{};    ///< unit tangent at a branch point
-  Direction mode{};                      ///< the first step keeps its component along this
-  double distance = 0.02;                ///< of the first step off a branch point [path metric]
-  std::optional<Index> unstable{};       ///< of the branch point
-  std::optional<double> lambda_scale{};  ///< of the metric, as on the branches before
-  std::vector<KnownPoint> known{};       ///< branch points where this branch would join another
+  int sense = 1;                           ///< of a state alone: −1 against StepOptions::first
+  std::optional<Direction> forward{};      ///< unit tangent at a branch point
+  std::optional<EnteredBranch> entered{};  ///< behind a corner
+  Direction mode{};                        ///< the first step keeps its component along this
+  double distance = 0.02;                  ///< of the first step off a branch point [path metric]
+  std::optional<Index> unstable{};         ///< of the branch point
+  std::optional<double> lambda_scale{};    ///< of the metric, as on the branches before
+  std::vector<KnownPoint> known{};         ///< branch points where this branch would join another
 };
 
 }  // namespace arcwall

@@ -358,10 +358,10 @@ std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& 
   const std::optional<Index>&before = corner.before.unstable, &behind = begin.count.unstable;
   const bool goes_on = begin.tangent.dlambda * at.tangent.dlambda > 0.0;
   if (!(before && behind && *behind == *before + 1 && goes_on)) return std::nullopt;
-  const SingularPlace place{.point = begin, .change = 1};
   const Metric metric = tools.metric_on(begin.state.piece, corner.lambda_scale);
-  BranchPoint point = branch_point_at(tools.system, tools.corrector, metric, place);
+  BranchPoint point = branch_point_before(tools.system, tools.corrector, metric, begin);
   if (point.type != BranchType::symmetric || point.mode.dx.size() == 0) return std::nullopt;
+  point.at_corner = true;
   return point;
 }
 

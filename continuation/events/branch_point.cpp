@@ -59,6 +59,40 @@ Matrix across(const Matrix& vectors, const Metric& metric, const Direction& alon
   return vectors * Vector{{-part[1], part[0]}} / part.norm();
 }
 
+// Of the pairs nearest zero the first that is negative.
+std::optional<NearNull> nearest_negative(const Corrector& corrector, const State& here, const Vector& weights) {
+  for (const Index looked_at : {2, 4, 8, 16}) {
+    const auto pairs = corrector.near_null(here, weights, looked_at);
+    if (!pairs) return std::nullopt;
+    for (Index j = 0; j < pairs->values.size(); ++j)
+      if (pairs->values[j] < 0.0)
+        return NearNull{.values = pairs->values.segment(j, 1), .vectors = Matrix(pairs->vectors->col(j))};
+  }
+  return std::nullopt;
+}
+
+// The right null vectors that go with left ones, in the path metric; empty if one is not found.
+std::vector<Vector> modes_of(Corrector& corrector, const NearNull& pairs, Index count) {
+  std::vector<Vector> modes;
+  for (Index j = 0; j < count; ++j) {
+    auto mode = corrector.right_null(corrector.left_null(pairs.vectors->col(j)));
+    if (!mode) return {};
+    modes.push_back(std::move(*mode));
+  }
+  return modes;
+}
+
+// The mode's largest component is positive.
+void add_modes(BranchPoint& point, std::vector<Vector> modes, const Vector& weights) {
+  for (Vector& mode : modes) {
+    Index largest = 0;
+    mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
+    if (mode[largest] < 0.0) mode = -mode;
+    point.modes.push_back({.dx = std::move(mode), .dlambda = 0.0});
+  }
+  point.mode = point.modes.front();
+}
+
 }  // namespace
 
 // ψᵀ (J(x + h d) − J(x − h d)) φ / 2h, ψ and φ the left and right null vectors of J = ∂F/∂x.
@@ -97,21 +131,25 @@ BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const
   if (pairs && place.at_limit && pairs->vectors->cols() == 2)
     pairs->vectors = across(*pairs->vectors, metric, point.along);
   if (!pairs || pairs->vectors->cols() < place.multiplicity) return point;
-  std::vector<Vector> modes;
-  for (Index j = 0; j < place.multiplicity; ++j) {
-    auto mode = corrector.right_null(corrector.left_null(pairs->vectors->col(j)));
-    if (!mode) return point;
-    modes.push_back(std::move(*mode));
-  }
-  for (Vector& mode : modes) {
-    Index largest = 0;
-    mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
-    if (mode[largest] < 0.0) mode = -mode;  // the mode's largest component is positive
-    point.modes.push_back({.dx = std::move(mode), .dlambda = 0.0});
-  }
-  point.mode = point.modes.front();
+  std::vector<Vector> modes = modes_of(corrector, *pairs, place.multiplicity);
+  if (modes.empty()) return point;
+  add_modes(point, std::move(modes), weights);
   if (place.multiplicity == 1 && !place.touches)
     find_other_tangent(system, metric, corrector.left_null(pairs->vectors->col(0)), point);
+  return point;
+}
+
+BranchPoint branch_point_before(const Equations& system, Corrector& corrector, const Metric& metric,
+                                const PathPoint& behind) {
+  BranchPoint point{
+      .type = BranchType::undetermined, .state = behind.state, .along = behind.tangent, .multiplicity = 1, .change = 1};
+  corrector.inspect(point.state, metric, point.along);
+  const auto pair = nearest_negative(corrector, point.state, metric.weights());
+  std::vector<Vector> modes = pair ? modes_of(corrector, *pair, 1) : std::vector<Vector>{};
+  if (modes.empty()) return point;
+  modes.front() = unit(metric, {.dx = modes.front(), .dlambda = 0.0}).dx;
+  add_modes(point, std::move(modes), metric.weights());
+  find_other_tangent(system, metric, corrector.left_null(pair->vectors->col(0)), point);
   return point;
 }
 

@@ -22,6 +22,11 @@ double eigenvalue_rate_roundoff(const Vector& left, const Linearization& workspa
 BranchPoint branch_point_at(const Equations& system, Corrector& corrector, const Metric& metric,
                             const SingularPlace& place);
 
+/// The same of a place right behind which the path's point is and K is regular: the mode is that of the negative
+/// eigenvalue nearest zero.
+BranchPoint branch_point_before(const Equations& system, Corrector& corrector, const Metric& metric,
+                                const PathPoint& behind);
+
 /// The branch across a pitchfork that is met along its own branch: there λ turns, the path's direction is the mode, and
 /// its eigenvalue touches zero. K y = −F_λ across the mode gives the other tangent. Makes `point` symmetric, with both
 /// ways along it; leaves it as it is where it is no such point.

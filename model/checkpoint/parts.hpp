@@ -89,7 +89,7 @@ void parts(Archive& archive, BranchPoint::Way& way) {
 template <typename Archive>
 void parts(Archive& archive, BranchPoint& point) {
   archive(point.type, point.state, point.along, point.mode, point.modes, point.other, point.ways, point.multiplicity,
-          point.change, point.localised, point.discretisation);
+          point.change, point.localised, point.discretisation, point.at_corner);
   const auto fits = [&](const Direction& direction) {
     return direction.dx.size() == 0 || direction.dx.size() == point.state.x.size();
   };
@@ -123,9 +123,15 @@ void parts(Archive& archive, KnownPoint& known) {
 }
 
 template <typename Archive>
+void parts(Archive& archive, EnteredBranch& entered) {
+  archive(entered.begin, entered.tangent, entered.first, entered.distance);
+  archive.require(entered.tangent.dx.size() == entered.begin.x.size());
+}
+
+template <typename Archive>
 void parts(Archive& archive, BranchStart& start) {
-  archive(start.state, start.sense, start.forward, start.mode, start.distance, start.unstable, start.lambda_scale,
-          start.known);
+  archive(start.state, start.sense, start.forward, start.entered, start.mode, start.distance, start.unstable,
+          start.lambda_scale, start.known);
   archive.require(start.sense == 1 || start.sense == -1);
   archive.require(!start.forward || start.forward->dx.size() == start.state.x.size());
   archive.require(start.mode.dx.size() == 0 || start.mode.dx.size() == start.state.x.size());
