@@ -19,11 +19,12 @@ struct PathPoint {
   double arc = 0.0;                             ///< arc length from the branch's first point [path metric]
   std::optional<Index> negative_eigenvalues{};  ///< with all closed contacts held; empty: one is zero within round-off
   StabilityCount count{};
-  NearNull nearest{};     ///< estimates of the eigenpairs nearest zero, at most two; none at singular points
-  int iterations = 0;     ///< of the step that led here
-  double residual = 0.0;  ///< relative
-  Vector guards{};        ///< in the scale of System::guards
-  Vector guard_rates{};   ///< along the tangent
+  NearNull nearest{};      ///< estimates of the eigenpairs nearest zero, at most two; none at singular points
+  int iterations = 0;      ///< of the step that led here
+  double residual = 0.0;   ///< relative
+  double unsettled = 0.0;  ///< how far round-off lets the corrector move it; 0 where it settled [path metric]
+  Vector guards{};         ///< in the scale of System::guards
+  Vector guard_rates{};    ///< along the tangent
 };
 
 enum class EventKind {

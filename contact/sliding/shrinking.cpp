@@ -84,11 +84,21 @@ Transition gathered(const SlidingSetting& setting, const SlidingState& at, const
   return back_to<CurvatureBound>(setting, at, edit, places, Transition::Change::gathers);
 }
 
+// Where a part that has just joined over a gap is without pressure: between two parts, or at a point contact beside
+// one.
+double without_pressure_at(const SlidingState& at, std::size_t gap) {
+  const auto first = static_cast<Index>(gap);
+  const bool before = at.layout.span_before(gap) == Span::pressed;
+  const bool behind = at.layout.points()[gap + 1].behind == Span::pressed;
+  if (before != behind) return at.s(before ? first + 1 : first);
+  return 0.5 * (at.s(first) + at.s(first + 1));
+}
+
 // Two pressed parts become one, or a pressed part and a point contact beside it.
 Transition joined(const SlidingSetting& setting, const SlidingState& at, const Points& gaps) {
   LayoutEdit edit = edit_of(setting.body, at);
   std::vector<double> places;
-  for (const std::size_t k : gaps) places.push_back(0.5 * (edit.place(k) + edit.place(k + 1)));
+  for (const std::size_t k : gaps) places.push_back(without_pressure_at(at, k));
   for (auto k = gaps.rbegin(); k != gaps.rend(); ++k) {
     const Index strand = edit.strands[*k];
     const std::size_t obstacle = edit.points[*k].obstacle;
@@ -146,20 +156,11 @@ std::optional<std::size_t> half_pressed_stretch(const SlidingSetting& setting, c
   return std::nullopt;
 }
 
-// The arch behind a point has gone, and the point at its one end lies at the edge of the part at the other.
-Transition met_at_edge(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
-                       std::size_t point) {
-  const bool part_before = at.layout.span_before(point) == Span::pressed;
-  Transition transition = remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
-    const double edge = edit.place(part_before ? point : point + 1);
-    edit.points[point].behind = edit.points[point + 1].behind;
-    edit.points[point].neutral_behind = edit.points[point + 1].neutral_behind;
-    edit.forces[point] += edit.forces[point + 1];
-    edit.erase(point + 1, edit.elements_behind(point + 1));
-    edit.place(point) = edge;
-  });
-  transition.change = Transition::Change::gathers;
-  transition.contacts.push_back(static_cast<Index>(point));
+// A pressed part and a point contact beside it have joined before the pressure between them shows it, as where the mesh
+// does not resolve the wall's curvature: the piece ahead holds already. It is entered at the same λ.
+Transition joined_here(const SlidingSetting& setting, const SlidingState& at, std::size_t gap) {
+  Transition transition = joined(setting, at, {gap});
+  transition.quantity.reset();
   return transition;
 }
 
@@ -173,7 +174,7 @@ std::vector<Transition> neighbours_vanish(const SlidingSetting& setting, const S
   const bool before = at.layout.span_before(point) == Span::pressed;
   const bool behind = at.layout.points()[point + 1].behind == Span::pressed;
   if (at.layout.points()[point].behind == Span::free && before != behind && !obstacle_is_straight(setting, at, point))
-    transitions.push_back(met_at_edge(setting, at, forward, point));
+    transitions.push_back(joined_here(setting, at, point));
   return transitions;
 }
 

@@ -51,6 +51,8 @@ double shortest_span(const SlidingSetting& setting, const SlidingState& at, std:
                : 4.0 * shortest_span(setting.body, strand);
   const bool is_pressed = span == Span::pressed || (span == Span::free && (before || behind));
   if (is_pressed && obstacle_is_straight(setting, at, point)) return shortest_span_on_straight(setting.body, strand);
+  if (span == Span::free && is_pressed)
+    return std::max(shortest_span(setting.body, strand), 3.0 * shortest_span_on_straight(setting.body, strand));
   return shortest_span(setting.body, strand);
 }
 

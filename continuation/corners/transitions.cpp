@@ -56,6 +56,11 @@ BranchEnd end_before(const std::vector<Transition>& transitions) {
           .continuum = last.continuum};
 }
 
+// Whether the place of a change is known on the piece ahead alone, by a quantity if there is one.
+bool is_known_ahead(Transition::Change change) {
+  return change == Transition::Change::gathers || change == Transition::Change::joins;
+}
+
 // Whether the first point on the piece ahead lies a little beyond the bound, with a new stretch of some length.
 bool begins_with_length(const Transition& transition) {
   const Transition::Change change = transition.change;
@@ -98,9 +103,13 @@ CorrectorResult arrive(TraceTools& tools, const Transition& transition, const Pa
                : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
   };
   const State& guess = transition.guess;
-  CorrectorResult result = transition.quantity
-                               ? corrected(guess, ValueConstraint(*transition.quantity, transition.value))
-                               : corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0));
+  const auto in_plane = [&] { return corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0)); };
+  const auto with_value = [&](const State& near) {
+    return corrected(near, ValueConstraint(*transition.quantity, transition.value));
+  };
+  CorrectorResult result = transition.quantity ? with_value(guess) : in_plane();
+  if (!result.converged() && transition.quantity && is_known_ahead(transition.change))
+    if (const CorrectorResult near = in_plane(); near.converged()) result = with_value(near.state);
   if (!result.converged() || transition.change != Transition::Change::remeshed) return result;
   const TargetValue* const kept = value_moved_over(tools.options.target_values, from.state, result.state);
   if (!kept) return result;
@@ -277,8 +286,7 @@ std::optional<PathPoint> in_sense_of_counts(const StabilityCount& before, const 
 
 // Whether a change of contact is known on neither side but by its state.
 bool is_known_by_state(const Transition& transition) {
-  return !transition.quantity &&
-         (transition.change == Transition::Change::gathers || transition.change == Transition::Change::splits);
+  return !transition.quantity && (is_known_ahead(transition.change) || transition.change == Transition::Change::splits);
 }
 
 // The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
@@ -343,6 +351,7 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
     if (!begins_with_length(transition)) {
       event.state = entered.at.state;
       event.residual = entered.at.residual;
+      event.localised = entered.at.unsettled * corner.lambda_scale;
     }
     events.push_back(event);
     event.guards.clear();

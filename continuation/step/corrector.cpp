@@ -46,6 +46,10 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
     if (grows && result.iterations > 1) return ended(CorrectorStatus::diverged);
     previous = size;
   }
+  if (previous <= options.unsettled) {
+    result.unsettled = previous;
+    return arrived(std::move(result), metric, border, wanted);
+  }
   return ended(CorrectorStatus::too_many_iterations);
 }
 
@@ -59,6 +63,7 @@ CorrectorResult Corrector::correct_patiently(State guess, const PathConstraint& 
   CorrectorOptions patient = options_;
   patient.divergence = infinity;
   patient.max_iterations = options_.patient_iterations;
+  patient.unsettled = 1e-7;
   return iterate(std::move(guess), constraint, metric, along, length, patient, Wanted::pairs);
 }
 

@@ -11,6 +11,7 @@ struct CorrectorOptions {
   double small = 1e-3;       ///< but not one below this part of the step: a first one may be small by chance
   int max_iterations = 10;
   int patient_iterations = 40;  ///< of correct_patiently()
+  double unsettled = 0.0;       ///< a last correction that short is round-off, too: where a state is known no better
 };
 
 }  // namespace arcwall

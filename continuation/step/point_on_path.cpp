@@ -13,6 +13,7 @@ PathPoint path_point(const System& system, const Metric& metric, CorrectorResult
   point.negative_eigenvalues = point.count.unstable = result.negative;
   point.iterations = result.iterations;
   point.residual = result.residual;
+  point.unsettled = result.unsettled;
   point.nearest = std::move(result.nearest);
   point.guards = system.guards(point.state);
   point.guard_rates = system.guard_rates(point.state, point.tangent);

@@ -74,7 +74,7 @@ void parts(Archive& archive, StabilityCount& count) {
 template <typename Archive>
 void parts(Archive& archive, PathPoint& point) {
   archive(point.state, point.tangent, point.arc, point.negative_eigenvalues, point.count, point.nearest,
-          point.iterations, point.residual, point.guards, point.guard_rates);
+          point.iterations, point.residual, point.unsettled, point.guards, point.guard_rates);
   archive.require(point.guards.size() == point.guard_rates.size() || point.guard_rates.size() == 0);
   archive.require(point.tangent.dx.size() == point.state.x.size() || point.tangent.dx.size() == 0);
 }

@@ -143,5 +143,48 @@ TEST(ShortParts, GatherWhereTheirForcesAreLostInRoundOffSlow) {
   EXPECT_LT(coarse.lambdas[4], coarse.lambdas[3]);
 }
 
+namespace {
+
+// Pushed past a circle that it lies on along a part and touches at one point beside that.
+std::string column_on_a_circle(int elements) {
+  return "title = \"a column between circles\"\n" + steel +
+         "width = 0.575\nheight = 0.366\n"
+         "[point]\nleft = [0.0, 0.0]\nright = [14.9, 0.0]\n"
+         "[support]\nleft = [\"x\", \"z\"]\nright = [\"z\"]\n"
+         "[member]\ncolumn = { from = \"left\", to = \"right\"" +
+         member("classic", elements) +
+         ", imperfection = [{ shape = \"sine\", amplitude = 0.00139, waves = 1 }, { shape = \"sine\", amplitude = "
+         "0.004, waves = 2 }] }\n"
+         "[[load]]\nat = \"right\"\nforce = [-2.21, 0.0]\n"
+         "[[wall]]\nname = \"upper\"\nside = \"above\"\nprofile = { type = \"circle\", centre = [8.82, 12.2], radius = "
+         "11.7 }\n"
+         "[[wall]]\nname = \"lower\"\nside = \"below\"\nprofile = { type = \"circle\", centre = [5.82, -37.7], radius "
+         "= "
+         "37.2 }\n"
+         "[[monitor]]\nname = \"shortening\"\nat = \"right\"\ncomponent = \"x\"\nsign = -1\n"
+         "[path]\nstep = 0.05\nlanding = false\nstop = { lambda = [-1.0, 11.3], shortening = [-2.97, 9.0] }\n";
+}
+
+}  // namespace
+
+// The part grows towards the touch. The span between both is as long as the pressure at the part's edge over its slope,
+// and goes to zero with it, while the equations tell its length by the pressure times its cube: on most meshes they
+// lose it in round-off. What lies behind, one part up to the touch, begins where that is without pressure at its end,
+// at one λ whatever the mesh and however short the span was allowed to become. The path used to turn back there, to
+// end, or to go on at another λ.
+TEST(ShortParts, JoinTheTouchBesideThemOnACircleSlow) {
+  const std::vector<EventKind> expected{
+      EventKind::contact_closes,  EventKind::contact_closes, EventKind::contact_opens,  EventKind::contact_closes,
+      EventKind::contact_spreads, EventKind::contact_closes, EventKind::contact_gathers};
+  for (const int elements : {40, 68, 80, 100, 136}) {
+    SCOPED_TRACE(elements);
+    const Traced run = traced(column_on_a_circle(elements));
+    EXPECT_EQ(run.end, EndReason::stop);
+    ASSERT_EQ(run.kinds, expected);
+    EXPECT_NEAR(run.lambdas[5], -0.1751653, 5e-6);  // the mesh of 40 elements is off by 4e-6
+    EXPECT_NEAR(run.lambdas[6], -0.7002923, 6e-6);
+  }
+}
+
 }  // namespace
 }  // namespace arcwall::short_parts_test
