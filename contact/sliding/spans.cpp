@@ -34,9 +34,7 @@ double shortest_span(const SlidingBody& body, Index strand) {
   return std::max(0.125 * L / body.elements_between(strand, 0.0, L), shortest_span_on_straight(body, strand));
 }
 
-double shortest_tail(const SlidingBody& body, Index strand, bool last) {
-  return body.is_tip(strand, last) ? 1e-3 * body.length(strand) : shortest_span(body, strand);
-}
+double shortest_tail(const SlidingBody& body, Index strand) { return 1e-3 * body.length(strand); }
 
 // Between two pressed parts the force that is left at the edges goes with the cube of the span, and is lost in the
 // error of the elements where these are much longer.

@@ -35,9 +35,9 @@ double shortest_gap_on_straight(const SlidingBody& body, Index strand);
 /// where the part ends, the pressure grows at a rate p̄′, and the force there is p̄′ d²/20.
 double shortest_sure_arch(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
-/// The same of a part between a contact and an end of the strand: the contact is at the end. Shorter at a tip, up to
-/// which the part bears nothing.
-double shortest_tail(const SlidingBody& body, Index strand, bool last);
+/// The same of a part between a contact and an end of the strand: the contact is at the end. A load there may press a
+/// contact as near to it as it is large.
+double shortest_tail(const SlidingBody& body, Index strand);
 
 /// The same of the span behind a tracked point.
 double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point);

@@ -180,7 +180,7 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
       unsupported(all_tips ? "the free end of a member lies down on a wall, and no equilibrium was found there"
                            : "a joint of members lies down on a wall, and no equilibrium was found there");
   if (tips.empty()) return {none};
-  const double length = 2.0 * shortest_tail(setting.body, tips.front().strand, tips.front().last);
+  const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
   const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Span::free), length);
   std::vector<std::vector<Span>> ways;
   for (const ClosedTip& tip : tips) {

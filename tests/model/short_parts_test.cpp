@@ -186,5 +186,57 @@ TEST(ShortParts, JoinTheTouchBesideThemOnACircleSlow) {
   }
 }
 
+namespace {
+
+// A bistable beam of two halves with the load on their joint, that snaps onto a stop and is pressed on it.
+std::string bistable(int elements) {
+  const std::string of_half =
+      "theory = \"classic\", material = \"si\", section = \"beam\", elements = " + std::to_string(elements) + " }\n";
+  return "title = \"a bistable beam above a stop\"\nunits = { length = \"um\", force = \"uN\" }\n"
+         "material.si = { E = 1.69e5 }\n"
+         "section.beam = { shape = \"rectangle\", width = 25.0, height = 3.0 }\n"
+         "point = { left = [0.0, 0.0], mid = [500.0, 20.0], right = [1000.0, 0.0] }\n"
+         "support = { left = [\"x\", \"z\", \"rotation\"], right = [\"x\", \"z\", \"rotation\"] }\n"
+         "load = [{ at = \"mid\", force = [0.0, -1.0] }]\n"
+         "wall = [{ name = \"stop\", side = \"below\", profile = { type = \"flat\", z = -15.0 } }]\n"
+         "path = { step = 1.0, landing = false, stop = { lambda = [-10000.0, 10000.0] } }\n"
+         "[member]\n"
+         "west = { from = \"left\", to = \"mid\", curve = { x = [0, 50, 100, 150, 200, 250, 300, 350, 400, 450, 500], "
+         "z = "
+         "[0.0, 0.489435, 1.909830, 4.122147, 6.909830, 10.0, 13.090170, 15.877853, 18.090170, 19.510565, 20.0] }, " +
+         of_half +
+         "east = { from = \"mid\", to = \"right\", curve = { x = [500, 550, 600, 650, 700, 750, 800, 850, 900, 950, "
+         "1000], "
+         "z = [20.0, 19.510565, 18.090170, 15.877853, 13.090170, 10.0, 6.909830, 4.122147, 1.909830, 0.489435, 0.0] "
+         "}, " +
+         of_half;
+}
+
+}  // namespace
+
+// Beside the load on their joint one half lies on the stop. The other half holds the joint by a moment that hardly
+// changes any more, and λ makes the same by its distance from the edge, which comes as near to it as λ is large: at
+// λ = 10000 to 1.5 thousandths of the half, a fifteenth to a thirtieth of its elements. Such paths used to end where an
+// eighth of an element was left, or where there was no more room than that for the part to begin with.
+TEST(ShortParts, EndAsNearToALoadedJointAsTheLoadIsLargeSlow) {
+  for (const int elements : {20, 40}) {
+    SCOPED_TRACE(elements);
+    Session run({.deck = "deck.toml", .deck_text = bistable(elements)});
+    ASSERT_TRUE(run.begin()) << run.problem();
+    while (run.next() != nullptr) {
+    }
+    const Record& record = run.record();
+    EXPECT_EQ(record.branches.back().end->reason, EndReason::stop);
+    EXPECT_EQ(record.points.back().lambda, 10000.0);
+    EXPECT_EQ(record.points.back().count.unstable, 0);
+    for (const RecordPoint& point : record.points) {
+      if (point.lambda < 4000.0) continue;
+      ASSERT_EQ(point.forces.size(), 2u);
+      const double arm = 500.0 * (1.0 - point.forces.back().label.fraction);
+      EXPECT_NEAR(point.lambda * arm, 7386.0, 30.0) << point.lambda;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace arcwall::short_parts_test

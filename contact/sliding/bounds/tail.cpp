@@ -10,7 +10,7 @@ namespace arcwall::sliding {
 double TailBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const double s = at.s(static_cast<Index>(point_));
   const double length = last_ ? setting.body.length(strand_) - s : s;
-  return (length - shortest_tail(setting.body, strand_, last_)) / setting.scales.length;
+  return (length - shortest_tail(setting.body, strand_)) / setting.scales.length;
 }
 
 Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
