@@ -228,7 +228,8 @@ void Explorer::look_behind(const Event& event, const Arc& arc) {
   Corrector corrector(system_, trace_.corrector, std::abs(trace_.step.first), trace_.factorization);
   BranchPoint corner = branch_point_before(system_, corrector, metric, behind);
   corner.at_corner = true;
-  const std::vector<TriedWay> ways = tried_ways(system_, trace_, corner, metric, options_.distance);
+  std::vector<TriedWay> ways;
+  if (corner.mode.dx.size() > 0) ways = tried_ways(system_, trace_, corner, metric, options_.distance);
   if (ways.empty()) return stop_unstable();
   leave(event, corner, ways);
 }

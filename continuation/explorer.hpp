@@ -73,6 +73,7 @@ class Explorer {
   void serialize(Archive& archive) {
     bool under_way = tracer_ != nullptr;
     archive(lambda_scale_, current_, queue_, branches_, known_, not_left_, stopped_, under_way);
+    archive.require(!not_left_ || not_left_->branching != nullptr);
     const auto goes_on = [&](std::size_t branch) {
       return under_way && !stopped_ && static_cast<int>(branch) == current_;
     };

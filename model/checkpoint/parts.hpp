@@ -126,6 +126,7 @@ template <typename Archive>
 void parts(Archive& archive, EnteredBranch& entered) {
   archive(entered.begin, entered.tangent, entered.first, entered.distance);
   archive.require(entered.tangent.dx.size() == entered.begin.x.size());
+  archive.require(entered.first.x.size() == entered.begin.x.size());
 }
 
 template <typename Archive>
