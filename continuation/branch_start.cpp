@@ -1,5 +1,6 @@
 #include "continuation/branch_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -127,7 +128,8 @@ BranchBegun begin_behind_corner(TraceTools& tools, const TracerState& state) {
   BranchBegun begun{.arc = first_arc(corner, {})};
   begun.from.point = counted(entered.begin);
   const PathPoint& from = begun.from.point;
-  begun.step_length = tools.metric_on(first.state.piece, state.lambda_scale).distance(first.state, from.state);
+  const Metric metric = tools.metric_on(first.state.piece, state.lambda_scale);
+  begun.step_length = std::max(metric.distance(first.state, from.state), entered.distance);
   begun.from.signs = signs_at(tools.detectors, from);
   begun.from.negative_eigenvalues = from.negative_eigenvalues;
   begun.from.count_after = from.count;

@@ -112,15 +112,13 @@ std::optional<EnteredBranch> enter_branch(const System& system, Corrector& corre
   auto beginning = side.begin(distance);
   if (!beginning) return std::nullopt;
   const double entered_at = beginning->distance;
-  std::vector<Place> places = side.follow(std::move(*beginning));
+  const std::vector<Place> places = side.follow(std::move(*beginning));
   if (places.empty()) return std::nullopt;
   const auto begin = std::find_if(places.rbegin(), places.rend(), [&](const Place& place) {
     return place.distance <= begins * places.back().distance || place.distance == entered_at;
   });
-  return EnteredBranch{.begin = std::move(begin->state),
-                       .tangent = std::move(begin->tangent),
-                       .first = std::move(places.back().state),
-                       .distance = entered_at};
+  return EnteredBranch{
+      .begin = begin->state, .tangent = begin->tangent, .first = places.back().state, .distance = entered_at};
 }
 
 }  // namespace arcwall
