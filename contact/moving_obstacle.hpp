@@ -46,6 +46,8 @@ class MovingObstacle final : public Obstacle {
   bool has_other_sides() const override { return at_rest_->has_other_sides(); }
   Vec2 seen_at_rest(const Vec2& position, double lambda) const override { return seen(position, lambda).position; }
   std::optional<Vec2> core() const override { return at_rest_->core(); }
+  std::span<const CurvatureRateJump> curvature_rate_jumps() const override { return at_rest_->curvature_rate_jumps(); }
+  LinearField beyond(const CurvatureRateJump& jump, const Vec2& position, double lambda) const override;
   double half_height() const override { return at_rest_->half_height(); }
   double greatest_speed(double reach) const override;
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/types.hpp"
@@ -34,6 +35,15 @@ struct QuadraticField {
   double value = 0.0, x = 0.0, z = 0.0;
   double xx = 0.0, xz = 0.0, zz = 0.0;
   double rate = 0.0, x_rate = 0.0, z_rate = 0.0;
+};
+
+/// A place of a surface, as the obstacle is at rest, where the rate of its curvature jumps, as at a point of a spline.
+/// A beam of bending stiffness EI that lies on it is pressed on by a force EI · jump there.
+struct CurvatureRateJump {
+  Vec2 place = Vec2::Zero();
+  Vec2 tangent = Vec2::UnitX();  ///< in the surface's direction
+  double jump = 0.0;             ///< of dκ/ds in this direction, κ > 0 where it turns to the left [1/length²]
+  double half_width = 0.0;       ///< on both sides within which it goes over [length]
 };
 
 /// A corner of a surface that bodies touch with their axes, where it has no one direction: it is a knife edge to them.
@@ -93,6 +103,15 @@ class Obstacle {
 
   /// The corners that have no rounding, as the obstacle is at rest; none where the body's outside is off its axis.
   virtual std::vector<SharpCorner> sharp_corners() const { return {}; }
+
+  /// Where the rate of its curvature jumps, along the surface; none of surfaces that are smooth, and none where the
+  /// curvature itself jumps.
+  virtual std::span<const CurvatureRateJump> curvature_rate_jumps() const { return {}; }
+
+  /// How far a position near such a place is beyond it, in the surface's direction [length].
+  virtual LinearField beyond(const CurvatureRateJump& jump, const Vec2& position, double /*lambda*/) const {
+    return {.value = jump.tangent.dot(position - jump.place), .x = jump.tangent.x(), .z = jump.tangent.y()};
+  }
 
   /// How far the body's outside is from a position that touches: half the height of a body whose axis is looked at for
   /// its faces [length].

@@ -76,7 +76,10 @@ class CircleOutline final : public Outline {
 class OutlineObstacle final : public Obstacle {
  public:
   OutlineObstacle(std::shared_ptr<const Outline> outline, double half_height)
-      : outline_(std::move(outline)), half_height_(half_height), knots_(outline_->knots()) {}
+      : outline_(std::move(outline)),
+        half_height_(half_height),
+        knots_(outline_->knots()),
+        jumps_(jumps_of(*outline_, half_height)) {}
 
   Side side() const override { return Side::below; }
   bool faces(const Vec2& position, double) const override { return !outline_->foot(position).beyond; }
@@ -132,15 +135,31 @@ class OutlineObstacle final : public Obstacle {
   bool has_other_sides() const override { return !knots_.empty(); }
   std::optional<Vec2> core() const override { return outline_->core(); }
   double half_height() const override { return half_height_; }
+
+  std::span<const CurvatureRateJump> curvature_rate_jumps() const override { return jumps_; }
+
   std::vector<Vec2> outline(double from, double to, double) const override {
     const Vec2 middle(0.5 * (from + to), 0.0);
     return outline_->points(2.0 * (to - from) + std::abs(outline_->foot(middle).along));
   }
 
  private:
+  // Of the parallel curve, whose curvature is κ/(1 − κ h) and whose length is 1 − κ h times as long.
+  static std::vector<CurvatureRateJump> jumps_of(const Outline& outline, double half_height) {
+    std::vector<CurvatureRateJump> jumps = outline.curvature_rate_jumps();
+    for (CurvatureRateJump& jump : jumps) {
+      const double shrink = 1.0 - outline.foot(jump.place).curvature * half_height;
+      jump.place += half_height * perp(jump.tangent);
+      jump.jump /= shrink * shrink * shrink;
+      jump.half_width *= shrink;
+    }
+    return jumps;
+  }
+
   std::shared_ptr<const Outline> outline_;
   double half_height_;
   std::vector<double> knots_;
+  std::vector<CurvatureRateJump> jumps_;
 };
 
 }  // namespace

@@ -32,6 +32,9 @@ class Outline {
   virtual std::vector<double> knots() const { return {}; }
   virtual double period() const { return 0.0; }
 
+  /// Obstacle::curvature_rate_jumps().
+  virtual std::vector<CurvatureRateJump> curvature_rate_jumps() const { return {}; }
+
   /// Its corners, all of which point to the left.
   virtual std::vector<SharpCorner> sharp_corners() const { return {}; }
 

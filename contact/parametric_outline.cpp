@@ -214,7 +214,18 @@ class CurveOutline final : public ParametricOutline {
     }
     knots.push_back(x_.knots()[last]);
     look_at(std::move(knots), is_closed);
+    for (std::size_t i = is_closed ? first : first + 1; i < last; ++i) {
+      const OnCurve here = at(x_.knots()[i]);
+      const Vec2 of_third(x_.third_derivative_jump(i), z_.third_derivative_jump(i));
+      const double v = here.first.norm();
+      jumps_.push_back({.place = here.p,
+                        .tangent = here.first / v,
+                        .jump = cross(here.first, of_third) / std::pow(v, 4),
+                        .half_width = v * x_.half_width(i)});
+    }
   }
+
+  std::vector<CurvatureRateJump> curvature_rate_jumps() const override { return jumps_; }
 
  protected:
   OnCurve at(double a) const override {
@@ -236,6 +247,7 @@ class CurveOutline final : public ParametricOutline {
   }
 
   CubicSpline x_, z_;
+  std::vector<CurvatureRateJump> jumps_{};
 };
 
 }  // namespace

@@ -92,6 +92,14 @@ class SplineProfile final : public Profile {
     return x;
   }
 
+  std::vector<Jump> jumps() const override {
+    std::vector<Jump> jumps;
+    for (std::size_t i = 1; i + 1 < spline_.knots().size(); ++i)
+      jumps.push_back(
+          {.x = spline_.knots()[i], .of_third = spline_.third_derivative_jump(i), .half_width = spline_.half_width(i)});
+    return jumps;
+  }
+
  private:
   CubicSpline spline_;
 };
@@ -102,7 +110,7 @@ double cosine(double slope) { return slope == 0.0 ? 1.0 : 1.0 / std::sqrt(1.0 + 
 class ProfileObstacle final : public Obstacle {
  public:
   ProfileObstacle(std::shared_ptr<const Profile> profile, Side side)
-      : profile_(std::move(profile)), side_(side), knots_(profile_->knots()) {}
+      : profile_(std::move(profile)), side_(side), knots_(profile_->knots()), jumps_(jumps_of(*profile_)) {}
 
   Side side() const override { return side_; }
   bool faces(const Vec2& position, double) const override { return profile_->covers(position.x()); }
@@ -152,6 +160,8 @@ class ProfileObstacle final : public Obstacle {
   double along(const Vec2& position, double) const override { return position.x(); }
   const std::vector<double>& knots() const override { return knots_; }
 
+  std::span<const CurvatureRateJump> curvature_rate_jumps() const override { return jumps_; }
+
   // Points are closer together towards the ends, where a circle is steep.
   std::vector<Vec2> outline(double from, double to, double) const override {
     constexpr int parts = 400;
@@ -167,9 +177,24 @@ class ProfileObstacle final : public Obstacle {
   }
 
  private:
+  // Of κ′ / √(1 + ψ′²), where κ′ jumps as ψ‴ does.
+  static std::vector<CurvatureRateJump> jumps_of(const Profile& profile) {
+    std::vector<CurvatureRateJump> jumps;
+    for (const auto& [x, of_third, half_width] : profile.jumps()) {
+      const Height psi = profile.at(x);
+      const double w = 1.0 + psi.first * psi.first;
+      jumps.push_back({.place = {x, psi.value},
+                       .tangent = Vec2(1.0, psi.first) / std::sqrt(w),
+                       .jump = of_third / (w * w),
+                       .half_width = std::sqrt(w) * half_width});
+    }
+    return jumps;
+  }
+
   std::shared_ptr<const Profile> profile_;
   Side side_;
   std::vector<double> knots_;
+  std::vector<CurvatureRateJump> jumps_;
 };
 
 }  // namespace

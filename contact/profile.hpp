@@ -27,6 +27,12 @@ class Profile {
   /// Obstacle::knots() of a surface whose coordinate is x.
   virtual std::vector<double> knots() const { return {}; }
 
+  /// Where ψ‴ jumps, by how much, and up to which distance it goes over.
+  struct Jump {
+    double x, of_third, half_width;
+  };
+  virtual std::vector<Jump> jumps() const { return {}; }
+
   /// From which x to which the surface is drawn.
   virtual std::pair<double, double> extent() const { return {-infinity, infinity}; }
 };

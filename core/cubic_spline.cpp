@@ -70,12 +70,22 @@ std::array<double, 4> CubicSpline::cubic_at(std::size_t i, double t) const {
           second_[i] + d * third, third};
 }
 
+double CubicSpline::half_width(std::size_t knot) const {
+  if (knot == 0 || knot + 1 == t_.size()) return 0.0;
+  return rounding_ * std::min(t_[knot] - t_[knot - 1], t_[knot + 1] - t_[knot]);
+}
+
+double CubicSpline::third_derivative_jump(std::size_t knot) const {
+  if (knot == 0 || knot + 1 == t_.size()) return 0.0;
+  return cubic_at(knot, t_[knot])[3] - cubic_at(knot - 1, t_[knot])[3];
+}
+
 std::array<double, 4> CubicSpline::at(double t) const {
   const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
   const auto i = static_cast<std::size_t>(above - t_.begin()) - 1;
   const std::size_t knot = t - t_[i] < t_[i + 1] - t ? i : i + 1;
   if (rounding_ == 0.0 || knot == 0 || knot + 1 == t_.size()) return cubic_at(i, t);
-  const double w = rounding_ * std::min(t_[knot] - t_[knot - 1], t_[knot + 1] - t_[knot]), xi = (t - t_[knot]) / w;
+  const double w = half_width(knot), xi = (t - t_[knot]) / w;
   if (std::abs(xi) >= 1.0) return cubic_at(i, t);
   std::array<double, 4> at = cubic_at(knot - 1, t);
   const double jump = cubic_at(knot, t)[3] - at[3];

@@ -20,6 +20,12 @@ class CubicSpline {
   /// Value and first three derivatives; outside [first, last] the end polynomials go on.
   std::array<double, 4> at(double t) const;
 
+  /// Up to which distance from a knot the third derivative goes over; 0 where it does not or jumps.
+  double half_width(std::size_t knot) const;
+
+  /// By how much the third derivative is greater behind a knot than before it; 0 at the first and the last one.
+  double third_derivative_jump(std::size_t knot) const;
+
  private:
   std::array<double, 4> cubic_at(std::size_t interval, double t) const;
 

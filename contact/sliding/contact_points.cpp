@@ -6,6 +6,7 @@
 #include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
+#include "contact/sliding/bounds/pulling_jump.hpp"
 #include "contact/sliding/clamps.hpp"
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/pressed_part.hpp"
@@ -79,6 +80,8 @@ ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at
         touch_of_end(setting, at.layout, {.strand = stays->strand(), .last = stays->last(), .obstacle = obstacle}),
         0.0);
   }
+  if (const auto* jump = dynamic_cast<const PullingJumpBound*>(&bound))
+    return at_node(setting, at, touch_of_contact(setting, at.layout, jump->point()), 0.0);
   if (const auto* presses = dynamic_cast<const LoadPressesBound*>(&bound)) return at_load(setting, at, presses->load());
   return at_least_pressure(setting, at, dynamic_cast<const PressureBound&>(bound));
 }

@@ -8,7 +8,9 @@
 #include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/load.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
+#include "contact/sliding/bounds/pulling_jump.hpp"
 #include "contact/sliding/pressed_part.hpp"
+#include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
@@ -25,6 +27,7 @@ struct LiftOff {
   std::size_t segment, obstacle;
   double place;
   bool on_straight;  // obstacle
+  std::optional<PullingJump> jump{};
 };
 using LiftOffs = std::vector<LiftOff>;
 
@@ -53,6 +56,11 @@ Nodes lifting_nodes(const SlidingSetting& setting, const SlidingState& at, doubl
     }
   }
   return nodes;
+}
+
+// How far the point at the end of an arch over a jump is beyond that: (8.11a) for a short arch.
+double beyond_jump(const PullingJump& jump, double length) {
+  return std::sqrt(length * length * length / (12.0 * jump.held));
 }
 
 enum class Where { first_end, inside, last_end };
@@ -90,6 +98,7 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
   if (lies && where != Where::inside) return std::nullopt;
   const double least = where == Where::inside ? 8.0 * shortest_span(setting.body, strand) : 0.0;
   if (left < begin || left + length > next || length < least) return std::nullopt;
+  const double over = lift.jump ? beyond_jump(*lift.jump, length) + lift.jump->distance.value : 0.0;
 
   const auto elements = [&](double from, double to, int fewest) {  // with room to grow before the part is meshed anew
     return std::max(fewest, static_cast<int>(std::ceil(setting.body.elements_between(strand, from, to))));
@@ -104,9 +113,14 @@ std::optional<std::size_t> split(const SlidingSetting& setting, const SlidingSta
   const std::size_t first = at_first ? static_cast<std::size_t>(part.first_point)
                                      : edit.insert(edge, elements(begin, left, fewest), at_last ? across : behind);
   edit.points[first].behind = Span::free;
-  if (at_last) return first;
+  if (at_last) {
+    edit.place(first) += over;
+    edit.place(first + 1) += over;
+    return first;
+  }
+  edit.place(first) -= over;
   edge.point.behind = Span::pressed;
-  edge.s = left + length;
+  edge.s = left + length - over;
   edit.insert(edge, across, behind);
   return first;
 }
@@ -267,6 +281,31 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
     for (const double length : lengths_inside(setting.body, part.strand, lifts.front().on_straight))
       try_length(length, 0.0);
   }
+  transitions.push_back(nothing_lifted());
+  return transitions;
+}
+
+std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const SlidingState& at, std::size_t edge) {
+  const auto k = static_cast<Index>(edge);
+  const auto& segments = at.layout.segments();
+  const auto ends_here = [&](const SlidingContactLayout::Segment& part) {
+    return part.span == Span::pressed && (part.first_point == k || part.last_point == k);
+  };
+  const auto part = std::find_if(segments.begin(), segments.end(), ends_here);
+  const auto jump = pulling_jump_ahead(setting, at, edge);
+  const LiftOffs lifts{{.segment = static_cast<std::size_t>(part - segments.begin()),
+                        .obstacle = at.layout.points()[edge].obstacle,
+                        .place = at.s(k),
+                        .on_straight = false,
+                        .jump = jump}};
+  const std::vector<Index> bounds =
+      bounds_of<PullingJumpBound>(at, [&](const PullingJumpBound& bound) { return bound.point() == edge; });
+  std::vector<Transition> transitions;
+  for (const double length : lengths_inside(setting.body, part->strand, false))
+    if (auto transition = lifted(setting, at, lifts, length)) {
+      transition->contacts = bounds;
+      transitions.push_back(std::move(*transition));
+    }
   transitions.push_back(nothing_lifted());
   return transitions;
 }

@@ -17,6 +17,10 @@ namespace arcwall::sliding {
 std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                                        double tolerance);
 
+/// The same at the edge of a part where the wall ahead would pull: the part ends beyond that place, and the edge stays
+/// as a point contact.
+std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const SlidingState& at, std::size_t edge);
+
 /// The same where a point load inside a pressed part pulls it off: the free span has the load in its middle.
 std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,
                                        double tolerance);

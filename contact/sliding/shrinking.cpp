@@ -10,6 +10,8 @@
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
+#include "contact/sliding/bounds/pulling_jump.hpp"
+#include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 
@@ -30,9 +32,14 @@ double place_of(const PressureBound& bound, const SlidingContactLayout& on, cons
   return on.mesh().coordinate(node.strand, node.position, s);
 }
 
+double place_of(const PullingJumpBound& bound, const SlidingContactLayout&, const Vector& s) {
+  return s[static_cast<Index>(bound.point())];
+}
+
 // What a transition to a bound names: the point that has formed, or the guard where parts have joined.
 Index named(const CurvatureBound& bound, Index) { return static_cast<Index>(bound.point()); }
 Index named(const PressureBound&, Index guard) { return guard; }
+Index named(const PullingJumpBound&, Index guard) { return guard; }
 
 // The number of the bound of a kind that is nearest a coordinate.
 template <class Bound>
@@ -114,7 +121,9 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
       return unsupported("a member comes to lie on a curved wall from end to end");
     edit.set_lying(strand, obstacle);
   }
-  return back_to<PressureBound>(setting, at, edit, places, Transition::Change::joins);
+  const bool at_jump = gaps.size() == 1 && bridges_pulling_jump(setting, at, gaps.front());
+  return at_jump ? back_to<PullingJumpBound>(setting, at, edit, places, Transition::Change::joins)
+                 : back_to<PressureBound>(setting, at, edit, places, Transition::Change::joins);
 }
 
 }  // namespace

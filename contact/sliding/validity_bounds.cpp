@@ -10,6 +10,7 @@
 #include "contact/sliding/bounds/neutral.hpp"
 #include "contact/sliding/bounds/pinch.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
+#include "contact/sliding/bounds/pulling_jump.hpp"
 #include "contact/sliding/bounds/room.hpp"
 #include "contact/sliding/bounds/tail.hpp"
 
@@ -77,6 +78,7 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   Bounds bounds;
   for (std::size_t k = 0; k < on.points().size(); ++k)
     add_if<CurvatureBound>(!on.lies_beside(k) && !on.points()[k].is_pinched(), bounds, k);
+  for (std::size_t k = 0; k < on.points().size(); ++k) add_if<PullingJumpBound>(on.lies_pressed(k), bounds, k);
   for (const std::size_t k : on.pinched_points())
     for (const auto side : {SlidingMesh::At::before, SlidingMesh::At::behind})
       for (const bool other : {false, true}) add_if<PinchBound>(true, bounds, k, side, other);

@@ -190,4 +190,71 @@ TEST(Obstacle, BeyondItsEndThereIsNoGap) {
   EXPECT_EQ(beyond.z, 0.0);
 }
 
+namespace {
+
+// The derivative of the curvature along the surface, a little beside a place of it.
+double curvature_rate(const Obstacle& of, const Vec2& at, const Vec2& tangent) {
+  const LinearField bend = of.curvature(at, 0.0);
+  return bend.x * tangent.x() + bend.z * tangent.y();
+}
+
+}  // namespace
+
+// At the points of splines but for the ends and those beside them, where the cubics are the same: there nothing jumps.
+// A spline is smooth between, so that its rates on both sides of a place differ by the jump and what they change by
+// over the way of 2e-4 (thirty times that).
+TEST(Obstacle, TellsWhereTheRateOfItsCurvatureJumps) {
+  const std::vector<double> x{-2.0, -1.1, 0.0, 0.7, 2.0, 2.6}, z{-1.0, -1.3, -0.8, -0.9, -1.2, -1.1};
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < x.size(); ++i) points.emplace_back(x[i], z[i]);
+  std::vector<Named> splines{{"below", obstacle(spline_profile(x, z), Side::below)},
+                             {"above", obstacle(spline_profile(x, z), Side::above)}};
+  for (const double half_height : {0.0, 0.05})
+    splines.push_back({"curve", obstacle(std::shared_ptr<const Outline>(curve_outline(points)), half_height)});
+  for (const auto& [name, spline] : splines) {
+    SCOPED_TRACE(name);
+    const auto jumps = spline->curvature_rate_jumps();
+    ASSERT_EQ(jumps.size(), x.size() - 2);
+    for (std::size_t i = 0; i < jumps.size(); ++i) {
+      const CurvatureRateJump& jump = jumps[i];
+      EXPECT_NEAR(spline->gap(jump.place, 0.0).value, 0.0, 1e-14);
+      EXPECT_NEAR(
+          std::remainder(spline->direction(jump.place, 0.0).value - std::atan2(jump.tangent.y(), jump.tangent.x()),
+                         2.0 * pi),
+          0.0, 1e-12);
+      const double aside = 1e-4;
+      ASSERT_LT(jump.half_width, aside);
+      const double found = curvature_rate(*spline, jump.place + aside * jump.tangent, jump.tangent) -
+                           curvature_rate(*spline, jump.place - aside * jump.tangent, jump.tangent);
+      const bool is_inner = i > 0 && i + 1 < jumps.size();
+      EXPECT_NEAR(found, jump.jump, 6e-3);
+      if (is_inner) {
+        EXPECT_GT(std::abs(jump.jump), 0.5);
+      } else {
+        EXPECT_NEAR(jump.jump, 0.0, 1e-10);
+      }
+    }
+  }
+  for (const auto& [name, outline] : all_outlines()) {
+    const bool is_spline = name.find("curve") != std::string::npos || name.find("lumen") != std::string::npos;
+    EXPECT_EQ(outline->curvature_rate_jumps().empty(), !is_spline) << name;
+  }
+}
+
+TEST(Obstacle, TellsHowFarAPlaceIsBeyondAJump) {
+  for (const auto& [name, obstacle] : walls_and_outlines())
+    for (const CurvatureRateJump& jump : obstacle->curvature_rate_jumps()) {
+      SCOPED_TRACE(name);
+      const double lambda = 0.7;
+      const Vec2 at = jump.place + Vec2(0.2, 0.1);
+      const auto value = [&o = obstacle, &jump](const Vec2& r, double l) { return o->beyond(jump, r, l).value; };
+      EXPECT_NEAR(obstacle->beyond(jump, at, lambda).value,
+                  jump.tangent.dot(obstacle->seen_at_rest(at, lambda) - jump.place), 1e-14);
+      const Differences found = differences(value, at, lambda);
+      EXPECT_NEAR(found.x, obstacle->beyond(jump, at, lambda).x, tolerance);
+      EXPECT_NEAR(found.z, obstacle->beyond(jump, at, lambda).z, tolerance);
+      EXPECT_NEAR(found.rate, obstacle->beyond(jump, at, lambda).rate, tolerance);
+    }
+}
+
 }  // namespace arcwall::obstacle_test

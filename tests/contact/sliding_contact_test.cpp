@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/sliding/bounds/pulling_jump.hpp"
 #include "core/derivative_check.hpp"
 #include "tests/contact/contact_models.hpp"
 #include "tests/support/dense.hpp"
@@ -411,6 +412,40 @@ TEST(SlidingContact, KnowsTheRatesOfWallsThatMoveSlow) {
         }
       }
     }
+}
+
+// Walls of two cubics, which would pull on a part across the point between them: how far its edge is from there.
+TEST(SlidingContact, DerivativesAreConsistentBesideAPointOfASpline) {
+  Numbers numbers(81);
+  for (const bool reversed : {false, true}) {
+    const double middle = reversed ? 1.4 : 0.5;  // in the part, near its second edge
+    std::vector<test::TestWall> walls;
+    for (const Side side : {Side::above, Side::below}) {
+      const auto z = [&](double height) { return 0.3 - 0.3 * sign_of(side) * height; };
+      walls.push_back({.name = "wall",
+                       .side = side,
+                       .profile = spline_profile({middle - 1.0, middle - 0.4, middle, middle + 0.4, middle + 3.0},
+                                                 {z(1.0), z(0.9), z(1.05), z(0.9), z(1.0)}),
+                       .motion = {.way = {0.1, -0.2}, .turn = 0.1, .about = {1.0, 0.0}}});
+    }
+    const SlidingModel model(wavy_beam(reversed), walls, 0.1);
+    for (const std::size_t wall : {0U, 1U}) {
+      const Layouts on{"a pressed part",
+                       {2, 4, 2},
+                       {{.obstacle = wall, .behind = Span::pressed}, {.obstacle = wall}},
+                       {0.3, 0.65},
+                       {1, 1}};
+      const State state = random_state(model, piece_of(model, on), numbers);
+      const auto& bounds = sliding_layout(state.piece).bounds();
+      std::size_t near = 0;
+      for (std::size_t i = 0; i < bounds.size(); ++i)
+        if (dynamic_cast<const sliding::PullingJumpBound*>(bounds[i].get()) != nullptr)
+          near += model.system().guard(state, static_cast<Index>(state.piece.size() + i)) < 0.5 ? 1 : 0;
+      EXPECT_EQ(near, 1U);
+      EXPECT_LE(check_derivatives(model.system(), state, 1e-6).guard_gradient, 1e-6);
+      expect_rates(model.system(), state);
+    }
+  }
 }
 
 // The right end is free in z alone, so that it touches walls, while λ moves it along x and turns it.
