@@ -290,10 +290,12 @@ bool is_known_by_state(const Transition& transition) {
 }
 
 // The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
-// again with patience where none is, and then entered early. Last comes what is not sure to hold ahead.
+// again with patience where none is, and then entered early. Last comes what is not sure to hold ahead, or has a count
+// against which λ does not turn: with its length there may be a second equilibrium behind the next fold, from which the
+// path would come back; and at a pitchfork in the corner the count is right.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  const StabilityCount& before, double lambda_scale) {
-  std::optional<Entered> sinking;
+  std::optional<Entered> doubtful;
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     std::optional<Entered> back;
     for (const Transition& transition : transitions) {
@@ -304,9 +306,10 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
       const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
-      if ((begins_with_length(transition) && sinks(entered.at, tools.options.guard_tolerance)) ||
-          (is_gathered && !agrees_with_counts(before, from, entered.at))) {
-        if (!sinking) sinking = std::move(entered);
+      const bool has_length = begins_with_length(transition);
+      if ((has_length && sinks(entered.at, tools.options.guard_tolerance)) ||
+          ((has_length || is_gathered) && !agrees_with_counts(before, from, entered.at))) {
+        if (!doubtful) doubtful = std::move(entered);
         continue;
       }
       if (!lies_back(transition, from, entered.at)) return entered;
@@ -315,7 +318,7 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
     if (back) return back;
   }
   auto early = enter_early(tools, transitions, from, lambda_scale);
-  return early ? early : sinking;
+  return early ? early : doubtful;
 }
 
 // Bounds that are reached together are passed one after the other, and those behind the first may have been shifted

@@ -109,6 +109,44 @@ TEST(ShortParts, AreNotBegunWhereTheWallWouldPull) {
 
 namespace {
 
+// Thick and clamped on both sides, between a rising ceiling and a floor that is a spline.
+std::string thick_column(int elements) {
+  return "title = \"a thick column between walls\"\n" + steel +
+         "width = 0.753\nheight = 0.1443\n"
+         "[point]\nleft = [0.0, 0.0]\nright = [3.717, 0.0]\n"
+         "[support]\nleft = [\"x\", \"z\", \"rotation\"]\nright = [\"z\", \"rotation\"]\n"
+         "[member]\ncolumn = { from = \"left\", to = \"right\"" +
+         member("classic", elements) +
+         ", imperfection = [{ shape = \"sine\", amplitude = -0.000425, waves = 1 }, { shape = \"sine\", amplitude = "
+         "0.000558, waves = 2 }, { shape = \"sine\", amplitude = -0.00053, waves = 3 }] }\n"
+         "[[load]]\nat = \"right\"\nforce = [-11.316, 0.0]\n"
+         "[[wall]]\nname = \"upper\"\nside = \"above\"\nacts_on = \"axis\"\n"
+         "profile = { type = \"line\", z = 0.075, slope = 0.01 }\n"
+         "[[wall]]\nname = \"lower\"\nside = \"below\"\nacts_on = \"axis\"\n"
+         "profile = { type = \"spline\", x = [-0.93, 0.465, 1.859, 3.253, 4.647], z = [-0.0758, -0.0819, -0.0843, "
+         "-0.079, -0.0821] }\n"
+         "[path]\nstep = 0.05\nlanding = false\nstop = { lambda = [-1.0, 9.7] }\n";
+}
+
+}  // namespace
+
+// A part on the floor begins at 7.677, grows up to a limit point at 8.376, becomes shorter behind it and gathers
+// at 7.868. So there are two equilibria with a part of the length with which it is begun, and on a coarse mesh the one
+// behind the limit point was found first: the path came back from there to where the part begins, and on to the start.
+TEST(ShortParts, AreBegunOnThisSideOfTheNextLimitPoint) {
+  const std::vector<EventKind> expected{EventKind::contact_closes, EventKind::contact_closes,
+                                        EventKind::contact_spreads, EventKind::contact_gathers,
+                                        EventKind::contact_closes};
+  const Traced coarse = traced(thick_column(16)), fine = traced(thick_column(32));
+  EXPECT_EQ(coarse.end, EndReason::stop);
+  EXPECT_EQ(fine.end, EndReason::stop);
+  ASSERT_EQ(coarse.kinds, expected);
+  ASSERT_EQ(fine.kinds, expected);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(coarse.lambdas[i], fine.lambdas[i], 5e-3) << i;
+}
+
+namespace {
+
 // Clamped on one side and pressed against flat walls, bent by one half wave and less by three.
 std::string bent_column(int elements) {
   return "title = \"a column between walls\"\n" + steel +
