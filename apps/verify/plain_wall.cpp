@@ -96,6 +96,19 @@ PlainWall::Surface PlainWall::surface(double x) const {
   return here;
 }
 
+// dκ/ds = z‴/(1 + z′²)² and more, which is continuous.
+std::vector<PlainWall::RateJump> PlainWall::rate_jumps() const {
+  std::vector<RateJump> jumps;
+  const auto* spline = std::get_if<deck::SplineProfile>(&wall_.profile);
+  if (outline_ || spline == nullptr) return jumps;
+  const auto third = [&](std::size_t i) { return (second_[i + 1] - second_[i]) / (spline->x[i + 1] - spline->x[i]); };
+  for (std::size_t i = 1; i + 1 < spline->x.size(); ++i) {
+    const double slope = surface(spline->x[i]).slope, w = 1.0 + slope * slope;
+    jumps.push_back({.x = spline->x[i], .jump = (third(i) - third(i - 1)) / (w * w)});
+  }
+  return jumps;
+}
+
 double PlainWall::slope_angle(const Vec2& point) const {
   if (outline_) return outline_->nearest(at_rest(point)).angle + turned();
   return std::atan(surface(at_rest(point).x()).slope) + turned();

@@ -43,6 +43,15 @@ class PlainWall {
   double slope_angle(const Vec2& point) const;
   double curvature(const Vec2& point) const;
 
+  /// The x of a profile that a point faces, as the wall is at rest.
+  double profile_x(const Vec2& point) const { return at_rest(point).x(); }
+
+  /// Where the rate of a profile's curvature along it jumps, and by how much [1/length²].
+  struct RateJump {
+    double x, jump;
+  };
+  std::vector<RateJump> rate_jumps() const;
+
   /// Distance from the surface, positive outside: of a profile that across the wall's own x-axis, times the cosine of
   /// its slope.
   double gap(const Vec2& point) const;

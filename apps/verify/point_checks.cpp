@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "apps/verify/entries.hpp"
+#include "apps/verify/spline_pulls.hpp"
 #include "core/text.hpp"
 
 namespace arcwall::verify {
@@ -76,6 +77,8 @@ void check_contacts(const PointAtHand& at, Findings& findings) {
   const Entry entry = deepest_entry(at.model, at.walls, at.point.state, 2e-9 * at.scales.length);
   if (std::isfinite(entry.depth))
     findings.compare("no wall is entered between nodes", entry.depth, entry.allowed, entry.where);
+  for (const SplinePull& pull : spline_pulls(at.model, at.walls, at.point.state))
+    findings.compare("no part lies across where its wall would pull", pull.pull, pull.held, named(pull.label));
   for (const Tangency& tangency : at.touches.tangencies) {
     findings.compare("contacts that slide are tangent", std::abs(tangency.tilt.value()), 1e-9, named(tangency.label));
     if (!tangency.end_of_pressed)

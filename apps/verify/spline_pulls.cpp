@@ -1,0 +1,75 @@
+#include "apps/verify/spline_pulls.hpp"
+
+#include <algorithm>
+
+#include "apps/verify/sliding_touches.hpp"
+
+namespace arcwall::verify {
+
+namespace {
+
+// The nodes of a pressed part, from the first one inside to the last, by their positions along the strand.
+struct Part {
+  Index strand = 0, first = 0, last = 0;
+  Index force = 0;  // of the first, in State::x
+  std::size_t obstacle = 0;
+};
+
+std::vector<Part> parts_of(const Sliding& at) {
+  std::vector<Part> parts;
+  const auto& nodes = at.on.pressed_nodes();
+  const auto closed = std::count_if(at.state.piece.begin(), at.state.piece.end(), [](auto is) { return is != 0; });
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i > 0 && nodes[i].segment == nodes[i - 1].segment) {
+      parts.back().last = nodes[i].position;
+      continue;
+    }
+    parts.push_back({.strand = nodes[i].strand,
+                     .first = nodes[i].position,
+                     .last = nodes[i].position,
+                     .force = at.mesh.unknowns() + static_cast<Index>(closed) + static_cast<Index>(i),
+                     .obstacle = nodes[i].obstacle});
+  }
+  return parts;
+}
+
+// The mean force of the nodes on both sides of an element of a part, three on each.
+double force_beside(const Sliding& at, const Part& part, Index element) {
+  const Index from = std::max(part.first, element - 2), to = std::min(part.last, element + 3);
+  if (from > to) return 0.0;
+  return at.state.x.segment(part.force + from - part.first, to - from + 1).mean();
+}
+
+void add_pulls(const Sliding& at, const PlainWall& wall, const Part& part, std::vector<SplinePull>& to) {
+  constexpr double shown = 6.0;  // elements
+  const double half = at.body.half_height(part.strand), L = at.body.length(part.strand);
+  const double asked = L / at.body.elements_between(part.strand, 0.0, L);
+  const auto s = [&](Index position) { return at.mesh.coordinate(part.strand, position, at.now.s); };
+  const auto x = [&](Index position) {
+    return wall.profile_x(face_towards(wall, half, at.mesh.node(part.strand, position, at.now)));
+  };
+  for (const PlainWall::RateJump& jump : wall.rate_jumps())
+    for (Index position = part.first - 1; position <= part.last; ++position) {
+      if ((x(position) < jump.x) == (x(position + 1) < jump.x)) continue;
+      const auto [member, fraction] =
+          at.body.label({.strand = part.strand, .s = 0.5 * (s(position) + s(position + 1))});
+      const double pressure = force_beside(at, part, position) / (s(position + 1) - s(position));
+      to.push_back({.label = {.wall = wall.deck().name, .member = member, .fraction = fraction},
+                    .pull = -wall.side() * at.body.bending_stiffness(part.strand) * jump.jump,
+                    .held = shown * asked * std::max(pressure, 0.0)});
+    }
+}
+
+}  // namespace
+
+std::vector<SplinePull> spline_pulls(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
+  std::vector<SplinePull> pulls;
+  if (model.sliding() == nullptr) return pulls;
+  const Sliding at{.model = model, .state = state};
+  for (const Part& part : parts_of(at))
+    add_pulls(at, wall_of(walls, model.sliding()->obstacles()[part.obstacle].name), part, pulls);
+  std::erase_if(pulls, [](const SplinePull& pull) { return pull.pull <= 0.0; });
+  return pulls;
+}
+
+}  // namespace arcwall::verify
