@@ -163,6 +163,20 @@ Transition nothing_lifted() {
       "a part that is pressed on a wall lifts off inside, and no equilibrium with one free stretch was found");
 }
 
+// Parts with free spans in each of these lengths; `bounds`: what is told to open.
+std::vector<Transition> lifted_inside(const SlidingSetting& setting, const SlidingState& at, const LiftOffs& lifts,
+                                      const std::vector<Index>& bounds) {
+  const Index strand = at.layout.segments()[lifts.front().segment].strand;
+  std::vector<Transition> transitions;
+  for (const double length : lengths_inside(setting.body, strand, lifts.front().on_straight))
+    if (auto transition = lifted(setting, at, lifts, length)) {
+      transition->contacts = bounds;
+      transitions.push_back(std::move(*transition));
+    }
+  transitions.push_back(nothing_lifted());
+  return transitions;
+}
+
 // Whether nothing presses on a strand that lies on its obstacle from end to end.
 bool is_left(const SlidingSetting& setting, const SlidingState& at, Index strand, double tolerance) {
   if (!at.layout.lies_on(strand)) return false;
@@ -300,21 +314,13 @@ std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const Slid
                         .jump = jump}};
   const std::vector<Index> bounds =
       bounds_of<PullingJumpBound>(at, [&](const PullingJumpBound& bound) { return bound.point() == edge; });
-  std::vector<Transition> transitions;
-  for (const double length : lengths_inside(setting.body, part->strand, false))
-    if (auto transition = lifted(setting, at, lifts, length)) {
-      transition->contacts = bounds;
-      transitions.push_back(std::move(*transition));
-    }
-  transitions.push_back(nothing_lifted());
-  return transitions;
+  return lifted_inside(setting, at, lifts, bounds);
 }
 
 std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,
                                        double tolerance) {
   auto pulling = reached<LoadPressesBound>(setting, at, tolerance);
   std::erase_if(pulling, [&](const LoadPressesBound* bound) { return bound->load().segment != load.segment; });
-  const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
   const std::size_t obstacle = obstacle_of_part(at, load.segment);
   const bool on_straight = setting.obstacles[obstacle].surface->knots().empty();
   LiftOffs lifts;
@@ -326,14 +332,7 @@ std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const Slid
   const std::vector<Index> bounds = bounds_of<LoadPressesBound>(at, [&](const LoadPressesBound& bound) {
     return std::find(pulling.begin(), pulling.end(), &bound) != pulling.end();
   });
-  std::vector<Transition> transitions;
-  for (const double length : lengths_inside(setting.body, part.strand, on_straight))
-    if (auto transition = lifted(setting, at, lifts, length)) {
-      transition->contacts = bounds;
-      transitions.push_back(std::move(*transition));
-    }
-  transitions.push_back(nothing_lifted());
-  return transitions;
+  return lifted_inside(setting, at, lifts, bounds);
 }
 
 }  // namespace arcwall::sliding
