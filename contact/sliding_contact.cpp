@@ -192,6 +192,11 @@ std::optional<Transition> SlidingContact::with_inserted_contact(const State& fro
   return sliding::with_inserted_contact(*setting_, SlidingState(from), forward, SlidingState(to), margin);
 }
 
+std::optional<Transition> SlidingContact::with_mesh_for_landing(const State& from, const Direction& forward,
+                                                                const State& to, Index guard) const {
+  return sliding::with_mesh_for_touch(*setting_, SlidingState(from), forward, SlidingState(to), guard);
+}
+
 bool SlidingContact::passes_through(const State& from, const State& to) const {
   return sliding::passes_through(*setting_, SlidingState(from), SlidingState(to));
 }

@@ -62,6 +62,8 @@ class SlidingContact final : public System, public ContactQuery {
   bool admissible(const State& state, double margin) const override;
   std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
                                                   double margin) const override;
+  std::optional<Transition> with_mesh_for_landing(const State& from, const Direction& forward, const State& to,
+                                                  Index guard) const override;
   bool passes_through(const State& from, const State& to) const override;
   Piece canonical_piece(const State& state) const override;
 

@@ -20,9 +20,9 @@ namespace arcwall {
 ///
 /// Nothing must be overridden by a system whose unknowns always mean the same. One whose do: transitions and, of the
 /// second level, guard_count; admissible together with with_inserted_contact where contacts come into being between
-/// those that a piece has; passes_through where obstacles have more sides than one; canonical_piece where two layouts
-/// share equilibria. Must hold: the first point of a piece ahead is an equilibrium on which all guards there hold, and
-/// the same point as the one behind but for discretisation.
+/// those that a piece has, and with_mesh_for_landing where their places choose the mesh; passes_through where obstacles
+/// have more sides than one; canonical_piece where two layouts share equilibria. Must hold: the first point of a piece
+/// ahead is an equilibrium on which all guards there hold, and the same point as the one behind but for discretisation.
 class System : public UnilateralSystem {
  public:
   /// What may lie behind a validity bound that was reached going `forward`, the likeliest first: the first that leads
@@ -41,6 +41,13 @@ class System : public UnilateralSystem {
   /// end of a step; empty if no such piece passes through `from`. Asked for where admissible(to, margin) is not so.
   virtual std::optional<Transition> with_inserted_contact(const State& /*from*/, const Direction& /*forward*/,
                                                           const State& /*to*/, double /*margin*/) const {
+    return std::nullopt;
+  }
+
+  /// The transition (`remeshed`) from a regular point to a piece whose mesh suits a guard that was landed on at `to`,
+  /// the end of a step, as it would have been chosen by one who knew the place; empty if the piece of `from` is that.
+  virtual std::optional<Transition> with_mesh_for_landing(const State& /*from*/, const Direction& /*forward*/,
+                                                          const State& /*to*/, Index /*guard*/) const {
     return std::nullopt;
   }
 

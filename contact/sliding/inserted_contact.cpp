@@ -38,24 +38,38 @@ void take_nodes_beside(const MaterialPoint& place, LayoutEdit& edit) {
   }
 }
 
-// How many elements a part has before and behind a point that is inserted, by where this will touch, roughly.
+// How many elements a part has before and behind a point.
 struct Elements {
   int before, behind;
 };
 
+double elements_up_to(const LayoutEdit::Part& part, double place, int elements) {
+  return elements * (place - part.from) / (part.to - part.from);
+}
+
+// Of a part of so many elements, as a place divides it, which is known nearly.
+Elements divided(const LayoutEdit::Part& part, double place, int elements) {
+  const double before = elements_up_to(part, place, elements);
+  const int first = std::clamp(static_cast<int>(std::lround(before - 1e-3)), 1, elements - 1);
+  return {.before = first, .behind = elements - first};
+}
+
+// The fewest elements between two places of a strand that are not too long.
+int fewest_elements(const SlidingBody& body, Index strand, double from, double to) {
+  return static_cast<int>(std::ceil(body.elements_between(strand, from, to) / coarsest));
+}
+
+// Of a part in which a point is inserted, by where this will touch, roughly.
 Elements elements_beside(const LayoutEdit& edit, const LeastGap& start, const LeastGap& violated) {
   const double fallen = start.gap - violated.gap;
-  const double part = fallen > 0.0 ? std::clamp(start.gap / fallen, 0.0, 2.0) : 0.0;
-  const double touch = start.at.s + part * (violated.at.s - start.at.s);
+  const double fraction = fallen > 0.0 ? std::clamp(start.gap / fallen, 0.0, 2.0) : 0.0;
+  const double touch = start.at.s + fraction * (violated.at.s - start.at.s);
   const Index strand = start.at.strand;
-  const auto [a, b, place] = edit.part_at(strand, start.at.s);
-  const int elements = std::max(2, edit.elements[static_cast<std::size_t>(strand)][place].elements);
-  const int first = std::clamp(static_cast<int>(std::lround(elements * (touch - a) / (b - a) - 1e-3)), 1, elements - 1);
-  const auto at_least = [&](double from, double to) {
-    return static_cast<int>(std::ceil(edit.body.elements_between(strand, from, to) / coarsest));
-  };
-  return {.before = std::max(first, at_least(a, start.at.s)),
-          .behind = std::max(elements - first, at_least(start.at.s, b))};
+  const LayoutEdit::Part part = edit.part_at(strand, start.at.s);
+  const int elements = std::max(2, edit.elements[static_cast<std::size_t>(strand)][part.place].elements);
+  const auto [before, behind] = divided(part, touch, elements);
+  return {.before = std::max(before, fewest_elements(edit.body, strand, part.from, start.at.s)),
+          .behind = std::max(behind, fewest_elements(edit.body, strand, start.at.s, part.to))};
 }
 
 // Whether an inserted point would be given up at once: its least gap is shallow, or it is cramped beside the end of the
@@ -110,6 +124,51 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   });
   if (is_unfit(setting, transition.guess, point)) return std::nullopt;
   return transition;
+}
+
+namespace {
+
+// The two segments beside a point as one.
+struct DividedPart {
+  Index strand;
+  LayoutEdit::Part all;
+  double point;          ///< its place
+  int elements, before;  ///< of both, and before the point
+};
+
+DividedPart part_with(LayoutEdit edit, std::size_t point) {
+  const Index strand = edit.strands[point];
+  const double place = edit.place(point);
+  const int before = edit.elements_before(point), elements = before + edit.elements_behind(point);
+  edit.erase(point, elements);
+  return {.strand = strand, .all = edit.part_at(strand, place), .point = place, .elements = elements, .before = before};
+}
+
+}  // namespace
+
+// Points that have slid farther keep the elements that they came with.
+std::optional<Transition> with_mesh_for_touch(const SlidingSetting& setting, const SlidingState& from,
+                                              const Direction& forward, const SlidingState& to, Index guard) {
+  constexpr double rounding = 0.52, most = 1.5;  // elements between what a point has before it and what it should
+  const auto point = static_cast<std::size_t>(guard);
+  if (guard >= from.index.points || from.is_closed(point)) return std::nullopt;
+  const SlidingContactLayout& on = from.layout;
+  if (on.span_before(point) != SlidingContactLayout::Span::free ||
+      on.points()[point].behind != SlidingContactLayout::Span::free)
+    return std::nullopt;
+  const DividedPart here = part_with(edit_of(setting.body, from), point),
+                    there = part_with(edit_of(setting.body, to), point);
+  const double off = std::abs(elements_up_to(there.all, there.point, there.elements) - there.before);
+  if (off <= rounding || off >= most) return std::nullopt;
+  const Elements divided_there = divided(there.all, there.point, there.elements);
+  if (divided_there.before == here.before ||
+      divided_there.before < fewest_elements(setting.body, here.strand, here.all.from, here.point) ||
+      divided_there.behind < fewest_elements(setting.body, here.strand, here.point, here.all.to))
+    return std::nullopt;
+  return remeshed(setting, from, forward, [&](LayoutEdit& changed, const SlidingState&) {
+    changed.elements_before(point) = divided_there.before;
+    changed.elements_behind(point) = divided_there.behind;
+  });
 }
 
 }  // namespace arcwall::sliding

@@ -13,4 +13,9 @@ namespace arcwall::sliding {
 std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, const SlidingState& from,
                                                 const Direction& forward, const SlidingState& to, double margin);
 
+/// The start of a step that ends where an open point touches, with the elements beside the point divided as its place
+/// there divides them; empty where they are. See System::with_mesh_for_landing.
+std::optional<Transition> with_mesh_for_touch(const SlidingSetting& setting, const SlidingState& from,
+                                              const Direction& forward, const SlidingState& to, Index guard);
+
 }  // namespace arcwall::sliding

@@ -38,6 +38,8 @@ Vector erased(const Vector& s, std::size_t at) {
   return out;
 }
 
+int rounded_elements(double elements) { return std::max(1, static_cast<int>(std::lround(elements))); }
+
 // How many points of a strand lie before one of them.
 std::size_t points_before(const std::vector<Index>& strands, std::size_t point) {
   return static_cast<std::size_t>(
@@ -80,11 +82,9 @@ void LayoutEdit::give_node(Index strand, Index load) {
   const Part part = part_at(strand, there);
   std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
   int& behind = segments[part.place].elements;
-  const int all = std::max(2, behind);
-  const int before =
-      std::clamp(static_cast<int>(std::lround(all * (there - part.from) / (part.to - part.from))), 1, all - 1);
-  behind = all - before;
-  insert_at(segments, part.place, MeshSegment(before, load));
+  const double density = behind / (part.to - part.from);
+  behind = rounded_elements(density * (part.to - there));
+  insert_at(segments, part.place, MeshSegment(rounded_elements(density * (there - part.from)), load));
 }
 
 void LayoutEdit::take_node(Index strand, Index load) {
@@ -121,7 +121,7 @@ double LayoutEdit::depth_in_part(Index strand, double place, Span span) const {
   };
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (strands[k] != strand) continue;
-    const bool is_first = k == 0 || strands[k - 1] != strand;
+    const bool is_first = is_first_of_strand(k);
     const bool is_last = k + 1 == points.size() || strands[k + 1] != strand;
     const auto at = [&](std::size_t point) { return s[static_cast<Index>(point)]; };
     if (is_first) look_at(points[k].before, std::nullopt, at(k));
@@ -130,14 +130,37 @@ double LayoutEdit::depth_in_part(Index strand, double place, Span span) const {
   return deepest;
 }
 
-double LayoutEdit::elements_to_nearest_point(Index strand, double place) const {
-  double nearest = infinity;
+std::optional<LayoutEdit::NearestPoint> LayoutEdit::nearest_point(Index strand, double place) const {
+  std::optional<NearestPoint> nearest;
   for (std::size_t k = 0; k < points.size(); ++k) {
+    if (strands[k] != strand) continue;
     const double there = s[static_cast<Index>(k)];
-    if (strands[k] == strand)
-      nearest = std::min(nearest, body.elements_between(strand, std::min(place, there), std::max(place, there)));
+    const double between = body.elements_between(strand, std::min(place, there), std::max(place, there));
+    if (!nearest || between < nearest->elements) nearest = NearestPoint{.point = k, .elements = between};
   }
   return nearest;
+}
+
+// By the finer of both, in elements over those that are asked for, of which a short span has one.
+void LayoutEdit::even_out_beside_load(std::size_t point, Index load) {
+  const Index strand = strands[point];
+  const bool first = is_first_of_strand(point);
+  const Span span_before = first ? points[point].before : points[point - 1].behind;
+  const bool neutral_before = first ? points[point].neutral_before : points[point - 1].neutral_behind;
+  const bool both_free = span_before == Span::free && points[point].behind == Span::free;
+  if (!both_free || neutral_before || points[point].neutral_behind) return;
+  const double there = body.point_loads(strand)[static_cast<std::size_t>(load)];
+  const double from = part_at(strand, std::nextafter(place(point), 0.0)).from, to = part_at(strand, place(point)).to;
+  if (!(from < there && there < to)) return;
+  int &before = elements_before(point), &behind = elements_behind(point);
+  const double asked_before = body.elements_between(strand, from, there),
+               asked_behind = body.elements_between(strand, there, to);
+  const double finer = std::max(before / std::max(asked_before, 1.0), behind / std::max(asked_behind, 1.0));
+  const auto as_fine = [finer](double asked) {
+    return std::max(rounded_elements(finer * asked), static_cast<int>(std::ceil(asked / coarsest)));
+  };
+  before = as_fine(asked_before);
+  behind = as_fine(asked_behind);
 }
 
 std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elements_behind) {
@@ -207,9 +230,12 @@ void settle_loads(LayoutEdit& edit) {
       if (std::abs(pressed) > 2.0 * edge_behind_load) handed_on = pressed > 0.0;
       const bool on_wall = handed_on || edit.depth_in_part(strand, places[i], Span::flat) > 0.0;
       const bool has_node = edit.has_node(strand, load);
-      const double apart = edit.elements_to_nearest_point(strand, places[i]);
-      if (has_node && (on_wall || apart <= nearest_node_of_load + landed)) edit.take_node(strand, load);
-      if (!has_node && !on_wall && apart >= farthest_load_inside - landed) edit.give_node(strand, load);
+      const auto nearest = edit.nearest_point(strand, places[i]);
+      const bool beside = nearest && nearest->elements <= nearest_node_of_load + landed;
+      const bool far = !nearest || nearest->elements >= farthest_load_inside - landed;
+      if (has_node && (on_wall || beside)) edit.take_node(strand, load);
+      if (has_node && !on_wall && beside) edit.even_out_beside_load(nearest->point, load);
+      if (!has_node && !on_wall && far) edit.give_node(strand, load);
     }
   }
 }

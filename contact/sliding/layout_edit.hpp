@@ -55,7 +55,8 @@ struct LayoutEdit {
   };
   Part part_at(Index strand, double s) const;
 
-  /// Gives a point load of a strand a node, which divides a segment, or takes it.
+  /// Gives a point load of a strand a node, which divides a segment into two with elements of one length but for
+  /// rounding, or takes it.
   void give_node(Index strand, Index load);
   void take_node(Index strand, Index load);
   bool has_node(Index strand, Index load) const;
@@ -66,10 +67,19 @@ struct LayoutEdit {
   /// How far a place is inside a part that lies on a wall in this way, in elements; negative outside.
   double depth_in_part(Index strand, double s, SlidingContactLayout::Span span) const;
 
-  /// How many elements lie between a place and the nearest point of its strand; infinite where it has none.
-  double elements_to_nearest_point(Index strand, double s) const;
+  /// The point of a strand that is nearest to a place, and how many elements that are asked for lie between.
+  struct NearestPoint {
+    std::size_t point;
+    double elements;
+  };
+  std::optional<NearestPoint> nearest_point(Index strand, double s) const;
+
+  /// Gives the free spans on both sides of a point that is near a load elements of one length, as the point would
+  /// divide them if it were at the load. So a symmetric body with a load in its middle keeps a symmetric mesh.
+  void even_out_beside_load(std::size_t point, Index load);
 
  private:
+  bool is_first_of_strand(std::size_t point) const { return point == 0 || strands[point - 1] != strands[point]; }
   int& segment(std::size_t point, std::size_t beyond = 0);
   std::size_t segment_before(std::size_t point) const;
 };

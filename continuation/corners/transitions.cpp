@@ -439,10 +439,12 @@ std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, 
   return entered_point(tools, transition, ahead, std::move(result), from.arc);
 }
 
-std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,
-                                          double margin) {
+namespace {
+
+// The start of a step on the piece of a transition from it.
+std::optional<Departure> departure_on(TraceTools& tools, const StepOrigin& origin,
+                                      const std::optional<Transition>& transition) {
   const PathPoint& from = origin.point();
-  const auto transition = tools.system.with_inserted_contact(from.state, from.tangent, violated, margin);
   if (!transition) return std::nullopt;
   auto point = enter(tools, *transition, from, origin.metric.lambda_scale());
   if (!point) return std::nullopt;
@@ -454,6 +456,20 @@ std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& o
   finer.before.reset();
   finer.eigenvalues_before.resize(0);
   return finer;
+}
+
+}  // namespace
+
+std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,
+                                          double margin) {
+  const PathPoint& from = origin.point();
+  return departure_on(tools, origin, tools.system.with_inserted_contact(from.state, from.tangent, violated, margin));
+}
+
+std::optional<Departure> with_mesh_for_landing(TraceTools& tools, const StepOrigin& origin, const State& end,
+                                               Index guard) {
+  const PathPoint& from = origin.point();
+  return departure_on(tools, origin, tools.system.with_mesh_for_landing(from.state, from.tangent, end, guard));
 }
 
 }  // namespace arcwall

@@ -19,4 +19,9 @@ std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, 
 std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,
                                           double margin);
 
+/// The same on a mesh that suits a guard which was landed on at the end of the step. Empty if the start has it, or no
+/// such piece passes through it.
+std::optional<Departure> with_mesh_for_landing(TraceTools& tools, const StepOrigin& origin, const State& end,
+                                               Index guard);
+
 }  // namespace arcwall

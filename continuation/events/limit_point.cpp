@@ -24,13 +24,24 @@ Direction mean(const Metric& metric, const Direction& a, const Direction& b) {
 }
 
 // Where λ turns between two points beside a place where K is singular: there λ′ is blurred by what K's inverse makes of
-// round-off, and its zero with it. Beside it the path is exact, and smooth.
-State turning_between(const Metric& metric, const PathPoint& before, const PathPoint& after, const State& otherwise) {
+// round-off, and the zero of it that was located with it. Beside it the path is exact, and smooth; but where a contact
+// passes a point load λ has a kink, which the zero tells and a cubic rounds off.
+struct Turning {
+  State state;
+  double uncertain = 0.0;  // of λ, besides how far the place is off
+};
+
+Turning turning_between(const Metric& metric, const PathPoint& before, const PathPoint& after, const State& located) {
+  constexpr double blur = 1e-7;  // that round-off may make of λ [scale of λ]
   const Segment segment(metric, before, after);
   const double L = segment.length();
   const auto t =
       cubic_turn(before.state.lambda, before.tangent.dlambda * L, after.state.lambda, after.tangent.dlambda * L);
-  return t ? segment.at(*t) : otherwise;
+  if (!t) return {.state = located};
+  State between = segment.at(*t);
+  const double blurred = blur * metric.lambda_scale();
+  if (std::abs(between.lambda - located.lambda) > blurred) return {.state = located, .uncertain = blurred};
+  return {.state = std::move(between)};
 }
 
 // How a limit point alone changes the number of negative eigenvalues: with K t_x = −t_λ F_λ,
@@ -70,13 +81,13 @@ Sides sides_of(TraceTools& tools, const StepOrigin& origin, const Segment& segme
   const double L = segment.length();
   Sides sides;
   for (const double distance : {1e-4, 1e-3, 3e-5}) {
-    sides.distance = distance;
     const double t0 = t - distance / L, t1 = t + distance / L;
-    sides.before = t0 > 0.0 ? beside(tools, origin, segment, t0) : std::nullopt;
-    sides.after = t1 < 1.0 ? beside(tools, origin, segment, t1) : std::nullopt;
-    if ((t0 > 0.0 && !sides.before) || (t1 < 1.0 && !sides.after)) continue;
-    sides.change = count_at(sides.after, *segment.to().negative_eigenvalues) -
-                   count_at(sides.before, *origin.from.negative_eigenvalues);
+    Sides near{.distance = distance};
+    if (t0 > 0.0 && !(near.before = beside(tools, origin, segment, t0))) continue;
+    if (t1 < 1.0 && !(near.after = beside(tools, origin, segment, t1))) continue;
+    near.change = count_at(near.after, *segment.to().negative_eigenvalues) -
+                  count_at(near.before, *origin.from.negative_eigenvalues);
+    sides = std::move(near);
     if (sides.change % 2 != 0) break;  // else there is a branch point, too
   }
   return sides;
@@ -87,7 +98,9 @@ Sides sides_of(TraceTools& tools, const StepOrigin& origin, const Segment& segme
 void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint& before,
                                const PathPoint& after, double half_width, SingularPoint& limit) {
   const Metric& metric = origin.metric;
-  limit.at.state = turning_between(metric, before, after, limit.at.state);
+  Turning turning = turning_between(metric, before, after, limit.at.state);
+  limit.at.state = std::move(turning.state);
+  limit.uncertain = turning.uncertain;
   limit.at.tangent = mean(metric, before.tangent, after.tangent);
   limit.at.residual = tools.corrector.inspect(limit.at.state, metric, limit.at.tangent).residual;
   const auto pairs = tools.corrector.near_null(limit.at.state, metric.weights(), 2);

@@ -127,6 +127,7 @@ std::vector<Event> events_at(const TraceTools& tools, const StepOrigin& origin, 
       events.push_back(detector_event(tools, origin, end, behind));
       events.back().suspected = first.suspected && !first.branching;
     }
+    for (Event& event : events) event.localised = std::max(event.localised, first.uncertain);
   } else if (end.event && end.event->what != EventPlace::What::target_value) {
     events.push_back(detector_event(tools, origin, end, behind));
   }

@@ -106,19 +106,23 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
   if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure);
   end = std::move(*landed.end);
+  const auto refined = [&](Departure finer) {
+    tried.attempt.outcome = StepOutcome::refined;
+    tried.result = Retry{.finer = std::move(finer)};
+    return std::move(tried);
+  };
   if (tools.system.passes_through(from.state, end.point.state)) return rejected(StepOutcome::penetrates);
 
   // What vanishes with the guard that was landed on belongs to the change.
   const double margin = end.landing ? near_change : -penetration_tolerance;
   if (!tools.system.admissible(end.point.state, margin)) {
-    if (auto finer = with_new_contact(tools, origin, end.point.state, margin)) {
-      tried.attempt.outcome = StepOutcome::refined;
-      tried.result = Retry{.finer = std::move(*finer)};
-      return tried;
-    }
+    if (auto finer = with_new_contact(tools, origin, end.point.state, margin)) return refined(std::move(*finer));
     if (!end.landing || !tools.system.admissible(end.point.state, -penetration_tolerance))
       return rejected(StepOutcome::penetrates);
   }
+  if (end.landing)
+    if (auto finer = with_mesh_for_landing(tools, origin, end.point.state, end.landing->guard))
+      return refined(std::move(*finer));
   decide_count(tools, end.point);
   // Eigenvalues that vanish behind the change have no sure sign there.
   if (end.landing && end.landing->singular) end.point.negative_eigenvalues.reset();

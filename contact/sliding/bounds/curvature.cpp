@@ -10,7 +10,7 @@ namespace {
 
 // Curvature of an open point over its gap, both scaled, below which it is given up; the more, the farther it is from
 // its wall: a node that no contact needs makes the mesh of a symmetric body unsymmetric.
-constexpr double flatness = 0.5, far_off = 0.01;
+constexpr double flatness = 0.5, far_off = 0.003;
 
 double allowed_gap(double gap) { return flatness * gap * (1.0 + gap * gap / (far_off * far_off)); }
 double allowed_gap_slope(double gap) { return flatness * (1.0 + 3.0 * gap * gap / (far_off * far_off)); }

@@ -1,0 +1,148 @@
+// The mesh beside contacts is drawn anew as they slide, come and go. None of that may show in the answer: a symmetric
+// body keeps a symmetric mesh, whose pitchforks are not opened, and where a touch is foreseen does not matter.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/model/traced_session.hpp"
+
+namespace arcwall::contact_meshes_test {
+namespace {
+
+// A clamped arch of a sine that snaps sideways under a load at its crown, touches a floor, and comes to rest with its
+// crown on it.
+std::string arch(int elements, const std::string& slope = "0.0", bool mirrored = false) {
+  const std::string sign = mirrored ? "" : "-", up = mirrored ? "-" : "";
+  return "title = \"an arch that comes to rest on its crown\"\n"
+         "material.m = { E = 21000.0, nu = 0.3 }\n"
+         "section.s = { shape = \"rectangle\", width = 0.02, height = 0.02 }\n"
+         "point = { left = [0.0, 0.0], right = [1.2, 0.0] }\n"
+         "support = { left = [\"x\", \"z\", \"rotation\"], right = [\"x\", \"z\", \"rotation\"] }\n"
+         "member.arch = { from = \"left\", to = \"right\", theory = \"elastica\", material = \"m\", section = \"s\", "
+         "elements = " +
+         std::to_string(elements) + ", sine = { rise = " + up +
+         "0.3, waves = 1 } }\n"
+         "load = [{ at = \"arch:0.5\", force = [0.0, " +
+         sign +
+         "0.02] }]\n"
+         "wall = [{ name = \"floor\", side = \"" +
+         (mirrored ? "above" : "below") + "\", profile = { type = \"line\", z = " + sign + "0.06, slope = " + slope +
+         " } }]\n"
+         "path = { step = 0.05, stop = { lambda = [-1.0, 2.0] } }\n";
+}
+
+// Two halves without a load, clamped at one end and with slope 0 at the height of the floor at the other. The forces
+// that hold such an end are functions of its place x and of the half's length s, of which the touch has moved by δ beyond
+// the load: both halves pull alike if H_s δ + H_x ξ = 0, and their moments differ by the lever Λ δ of the load,
+// λ P Λ = 2 (M_s − M_x H_s/H_x). By shooting with the extensible elastica, apart from this program.
+constexpr double rests = 0.53796827, bears_alone = 0.12388133;
+
+constexpr double slight = 1e-6;  // of λ: the error of the meshes
+
+// A column between two round stops that has left the upper one and comes, unstable, to a pitchfork of a state that is
+// symmetric: along its own branch, on which λ is the greater the farther it is from there.
+std::string column(int elements) {
+  return "title = \"a column that is symmetric again\"\n"
+         "material.m = { E = 21000.0, nu = 0.3 }\n"
+         "section.s = { shape = \"rectangle\", width = 0.81, height = 0.145 }\n"
+         "point = { left = [0.0, 0.0], right = [8.9, 0.0] }\n"
+         "support = { left = [\"x\", \"z\"], right = [\"z\"] }\n"
+         "member.column = { from = \"left\", to = \"right\", theory = \"classic\", material = \"m\", section = \"s\", "
+         "elements = " +
+         std::to_string(elements) +
+         ", imperfection = { shape = \"sine\", amplitude = 0.042, waves = 1 } }\n"
+         "load = [{ at = \"right\", force = [-0.543, 0.0] }]\n"
+         "wall = [{ name = \"upper\", side = \"above\", profile = { type = \"circle\", centre = [4.576, 12.315], radius "
+         "= 12.042 } }, { name = \"lower\", side = \"below\", profile = { type = \"circle\", centre = [4.045, -9.383], "
+         "radius = 9.109 } }]\n"
+         "path = { step = 0.05, stop = { lambda = [-1.0, 4.9], event = \"branch-point\" } }\n";
+}
+
+// A column whose steps end short of its third touch or beyond it.
+std::string column_between_walls() {
+  return R"toml(title = "a column on few elements"
+material.m = { E = 21000.0, nu = 0.3 }
+section.s = { shape = "rectangle", width = 4.7, height = 0.6258 }
+point = { left = [0.0, 0.0], right = [30.38, 0.0] }
+support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
+load = [{ at = "right", force = [-86.227, 0.0] }, { at = "column:0.5", force = [0.0, -3.6016], constant = true }]
+wall = [{ name = "upper", side = "above", profile = { type = "flat", z = 2.005 } }, { name = "lower", side = "below", profile = { type = "flat", z = -2.005 } }]
+[member.column]
+from = "left"
+to = "right"
+theory = "classic"
+material = "m"
+section = "s"
+elements = 14
+imperfection = [{ shape = "sine", amplitude = 0.3708, waves = 1 }, { shape = "sine", amplitude = -0.00196, waves = 2 }, { shape = "sine", amplitude = -0.10538, waves = 3 }]
+[path]
+stop = { lambda = [-1.0, 6.38] }
+)toml";
+}
+
+std::vector<EventKind> kinds_of(const Session& run) {
+  std::vector<EventKind> kinds;
+  for (const RecordEvent& event : run.events()) kinds.push_back(event.kind);
+  return kinds;
+}
+
+}  // namespace
+
+// It used to pass the pitchfork, which the mesh had opened, and on most decks went on along an unstable state.
+TEST(ContactMeshes, ATouchThatComesToTheLoadOfASymmetricArchFindsThePitchforkThere) {
+  for (const std::string& deck : {arch(24), arch(48), arch(34), arch(24, "0.0", true)}) {
+    SCOPED_TRACE(deck);
+    const Session run = test::traced(deck);
+    const RecordEvent& pitchfork = test::event_of(run.record(), EventKind::branch_point, 2);
+    EXPECT_NEAR(pitchfork.lambda, rests, slight * rests);
+    EXPECT_LE(std::abs(pitchfork.lambda - rests), std::max(2.0 * pitchfork.localised, slight * rests));
+    ASSERT_EQ(run.record().branches.size(), 3U);
+    EXPECT_EQ(run.record().branches.back().end->reason, EndReason::stop);
+    EXPECT_EQ(run.points().back().count.unstable.value_or(9), 0);
+    EXPECT_NEAR(run.points().back().lambda, 2.0, 1e-12);
+    ASSERT_EQ(run.points().back().forces.size(), 1U);
+    EXPECT_NEAR(run.points().back().forces[0].x, 0.6, 1e-7);
+    EXPECT_NEAR(run.points().back().forces[0].force, 0.02 * (2.0 - bears_alone), slight);
+  }
+}
+
+// Off a floor that is not level the arch is symmetric again, and comes back to the pitchfork that it left.
+TEST(ContactMeshes, AnArchThatHasLeftItsFloorPassesThePitchforkThatItCameBy) {
+  for (const int elements : {24, 48}) {
+    SCOPED_TRACE(elements);
+    const Session run = test::traced(arch(elements, "-0.002"));
+    const std::vector<RecordEvent> pitchforks = test::events_of(run.record(), EventKind::branch_point);
+    ASSERT_EQ(pitchforks.size(), 2U);
+    EXPECT_NEAR(pitchforks[1].lambda, pitchforks[0].lambda, slight * pitchforks[0].lambda);
+    EXPECT_EQ(test::events_of(run.record(), EventKind::contact_opens).size(), 1U);
+  }
+}
+
+TEST(ContactMeshes, AColumnThatIsSymmetricAgainComesToAPitchforkOnEveryMesh) {
+  std::vector<double> lambda;
+  for (const int elements : {40, 60, 80, 160}) {
+    SCOPED_TRACE(elements);
+    const Session run = test::traced(column(elements));
+    const std::vector<RecordEvent> pitchforks = test::events_of(run.record(), EventKind::branch_point);
+    ASSERT_EQ(pitchforks.size(), 1U);
+    EXPECT_FALSE(pitchforks[0].suspected);
+    EXPECT_EQ(test::events_of(run.record(), EventKind::limit_point).size(), 2U);
+    lambda.push_back(pitchforks[0].lambda);
+  }
+  for (const double value : lambda) EXPECT_NEAR(value, lambda.back(), 1e-6 * value);
+}
+
+TEST(ContactMeshes, WhereATouchIsForeseenDoesNotMatter) {
+  const Session usual = test::traced(column_between_walls(), {"path.step=0.05"});
+  for (const std::string step : {"0.0125", "0.005", "0.02"}) {
+    SCOPED_TRACE(step);
+    const Session run = test::traced(column_between_walls(), {"path.step=" + step});
+    ASSERT_EQ(kinds_of(run), kinds_of(usual));
+    for (std::size_t i = 0; i < run.events().size(); ++i)
+      EXPECT_NEAR(run.events()[i].lambda, usual.events()[i].lambda, 1e-8 * std::abs(usual.events()[i].lambda));
+  }
+}
+
+}  // namespace arcwall::contact_meshes_test
