@@ -36,6 +36,9 @@ double shortest_span(const SlidingBody& body, Index strand) {
 
 double shortest_tail(const SlidingBody& body, Index strand) { return 1e-3 * body.length(strand); }
 
+// Between a pressed part and a touch the touch's force vanishes with the pressure at the edge, and the equations tell
+// the span by the product of that and its cube; but an arch over a point of a spline may be shorter.
+//
 // Between two pressed parts the force that is left at the edges goes with the cube of the span, and is lost in the
 // error of the elements where these are much longer.
 double shortest_span(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
@@ -49,8 +52,11 @@ double shortest_span(const SlidingSetting& setting, const SlidingState& at, std:
                : 4.0 * shortest_span(setting.body, strand);
   const bool is_pressed = span == Span::pressed || (span == Span::free && (before || behind));
   if (is_pressed && obstacle_is_straight(setting, at, point)) return shortest_span_on_straight(setting.body, strand);
-  if (span == Span::free && is_pressed)
-    return std::max(shortest_span(setting.body, strand), 3.0 * shortest_span_on_straight(setting.body, strand));
+  if (span == Span::free && is_pressed) {
+    const bool has_jumps = !setting.obstacles[on.points()[point].obstacle].surface->curvature_rate_jumps().empty();
+    return std::max(shortest_span(setting.body, strand),
+                    (has_jumps ? 3.0 : 12.0) * shortest_span_on_straight(setting.body, strand));
+  }
   return shortest_span(setting.body, strand);
 }
 

@@ -247,7 +247,7 @@ material.m = { E = 21000.0 }
 section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
 point = { a = [0.0, 0.0], b = [2.0, 0.0] }
 support = { a = ["x", "z"], b = ["z"] }
-member.column = { from = "a", to = "b", theory = "classic", elements = 40, material = "m", section = "s" }
+member.column = { from = "a", to = "b", theory = "classic", elements = 60, material = "m", section = "s" }
 load = [{ at = "b", force = [-1.0, 0.0] }]
 wall = [
   { name = "upper", side = "above", profile = { type = "flat", z = 0.3 } },
