@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "core/unit_tangent.hpp"
 #include "elements/cubic_axis.hpp"
 #include "elements/shape_functions.hpp"
-#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/unit_tangent.hpp"
 #include "elements/axis_load.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/distributed_load.hpp"
@@ -11,7 +12,6 @@
 #include "elements/heated_beam.hpp"
 #include "elements/pressure.hpp"
 #include "elements/reissner_beam.hpp"
-#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 

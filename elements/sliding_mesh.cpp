@@ -4,9 +4,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/unit_tangent.hpp"
 #include "elements/classic_beam.hpp"
 #include "elements/elastica_beam.hpp"
-#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 

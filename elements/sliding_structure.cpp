@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/unit_tangent.hpp"
 #include "elements/sliding_mesh.hpp"
-#include "elements/unit_tangent.hpp"
 
 namespace arcwall {
 

@@ -3,7 +3,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
-#include "elements/unit_tangent.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall {
 

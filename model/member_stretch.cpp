@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/unit_tangent.hpp"
+
 namespace arcwall {
 
 namespace {
-
-Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 // Forces differ, beyond what equilibrium leaves open.
 bool jumps(const ShapePoint& before, const ShapePoint& behind, double force, double moment) {
@@ -30,8 +30,8 @@ AxisCurve::AxisCurve(const Vec2& first, const Vec2& second, double angle1, doubl
   const double t1 = angle1 - chord, t2 = std::remainder(angle2 - chord, 2.0 * pi);
   const double bend = t2 - t1, skew = 3.0 * (t1 + t2);
   const double length = chord_.norm() * (1.0 + bend * bend / 24.0 + skew * skew / 360.0);
-  derivative1_ = length * direction(angle1);
-  derivative2_ = length * direction(angle2);
+  derivative1_ = length * unit_tangent(angle1);
+  derivative2_ = length * unit_tangent(angle2);
 }
 
 AxisCurve AxisCurve::reversed() const {
@@ -93,7 +93,7 @@ ShapePoint MemberStretch::at(double fraction) const {
   ShapePoint point{.fraction = fraction, .position = now.position(xi), .angle = angle};
   point.displacement = point.position - rest.position(xi);
   point.rotation = angle - (rest.angle(xi) - rest_shear);
-  const Vec2 force = (1.0 - xi) * first.force + xi * second.force, along = direction(angle);
+  const Vec2 force = (1.0 - xi) * first.force + xi * second.force, along = unit_tangent(angle);
   point.axial_force = force.dot(along);
   point.shear_force = force.dot(Vec2(-along.y(), along.x()));
   point.moment = moment(xi);

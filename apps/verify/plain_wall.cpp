@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/verify/plain_knot.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall::verify {
 
@@ -150,12 +151,12 @@ std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lamb
 }
 
 Vec2 PlainWall::normal(const Vec2& point) const {
-  return faces(point) ? Vec2(perp(direction(slope_angle(point)))) : Vec2(Vec2::Zero());
+  return faces(point) ? Vec2(perp(unit_tangent(slope_angle(point)))) : Vec2(Vec2::Zero());
 }
 
 Vec2 PlainWall::touched_by(const Vec2& point, double half_height) const {
   const double off = kept_off(half_height);
-  return off > 0.0 && faces(point) ? Vec2(point - off * perp(direction(slope_angle(point)))) : point;
+  return off > 0.0 && faces(point) ? Vec2(point - off * perp(unit_tangent(slope_angle(point)))) : point;
 }
 
 const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string& name) {

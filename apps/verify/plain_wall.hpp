@@ -92,8 +92,6 @@ using WallsOfStages = std::vector<std::vector<PlainWall>>;
 /// The walls where they are at a λ.
 std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lambda);
 
-inline Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 /// The wall of that name, which there must be.
 const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string& name);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/unit_tangent.hpp"
+
 namespace arcwall::verify {
 
 namespace {
@@ -53,7 +55,7 @@ std::optional<double> contact_spring(const Sliding& at, const PlainWall& wall, c
   const double curvature = travel * (at.body.natural_curvature({.strand = node.strand, .s = s}, at.now.lambda) +
                                      sign * end[2] / at.body.bending_stiffness(node.strand));
   const double stretch = 1.0 + at.body.free_strain(node.strand, at.now.lambda).value +
-                         sign * end.head<2>().dot(direction(place.angle)) / at.body.axial_stiffness(node.strand);
+                         sign * end.head<2>().dot(unit_tangent(place.angle)) / at.body.axial_stiffness(node.strand);
   const bool is_face = !wall.has_outline() && wall.deck().acts_on == deck::ActsOn::face;
   const double offset = is_face ? -wall.side() * half : 0.0;
   const double stretch_there = stretch - offset * curvature;
@@ -136,7 +138,7 @@ Pinched pinched_at(const std::shared_ptr<const Sliding>& at, const ContactLabel&
   const auto s = [&](Index position) { return at->mesh.coordinate(node.strand, position, at->now.s); };
   pinched.step = 1e-4 * std::min(s(node.position + 1) - s(node.position), s(node.position) - s(node.position - 1));
   const AxisPlace now = at->place(node, pinched.along, pinched.along.at);
-  const Vec2 place = pinch_of(*at, label.wall, now.position).place, axis = direction(now.angle);
+  const Vec2 place = pinch_of(*at, label.wall, now.position).place, axis = unit_tangent(now.angle);
   pinched.along.of = [=, function = pinched.along](const Vector& u) {
     return axis.dot(at->place(node, function, u).position - place);
   };
@@ -147,7 +149,7 @@ Pinched pinched_at(const std::shared_ptr<const Sliding>& at, const ContactLabel&
 // is their force across and along the axis at rest.
 void press_across(const SlidingContact::PinchedPlace& pinch, double angle, Touch& first, Touch& other,
                   Pinched& pinched) {
-  const Vec2 axis = direction(angle), across = perp(axis);
+  const Vec2 axis = unit_tangent(angle), across = perp(axis);
   const Vec2 normal = across.dot(pinch.normal) >= 0.0 ? across : Vec2(-across);
   first.gap.by_place = [normal](const Vector&) { return normal; };
   other.gap.by_place = [normal](const Vector&) -> Vec2 { return -normal; };
@@ -170,7 +172,7 @@ void part_pinching_force(Touch& first, Touch& other) {
 
 Vec2 face_towards(const PlainWall& wall, double half_height, const AxisPlace& place) {
   if (wall.deck().acts_on == deck::ActsOn::axis || wall.has_outline()) return place.position;
-  const Vec2 normal = perp(direction(place.angle));
+  const Vec2 normal = perp(unit_tangent(place.angle));
   return place.position - (normal.y() >= 0.0 ? 1.0 : -1.0) * wall.side() * half_height * normal;
 }
 

@@ -5,6 +5,7 @@
 
 #include "contact/sliding/least_gaps.hpp"
 #include "contact/sliding/remeshing.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall::sliding {
 
@@ -21,8 +22,6 @@ NodeFunction distance(const Vec2& position, const Vec2& from, const Vec2& along)
   return f;
 }
 
-Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 }  // namespace
 
 bool holds_direction(const SlidingSetting& setting, const SlidingContactLayout& on, std::size_t point) {
@@ -33,7 +32,7 @@ OffPinch off_pinch(const SlidingSetting& setting, const SlidingState& at, std::s
   const Pinch& pinch = pinch_of(setting, at.layout, point);
   const AxisPlace axis = touch_of_contact(setting, at.layout, point).axis(at);
   OffPinch off{.across = distance(axis.position, pinch.place, pinch.normal),
-               .along = distance(axis.position, pinch.place, direction(pinch.angle)),
+               .along = distance(axis.position, pinch.place, unit_tangent(pinch.angle)),
                .turned = {.value = axis.angle - pinch.angle}};
   off.turned.gradient[2] = 1.0;
   return off;
@@ -104,7 +103,7 @@ double sense_along(const SharpCorner& corner, const Vec2& axis) {
 FlankAngle angle_to_flank(const SlidingSetting& setting, const SlidingState& at, std::size_t point, bool other,
                           SlidingMesh::At side) {
   const SharpCorner& corner = (*pinch_of(setting, at.layout, point).knife_edges)[other ? 1 : 0];
-  const Vec2 axis = direction(touch_of_contact(setting, at.layout, point).axis(at).angle);
+  const Vec2 axis = unit_tangent(touch_of_contact(setting, at.layout, point).axis(at).angle);
   const Vec2 along = sense_along(corner, axis) * axis;
   if (side == SlidingMesh::At::before) return {.value = turn_between(along, corner.before), .by_rotation = -1.0};
   return {.value = turn_between(corner.behind, along), .by_rotation = 1.0};
@@ -117,8 +116,8 @@ PinchingForce pinching_force(const SlidingSetting& setting, const SlidingState& 
   if (pinch.holds_direction()) return {.value = across, .vector = across * pinch.normal};
   const auto& pinched = at.layout.pinched_points();
   const auto number = static_cast<std::size_t>(std::find(pinched.begin(), pinched.end(), point) - pinched.begin());
-  const Vec2 vector = across * pinch.normal + at.state.x[at.index.force_along(number)] * direction(pinch.angle);
-  Vec2 normal = perp(direction(touch_of_contact(setting, at.layout, point).axis(at).angle));
+  const Vec2 vector = across * pinch.normal + at.state.x[at.index.force_along(number)] * unit_tangent(pinch.angle);
+  Vec2 normal = perp(unit_tangent(touch_of_contact(setting, at.layout, point).axis(at).angle));
   if (normal.dot(pinch.normal) < 0.0) normal = -normal;
   return {.value = vector.dot(normal), .vector = vector};
 }
@@ -143,7 +142,7 @@ std::optional<MaterialPoint> foot_in_element(const SlidingState& rest, Index str
   constexpr double enough = 1e-14;  // of the element
   const auto ahead = [&](double fraction) {
     const AxisPlace place = rest.mesh.inside(strand, element, fraction, rest.now);
-    return direction(place.angle).dot(place.position - position);
+    return unit_tangent(place.angle).dot(place.position - position);
   };
   double from = 0.0, to = 1.0;
   if (ahead(from) > 0.0 || ahead(to) < 0.0) return std::nullopt;
@@ -168,7 +167,7 @@ std::vector<TouchAtRest> touches_at_corners(const SlidingSetting& setting, const
           const auto foot = foot_in_element(rest, strand, element, corner.place);
           if (!foot) continue;
           const AxisPlace place = rest.mesh.place(*foot, rest.now);
-          const Vec2 along = sense_along(corner, direction(place.angle)) * direction(place.angle);
+          const Vec2 along = sense_along(corner, unit_tangent(place.angle)) * unit_tangent(place.angle);
           if ((place.position - corner.place).norm() > touching || cross(along, corner.before) <= 0.0 ||
               cross(corner.behind, along) <= 0.0)
             continue;
