@@ -141,7 +141,6 @@ std::optional<LayoutEdit::NearestPoint> LayoutEdit::nearest_point(Index strand, 
   return nearest;
 }
 
-// By the finer of both, in elements over those that are asked for, of which a short span has one.
 void LayoutEdit::even_out_beside_load(std::size_t point, Index load) {
   const Index strand = strands[point];
   const bool first = is_first_of_strand(point);
@@ -155,9 +154,9 @@ void LayoutEdit::even_out_beside_load(std::size_t point, Index load) {
   int &before = elements_before(point), &behind = elements_behind(point);
   const double asked_before = body.elements_between(strand, from, there),
                asked_behind = body.elements_between(strand, there, to);
-  const double finer = std::max(before / std::max(asked_before, 1.0), behind / std::max(asked_behind, 1.0));
-  const auto as_fine = [finer](double asked) {
-    return std::max(rounded_elements(finer * asked), static_cast<int>(std::ceil(asked / coarsest)));
+  const double density = (before + behind) / (asked_before + asked_behind);
+  const auto as_fine = [density](double asked) {
+    return std::max(rounded_elements(density * asked), static_cast<int>(std::ceil(asked / coarsest)));
   };
   before = as_fine(asked_before);
   behind = as_fine(asked_behind);
