@@ -12,7 +12,7 @@ namespace arcwall {
 ///
 ///     Equations            F(x, λ) = 0, smooth on a piece              four functions must be overridden
 ///     ← UnilateralSystem   gaps and contact forces, g ≥ 0 and p ≥ 0    six more, by a system with contacts
-///     ← System             other unknowns behind validity bounds       five more, by a system that remeshes
+///     ← System             other unknowns behind validity bounds       six more, by a system that remeshes
 ///
 /// Contacts do not change what the unknowns mean; a *layout* (Piece::layout()) does: a mesh whose nodes follow contact
 /// points, say. A layout serves up to its *validity bounds*, guards behind those of the contacts: they are positive on
