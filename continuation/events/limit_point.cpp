@@ -29,9 +29,9 @@ struct Turning {
   double uncertain = 0.0;  // of λ, besides how far the place is off
 };
 
-// Between two points beside a place where K is singular: there λ′ is blurred by what K's inverse makes of round-off, and
-// the zero of it that was located with it. Beside it the path is exact, and smooth; but where a contact passes a point
-// load λ has a kink, which the zero tells and a cubic rounds off.
+// Between two points beside a place where K is singular: there λ′ is blurred by what K's inverse makes of round-off,
+// and the zero of it that was located with it. Beside it the path is exact, and smooth; but where a contact passes a
+// point load λ has a kink, which the zero tells and a cubic rounds off.
 Turning turning_between(const Metric& metric, const PathPoint& before, const PathPoint& after, const State& located) {
   constexpr double blur = 1e-7;  // that round-off may make of λ [scale of λ]
   const Segment segment(metric, before, after);

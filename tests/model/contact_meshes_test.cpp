@@ -34,8 +34,8 @@ std::string arch(int elements, const std::string& slope = "0.0", bool mirrored =
 }
 
 // Two halves without a load, clamped at one end and with slope 0 at the height of the floor at the other. The forces
-// that hold such an end are functions of its place x and of the half's length s, of which the touch has moved by δ beyond
-// the load: both halves pull alike if H_s δ + H_x ξ = 0, and their moments differ by the lever Λ δ of the load,
+// that hold such an end are functions of its place x and of the half's length s, of which the touch has moved by δ
+// beyond the load: both halves pull alike if H_s δ + H_x ξ = 0, and their moments differ by the lever Λ δ of the load,
 // λ P Λ = 2 (M_s − M_x H_s/H_x). By shooting with the extensible elastica, apart from this program.
 constexpr double rests = 0.53796827, bears_alone = 0.12388133;
 
@@ -54,7 +54,8 @@ std::string column(int elements) {
          std::to_string(elements) +
          ", imperfection = { shape = \"sine\", amplitude = 0.042, waves = 1 } }\n"
          "load = [{ at = \"right\", force = [-0.543, 0.0] }]\n"
-         "wall = [{ name = \"upper\", side = \"above\", profile = { type = \"circle\", centre = [4.576, 12.315], radius "
+         "wall = [{ name = \"upper\", side = \"above\", profile = { type = \"circle\", centre = [4.576, 12.315], "
+         "radius "
          "= 12.042 } }, { name = \"lower\", side = \"below\", profile = { type = \"circle\", centre = [4.045, -9.383], "
          "radius = 9.109 } }]\n"
          "path = { step = 0.05, stop = { lambda = [-1.0, 4.9], event = \"branch-point\" } }\n";
