@@ -54,11 +54,6 @@ Elements divided(const LayoutEdit::Part& part, double place, int elements) {
   return {.before = first, .behind = elements - first};
 }
 
-// The fewest elements between two places of a strand that are not too long.
-int fewest_elements(const SlidingBody& body, Index strand, double from, double to) {
-  return static_cast<int>(std::ceil(body.elements_between(strand, from, to) / coarsest));
-}
-
 // Of a part in which a point is inserted, by where this will touch, roughly.
 Elements elements_beside(const LayoutEdit& edit, const LeastGap& start, const LeastGap& violated) {
   const double fallen = start.gap - violated.gap;

@@ -152,14 +152,13 @@ void LayoutEdit::even_out_beside_load(std::size_t point, Index load) {
   const double from = part_at(strand, std::nextafter(place(point), 0.0)).from, to = part_at(strand, place(point)).to;
   if (!(from < there && there < to)) return;
   int &before = elements_before(point), &behind = elements_behind(point);
-  const double asked_before = body.elements_between(strand, from, there),
-               asked_behind = body.elements_between(strand, there, to);
-  const double density = (before + behind) / (asked_before + asked_behind);
-  const auto as_fine = [density](double asked) {
-    return std::max(rounded_elements(density * asked), static_cast<int>(std::ceil(asked / coarsest)));
+  const double density = (before + behind) / body.elements_between(strand, from, to);
+  const auto as_fine = [&](double a, double b) {
+    const int even = rounded_elements(density * body.elements_between(strand, a, b));
+    return std::max(even, fewest_elements(body, strand, a, b));
   };
-  before = as_fine(asked_before);
-  behind = as_fine(asked_behind);
+  before = as_fine(from, there);
+  behind = as_fine(there, to);
 }
 
 std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elements_behind) {

@@ -13,6 +13,10 @@ int elements_asked(const SlidingBody& body, Index strand, double from, double to
   return std::max(fewest, static_cast<int>(std::lround(body.elements_between(strand, from, to))));
 }
 
+int fewest_elements(const SlidingBody& body, Index strand, double from, double to) {
+  return static_cast<int>(std::ceil(body.elements_between(strand, from, to) / coarsest));
+}
+
 // EI g = p̄″ (¼ d² − S²)³/720 is 10⁻¹⁴ of L at this length where a hump of 10⁻³ L is pressed flat.
 double shortest_gap_on_straight(const SlidingBody& body, Index strand) { return 0.04 * body.length(strand); }
 

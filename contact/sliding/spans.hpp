@@ -20,6 +20,9 @@ constexpr double edge_behind_load = 1e-3;
 /// How many elements the mesh of a strand asks for between two places.
 int elements_asked(const SlidingBody& body, Index strand, double from, double to, int fewest);
 
+/// The fewest elements between two places of a strand that are not too long.
+int fewest_elements(const SlidingBody& body, Index strand, double from, double to);
+
 /// Length below which a part of the body between two contacts is none [length].
 double shortest_span(const SlidingBody& body, Index strand);
 
