@@ -289,6 +289,12 @@ bool is_known_by_state(const Transition& transition) {
   return !transition.quantity && (is_known_ahead(transition.change) || transition.change == Transition::Change::splits);
 }
 
+// Whether a change lies where a quantity has a value, at which it is sought with patience before the transitions that
+// come next are tried: one of them may leap over it.
+bool is_sought(const Transition& transition) {
+  return transition.quantity && transition.change == Transition::Change::gathers;
+}
+
 // The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
 // again with patience where none is, and then entered early. Last comes what is not sure to hold ahead, or has a count
 // against which λ does not turn: with its length there may be a second equilibrium behind the next fold, from which the
@@ -301,6 +307,7 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
     for (const Transition& transition : transitions) {
       if (!leads_on(transition.change)) break;
       auto at = enter(tools, transition, from, lambda_scale, effort);
+      if (!at && is_sought(transition)) at = enter(tools, transition, from, lambda_scale, Effort::patient);
       if (!at) continue;
       if (is_known_by_state(transition)) at = in_sense_of_counts(before, from, std::move(*at), mesh_error);
       if (!at) continue;
