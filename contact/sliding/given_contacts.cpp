@@ -73,7 +73,10 @@ class GivenLayout {
     }
   }
 
-  State state() const { return mapped_onto(setting_, open_, edit_, layout_of(edit_)); }
+  State state() {
+    divide_evenly(edit_);
+    return mapped_onto(setting_, open_, edit_, layout_of(edit_));
+  }
 
  private:
   // But for an element at each of them.

@@ -67,6 +67,17 @@ Elements elements_beside(const LayoutEdit& edit, const LeastGap& start, const Le
           .behind = std::max(behind, fewest_elements(edit.body, strand, start.at.s, part.to))};
 }
 
+// So that parts are alike which are so where the point touches, from wherever that is foreseen.
+void take_elements_of(const LayoutEdit& ahead, LayoutEdit& edit) {
+  const auto same_end = [](const MeshSegment& a, const MeshSegment& b) { return a.load == b.load; };
+  for (std::size_t strand = 0; strand < edit.elements.size(); ++strand) {
+    const std::vector<MeshSegment>& there = ahead.elements[strand];
+    std::vector<MeshSegment>& here = edit.elements[strand];
+    if (!std::equal(there.begin(), there.end(), here.begin(), here.end(), same_end)) continue;
+    for (std::size_t i = 0; i < here.size(); ++i) here[i].elements = there[i].elements;
+  }
+}
+
 // Whether an inserted point would be given up at once: its least gap is shallow, or it is cramped beside the end of the
 // member, a load or a contact with another wall. What has been given up near a tip must not be inserted there again,
 // where another mesh has it a little farther away.
@@ -109,6 +120,11 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   LayoutEdit before = edit_of(setting.body, from);
   take_nodes_beside(start->at, before);
   const auto elements = elements_beside(before, *start, *violated);
+  LayoutEdit ahead = edit_of(setting.body, to);  // nearly where the point touches
+  take_nodes_beside(violated->at, ahead);
+  ahead.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = violated->at.s}, elements.before,
+               elements.behind);
+  divide_evenly(ahead);
   std::size_t point = 0;
   Transition transition = remeshed(setting, from, forward, [&](LayoutEdit& edit, const SlidingState& at) {
     // The point follows the least gap, which may move along the member much faster than the body moves.
@@ -116,6 +132,7 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
     take_nodes_beside(start->at, edit);
     point = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = s}, elements.before,
                         elements.behind);
+    take_elements_of(ahead, edit);
   });
   if (is_unfit(setting, transition.guess, point)) return std::nullopt;
   return transition;
@@ -153,6 +170,9 @@ std::optional<Transition> with_mesh_for_touch(const SlidingSetting& setting, con
     return std::nullopt;
   const DividedPart here = part_with(edit_of(setting.body, from), point),
                     there = part_with(edit_of(setting.body, to), point);
+  const double asked_before = setting.body.elements_between(there.strand, there.all.from, there.point),
+               asked_behind = setting.body.elements_between(there.strand, there.point, there.all.to);
+  if (std::max(asked_before / asked_behind, asked_behind / asked_before) <= alike) return std::nullopt;
   const double off = std::abs(elements_up_to(there.all, there.point, there.elements) - there.before);
   if (off <= rounding || off >= most) return std::nullopt;
   const Elements divided_there = divided(there.all, there.point, there.elements);

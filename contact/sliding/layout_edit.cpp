@@ -130,35 +130,15 @@ double LayoutEdit::depth_in_part(Index strand, double place, Span span) const {
   return deepest;
 }
 
-std::optional<LayoutEdit::NearestPoint> LayoutEdit::nearest_point(Index strand, double place) const {
-  std::optional<NearestPoint> nearest;
+std::optional<double> LayoutEdit::elements_to_point(Index strand, double place) const {
+  std::optional<double> nearest;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (strands[k] != strand) continue;
     const double there = s[static_cast<Index>(k)];
     const double between = body.elements_between(strand, std::min(place, there), std::max(place, there));
-    if (!nearest || between < nearest->elements) nearest = NearestPoint{.point = k, .elements = between};
+    if (!nearest || between < *nearest) nearest = between;
   }
   return nearest;
-}
-
-void LayoutEdit::even_out_beside_load(std::size_t point, Index load) {
-  const Index strand = strands[point];
-  const bool first = is_first_of_strand(point);
-  const Span span_before = first ? points[point].before : points[point - 1].behind;
-  const bool neutral_before = first ? points[point].neutral_before : points[point - 1].neutral_behind;
-  const bool both_free = span_before == Span::free && points[point].behind == Span::free;
-  if (!both_free || neutral_before || points[point].neutral_behind) return;
-  const double there = body.point_loads(strand)[static_cast<std::size_t>(load)];
-  const double from = part_at(strand, std::nextafter(place(point), 0.0)).from, to = part_at(strand, place(point)).to;
-  if (!(from < there && there < to)) return;
-  int &before = elements_before(point), &behind = elements_behind(point);
-  const double density = (before + behind) / body.elements_between(strand, from, to);
-  const auto as_fine = [&](double a, double b) {
-    const int even = rounded_elements(density * body.elements_between(strand, a, b));
-    return std::max(even, fewest_elements(body, strand, a, b));
-  };
-  before = as_fine(from, there);
-  behind = as_fine(there, to);
 }
 
 std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elements_behind) {
@@ -228,11 +208,10 @@ void settle_loads(LayoutEdit& edit) {
       if (std::abs(pressed) > 2.0 * edge_behind_load) handed_on = pressed > 0.0;
       const bool on_wall = handed_on || edit.depth_in_part(strand, places[i], Span::flat) > 0.0;
       const bool has_node = edit.has_node(strand, load);
-      const auto nearest = edit.nearest_point(strand, places[i]);
-      const bool beside = nearest && nearest->elements <= nearest_node_of_load + landed;
-      const bool far = !nearest || nearest->elements >= farthest_load_inside - landed;
+      const auto nearest = edit.elements_to_point(strand, places[i]);
+      const bool beside = nearest && *nearest <= nearest_node_of_load + landed;
+      const bool far = !nearest || *nearest >= farthest_load_inside - landed;
       if (has_node && (on_wall || beside)) edit.take_node(strand, load);
-      if (has_node && !on_wall && beside) edit.even_out_beside_load(nearest->point, load);
       if (!has_node && !on_wall && far) edit.give_node(strand, load);
     }
   }
@@ -240,48 +219,127 @@ void settle_loads(LayoutEdit& edit) {
 
 namespace {
 
-// Neutral spans are held at the node in their middle.
-void give_middles(LayoutEdit& edit) {
-  const auto make_even = [](int& number) { number += number % 2; };
-  for (std::size_t k = 0; k < edit.points.size(); ++k) {
-    const bool is_first = k == 0 || edit.strands[k - 1] != edit.strands[k];
-    if (is_first && edit.points[k].neutral_before) make_even(edit.elements_before(k));
-    if (edit.points[k].neutral_behind) make_even(edit.elements_behind(k));
-  }
-}
+// A segment, where it is and how it runs.
+struct Part {
+  MeshSegment* segment;
+  Index strand;
+  double from, to;
+  bool has_point;  // at one of its ends
+  Span span;
+  bool neutral;
+};
 
-// Says of the segments which are pressed, and gives them the loads that they hand on. One at the edge of a part is near
-// the end of its segment, be it beyond.
-void hand_loads_on(LayoutEdit& edit) {
+std::vector<Part> parts_of(LayoutEdit& edit) {
+  std::vector<Part> parts;
   std::size_t next = 0;  // point
   for (std::size_t strand = 0; strand < edit.elements.size(); ++strand) {
     std::vector<MeshSegment>& segments = edit.elements[strand];
+    const std::vector<double>& loads = edit.body.point_loads(static_cast<Index>(strand));
     const auto ends_at_point = [&](const MeshSegment& at) { return !at.ends_at_load() && &at != &segments.back(); };
     Span span = !edit.lying.empty() && edit.lying[strand] ? Span::pressed : Span::free;
-    if (std::any_of(segments.begin(), segments.end(), ends_at_point)) span = edit.points[next].before;
-    const std::vector<double>& places = edit.body.point_loads(static_cast<Index>(strand));
+    bool neutral = false, from_point = false;
+    if (std::any_of(segments.begin(), segments.end(), ends_at_point)) {
+      span = edit.points[next].before;
+      neutral = edit.points[next].neutral_before;
+    }
     double from = 0.0;
     for (MeshSegment& segment : segments) {
+      const bool to_point = ends_at_point(segment);
       double to = edit.body.length(static_cast<Index>(strand));
-      if (segment.ends_at_load()) to = places[static_cast<std::size_t>(segment.load)];
-      if (ends_at_point(segment)) to = edit.place(next);
-      segment.pressed = span == Span::pressed;
-      const double edge = 0.5 * (to - from) / segment.elements;
-      for (std::size_t i = 0; i < places.size() && segment.pressed; ++i)
-        if (edit.handed_on[strand][i] && from - edge < places[i] && places[i] < to + edge)
-          segment.handed_on.push_back(static_cast<Index>(i));
-      if (ends_at_point(segment)) span = edit.points[next++].behind;
+      if (segment.ends_at_load()) to = loads[static_cast<std::size_t>(segment.load)];
+      if (to_point) to = edit.place(next);
+      parts.push_back({.segment = &segment,
+                       .strand = static_cast<Index>(strand),
+                       .from = from,
+                       .to = to,
+                       .has_point = from_point || to_point,
+                       .span = span,
+                       .neutral = neutral});
       from = to;
+      from_point = to_point;
+      if (!to_point) continue;
+      span = edit.points[next].behind;
+      neutral = edit.points[next].neutral_behind;
+      ++next;
     }
+  }
+  return parts;
+}
+
+// Neutral spans are held at the node in their middle.
+void give_middles(const std::vector<Part>& parts) {
+  for (const Part& part : parts)
+    if (part.neutral) part.segment->elements += part.segment->elements % 2;
+}
+
+// A part without contacts has the elements that are asked for, whatever it was made of.
+void give_asked(const LayoutEdit& edit, const std::vector<Part>& parts) {
+  for (const Part& part : parts)
+    if (!part.has_point && part.span == Span::free)
+      part.segment->elements = elements_asked(edit.body, part.strand, part.from, part.to, 1);
+}
+
+// Parts of about one length get equally many elements, those of the finest of them, but not more than twice those asked
+// for. The layout's bounds tell where two come to be so, up to how exactly that is landed on.
+void give_alike(const LayoutEdit& edit, const std::vector<Part>& parts) {
+  constexpr double landed_on = 1e-3;
+  const auto compared = [&](const Part* part) {
+    return ComparedPart{.span = part->span, .asked = edit.body.elements_between(part->strand, part->from, part->to)};
+  };
+  const auto are_alike = [&](const Part* one, const Part* other) {
+    const ComparedPart a = compared(one), b = compared(other);
+    return a.may_be_like(b) && std::abs(std::log(a.asked / b.asked)) <= std::log(alike) + landed_on;
+  };
+  std::vector<const Part*> left;
+  for (const Part& part : parts)
+    if (part.has_point) left.push_back(&part);
+  while (!left.empty()) {
+    std::vector<const Part*> same{left.back()};
+    left.pop_back();
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      const auto others =
+          std::partition(left.begin(), left.end(), [&](const Part* b) { return !are_alike(same[i], b); });
+      same.insert(same.end(), others, left.end());
+      left.erase(others, left.end());
+    }
+    const auto fewer = [](const Part* a, const Part* b) { return a->segment->elements < b->segment->elements; };
+    const auto [coarsest_of, finest_of] = std::minmax_element(same.begin(), same.end(), fewer);
+    int each = (*finest_of)->segment->elements;
+    if (each == (*coarsest_of)->segment->elements) continue;
+    for (const Part* part : same) each = std::min(each, static_cast<int>(2.0 * compared(part).asked));
+    if (std::any_of(same.begin(), same.end(), [](const Part* part) { return part->neutral; })) each += each % 2;
+    for (const Part* part : same) part->segment->elements = each;
+  }
+}
+
+// Says of the parts which are pressed, and gives them the loads that they hand on. One at the edge of a part is near
+// the end of its segment, be it beyond.
+void hand_loads_on(const LayoutEdit& edit, const std::vector<Part>& parts) {
+  for (const Part& part : parts) {
+    const std::vector<double>& places = edit.body.point_loads(part.strand);
+    part.segment->pressed = part.span == Span::pressed;
+    const double edge = 0.5 * (part.to - part.from) / part.segment->elements;
+    for (std::size_t i = 0; i < places.size() && part.segment->pressed; ++i)
+      if (edit.handed_on[static_cast<std::size_t>(part.strand)][i] && part.from - edge < places[i] &&
+          places[i] < part.to + edge)
+        part.segment->handed_on.push_back(static_cast<Index>(i));
   }
 }
 
 }  // namespace
 
+void divide_evenly(LayoutEdit& edit) {
+  settle_loads(edit);
+  const std::vector<Part> parts = parts_of(edit);
+  give_asked(edit, parts);
+  give_alike(edit, parts);
+}
+
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {
   settle_loads(edit);
-  give_middles(edit);
-  hand_loads_on(edit);
+  const std::vector<Part> parts = parts_of(edit);
+  give_middles(parts);
+  hand_loads_on(edit, parts);
   return std::make_shared<SlidingContactLayout>(edit.body, edit.body.mesh(edit.elements), edit.points, edit.s,
                                                 edit.lying);
 }

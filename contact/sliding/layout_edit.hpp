@@ -67,16 +67,8 @@ struct LayoutEdit {
   /// How far a place is inside a part that lies on a wall in this way, in elements; negative outside.
   double depth_in_part(Index strand, double s, SlidingContactLayout::Span span) const;
 
-  /// The point of a strand that is nearest to a place, and how many elements that are asked for lie between.
-  struct NearestPoint {
-    std::size_t point;
-    double elements;
-  };
-  std::optional<NearestPoint> nearest_point(Index strand, double s) const;
-
-  /// Gives the free spans on both sides of a point that is near a load elements of one length, as the point would
-  /// divide them if it were at the load. So a symmetric body with a load in its middle keeps a symmetric mesh.
-  void even_out_beside_load(std::size_t point, Index load);
+  /// How many elements are asked for between a place and the nearest point of its strand; empty without points.
+  std::optional<double> elements_to_point(Index strand, double s) const;
 
  private:
   bool is_first_of_strand(std::size_t point) const { return point == 0 || strands[point - 1] != strands[point]; }
@@ -90,6 +82,11 @@ LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at);
 /// Takes the nodes of point loads that points have come too near to, and gives one to those that they have left. Loads
 /// inside parts that lie on a wall have none: pressed parts hand them on, others with such a load are not valid.
 void settle_loads(LayoutEdit& edit);
+
+/// Gives parts of about one length equally many elements, and free parts without contacts those that are asked for,
+/// where nothing but the mesh changes: what is behind a change of contacts is the same equilibrium on the same
+/// elements.
+void divide_evenly(LayoutEdit& edit);
 
 /// The layout that has been made of one, with its loads settled and nodes in the middles of neutral spans.
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit);

@@ -62,6 +62,7 @@ Transition with_elements(const SlidingSetting& setting, const SlidingState& at, 
   const SlidingContactLayout::Segment& changed = at.layout.segments()[segment];
   return remeshed(setting, at, forward, [&changed, elements](LayoutEdit& edit, const SlidingState&) {
     edit.elements[static_cast<std::size_t>(changed.strand)][changed.place].elements = elements;
+    divide_evenly(edit);
   });
 }
 
@@ -69,6 +70,7 @@ Transition without_point(const SlidingSetting& setting, const SlidingState& at, 
                          std::size_t point) {
   return remeshed(setting, at, forward, [point](LayoutEdit& edit, const SlidingState&) {
     edit.erase(point, edit.elements_before(point) + edit.elements_behind(point));
+    divide_evenly(edit);
   });
 }
 

@@ -17,6 +17,11 @@ int fewest_elements(const SlidingBody& body, Index strand, double from, double t
   return static_cast<int>(std::ceil(body.elements_between(strand, from, to) / coarsest));
 }
 
+// Flat parts have elements of their own, and in short parts the error of the mesh is small.
+bool ComparedPart::may_be_like(const ComparedPart& other) const {
+  return span == other.span && span != Span::flat && std::min(asked, other.asked) >= shortest_alike;
+}
+
 // EI g = p̄″ (¼ d² − S²)³/720 is 10⁻¹⁴ of L at this length where a hump of 10⁻³ L is pressed flat.
 double shortest_gap_on_straight(const SlidingBody& body, Index strand) { return 0.04 * body.length(strand); }
 

@@ -9,6 +9,18 @@ namespace arcwall::sliding {
 /// Sizes of elements, relative to those asked for, at which a segment is meshed anew.
 constexpr double coarsest = 1.25, finest = 0.25;
 
+/// Parts for which at least `shortest_alike` elements are asked for, and up to `alike` times as many in one as in the
+/// other, get equally many: so the mesh of a symmetric body is symmetric.
+constexpr double shortest_alike = 2.0, alike = 1.15;
+
+/// A part of a strand with a contact at one of its ends, by how it runs and how many elements are asked for in it.
+struct ComparedPart {
+  SlidingContactLayout::Span span;
+  double asked;
+
+  bool may_be_like(const ComparedPart& other) const;
+};
+
 /// Elements between a point load and the nearest tracked point: nearer than the first, the load has no node, and
 /// farther than the second it has one.
 constexpr double nearest_node_of_load = 0.5, farthest_load_inside = 0.75;

@@ -83,6 +83,12 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
     for (const auto side : {SlidingMesh::At::before, SlidingMesh::At::behind})
       for (const bool other : {false, true}) add_if<PinchBound>(true, bounds, k, side, other);
   for (std::size_t i = 0; i < on.segments().size(); ++i) add_of_segment(body, on, i, bounds);
+  std::vector<std::size_t> changing;
+  for (std::size_t i = 0; i < on.segments().size(); ++i)
+    if (on.segments()[i].has_point()) changing.push_back(i);
+  for (const std::size_t i : changing)
+    for (const std::size_t j : changing)
+      if (UnlikeBound::is_needed(body, on, i, j)) bounds.push_back(std::make_unique<UnlikeBound>(body, on, i, j));
   for (Index strand = 0; strand < body.strands(); ++strand) add_of_inner_loads(body, on, strand, bounds);
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i) add_if<PressureBound>(true, bounds, i);
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i) {

@@ -206,7 +206,7 @@ support = { foot = ["x", "z"], head = ["z"] }
 load = [{ at = "head", force = [-2.2, 0.0] }]
 monitor = [{ name = "mid", at = "column:0.5", component = "z" }, { name = "shortening", at = "head", component = "x", sign = -1 }]
 path = { step = 0.05, stop = { lambda = [-1.0, 11.0], shortening = [-3.0, 4.6] } }
-member.column = { from = "foot", to = "head", theory = "classic", material = "steel", section = "s", elements = 64, imperfection = [{ shape = "sine", amplitude = 0.0015, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }] }
+member.column = { from = "foot", to = "head", theory = "classic", material = "steel", section = "s", elements = 80, imperfection = [{ shape = "sine", amplitude = 0.0015, waves = 1 }, { shape = "sine", amplitude = 0.004, waves = 2 }] }
 [[wall]]
 name = "above"
 side = "above"

@@ -1,5 +1,8 @@
 #include "contact/sliding/bounds/element_size.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 
@@ -61,6 +64,49 @@ Row FineBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
 std::vector<Transition> FineBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {
   return {with_elements(setting, at, arrival.forward, segment_, (elements_of(at, segment_) + 1) / 2)};
+}
+
+namespace {
+
+// As a layout begins.
+ComparedPart compared_at_first(const SlidingBody& body, const SlidingContactLayout& on, std::size_t segment) {
+  const SlidingContactLayout::Segment& part = on.segments()[segment];
+  const auto [from, to] = on.ends(body, part, on.origin());
+  return {.span = part.span, .asked = body.elements_between(part.strand, from, to)};
+}
+
+}  // namespace
+
+bool UnlikeBound::is_needed(const SlidingBody& body, const SlidingContactLayout& on, std::size_t longer,
+                            std::size_t shorter) {
+  if (on.segments()[longer].elements == on.segments()[shorter].elements) return false;
+  const ComparedPart a = compared_at_first(body, on, longer), b = compared_at_first(body, on, shorter);
+  return a.may_be_like(b) && a.asked > b.asked;
+}
+
+// Where contacts have changed they may be of about one length already.
+UnlikeBound::UnlikeBound(const SlidingBody& body, const SlidingContactLayout& on, std::size_t longer,
+                         std::size_t shorter)
+    : longer_(longer),
+      shorter_(shorter),
+      ratio_(std::min(
+          alike, std::sqrt(compared_at_first(body, on, longer).asked / compared_at_first(body, on, shorter).asked))) {}
+
+double UnlikeBound::value(const SlidingSetting& setting, const SlidingState& at) const {
+  return (elements_wanted(setting, at, longer_) - ratio_ * elements_wanted(setting, at, shorter_)) /
+         elements_of(at, longer_);
+}
+
+Row UnlikeBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
+  const double elements = elements_of(at, longer_);
+  Row row = elements_wanted_gradient(setting, at, longer_, 1.0 / elements);
+  row.dx += elements_wanted_gradient(setting, at, shorter_, -ratio_ / elements).dx;
+  return row;
+}
+
+std::vector<Transition> UnlikeBound::transitions(const SlidingSetting& setting, const SlidingState& at,
+                                                 const Arrival& arrival) const {
+  return {remeshed(setting, at, arrival.forward, [](LayoutEdit& edit, const SlidingState&) { divide_evenly(edit); })};
 }
 
 }  // namespace arcwall::sliding

@@ -38,6 +38,25 @@ class FineBound final : public ValidityBound {
   std::size_t segment_;
 };
 
+/// Two segments with unlike numbers of elements come to be of about one length: behind the bound they have the same.
+class UnlikeBound final : public ValidityBound {
+ public:
+  UnlikeBound(const SlidingBody& body, const SlidingContactLayout& on, std::size_t longer, std::size_t shorter);
+
+  /// Whether a layout has this bound: of segments that run in one way, the first of which is the longer one there.
+  static bool is_needed(const SlidingBody& body, const SlidingContactLayout& on, std::size_t longer,
+                        std::size_t shorter);
+
+  double value(const SlidingSetting& setting, const SlidingState& at) const override;
+  Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
+                                      const Arrival& arrival) const override;
+
+ private:
+  std::size_t longer_, shorter_;
+  double ratio_;  ///< of their lengths, where they come to be of about one length
+};
+
 /// The number of elements that the mesh asks for in a segment, and `factor` times its derivative by the coordinates of
 /// the segment's ends.
 double elements_wanted(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);

@@ -53,7 +53,7 @@ Index nearest_point(const SlidingSetting& setting, const SlidingState& at, Index
 
 // Loads are settled wherever a layout is made anew.
 std::vector<Transition> settled(const SlidingSetting& setting, const SlidingState& at, const Direction& forward) {
-  return {remeshed(setting, at, forward, [](LayoutEdit&, const SlidingState&) {})};
+  return {remeshed(setting, at, forward, [](LayoutEdit& edit, const SlidingState&) { divide_evenly(edit); })};
 }
 
 }  // namespace
