@@ -98,6 +98,7 @@ Touch node_touch(const NodeContacts& all, Index j) {
   touch.gap.of = [point, half, &wall](const Vector& u) { return wall.gap_to(point.at(u), half); };
   if (wall.has_outline()) touch.gap.by_place = [point, &wall](const Vector& u) { return wall.normal(point.at(u)); };
   touch.place = wall.touched_by(point.at(touch.gap.at), half);
+  touch.gap.resolve(wall.from_vertical(point.at(touch.gap.at)));
   const deck::Contact& contact = model.deck().contact;
   const double spring = contact.penalty.value_or(0.0) * label.tributary;
   if (contact.method == ContactLaw::Method::penalty) touch.compliance = 1.0 / spring;

@@ -140,6 +140,12 @@ double PlainWall::width() const {
   return least;
 }
 
+double PlainWall::from_vertical(const Vec2& point) const {
+  const auto* circle = std::get_if<deck::CircleProfile>(&wall_.profile);
+  if (outline_ || circle == nullptr) return infinity;
+  return std::abs(circle->radius - std::abs(at_rest(point).x() - circle->centre.x));
+}
+
 bool PlainWall::concerns(const std::string& member) const {
   return wall_.members.empty() || std::find(wall_.members.begin(), wall_.members.end(), member) != wall_.members.end();
 }

@@ -70,6 +70,10 @@ class PlainWall {
   /// Of what stands out of the wall, as far as its outline tells: diameters; ∞ of straight ones [length].
   double width() const;
 
+  /// How far a point is, along the wall's own x-axis, from where a profile becomes vertical: a circle's ends; ∞ of
+  /// others [length].
+  double from_vertical(const Vec2& point) const;
+
   bool concerns(const std::string& member) const;
 
  private:

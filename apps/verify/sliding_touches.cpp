@@ -24,6 +24,7 @@ Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& w
     return face_towards(wall, half, at->place(node, function, u));
   };
   touch.place = wall.touched_by(face(touch.gap.at), half);
+  touch.gap.resolve(wall.from_vertical(face(touch.gap.at)));
   touch.gap.of = [face, half, &wall](const Vector& u) { return wall.gap_to(face(u), half); };
   if (wall.has_outline()) touch.gap.by_place = [face, &wall](const Vector& u) { return wall.normal(face(u)); };
   return touch;

@@ -6,6 +6,11 @@
 
 namespace arcwall::verify {
 
+void NodeFunction::resolve(double length) {
+  constexpr double part = 0.02;  // the slope of a circle right before its end to 4e-8
+  steps.head<2>() = steps.head<2>().cwiseMin(part * length);
+}
+
 Vector NodeFunction::gradient() const {
   Vector gradient = Vector::Zero(at.size());
   if (by_place) {

@@ -24,6 +24,9 @@ struct NodeFunction {
   /// where a slope has a kink.
   std::function<Vec2(const Vector&)> by_place{};
 
+  /// Takes differences by x and z within a part of a length over which the function bends.
+  void resolve(double length);
+
   double value() const { return of(at); }
   Vector gradient() const;  ///< 0 for what is held
   Matrix hessian() const;

@@ -200,6 +200,22 @@ TEST(Verify, RunsOnWallsThatEndAndThatAreCurvedHold) {
   expect_confirmed(TracedDeck(portal_on_hill));
 }
 
+// A strip that is wound down a drum until its tip touches that, a thousandth of the radius from where the profile is
+// vertical: the wall's normal there turns within the differences that the others are taken with.
+TEST(Verify, ATouchBesideTheEndOfACircleHolds) {
+  expect_confirmed(TracedDeck(R"toml(
+title = "A strip wound down a circle until its tip touches"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.618, height = 0.1205 }
+point = { clamp = [0.0, 0.0], tip = [27.0, 0.0] }
+support = { clamp = ["x", "z", "rotation"] }
+load = [{ at = "tip", moment = -0.035 }]
+wall = [{ name = "drum", side = "below", profile = { type = "circle", centre = [9.42, -13.276], radius = 11.1713 } }]
+path = { step = 0.1, stop = { lambda = [-1.0, 5.3] } }
+member.strip = { from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = 30 }
+)toml"));
+}
+
 // Sharp corners have no normal of their own where they hold a column between them, which has turned there; it is drawn
 // through them to its end, where next to nothing of it is left on one side.
 TEST(Verify, KnifeEdgesPressAcrossTheAxis) {
