@@ -170,9 +170,6 @@ std::optional<Transition> with_mesh_for_touch(const SlidingSetting& setting, con
     return std::nullopt;
   const DividedPart here = part_with(edit_of(setting.body, from), point),
                     there = part_with(edit_of(setting.body, to), point);
-  const double asked_before = setting.body.elements_between(there.strand, there.all.from, there.point),
-               asked_behind = setting.body.elements_between(there.strand, there.point, there.all.to);
-  if (std::max(asked_before / asked_behind, asked_behind / asked_before) <= alike) return std::nullopt;
   const double off = std::abs(elements_up_to(there.all, there.point, there.elements) - there.before);
   if (off <= rounding || off >= most) return std::nullopt;
   const Elements divided_there = divided(there.all, there.point, there.elements);
@@ -180,6 +177,13 @@ std::optional<Transition> with_mesh_for_touch(const SlidingSetting& setting, con
       divided_there.before < fewest_elements(setting.body, here.strand, here.all.from, here.point) ||
       divided_there.behind < fewest_elements(setting.body, here.strand, here.point, here.all.to))
     return std::nullopt;
+  LayoutEdit at_touch = edit_of(setting.body, to);
+  at_touch.elements_before(point) = divided_there.before;
+  at_touch.elements_behind(point) = divided_there.behind;
+  divide_evenly(at_touch);
+  if (at_touch.elements_before(point) != divided_there.before ||
+      at_touch.elements_behind(point) != divided_there.behind)
+    return std::nullopt;  // one of them is like another part there
   return remeshed(setting, from, forward, [&](LayoutEdit& changed, const SlidingState&) {
     changed.elements_before(point) = divided_there.before;
     changed.elements_behind(point) = divided_there.behind;
