@@ -57,6 +57,10 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
   return transition;
 }
 
+Transition divided_evenly(const SlidingSetting& setting, const SlidingState& at, const Direction& forward) {
+  return remeshed(setting, at, forward, [](LayoutEdit& edit, const SlidingState&) { divide_evenly(edit); });
+}
+
 Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t segment, int elements) {
   const SlidingContactLayout::Segment& changed = at.layout.segments()[segment];

@@ -20,11 +20,15 @@ using EditLayout = std::function<void(LayoutEdit&, const SlidingState&)>;
 Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                     const EditLayout& edit);
 
+/// That with parts of about one length divided alike, and loads settled. See divide_evenly(), which the next two do as
+/// well.
+Transition divided_evenly(const SlidingSetting& setting, const SlidingState& at, const Direction& forward);
+
 /// That with another number of elements in one segment.
 Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t segment, int elements);
 
-/// That without a tracked point: its elements stay.
+/// That without a tracked point: where another is left beside them its elements stay.
 Transition without_point(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t point);
 

@@ -106,7 +106,7 @@ Row UnlikeBound::gradient(const SlidingSetting& setting, const SlidingState& at)
 
 std::vector<Transition> UnlikeBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                  const Arrival& arrival) const {
-  return {remeshed(setting, at, arrival.forward, [](LayoutEdit& edit, const SlidingState&) { divide_evenly(edit); })};
+  return {divided_evenly(setting, at, arrival.forward)};
 }
 
 }  // namespace arcwall::sliding

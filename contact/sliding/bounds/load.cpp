@@ -51,11 +51,6 @@ Index nearest_point(const SlidingSetting& setting, const SlidingState& at, Index
   return nearest;
 }
 
-// Loads are settled wherever a layout is made anew.
-std::vector<Transition> settled(const SlidingSetting& setting, const SlidingState& at, const Direction& forward) {
-  return {remeshed(setting, at, forward, [](LayoutEdit& edit, const SlidingState&) { divide_evenly(edit); })};
-}
-
 }  // namespace
 
 double LoadAheadBound::value(const SlidingSetting& setting, const SlidingState& at) const {
@@ -68,7 +63,7 @@ Row LoadAheadBound::gradient(const SlidingSetting& setting, const SlidingState& 
 
 std::vector<Transition> LoadAheadBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                     const Arrival& arrival) const {
-  return settled(setting, at, arrival.forward);
+  return {divided_evenly(setting, at, arrival.forward)};
 }
 
 double LoadBehindBound::value(const SlidingSetting& setting, const SlidingState& at) const {
@@ -83,7 +78,7 @@ Row LoadBehindBound::gradient(const SlidingSetting& setting, const SlidingState&
 
 std::vector<Transition> LoadBehindBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                      const Arrival& arrival) const {
-  return settled(setting, at, arrival.forward);
+  return {divided_evenly(setting, at, arrival.forward)};
 }
 
 namespace {
