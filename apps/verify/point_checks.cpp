@@ -34,16 +34,22 @@ void add_to(Vector& sum, const std::vector<Index>& unknowns, const Vector& part)
 // What the wall exerts: p, less the spring of the augmented Lagrangian.
 double wall_force(const Touch& touch) { return touch.force - touch.stiffness * touch.gap.value(); }
 
+// What unknowns are off by in the digits that they are stored with.
+Vector roundoff(const PointAtHand& at) {
+  return 16.0 * epsilon * at.point.state.x.head(structure_unknowns(at.model, at.point.state)).cwiseAbs();
+}
+
 // Where a position, an angle or a change of thickness may still move: the metric's mean over the nodes.
 Vector uncertainty(const PointAtHand& at) {
   const State& state = at.point.state;
-  const Index n = structure_unknowns(at.model, state);
-  const Vector weights = at.model.system().weights(state.piece).head(n);
-  Vector off(n);
-  for (Index i = 0; i < n; ++i)
-    off[i] = (weights[i] > 0.0 ? distance_left / std::sqrt(weights[i]) : 0.0) + 16.0 * epsilon * std::abs(state.x[i]);
+  Vector off = roundoff(at);
+  const Vector weights = at.model.system().weights(state.piece).head(off.size());
+  for (Index i = 0; i < off.size(); ++i)
+    if (weights[i] > 0.0) off[i] += distance_left / std::sqrt(weights[i]);
   return off;
 }
+
+double smallest_force(const PointAtHand& at) { return 1e-11 * at.scales.force; }
 
 }  // namespace
 
@@ -62,11 +68,11 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
 }
 
 void check_contacts(const PointAtHand& at, Findings& findings) {
-  const double length = 1e-10 * at.scales.length, force = 1e-11 * at.scales.force;
+  const double length = 1e-10 * at.scales.length, force = smallest_force(at);
   for (const Touch& touch : at.touches.all) {
     const double gap = touch.gap.value();
     if (touch.closed) {
-      findings.compare("contact forces push", -touch.force, force, named(touch.label));
+      if (touch.listed) findings.compare("contact forces push", -touch.force, force, named(touch.label));
       findings.compare("closed contacts touch", std::abs(gap + touch.compliance * (touch.force - touch.against)),
                        length, named(touch.label));
     } else if (std::isfinite(gap)) {
@@ -91,9 +97,9 @@ void check_contacts(const PointAtHand& at, Findings& findings) {
 
 namespace {
 
-// Out-of-balance forces, and what of them may be.
+// Out-of-balance forces, what of them may be, and what of that the last digits of the unknowns make.
 struct Balance {
-  Vector F{}, allowed{};
+  Vector F{}, allowed{}, rounded{};
 
   double share(Index i) const { return std::abs(F[i]) / allowed[i]; }
 };
@@ -105,7 +111,8 @@ Balance balance(const PointAtHand& at) {
   Balance sum{.F = -point_loads(at.model, at.point.state)};
   Vector parts = sum.F.cwiseAbs();
   sum.allowed = Vector::Constant(parts.size(), 1e-300);
-  const Vector off = uncertainty(at);
+  sum.rounded = Vector::Zero(parts.size());
+  const Vector off = uncertainty(at), digits = roundoff(at);
   const auto add = [&](const std::vector<Index>& unknowns, const Vector& part) {
     add_to(sum.F, unknowns, part);
     add_to(parts, unknowns, part.cwiseAbs());
@@ -113,10 +120,14 @@ Balance balance(const PointAtHand& at) {
   for (std::size_t e = 0; e < at.potentials.size(); ++e) {
     const Potential& potential = at.potentials[e];
     add(potential.unknowns, forces(potential));
-    Vector here = Vector::Zero(potential.at.size());
-    for (std::size_t i = 0; i < potential.unknowns.size(); ++i)
-      if (potential.unknowns[i] >= 0) here[static_cast<Index>(i)] = off[potential.unknowns[i]];
-    add_to(sum.allowed, potential.unknowns, at.stiffness[e].cwiseAbs() * here);
+    const auto of_stiffness = [&](const Vector& by) {
+      Vector here = Vector::Zero(potential.at.size());
+      for (std::size_t i = 0; i < potential.unknowns.size(); ++i)
+        if (potential.unknowns[i] >= 0) here[static_cast<Index>(i)] = by[potential.unknowns[i]];
+      return Vector(at.stiffness[e].cwiseAbs() * here);
+    };
+    add_to(sum.allowed, potential.unknowns, of_stiffness(off));
+    add_to(sum.rounded, potential.unknowns, of_stiffness(digits));
   }
   for (const Touch& touch : at.touches.all)
     if (touch.closed) add(touch.gap.unknowns, -wall_force(touch) * touch.gap.gradient());
@@ -133,15 +144,19 @@ void check_contact_forces(const PointAtHand& at, const Balance& balance, Finding
   for (const Touch& touch : at.touches.all) {
     if (!touch.closed) continue;
     const Vector normal = touch.gap.gradient();
-    double left = 0.0, square = 0.0, bound = 0.0;
+    double left = 0.0, square = 0.0, bound = 0.0, rounded = 0.0;
     for (Index i = 0; i < 2; ++i)
       if (const Index unknown = touch.gap.unknowns[static_cast<std::size_t>(i)]; unknown >= 0) {
         left += normal[i] * balance.F[unknown];
         bound += std::abs(normal[i]) * balance.allowed[unknown];
+        rounded += std::abs(normal[i]) * balance.rounded[unknown];
         square += normal[i] * normal[i];
       }
-    if (square > 0.0)
-      findings.compare("contact forces balance", std::abs(left) / square, bound / square, named(touch.label));
+    if (square == 0.0) continue;
+    findings.compare("contact forces balance", std::abs(left) / square, bound / square, named(touch.label));
+    // Nodes inside a part are held by differences of what its elements bend.
+    if (!touch.listed)
+      findings.compare("contact forces push", -touch.force, smallest_force(at) + rounded / square, named(touch.label));
   }
 }
 
