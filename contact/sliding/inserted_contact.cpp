@@ -38,44 +38,13 @@ void take_nodes_beside(const MaterialPoint& place, LayoutEdit& edit) {
   }
 }
 
-// How many elements a part has before and behind a point.
-struct Elements {
-  int before, behind;
-};
-
-double elements_up_to(const LayoutEdit::Part& part, double place, int elements) {
-  return elements * (place - part.from) / (part.to - part.from);
-}
-
-// Of a part of so many elements, as a place divides it, which is known nearly.
-Elements divided(const LayoutEdit::Part& part, double place, int elements) {
-  const double before = elements_up_to(part, place, elements);
-  const int first = std::clamp(static_cast<int>(std::lround(before - 1e-3)), 1, elements - 1);
-  return {.before = first, .behind = elements - first};
-}
-
-// Of a part in which a point is inserted, by where this will touch, roughly.
-Elements elements_beside(const LayoutEdit& edit, const LeastGap& start, const LeastGap& violated) {
-  const double fallen = start.gap - violated.gap;
-  const double fraction = fallen > 0.0 ? std::clamp(start.gap / fallen, 0.0, 2.0) : 0.0;
-  const double touch = start.at.s + fraction * (violated.at.s - start.at.s);
-  const Index strand = start.at.strand;
-  const LayoutEdit::Part part = edit.part_at(strand, start.at.s);
-  const int elements = std::max(2, edit.elements[static_cast<std::size_t>(strand)][part.place].elements);
-  const auto [before, behind] = divided(part, touch, elements);
-  return {.before = std::max(before, fewest_elements(edit.body, strand, part.from, start.at.s)),
-          .behind = std::max(behind, fewest_elements(edit.body, strand, start.at.s, part.to))};
-}
-
-// So that parts are alike which are so where the point touches, from wherever that is foreseen.
-void take_elements_of(const LayoutEdit& ahead, LayoutEdit& edit) {
+// Whether the strands of two edits of one layout are divided at the same nodes.
+bool are_divided_alike(const LayoutEdit& one, const LayoutEdit& other) {
   const auto same_end = [](const MeshSegment& a, const MeshSegment& b) { return a.load == b.load; };
-  for (std::size_t strand = 0; strand < edit.elements.size(); ++strand) {
-    const std::vector<MeshSegment>& there = ahead.elements[strand];
-    std::vector<MeshSegment>& here = edit.elements[strand];
-    if (!std::equal(there.begin(), there.end(), here.begin(), here.end(), same_end)) continue;
-    for (std::size_t i = 0; i < here.size(); ++i) here[i].elements = there[i].elements;
-  }
+  const auto same_ends = [&](const std::vector<MeshSegment>& a, const std::vector<MeshSegment>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_end);
+  };
+  return std::equal(one.elements.begin(), one.elements.end(), other.elements.begin(), other.elements.end(), same_ends);
 }
 
 // Whether an inserted point would be given up at once: its least gap is shallow, or it is cramped beside the end of the
@@ -117,22 +86,15 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
   if (!start || std::abs(start->at.s - violated->at.s) > nearby) return std::nullopt;
   if (is_followed(setting, from, *start)) return std::nullopt;
   if (is_at_sharp_corner(setting, from, *start)) return std::nullopt;
-  LayoutEdit before = edit_of(setting.body, from);
-  take_nodes_beside(start->at, before);
-  const auto elements = elements_beside(before, *start, *violated);
-  LayoutEdit ahead = edit_of(setting.body, to);  // nearly where the point touches
-  take_nodes_beside(violated->at, ahead);
-  ahead.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = violated->at.s}, elements.before,
-               elements.behind);
-  divide_evenly(ahead);
   std::size_t point = 0;
   Transition transition = remeshed(setting, from, forward, [&](LayoutEdit& edit, const SlidingState& at) {
     // The point follows the least gap, which may move along the member much faster than the body moves.
     const double s = nearest_least_gap(setting, at, *violated).value_or(*start).at.s;
     take_nodes_beside(start->at, edit);
-    point = edit.insert({.point = {.obstacle = start->obstacle}, .strand = strand, .s = s}, elements.before,
-                        elements.behind);
-    take_elements_of(ahead, edit);
+    const int undivided = edit.undivided_at(strand, s);
+    point = edit.insert({.point = {.obstacle = start->obstacle, .undivided = undivided}, .strand = strand, .s = s},
+                        undivided, undivided);
+    divide_beside_waiting(edit);
   });
   if (is_unfit(setting, transition.guess, point)) return std::nullopt;
   return transition;
@@ -140,53 +102,35 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
 
 namespace {
 
-// The two segments beside a point as one.
-struct DividedPart {
-  Index strand;
-  LayoutEdit::Part all;
-  double point;          ///< its place
-  int elements, before;  ///< of both, and before the point
-};
-
-DividedPart part_with(LayoutEdit edit, std::size_t point) {
-  const Index strand = edit.strands[point];
-  const double place = edit.place(point);
-  const int before = edit.elements_before(point), elements = before + edit.elements_behind(point);
-  edit.erase(point, elements);
-  return {.strand = strand, .all = edit.part_at(strand, place), .point = place, .elements = elements, .before = before};
+// The points that wait for their first touch and touch together with one of them.
+std::vector<std::size_t> touched_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  constexpr double together = 1e-6;  // of the length scale
+  std::vector<std::size_t> touched;
+  for (std::size_t k = 0; k < at.layout.points().size(); ++k) {
+    if (!at.layout.points()[k].waits()) continue;
+    const double gap = face_gap(setting, touch_of_contact(setting, at.layout, k), at);
+    if (k == point || gap <= together * setting.scales.length) touched.push_back(k);
+  }
+  return touched;
 }
 
 }  // namespace
 
-// Points that have slid farther keep the elements that they came with.
+// The numbers are those that the touch finds, from wherever it has been foreseen.
 std::optional<Transition> with_mesh_for_touch(const SlidingSetting& setting, const SlidingState& from,
                                               const Direction& forward, const SlidingState& to, Index guard) {
-  constexpr double rounding = 0.52, most = 1.5;  // elements between what a point has before it and what it should
   const auto point = static_cast<std::size_t>(guard);
-  if (guard >= from.index.points || from.is_closed(point)) return std::nullopt;
-  const SlidingContactLayout& on = from.layout;
-  if (on.span_before(point) != SlidingContactLayout::Span::free ||
-      on.points()[point].behind != SlidingContactLayout::Span::free)
-    return std::nullopt;
-  const DividedPart here = part_with(edit_of(setting.body, from), point),
-                    there = part_with(edit_of(setting.body, to), point);
-  const double off = std::abs(elements_up_to(there.all, there.point, there.elements) - there.before);
-  if (off <= rounding || off >= most) return std::nullopt;
-  const Elements divided_there = divided(there.all, there.point, there.elements);
-  if (divided_there.before == here.before ||
-      divided_there.before < fewest_elements(setting.body, here.strand, here.all.from, here.point) ||
-      divided_there.behind < fewest_elements(setting.body, here.strand, here.point, here.all.to))
-    return std::nullopt;
-  LayoutEdit at_touch = edit_of(setting.body, to);
-  at_touch.elements_before(point) = divided_there.before;
-  at_touch.elements_behind(point) = divided_there.behind;
-  divide_evenly(at_touch);
-  if (at_touch.elements_before(point) != divided_there.before ||
-      at_touch.elements_behind(point) != divided_there.behind)
-    return std::nullopt;  // one of them is like another part there
-  return remeshed(setting, from, forward, [&](LayoutEdit& changed, const SlidingState&) {
-    changed.elements_before(point) = divided_there.before;
-    changed.elements_behind(point) = divided_there.behind;
+  if (guard >= from.index.points || from.is_closed(point) || !from.layout.points()[point].waits()) return std::nullopt;
+  const std::vector<std::size_t> touched = touched_with(setting, to, point);
+  LayoutEdit there = edit_of(setting.body, to);
+  divide_beside_waiting(there);
+  for (const std::size_t k : touched) there.touch(k);
+  divide_evenly(there);
+  const LayoutEdit here = edit_of(setting.body, from);
+  if (there.elements == here.elements || !are_divided_alike(there, here)) return std::nullopt;
+  return remeshed(setting, from, forward, [&](LayoutEdit& edit, const SlidingState&) {
+    edit.elements = there.elements;
+    edit.points = there.points;
   });
 }
 

@@ -32,7 +32,12 @@ class SlidingContactLayout final : public SlidingLayout {
     bool neutral_before = false;         ///< of a strand's first point: the free span before it is
     std::optional<std::size_t> pinch{};  ///< that it is at, by its number in the setting: it touches two obstacles
 
+    /// Of a point that waits for its first touch: the elements that the part which it divides has without it. 0: it
+    /// does not wait.
+    int undivided = 0;
+
     bool is_pinched() const { return pinch.has_value(); }
+    bool waits() const { return undivided > 0; }
   };
 
   /// A node inside a pressed part, which is a segment.

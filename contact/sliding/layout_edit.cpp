@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "contact/sliding/spans.hpp"
@@ -77,14 +78,58 @@ LayoutEdit::Part LayoutEdit::part_at(Index strand, double place) const {
   }
 }
 
+LayoutEdit::Run LayoutEdit::run_around(Index strand, std::size_t place) const {
+  const std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
+  auto point = static_cast<std::size_t>(std::lower_bound(strands.begin(), strands.end(), strand) - strands.begin());
+  Run run{.first = 0, .last = 0, .from = 0.0, .to = body.length(strand), .waiting = {}};
+  for (; run.last + 1 < segments.size(); ++run.last) {
+    const Index load = segments[run.last].load;
+    if (load < 0 && points[point].waits()) {
+      run.waiting.push_back(point++);
+      continue;
+    }
+    const double end =
+        load >= 0 ? body.point_loads(strand)[static_cast<std::size_t>(load)] : s[static_cast<Index>(point++)];
+    if (place <= run.last) {
+      run.to = end;
+      return run;
+    }
+    run = {.first = run.last + 1, .last = run.last, .from = end, .to = run.to, .waiting = {}};
+  }
+  return run;
+}
+
+int LayoutEdit::undivided(Index strand, const Run& run) const {
+  return run.waiting.empty() ? elements[static_cast<std::size_t>(strand)][run.first].elements
+                             : points[run.waiting.front()].undivided;
+}
+
+void LayoutEdit::set_undivided(const Run& run, int elements_of_all) {
+  for (const std::size_t point : run.waiting) points[point].undivided = elements_of_all;
+}
+
+int LayoutEdit::undivided_at(Index strand, double at) const {
+  return undivided(strand, run_around(strand, part_at(strand, at).place));
+}
+
+int LayoutEdit::elements_without(std::size_t point) {
+  const Run run = run_around(strands[point], segment_before(point));
+  const bool alone = run.waiting.size() == 1 && run.waiting.front() == point;
+  return alone ? points[point].undivided : elements_before(point) + elements_behind(point);
+}
+
 void LayoutEdit::give_node(Index strand, Index load) {
   const double there = body.point_loads(strand)[static_cast<std::size_t>(load)];
   const Part part = part_at(strand, there);
+  const Run run = run_around(strand, part.place);
+  const double undivided_density = undivided(strand, run) / (run.to - run.from);
   std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
   int& behind = segments[part.place].elements;
   const double density = behind / (part.to - part.from);
   behind = rounded_elements(density * (part.to - there));
   insert_at(segments, part.place, MeshSegment(rounded_elements(density * (there - part.from)), load));
+  set_undivided(run_around(strand, part.place), rounded_elements(undivided_density * (there - run.from)));
+  set_undivided(run_around(strand, part.place + 1), rounded_elements(undivided_density * (run.to - there)));
 }
 
 void LayoutEdit::take_node(Index strand, Index load) {
@@ -92,8 +137,10 @@ void LayoutEdit::take_node(Index strand, Index load) {
   const auto place = static_cast<std::size_t>(
       std::find_if(segments.begin(), segments.end(), [&](const MeshSegment& at) { return at.load == load; }) -
       segments.begin());
+  const int both = undivided(strand, run_around(strand, place)) + undivided(strand, run_around(strand, place + 1));
   segments[place + 1].elements += segments[place].elements;
   erase_at(segments, place);
+  set_undivided(run_around(strand, place), both);
 }
 
 bool LayoutEdit::has_node(Index strand, Index load) const {
@@ -157,12 +204,28 @@ std::size_t LayoutEdit::insert(const Entry& entry, int elements_before, int elem
   insert_at(closed, k, static_cast<std::uint8_t>(entry.closed));
   insert_at(forces, k, entry.force);
   s = inserted(s, k, entry.s);
+  if (!entry.point.waits()) touch(k);
   return k;
+}
+
+// As many as they have together.
+void LayoutEdit::settle_undivided(Index strand, std::size_t place) {
+  const std::vector<MeshSegment>& segments = elements[static_cast<std::size_t>(strand)];
+  const Run run = run_around(strand, place);
+  int all = 0;
+  for (std::size_t i = run.first; i <= run.last; ++i) all += segments[i].elements;
+  set_undivided(run, all);
 }
 
 void LayoutEdit::erase(std::size_t point, int of_both) {
   const std::size_t before = segment_before(point);
-  std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(strands[point])];
+  const Index strand = strands[point];
+  std::vector<MeshSegment>& in_strand = elements[static_cast<std::size_t>(strand)];
+  int all = undivided(strand, run_around(strand, before));
+  if (!points[point].waits()) {
+    all += undivided(strand, run_around(strand, before + 1));
+    all += of_both - in_strand[before].elements - in_strand[before + 1].elements;
+  }
   in_strand[before + 1].elements = of_both;
   erase_at(in_strand, before);
   erase_at(points, point);
@@ -170,6 +233,14 @@ void LayoutEdit::erase(std::size_t point, int of_both) {
   erase_at(closed, point);
   erase_at(forces, point);
   s = erased(s, point);
+  set_undivided(run_around(strand, before), std::max(1, all));
+}
+
+void LayoutEdit::touch(std::size_t point) {
+  points[point].undivided = 0;
+  const std::size_t before = segment_before(point);
+  settle_undivided(strands[point], before);
+  settle_undivided(strands[point], before + 1);
 }
 
 LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
@@ -191,6 +262,8 @@ LayoutEdit edit_of(const SlidingBody& body, const SlidingState& at) {
     edit.closed.push_back(at.is_closed(k));
     edit.forces.push_back(at.force(k));
   }
+  for (std::size_t k = 0; k < edit.points.size(); ++k)
+    if (edit.closed[k] && edit.points[k].waits()) edit.touch(k);
   for (std::size_t j = edit.points.size(); j < at.contacts(); ++j) {
     edit.ends_closed.push_back(at.is_closed(j));
     edit.end_forces.push_back(at.force(j));
@@ -225,6 +298,8 @@ struct Part {
   Index strand;
   double from, to;
   bool has_point;  // at one of its ends
+  int undivided;   // of a point that waits at its end; 0: none does
+  bool waits;      // a point that waits is at one of its ends
   Span span;
   bool neutral;
 };
@@ -237,7 +312,7 @@ std::vector<Part> parts_of(LayoutEdit& edit) {
     const std::vector<double>& loads = edit.body.point_loads(static_cast<Index>(strand));
     const auto ends_at_point = [&](const MeshSegment& at) { return !at.ends_at_load() && &at != &segments.back(); };
     Span span = !edit.lying.empty() && edit.lying[strand] ? Span::pressed : Span::free;
-    bool neutral = false, from_point = false;
+    bool neutral = false, from_point = false, from_waiting = false;
     if (std::any_of(segments.begin(), segments.end(), ends_at_point)) {
       span = edit.points[next].before;
       neutral = edit.points[next].neutral_before;
@@ -248,15 +323,19 @@ std::vector<Part> parts_of(LayoutEdit& edit) {
       double to = edit.body.length(static_cast<Index>(strand));
       if (segment.ends_at_load()) to = loads[static_cast<std::size_t>(segment.load)];
       if (to_point) to = edit.place(next);
+      const int undivided = to_point ? edit.points[next].undivided : 0;
       parts.push_back({.segment = &segment,
                        .strand = static_cast<Index>(strand),
                        .from = from,
                        .to = to,
                        .has_point = from_point || to_point,
+                       .undivided = undivided,
+                       .waits = from_waiting || undivided > 0,
                        .span = span,
                        .neutral = neutral});
       from = to;
       from_point = to_point;
+      from_waiting = undivided > 0;
       if (!to_point) continue;
       span = edit.points[next].behind;
       neutral = edit.points[next].neutral_behind;
@@ -279,20 +358,37 @@ void give_asked(const LayoutEdit& edit, const std::vector<Part>& parts) {
       part.segment->elements = elements_asked(edit.body, part.strand, part.from, part.to, 1);
 }
 
-// Parts of about one length get equally many elements, those of the finest of them, but not more than twice those asked
-// for. The layout's bounds tell where two come to be so, up to how exactly that is landed on.
-void give_alike(const LayoutEdit& edit, const std::vector<Part>& parts) {
+double asked(const LayoutEdit& edit, const Part& part) {
+  return edit.body.elements_between(part.strand, part.from, part.to);
+}
+
+// Points that wait divide the elements of the part which they divide by the lengths.
+void share_out(const LayoutEdit& edit, const std::vector<Part>& parts) {
+  constexpr double rounded_up = 0.48;  // so that halves are alike in whatever order they come
+  for (auto first = parts.begin(); first != parts.end(); ++first) {
+    if (first->undivided == 0) continue;
+    const auto last = std::find_if(first, parts.end(), [](const Part& part) { return part.undivided == 0; });
+    const double all = edit.body.elements_between(first->strand, first->from, last->to);
+    const int elements = first->undivided;
+    for (; first != last + 1; ++first) {
+      const double share = elements * asked(edit, *first) / all;
+      const double fewest = asked(edit, *first) / coarsest + landed;
+      first->segment->elements =
+          std::max({1, static_cast<int>(std::ceil(share - rounded_up)), static_cast<int>(std::ceil(fewest))});
+    }
+    --first;
+  }
+}
+
+// Those of the parts that are of about one length with one of them, or with one that is, for each.
+std::vector<std::vector<const Part*>> alike_among(const LayoutEdit& edit, std::vector<const Part*> left) {
   constexpr double landed_on = 1e-3;
-  const auto compared = [&](const Part* part) {
-    return ComparedPart{.span = part->span, .asked = edit.body.elements_between(part->strand, part->from, part->to)};
-  };
+  const auto compared = [&](const Part* part) { return ComparedPart{.span = part->span, .asked = asked(edit, *part)}; };
   const auto are_alike = [&](const Part* one, const Part* other) {
     const ComparedPart a = compared(one), b = compared(other);
     return a.may_be_like(b) && std::abs(std::log(a.asked / b.asked)) <= std::log(alike) + landed_on;
   };
-  std::vector<const Part*> left;
-  for (const Part& part : parts)
-    if (part.has_point) left.push_back(&part);
+  std::vector<std::vector<const Part*>> groups;
   while (!left.empty()) {
     std::vector<const Part*> same{left.back()};
     left.pop_back();
@@ -302,13 +398,42 @@ void give_alike(const LayoutEdit& edit, const std::vector<Part>& parts) {
       same.insert(same.end(), others, left.end());
       left.erase(others, left.end());
     }
-    const auto fewer = [](const Part* a, const Part* b) { return a->segment->elements < b->segment->elements; };
-    const auto [coarsest_of, finest_of] = std::minmax_element(same.begin(), same.end(), fewer);
-    int each = (*finest_of)->segment->elements;
-    if (each == (*coarsest_of)->segment->elements) continue;
-    for (const Part* part : same) each = std::min(each, static_cast<int>(2.0 * compared(part).asked));
+    groups.push_back(std::move(same));
+  }
+  return groups;
+}
+
+int finest_of(const std::vector<const Part*>& parts) {
+  int most = 0;
+  for (const Part* part : parts) most = std::max(most, part->segment->elements);
+  return most;
+}
+
+// Parts of about one length get equally many elements, those of the finest of them, but not more than twice those asked
+// for. The layout's bounds tell where two come to be so, up to how exactly that is landed on.
+void give_alike(const LayoutEdit& edit, const std::vector<const Part*>& parts) {
+  for (const std::vector<const Part*>& same : alike_among(edit, parts)) {
+    int each = finest_of(same);
+    const auto has_each = [each](const Part* part) { return part->segment->elements == each; };
+    if (std::all_of(same.begin(), same.end(), has_each)) continue;
+    for (const Part* part : same) each = std::min(each, static_cast<int>(2.0 * asked(edit, *part)));
     if (std::any_of(same.begin(), same.end(), [](const Part* part) { return part->neutral; })) each += each % 2;
     for (const Part* part : same) part->segment->elements = each;
+  }
+}
+
+// Parts beside points that wait get what others of about one length have, which do not change: where such points come
+// and go, nothing else is to show it.
+void give_alike_beside_waiting(const LayoutEdit& edit, const std::vector<Part>& parts) {
+  std::vector<const Part*> with_points;
+  for (const Part& part : parts)
+    if (part.has_point) with_points.push_back(&part);
+  for (const std::vector<const Part*>& same : alike_among(edit, std::move(with_points))) {
+    std::vector<const Part*> others;
+    std::copy_if(same.begin(), same.end(), std::back_inserter(others), [](const Part* part) { return !part->waits; });
+    const int each = finest_of(others.empty() ? same : others);
+    for (const Part* part : same)
+      if (part->waits) part->segment->elements = each;
   }
 }
 
@@ -328,11 +453,21 @@ void hand_loads_on(const LayoutEdit& edit, const std::vector<Part>& parts) {
 
 }  // namespace
 
+void divide_beside_waiting(LayoutEdit& edit) {
+  const std::vector<Part> parts = parts_of(edit);
+  share_out(edit, parts);
+  give_alike_beside_waiting(edit, parts);
+}
+
 void divide_evenly(LayoutEdit& edit) {
   settle_loads(edit);
   const std::vector<Part> parts = parts_of(edit);
   give_asked(edit, parts);
-  give_alike(edit, parts);
+  std::vector<const Part*> settled;
+  for (const Part& part : parts)
+    if (part.has_point && !part.waits) settled.push_back(&part);
+  give_alike(edit, settled);
+  divide_beside_waiting(edit);
 }
 
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit) {

@@ -32,6 +32,13 @@ struct LayoutEdit {
 
   double& place(std::size_t point) { return s[static_cast<Index>(point)]; }
 
+  /// Elements that the two segments beside a point have as one: of a point that waits, those that it found.
+  int elements_without(std::size_t point);
+
+  /// How many elements a part has that segments make up which end at points that wait: what it has without these. Also
+  /// of a segment that ends at none.
+  int undivided_at(Index strand, double place) const;
+
   /// A place with a point of its own.
   struct Entry {
     SlidingContactLayout::Point point{};
@@ -47,6 +54,9 @@ struct LayoutEdit {
 
   /// The segments before and behind a point become one with so many elements.
   void erase(std::size_t point, int of_both);
+
+  /// A point that has waited is touched: the segments beside it are parts of their own from now on.
+  void touch(std::size_t point);
 
   /// A part of a strand between its points, the nodes of its loads and its ends.
   struct Part {
@@ -71,6 +81,17 @@ struct LayoutEdit {
   std::optional<double> elements_to_point(Index strand, double s) const;
 
  private:
+  // Segments of a strand from one end to the other at points that wait, and these.
+  struct Run {
+    std::size_t first, last;
+    double from, to;
+    std::vector<std::size_t> waiting;
+  };
+  Run run_around(Index strand, std::size_t place) const;
+  int undivided(Index strand, const Run& run) const;
+  void set_undivided(const Run& run, int elements_of_all);
+  void settle_undivided(Index strand, std::size_t place);
+
   bool is_first_of_strand(std::size_t point) const { return point == 0 || strands[point - 1] != strands[point]; }
   int& segment(std::size_t point, std::size_t beyond = 0);
   std::size_t segment_before(std::size_t point) const;
@@ -87,6 +108,9 @@ void settle_loads(LayoutEdit& edit);
 /// where nothing but the mesh changes: what is behind a change of contacts is the same equilibrium on the same
 /// elements.
 void divide_evenly(LayoutEdit& edit);
+
+/// Divides the parts beside points that wait for their first touch, and nothing else.
+void divide_beside_waiting(LayoutEdit& edit);
 
 /// The layout that has been made of one, with its loads settled and nodes in the middles of neutral spans.
 std::shared_ptr<const SlidingContactLayout> layout_of(LayoutEdit edit);

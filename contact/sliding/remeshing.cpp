@@ -61,6 +61,10 @@ Transition divided_evenly(const SlidingSetting& setting, const SlidingState& at,
   return remeshed(setting, at, forward, [](LayoutEdit& edit, const SlidingState&) { divide_evenly(edit); });
 }
 
+Transition divided_beside_waiting(const SlidingSetting& setting, const SlidingState& at, const Direction& forward) {
+  return remeshed(setting, at, forward, [](LayoutEdit& edit, const SlidingState&) { divide_beside_waiting(edit); });
+}
+
 Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t segment, int elements) {
   const SlidingContactLayout::Segment& changed = at.layout.segments()[segment];
@@ -73,8 +77,9 @@ Transition with_elements(const SlidingSetting& setting, const SlidingState& at, 
 Transition without_point(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t point) {
   return remeshed(setting, at, forward, [point](LayoutEdit& edit, const SlidingState&) {
-    edit.erase(point, edit.elements_before(point) + edit.elements_behind(point));
-    divide_evenly(edit);
+    const bool waits = edit.points[point].waits();
+    edit.erase(point, edit.elements_without(point));
+    waits ? divide_beside_waiting(edit) : divide_evenly(edit);
   });
 }
 
@@ -121,7 +126,8 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
     }
   }
   const auto unknown = [&](const Point& point) {
-    return point.obstacle >= setting.obstacles.size() || (point.pinch && *point.pinch >= setting.pinches.size());
+    return point.obstacle >= setting.obstacles.size() || (point.pinch && *point.pinch >= setting.pinches.size()) ||
+           point.undivided < 0;
   };
   if (k != origin.size() || std::any_of(points.begin(), points.end(), unknown)) return nullptr;
   if (!lying.empty() && static_cast<Index>(lying.size()) != body.strands()) return nullptr;

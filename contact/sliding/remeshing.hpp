@@ -24,6 +24,9 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
 /// well.
 Transition divided_evenly(const SlidingSetting& setting, const SlidingState& at, const Direction& forward);
 
+/// That with the parts beside points that wait for their first touch divided anew, and no others.
+Transition divided_beside_waiting(const SlidingSetting& setting, const SlidingState& at, const Direction& forward);
+
 /// That with another number of elements in one segment.
 Transition with_elements(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                          std::size_t segment, int elements);

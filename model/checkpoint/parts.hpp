@@ -19,7 +19,8 @@ constexpr std::int64_t greatest(SlidingContactLayout::Span) {
 
 template <typename Archive>
 void parts(Archive& archive, SlidingContactLayout::Point& point) {
-  archive(point.obstacle, point.behind, point.before, point.neutral_behind, point.neutral_before, point.pinch);
+  archive(point.obstacle, point.behind, point.before, point.neutral_behind, point.neutral_before, point.pinch,
+          point.undivided);
 }
 
 template <typename Archive>

@@ -12,6 +12,16 @@ namespace {
 
 int elements_of(const SlidingState& at, std::size_t segment) { return at.layout.segments()[segment].elements; }
 
+// Whether a point at an end of a segment waits for its first touch.
+bool ends_at_waiting(const SlidingState& at, std::size_t segment) {
+  const auto waits = [&](Index point) {
+    const auto k = static_cast<std::size_t>(point);
+    return point >= 0 && at.layout.points()[k].waits() && !at.is_closed(k);
+  };
+  const SlidingContactLayout::Segment& part = at.layout.segments()[segment];
+  return waits(part.first_point) || waits(part.last_point);
+}
+
 }  // namespace
 
 double elements_wanted(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
@@ -44,6 +54,7 @@ Row CoarseBound::gradient(const SlidingSetting& setting, const SlidingState& at)
 
 std::vector<Transition> CoarseBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                  const Arrival& arrival) const {
+  if (ends_at_waiting(at, segment_)) return {divided_beside_waiting(setting, at, arrival.forward)};
   return {with_elements(setting, at, arrival.forward, segment_, 2 * elements_of(at, segment_))};
 }
 
@@ -63,6 +74,7 @@ Row FineBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
 
 std::vector<Transition> FineBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {
+  if (ends_at_waiting(at, segment_)) return {divided_beside_waiting(setting, at, arrival.forward)};
   return {with_elements(setting, at, arrival.forward, segment_, (elements_of(at, segment_) + 1) / 2)};
 }
 
@@ -106,7 +118,8 @@ Row UnlikeBound::gradient(const SlidingSetting& setting, const SlidingState& at)
 
 std::vector<Transition> UnlikeBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                  const Arrival& arrival) const {
-  return {divided_evenly(setting, at, arrival.forward)};
+  const bool waits = ends_at_waiting(at, longer_) || ends_at_waiting(at, shorter_);
+  return {waits ? divided_beside_waiting(setting, at, arrival.forward) : divided_evenly(setting, at, arrival.forward)};
 }
 
 }  // namespace arcwall::sliding
