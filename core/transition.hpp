@@ -41,7 +41,8 @@ struct Transition {
   /// through the guess across `forward`.
   std::shared_ptr<const Observable> quantity{};
   double value = 0.0;
-  double least = 0.0;  ///< of the quantity, below which round-off hides what it does
+  double least = 0.0;  ///< of the quantity: below that the piece is not looked at, which round-off may hide, or which
+                       ///< is tried otherwise
   /// The equations of the piece behind are singular at the change: guards that should vanish together miss each other
   /// by more than elsewhere, and neither signs of eigenvalues nor the tangent are sure there.
   bool from_singular = false;

@@ -283,6 +283,7 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
       transitions.push_back(spread_to(Span::pressed, 1.0));
     } else if (!all_flat && !all_lift_off) {
       transitions.push_back(spread_to(Span::pressed, factor));
+      if (!shortest) transitions.back().least = 0.5 * factor * length;
     }
   }
   if (!all_flat && !all_lift_off) {

@@ -149,10 +149,11 @@ PathPoint entered_point(TraceTools& tools, const Transition& transition, const A
   return to;
 }
 
-// A transition and the first point behind it.
+// A transition and the first point behind it; where its piece begins before that, with a span that is shorter.
 struct Entered {
   const Transition* transition;
   PathPoint at;
+  std::optional<PathPoint> begin{};
 };
 
 // Whether a point behind a part's lifting off lies before that in λ. The free span of length d, at first without one,
@@ -230,6 +231,14 @@ bool is_of(const System& system, const State& state, Index guard, const Observab
   return std::abs(of_guard.dot(of_quantity)) > 0.999 * of_guard.norm() * of_quantity.norm();
 }
 
+// Whether the guards hold where a piece begins with a short span, but for bounds of the length of that.
+bool begins_within(const System& system, const Observable& length, const PathPoint& begin, double tolerance) {
+  for (Index j = 0; j < begin.guards.size(); ++j)
+    if (begin.guards[j] < -tolerance && !(begin.guard_rates[j] > 0.0 && is_of(system, begin.state, j, length)))
+      return false;
+  return true;
+}
+
 // A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
 // and holds: there but for bounds of the length of the span itself. Empty where there is none.
 std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
@@ -241,10 +250,7 @@ std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transi
   if (lies_back(transition, from, first)) return std::nullopt;
   const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale);
   if (transition.quantity->value(begin.state) > shortened_early * transition.value) return std::nullopt;
-  for (Index j = 0; j < begin.guards.size(); ++j)
-    if (begin.guards[j] < -tools.options.guard_tolerance &&
-        !(begin.guard_rates[j] > 0.0 && is_of(tools.system, begin.state, j, *transition.quantity)))
-      return std::nullopt;
+  if (!begins_within(tools.system, *transition.quantity, begin, tools.options.guard_tolerance)) return std::nullopt;
   return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
 }
 
@@ -296,11 +302,13 @@ bool is_sought(const Transition& transition) {
 }
 
 // The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
-// again with patience where none is, and then entered early. Last comes what is not sure to hold ahead, or has a count
-// against which λ does not turn: with its length there may be a second equilibrium behind the next fold, from which the
-// path would come back; and at a pitchfork in the corner the count is right.
+// again with patience where none is, and then entered early. Last comes what is not sure to hold ahead, or does not
+// hold between there and the bound, or has a count against which λ does not turn: with its length there may be a second
+// equilibrium behind the next fold, from which the path would come back; and at a pitchfork in the corner the count is
+// right.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  const StabilityCount& before, double lambda_scale) {
+  constexpr double surely_below = 1e-4;  // of a guard where the new span is short
   std::optional<Entered> doubtful;
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     std::optional<Entered> back;
@@ -312,9 +320,12 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (is_known_by_state(transition)) at = in_sense_of_counts(before, from, std::move(*at), mesh_error);
       if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
+      if (begins_with_length(transition)) entered.begin = begin_of(tools, transition, entered.at, from, lambda_scale);
       const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
       const bool has_length = begins_with_length(transition);
-      if ((has_length && sinks(entered.at, tools.options.guard_tolerance)) ||
+      const bool leaps = has_length && transition.quantity && transition.least > 0.0 &&
+                         !begins_within(tools.system, *transition.quantity, *entered.begin, surely_below);
+      if (leaps || (has_length && sinks(entered.at, tools.options.guard_tolerance)) ||
           ((has_length || is_gathered) && !agrees_with_counts(before, from, entered.at))) {
         if (!doubtful) doubtful = std::move(entered);
         continue;
@@ -412,7 +423,9 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       return passed;
     }
     if (begins_with_length(*entered->transition)) {
-      const PathPoint begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
+      const PathPoint begin = entered->begin
+                                  ? std::move(*entered->begin)
+                                  : begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
       if (auto pitchfork = pitchfork_at_corner(tools, corner, passed.at, begin))
         add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);

@@ -144,4 +144,40 @@ profile = {{ type = "spline", x = [-1.0, 0.5, 2.0, 3.5, 5.0], z = [-0.078, -0.07
   }
 }
 
+// A cantilever that its load draws over a parabola: where contact spreads at 7.2177, the wall would have to pull the
+// part that lies on it, until the thrust has grown. It arches off between two touches; a part that is long enough to be
+// held at a greater load was taken for it, and pulled at all loads before. Touches and forces by shooting, apart from
+// this program, with the elastica with extension: gap and tilt at both, and the moment at the tip, by M₀, s₁, R₁, s₂,
+// R₂.
+TEST(LiftingParts, AreNoneWhereTheWallWouldPullAtOnce) {
+  const std::vector<double> fractions{0.80080293810, 0.82046284957}, forces{0.38943305876, 0.34929923528};
+  for (const int elements : {24, 48, 96}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "a cantilever that a load draws over a parabola"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.44, height = 0.134 }}
+point = {{ clamp = [0.0, 0.0], tip = [4.05, 0.0] }}
+support = {{ clamp = ["x", "z", "rotation"] }}
+load = [{{ at = "tip", force = [0.0094, -0.1125] }}]
+path = {{ step = 0.1, landing = false, stop = {{ lambda = [-1.0, 7.62] }} }}
+member.strip = {{ from = "clamp", to = "tip", theory = "classic", material = "steel", section = "s", elements = {} }}
+[[wall]]
+name = "floor"
+side = "below"
+profile = {{ type = "parabola", apex = [1.28, -0.5526], curvature = -0.545 }}
+)toml",
+                                              elements));
+    EXPECT_EQ(kinds_of(traced.record()), "start contact-closes contact-spreads end ");
+    const auto& contacts = traced.record().points.back().forces;
+    ASSERT_EQ(contacts.size(), 2U);
+    const double error = std::pow(24.0 / elements, 4);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_NEAR(contacts[i].label.fraction, fractions[i], 3e-8 * error + 2e-10);
+      EXPECT_NEAR(contacts[i].force, forces[i], 1.5e-8 * error + 5e-10);
+    }
+    expect_whole(traced);
+  }
+}
+
 }  // namespace arcwall::lifting_parts_test
