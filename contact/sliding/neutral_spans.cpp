@@ -149,7 +149,7 @@ bool is_loaded(const SlidingSetting& setting, Index strand, double from, double 
 }  // namespace
 
 NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingState& at,
-                                const std::vector<std::size_t>& lines) {
+                                const std::vector<std::size_t>& lines, double beside) {
   const auto& points = at.layout.points();
   const auto strand_of = [&](std::size_t k) { return at.mesh.breakpoint(static_cast<Index>(k)).first; };
   const auto is_line = [&](std::size_t k) {
@@ -163,10 +163,10 @@ NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingStat
     const double s = at.s(static_cast<Index>(k));
     const bool is_first = k == 0 || strand_of(k - 1) != strand;
     const bool is_last = k + 1 == points.size() || strand_of(k + 1) != strand;
-    if (is_first && at.layout.span_before(k) == Span::free && !is_loaded(setting, strand, 0.0, s))
+    if (is_first && at.layout.span_before(k) == Span::free && !is_loaded(setting, strand, 0.0, s - beside))
       sides.before[k] = is_straightened_end(setting, at, k, false);
-    const double end = is_last ? setting.body.length(strand) : at.s(static_cast<Index>(k) + 1);
-    if (points[k].behind != Span::free || is_loaded(setting, strand, s, end)) continue;
+    const double end = is_last ? setting.body.length(strand) : at.s(static_cast<Index>(k) + 1) - beside;
+    if (points[k].behind != Span::free || is_loaded(setting, strand, s + beside, end)) continue;
     if (is_last)
       sides.behind[k] = is_straightened_end(setting, at, k, true);
     else

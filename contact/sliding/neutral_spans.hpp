@@ -34,10 +34,11 @@ struct NeutralSides {
   Index between_points(const SlidingContactLayout& on) const;
 };
 
-/// Which spans are neutral once all the points in `lines` have become flat parts, as those that the layout has are. A
-/// clamped end counts if it is parallel to the wall beside it and the body loses its curvature there with the points:
-/// by the first integral of the elastica |M| is the same at all places without slope.
+/// Which spans are neutral once all the points in `lines` are ends of parts that nothing but point loads inside them
+/// presses, as the flat ones that the layout has are; loads up to `beside` away from them act on the parts. A clamped
+/// end counts if it is parallel to the wall beside it and the body loses its curvature there with the points: by the
+/// first integral of the elastica |M| is the same at all places without slope.
 NeutralSides spans_made_neutral(const SlidingSetting& setting, const SlidingState& at,
-                                const std::vector<std::size_t>& lines);
+                                const std::vector<std::size_t>& lines, double beside);
 
 }  // namespace arcwall::sliding

@@ -378,16 +378,8 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   const bool new_lines = lines > 0;
   const auto& segments = at.layout.segments();
   lines += std::count_if(segments.begin(), segments.end(), is_flat_between_points);
-  const NeutralSides neutral = spans_made_neutral(setting, at, points);
-  // What a load does to a part beside spans that nothing bends is not modelled.
   const double length = 2.0 * shortest_span(setting.body, at.mesh.breakpoint(static_cast<Index>(points.front())).first);
-  const auto is_loaded = [&](std::size_t k) {
-    const auto [strand, place] =
-        std::pair(at.mesh.breakpoint(static_cast<Index>(k)).first, at.s(static_cast<Index>(k)));
-    return lies_by_itself(setting, at, k) && has_load_between(setting, strand, place - length, place + length);
-  };
-  if (neutral.any() && std::any_of(points.begin(), points.end(), is_loaded))
-    return {unsupported(why_none_spreads(setting, at, points))};
+  const NeutralSides neutral = spans_made_neutral(setting, at, points, 0.5 * length);
   const bool is_continuum = new_lines && neutral.between_points(at.layout) > 0;
   const Continuum common = continuum_of(at, lines);
   if (is_continuum && setting.continuum == ContinuumChoice::stop) return {end_before(common)};

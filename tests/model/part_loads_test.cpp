@@ -313,4 +313,41 @@ imperfection = [
   EXPECT_NEAR(first.points().back().monitors[1], nodes.points().back().monitors[1], 1e-4 * 12.06);
 }
 
+// A column, clamped at both ends, that a load across presses on a wall. Its flat part takes the load in, or begins
+// under it; from there on both spans beside it are neutral, and nothing shows the load. Their ends by shooting, apart
+// from this program: the elastica with extension from the clamp without moment, with the slope zero at the height of
+// the wall. Where the
+// span that the load had left was not held, the equations told nothing but noise about it, and hundreds of branch
+// points that do not exist were reported; where contact spread under the load the run was refused.
+TEST(PartLoads, AFlatPartBetweenNeutralSpansTakesALoadIn) {
+  constexpr double edge = 0.4220027174, force = 2.7066673557;  // at λ = 5.59
+  const std::string column =
+      "title = \"a clamped column pressed on a wall by a load across\"\n"
+      "material.steel = { E = 2.1e4 }\n"
+      "section.s = { shape = \"rectangle\", width = 0.4666, height = 0.3457 }\n"
+      "point = { left = [0.0, 0.0], right = [20.776, 0.0] }\n"
+      "support = { left = [\"x\", \"z\", \"rotation\"], right = [\"z\", \"rotation\"] }\n"
+      "wall = [{ name = \"upper\", side = \"above\", profile = { type = \"flat\", z = 1.5163 } }]\n"
+      "path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 5.59] } }\n"
+      "member.column = { from = \"left\", to = \"right\", theory = \"elastica\", material = \"steel\", section = "
+      "\"s\", "
+      "elements = 70 }\n";
+  for (const std::string place : {"column:0.45714285714285713", "column:0.5"}) {
+    for (const std::string elements : {"70", "140"}) {
+      SCOPED_TRACE(place + " " + elements);
+      const Session run = traced(column + "load = [{ at = \"right\", force = [-3.087, 0.0] }, { at = \"" + place +
+                                     "\", force = [0.0, 0.0994] }]\n",
+                                 {"member.column.elements=" + elements});
+      expect_stop(run);
+      EXPECT_EQ(loads_of(run, EventKind::contact_spreads).size(), 1U);
+      EXPECT_TRUE(loads_of(run, EventKind::branch_point).empty());
+      const auto& contacts = run.points().back().forces;
+      ASSERT_EQ(contacts.size(), 2U);
+      EXPECT_NEAR(contacts[0].label.fraction, edge, 1e-9);
+      EXPECT_NEAR(contacts[1].label.fraction, 1.0 - edge, 1e-9);
+      for (const auto& contact : contacts) EXPECT_NEAR(contact.force, force, 1e-8);
+    }
+  }
+}
+
 }  // namespace arcwall::part_loads_test

@@ -5,6 +5,7 @@
 
 #include "contact/sliding/bounds/element_size.hpp"
 #include "contact/sliding/lifting.hpp"
+#include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
@@ -123,12 +124,44 @@ void press(const SlidingContactLayout::Segment& part, LayoutEdit& edit) {
   elements = std::max(elements, fewest_pressed(true));
 }
 
+// The spans beside a part are neutral where no load acts on them any more.
+void make_neutral_beside(const SlidingSetting& setting, const SlidingState& at,
+                         const SlidingContactLayout::Segment& part, LayoutEdit& edit) {
+  std::vector<std::size_t> ends;
+  for (const Index point : {part.first_point, part.last_point})
+    if (point >= 0) ends.push_back(static_cast<std::size_t>(point));
+  const NeutralSides neutral = spans_made_neutral(setting, at, ends, shortest_span(setting.body, part.strand));
+  for (std::size_t k = 0; k < edit.points.size(); ++k) {
+    if (neutral.before[k]) edit.points[k].neutral_before = true;
+    if (neutral.behind[k]) edit.points[k].neutral_behind = true;
+  }
+}
+
+// The load of a part acts on the span beside it: that is neutral no longer.
+void make_loaded_beside(const SlidingState& at, const SlidingContactLayout::Segment& part, double load,
+                        LayoutEdit& edit) {
+  const bool before = nearest_end(at, part, load).point == part.first_point;
+  const auto end = static_cast<std::size_t>(before ? part.first_point : part.last_point);
+  if (!before)
+    edit.points[end].neutral_behind = false;
+  else if (end > 0 && edit.strands[end - 1] == edit.strands[end])
+    edit.points[end - 1].neutral_behind = false;
+  else
+    edit.points[end].neutral_before = false;
+}
+
 // The same state, in which a part hands a load on or does not.
 Transition handed_on(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                      const PartLoad& load, bool is_handed_on) {
+  const SlidingContactLayout::Segment& part = at.layout.segments()[load.segment];
   return remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
     edit.handed_on[static_cast<std::size_t>(load.strand)][static_cast<std::size_t>(load.load)] = is_handed_on;
-    if (is_handed_on) press(at.layout.segments()[load.segment], edit);
+    if (is_handed_on) {
+      press(part, edit);
+      make_neutral_beside(setting, at, part, edit);
+    } else {
+      make_loaded_beside(at, part, place_of(setting, load), edit);
+    }
   });
 }
 
