@@ -154,9 +154,10 @@ void check_contact_forces(const PointAtHand& at, const Balance& balance, Finding
       }
     if (square == 0.0) continue;
     findings.compare("contact forces balance", std::abs(left) / square, bound / square, named(touch.label));
-    // Nodes inside a part are held by differences of what its elements bend.
+    // Nodes inside a part are held by differences of what its elements bend; where nothing else presses it, by nothing.
     if (!touch.listed)
-      findings.compare("contact forces push", -touch.force, smallest_force(at) + rounded / square, named(touch.label));
+      findings.compare("contact forces push", -touch.force, 1e4 * smallest_force(at) + rounded / square,
+                       named(touch.label));
   }
 }
 
