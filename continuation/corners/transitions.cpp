@@ -320,11 +320,13 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (is_known_by_state(transition)) at = in_sense_of_counts(before, from, std::move(*at), mesh_error);
       if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
-      if (begins_with_length(transition)) entered.begin = begin_of(tools, transition, entered.at, from, lambda_scale);
       const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
       const bool has_length = begins_with_length(transition);
-      const bool leaps = has_length && transition.quantity && transition.least > 0.0 &&
-                         !begins_within(tools.system, *transition.quantity, *entered.begin, surely_below);
+      bool leaps = false;
+      if (has_length && transition.quantity && transition.least > 0.0) {
+        entered.begin = begin_of(tools, transition, entered.at, from, lambda_scale);
+        leaps = !begins_within(tools.system, *transition.quantity, *entered.begin, surely_below);
+      }
       if (leaps || (has_length && sinks(entered.at, tools.options.guard_tolerance)) ||
           ((has_length || is_gathered) && !agrees_with_counts(before, from, entered.at))) {
         if (!doubtful) doubtful = std::move(entered);
