@@ -1,6 +1,7 @@
 #include "continuation/arc_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -77,11 +78,9 @@ std::optional<BranchEnd> end_at_crossed_pitchfork(TraceTools& tools, const StepO
 }
 
 // The bound that is met at a target value which was landed on: this one, or another of the same quantity and value.
-std::optional<BranchEnd> bound_at(const std::vector<TargetValue>& targets, const ArcEnd& end) {
+std::optional<BranchEnd> bound_at(const std::vector<TargetValue>& targets, std::size_t which, const State& state) {
   std::optional<BranchEnd> met;
-  if (!end.event || end.event->what != EventPlace::What::target_value) return met;
-  const TargetValue& landed = targets[end.event->which];
-  const State& state = end.point.state;
+  const TargetValue& landed = targets[which];
   for (const TargetValue& target : targets)
     if (target.stops && target.value == landed.value && target.quantity->value(state) == landed.quantity->value(state))
       met = {.reason = EndReason::stop, .detail = target.label};
@@ -148,18 +147,43 @@ void begin_next(const StepOrigin& origin, const PathPoint& next, bool smooth, De
   leave.before->nearest = {};
 }
 
-// Ends an arc at a target value that lies between it and the piece ahead: on the piece that ends, on the one ahead, or
-// else where it ends; no value is jumped over. Where the arc does not reach the piece ahead `passed` becomes empty.
+// The target values between a change of contact and where the piece that was entered begins, the first of which is
+// given, on the piece that ends.
+std::vector<ValuePoint> values_before(TraceTools& tools, const Metric& metric, const PathPoint& change,
+                                      const PathPoint& begin, std::optional<ValueBetween> value) {
+  std::vector<ValuePoint> values;
+  while (value) {
+    const PathPoint& last = values.empty() ? change : values.back().at;
+    auto at = point_beyond_bound(tools, metric, last, *value);
+    if (!at) break;
+    at->count = begin.count;
+    values.push_back({.which = value->which, .at = std::move(*at)});
+    value = first_value_between(tools.options.target_values, values.back().at, begin.state);
+  }
+  return values;
+}
+
+// Lands on a target value that lies between an arc's end and the piece ahead: behind the change where that is an event
+// here, else before it, on the piece that ends; on the one ahead; or where the arc ends. No value is jumped over. Where
+// the arc does not reach the piece ahead `passed` becomes empty.
 void land_before_piece_ahead(TraceTools& tools, const StepOrigin& origin, const ValueBetween& value, ArcEnd& end,
                              std::optional<CornerPassed>& passed) {
-  if (auto beyond = land_beyond_bound(tools, origin, end, value)) {
+  if (passed->entered) {
+    EnteredPiece& entered = *passed->entered;
+    entered.values = values_before(tools, origin.metric, end.point, entered.begin, value);
+    if (!entered.values.empty()) return;
+  } else if (auto beyond = land_beyond_bound(tools, origin, end, value)) {
     end = std::move(*beyond);
     end.point.count = count_at(tools, origin, end);
     passed.reset();
     return;
   }
   end.event = EventPlace{.what = EventPlace::What::target_value, .which = value.which, .t = 1.0};
-  if (!passed->entered) land_piece_ahead(tools, origin.metric.lambda_scale(), value, passed->at);
+  if (passed->entered || !land_piece_ahead(tools, origin.metric.lambda_scale(), value, passed->at)) return;
+  for (Event& event : passed->events) {
+    event.localised = std::max(event.localised, std::abs(passed->at.state.lambda - event.state.lambda));
+    event.state = passed->at.state;
+  }
 }
 
 // A change of contacts at an arc's end is left; empty where there is none.
@@ -182,7 +206,9 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   const StabilityCount behind = count_behind(tools, origin, end);
   accepted.arc.events = events_at(tools, origin, end, behind);
   accepted.leave = leave_smoothly(tools, origin, end, behind);
-  if (auto bound = bound_at(tools.options.target_values, end)) accepted.end = std::move(bound);
+  if (end.event && end.event->what == EventPlace::What::target_value)
+    if (auto bound = bound_at(tools.options.target_values, end.event->which, end.point.state))
+      accepted.end = std::move(bound);
   if (!end.landing && !accepted.end)
     if (auto known = passed_known_place(tools, origin, end.point)) accepted.end = std::move(known->end);
   if (!state.from.known_end && !state.from.passed_bound)
@@ -203,7 +229,27 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
   if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
+  if (passed && passed->entered && !passed->entered->values.empty()) {
+    accepted.leave.values_ahead = std::move(passed->entered->values);
+    accepted.leave.begin = std::exchange(accepted.leave.point, end.point);
+  }
   accepted.arc.to = std::move(end.point);
+  return accepted;
+}
+
+// To the first of the target values between a change of contact and the piece that was entered behind it, and from the
+// last one on to where that piece begins.
+Accepted accept_value_ahead(const TraceTools& tools, const TracerState& state) {
+  Accepted accepted{.leave = state.from, .corners_without_progress = state.corners_without_progress};
+  Departure& leave = accepted.leave;
+  ValuePoint value = std::move(leave.values_ahead.front());
+  leave.values_ahead.erase(leave.values_ahead.begin());
+  accepted.end = bound_at(tools.options.target_values, value.which, value.at.state);
+  const double arc = value.at.arc;
+  leave.point = leave.values_ahead.empty() ? std::move(*leave.begin) : value.at;
+  if (leave.values_ahead.empty()) leave.begin.reset();
+  leave.point.arc = arc;
+  accepted.arc.to = std::move(value.at);
   return accepted;
 }
 
@@ -214,6 +260,8 @@ ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s) {
                           .start = state.start,
                           .metric = tools.metric_on(state.from.point.state.piece, state.lambda_scale),
                           .leaves_branch_point = state.points == 1 && state.start.forward};
+  if (!state.from.values_ahead.empty())
+    return {.ledger = {.arc = state.from.point.arc, .radius = s}, .result = accept_value_ahead(tools, state)};
   StepTried step = next_step(tools, origin, s);
   ArcAttempt attempt{.ledger = std::move(step.attempt)};
   attempt.ledger.arc = state.from.point.arc;

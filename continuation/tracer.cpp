@@ -190,7 +190,9 @@ bool Tracer::is_of_this_branch(const TracerState& state) const {
   };
   const Departure& from = state.from;
   return from.signs.size() == (state.points == 0 ? 0 : tools_->detectors.size()) &&
-         std::all_of(from.pending_singular.begin(), from.pending_singular.end(), is_known);
+         std::all_of(from.pending_singular.begin(), from.pending_singular.end(), is_known) &&
+         std::all_of(from.values_ahead.begin(), from.values_ahead.end(),
+                     [&](const ValuePoint& value) { return value.which < tools_->options.target_values.size(); });
 }
 
 }  // namespace arcwall

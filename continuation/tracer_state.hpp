@@ -5,6 +5,7 @@
 
 #include "continuation/corners/visited_corner.hpp"
 #include "continuation/events/singular_point.hpp"
+#include "continuation/events/value_point.hpp"
 #include "continuation/step/landed_guard.hpp"
 #include "continuation/trace_options.hpp"
 
@@ -24,6 +25,8 @@ struct Departure {
   std::vector<SingularPoint> pending_singular{};  ///< located with `point` and just behind it: the next points
   std::optional<Landing> passed_bound{};          ///< `point` lies a little beyond this validity bound of its piece
   std::optional<PathPoint> known_end{};           ///< of the next step: the first point of a piece that was entered
+  std::vector<ValuePoint> values_ahead{};         ///< the next points, between a change of contact and such a piece
+  std::optional<PathPoint> begin{};               ///< of that piece, behind those points
 
   /// The eigenpairs nearest zero that were known last.
   const NearNull& nearest() const { return point.nearest.values.size() > 0 ? point.nearest : last_pairs; }
@@ -31,7 +34,8 @@ struct Departure {
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(point, before, eigenvalues_before, last_pairs, signs, negative_eigenvalues, count_after, zero_eigenvalues,
-            pending_singular, passed_bound, known_end);
+            pending_singular, passed_bound, known_end, values_ahead, begin);
+    archive.require(values_ahead.empty() || begin);
     archive.require(!before || eigenvalues_before.size() == point.nearest.values.size());
   }
 };

@@ -12,6 +12,19 @@
 
 namespace arcwall::verify {
 
+std::size_t change_before(std::span<const RecordPoint> points, std::size_t point,
+                          const std::function<bool(Index)>& makes_stretch) {
+  const auto has_contacts_of = [&](std::size_t i) {
+    return points[i].branch == points[point].branch &&
+           points[i].state.piece.layout() == points[point].state.piece.layout();
+  };
+  for (std::size_t i = point; i > 0 && has_contacts_of(i - 1); --i) {
+    if (makes_stretch(points[i - 1].step)) return i - 1;
+    if (points[i - 1].event) break;
+  }
+  return point;
+}
+
 namespace {
 
 const std::string complete = "the list of events is complete";
@@ -109,16 +122,23 @@ bool names(const ListedEvent& event, const std::string& contact, bool slides) {
                      [&](const ContactLabel& label) { return name_of(label, slides) == contact; });
 }
 
-// A branch may leave its first point, where it begins on another, by a change of contact.
+// A branch may leave its first point, where it begins on another, by a change of contact; and the stretch that a change
+// makes may be there later only.
 void check_contact_changes(const Branch& branch, bool slides, Findings& findings) {
+  const auto makes_stretch = [&](Index step) {
+    return branch.has_event(step, step, [](const ListedEvent& event) {
+      return event.kind == "contact-spreads" || event.kind == "contact-opens";
+    });
+  };
   for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
     const RecordPoint &from = branch.points[i], &to = branch.points[i + 1];
     if (branch.id > 0 && from.step == 0) continue;
+    const RecordPoint& since = slides ? branch.points[change_before(branch.points, i, makes_stretch)] : from;
     findings.at("events.json", branch.id, to.step);
     for (const std::string& name : changed(contacts_of(from, slides), contacts_of(to, slides)))
       findings.require(
           complete,
-          branch.has_event(from.step, to.step, [&](const ListedEvent& event) { return names(event, name, slides); }),
+          branch.has_event(since.step, to.step, [&](const ListedEvent& event) { return names(event, name, slides); }),
           fmt::format("the contacts with {} change between steps {} and {} without an event", name, from.step,
                       to.step));
   }

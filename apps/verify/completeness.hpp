@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,5 +33,13 @@ struct ListedEvent {
 /// What happens and is undone between two points is not seen.
 void check_completeness(const std::vector<ListedEvent>& events, const Record& record, const Model& model,
                         Findings& findings);
+
+/// The number of the point at which contact has changed that makes a stretch, if that stretch is not there yet at a
+/// later point: where it would be too short for its unknowns, target values are landed on with the contacts of before.
+/// Else the number of the later point itself.
+///
+/// `points`: contacts slide in them. `makes_stretch`: whether a step has such a change.
+std::size_t change_before(std::span<const RecordPoint> points, std::size_t point,
+                          const std::function<bool(Index step)>& makes_stretch);
 
 }  // namespace arcwall::verify

@@ -67,7 +67,7 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
   return at;
 }
 
-void check_contacts(const PointAtHand& at, Findings& findings) {
+void check_contacts(const PointAtHand& at, Findings& findings, double also) {
   const double length = 1e-10 * at.scales.length, force = smallest_force(at);
   for (const Touch& touch : at.touches.all) {
     const double gap = touch.gap.value();
@@ -82,7 +82,7 @@ void check_contacts(const PointAtHand& at, Findings& findings) {
   if (at.model.sliding() == nullptr || at.walls.empty()) return;
   const Entry entry = deepest_entry(at.model, at.walls, at.point.state, 2e-9 * at.scales.length);
   if (std::isfinite(entry.depth))
-    findings.compare("no wall is entered between nodes", entry.depth, entry.allowed, entry.where);
+    findings.compare("no wall is entered between nodes", entry.depth, entry.allowed + also, entry.where);
   for (const SplinePull& pull : spline_pulls(at.model, at.walls, at.point.state))
     findings.compare("no part lies across where its wall would pull", pull.pull, pull.held, named(pull.label));
   for (const Tangency& tangency : at.touches.tangencies) {

@@ -33,8 +33,8 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
                     const Scales& scales);
 
 /// Gaps and forces: g ≥ 0 of open contacts, p ≥ 0 and g + c p = 0 of closed ones, nothing inside a wall between nodes;
-/// tangency of contact that slides.
-void check_contacts(const PointAtHand& at, Findings& findings);
+/// tangency of contact that slides. `also`: how deep a wall may be entered besides [length].
+void check_contacts(const PointAtHand& at, Findings& findings, double also = 0.0);
 
 /// ∂Π/∂u − Σ p ∂g/∂u = 0, and the contact forces that this leaves at each node.
 void check_equilibrium(const PointAtHand& at, Findings& findings);

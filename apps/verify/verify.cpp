@@ -165,6 +165,20 @@ class Verifier {
   }
 
  private:
+  static constexpr double entered_in_change = 1e-6;  // of the length
+
+  // Whether a point has the contacts of before a change that makes a stretch.
+  bool waits_for_stretch(std::size_t number) const {
+    if (model_.sliding() == nullptr) return false;
+    const auto makes_stretch = [&](Index step) {
+      return std::any_of(record_.events.begin(), record_.events.end(), [&](const RecordEvent& event) {
+        return event.branch == record_.points[number].branch && event.step == step &&
+               (event.kind == EventKind::contact_spreads || event.kind == EventKind::contact_opens);
+      });
+    };
+    return change_before(record_.points, number, makes_stretch) != number;
+  }
+
   bool check_point(std::size_t number, bool count) {
     const RecordPoint& point = record_.points[number];
     Findings& findings = verdict_.findings;
@@ -179,7 +193,7 @@ class Verifier {
     add_monitors(at, expected, findings);
     if (!record_.stages.empty()) expected.stage = record_.stage_of(point.branch);
     if (!model_.in_increments()) {
-      check_contacts(at, findings);
+      check_contacts(at, findings, waits_for_stretch(number) ? entered_in_change * scales_.length : 0.0);
       check_equilibrium(at, findings);
       expected.energy = energy(at);
       if (count) {

@@ -89,8 +89,8 @@ std::optional<FreeEnd> touched_clamp(const SlidingSetting& setting, const Slidin
   return found;
 }
 
-std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
-  const Clamps clamps = reached<ClampBound>(setting, at, tolerance);
+std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  const Clamps clamps = reached<ClampBound>(setting, at, arrival);
   const double length = 2.0 * shortest_span(setting.body, clamps.front()->strand());
   std::vector<Transition> transitions;
   for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
@@ -101,9 +101,9 @@ std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const Sli
 }
 
 std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, const SlidingState& at,
-                                               double tolerance) {
+                                               const Arrival& arrival) {
   std::vector<const TailBound*> parts;
-  for (const TailBound* bound : reached<TailBound>(setting, at, tolerance))
+  for (const TailBound* bound : reached<TailBound>(setting, at, arrival))
     if (!setting.body.takes_contact(bound->strand(), bound->last())) parts.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {

@@ -5,6 +5,7 @@
 
 #include "contact/sliding/setting.hpp"
 #include "contact/sliding/unknowns.hpp"
+#include "contact/sliding/validity_bound.hpp"
 #include "core/transition.hpp"
 
 namespace arcwall::sliding {
@@ -20,10 +21,11 @@ double parting(const SlidingSetting& setting, const SlidingState& at, const Free
 Row parting_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// What may lie behind a state where the body beside clamps comes to bend as the obstacles there do, at all that do so
-/// within `tolerance`: it lies on them from the clamps on.
-std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, double tolerance);
+/// together: it lies on them from the clamps on.
+std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival);
 
 /// The reverse, where such parts have become short.
-std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, const SlidingState& at, double tolerance);
+std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, const SlidingState& at,
+                                               const Arrival& arrival);
 
 }  // namespace arcwall::sliding

@@ -40,11 +40,11 @@ LiftOff lift_off_at(const SlidingSetting& setting, const SlidingState& at, std::
 }
 
 // Pressed nodes where parts lift off: of neighbours the one with the least pressure.
-Nodes lifting_nodes(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+Nodes lifting_nodes(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const auto& pressed = at.layout.pressed_nodes();
   Nodes nodes;
   std::size_t last_reached = 0;
-  for (const PressureBound* bound : reached<PressureBound>(setting, at, tolerance)) {
+  for (const PressureBound* bound : reached<PressureBound>(setting, at, arrival)) {
     const std::size_t node = bound->node();
     const bool neighbour =
         !nodes.empty() && pressed[node].segment == pressed[nodes.back()].segment && node - last_reached == 1;
@@ -178,10 +178,10 @@ std::vector<Transition> lifted_inside(const SlidingSetting& setting, const Slidi
 }
 
 // Whether nothing presses on a strand that lies on its obstacle from end to end.
-bool is_left(const SlidingSetting& setting, const SlidingState& at, Index strand, double tolerance) {
+bool is_left(const SlidingSetting& setting, const SlidingState& at, Index strand, const Arrival& arrival) {
   if (!at.layout.lies_on(strand)) return false;
   const auto of_strand = [&](std::size_t node) { return at.layout.pressed_nodes()[node].strand == strand; };
-  const auto all = reached<PressureBound>(setting, at, tolerance);
+  const auto all = reached<PressureBound>(setting, at, arrival);
   const auto& pressed = at.layout.pressed_nodes();
   return std::count_if(all.begin(), all.end(), [&](const PressureBound* bound) { return of_strand(bound->node()); }) ==
          std::count_if(pressed.begin(), pressed.end(), [&](const auto& node) { return node.strand == strand; });
@@ -207,11 +207,10 @@ void name_ends(const SlidingSetting& setting, const Piece& ahead, Index strand, 
 
 }  // namespace
 
-std::optional<Transition> strands_leave(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
-                                        double tolerance) {
+std::optional<Transition> strands_leave(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   std::vector<std::pair<Index, std::size_t>> leaving;
   for (Index strand = 0; strand < setting.body.strands(); ++strand)
-    if (is_left(setting, at, strand, tolerance)) leaving.emplace_back(strand, at.layout.lies_on(strand).value());
+    if (is_left(setting, at, strand, arrival)) leaving.emplace_back(strand, at.layout.lies_on(strand).value());
   if (leaving.empty()) return std::nullopt;
   LayoutEdit edit = edit_of(setting.body, at);
   for (const auto& [strand, obstacle] : leaving) {
@@ -221,8 +220,8 @@ std::optional<Transition> strands_leave(const SlidingSetting& setting, const Sli
   }
   Transition transition =
       up_to(0.0, nullptr, Transition::Change::splits, mapped_onto(setting, at, edit, layout_of(edit)));
-  transition.forward.dx.head(at.index.nodes) = forward.dx.head(at.index.nodes);
-  transition.forward.dlambda = forward.dlambda;
+  transition.forward.dx.head(at.index.nodes) = arrival.forward.dx.head(at.index.nodes);
+  transition.forward.dlambda = arrival.forward.dlambda;
   for (const auto& [strand, obstacle] : leaving)
     name_ends(setting, transition.guess.piece, strand, obstacle, transition.contacts);
   return transition;
@@ -232,9 +231,8 @@ namespace {
 
 // Parts between two points from which a load that λ drives lets go, from end to end, are free spans behind that: they
 // arch off their walls as soon as these would have to pull. Empty where there are none.
-std::optional<Transition> parts_leave(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
-                                      double tolerance) {
-  const auto all = reached<PressureBound>(setting, at, tolerance);
+std::optional<Transition> parts_leave(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  const auto all = reached<PressureBound>(setting, at, arrival);
   const auto& pressed = at.layout.pressed_nodes();
   std::vector<std::size_t> leaving;
   for (std::size_t i = 0; i < at.layout.segments().size(); ++i) {
@@ -247,7 +245,7 @@ std::optional<Transition> parts_leave(const SlidingSetting& setting, const Slidi
       leaving.push_back(i);
   }
   if (leaving.empty()) return std::nullopt;
-  Transition transition = remeshed(setting, at, forward, [&](LayoutEdit& edit, const SlidingState&) {
+  Transition transition = remeshed(setting, at, arrival.forward, [&](LayoutEdit& edit, const SlidingState&) {
     for (const std::size_t i : leaving)
       edit.points[static_cast<std::size_t>(at.layout.segments()[i].first_point)].behind = Span::free;
   });
@@ -260,13 +258,12 @@ std::optional<Transition> parts_leave(const SlidingSetting& setting, const Slidi
 
 }  // namespace
 
-std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
-                                       double tolerance) {
-  const Nodes nodes = lifting_nodes(setting, at, tolerance);
-  if (auto leave = strands_leave(setting, at, forward, tolerance))
+std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  const Nodes nodes = lifting_nodes(setting, at, arrival);
+  if (auto leave = strands_leave(setting, at, arrival))
     return {std::move(*leave), unsupported("a member leaves its wall, and no equilibrium was found")};
   std::vector<Transition> transitions;
-  if (auto leave = parts_leave(setting, at, forward, tolerance)) transitions.push_back(std::move(*leave));
+  if (auto leave = parts_leave(setting, at, arrival)) transitions.push_back(std::move(*leave));
   LiftOffs lifts;
   for (const std::size_t node : nodes) lifts.push_back(lift_off_at(setting, at, node));
   const auto is_one_of_them = [&](const PressureBound& bound) {
@@ -318,8 +315,8 @@ std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const Slid
 }
 
 std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,
-                                       double tolerance) {
-  auto pulling = reached<LoadPressesBound>(setting, at, tolerance);
+                                       const Arrival& arrival) {
+  auto pulling = reached<LoadPressesBound>(setting, at, arrival);
   std::erase_if(pulling, [&](const LoadPressesBound* bound) { return bound->load().segment != load.segment; });
   const std::size_t obstacle = obstacle_of_part(at, load.segment);
   const bool on_straight = setting.obstacles[obstacle].surface->knots().empty();

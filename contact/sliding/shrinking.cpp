@@ -128,10 +128,11 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
 
 }  // namespace
 
-Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double tolerance) {
+Transition span_vanishes(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
+                         const Arrival& arrival) {
   const auto closes_a_gap = [&](std::size_t k) { return at.layout.parts_pressed(k); };
   Points spans;
-  for (const LengthBound* bound : reached<LengthBound>(setting, at, tolerance)) spans.push_back(bound->point());
+  for (const LengthBound* bound : reached<LengthBound>(setting, at, arrival)) spans.push_back(bound->point());
   if (std::find(spans.begin(), spans.end(), point) == spans.end()) spans = {point};
   std::erase_if(spans, [&](std::size_t k) { return closes_a_gap(k) != closes_a_gap(point); });
   return closes_a_gap(point) ? joined(setting, at, spans) : gathered(setting, at, spans);

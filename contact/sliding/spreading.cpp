@@ -116,16 +116,35 @@ void grow_with_new_parts(const NeutralSides& sides, double length, LayoutEdit& e
   }
 }
 
-// How much of a new stretch lies behind its point. Under a point load that it would arch over the body stays on the
-// wall: there the point stays, and the stretch begins on its other side.
-double share_behind(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span between,
-                    double length) {
-  constexpr double half = 0.5;
-  if (between != Span::free || lies_by_itself(setting, at, point)) return half;
-  const double here = at.s(static_cast<Index>(point));
-  const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
-  if (has_load_between(setting, strand, here, here + half * length)) return 0.0;
-  return has_load_between(setting, strand, here - half * length, here) ? 1.0 : half;
+// Whether the body arches off one obstacle between a point and the next one.
+bool arches_behind(const SlidingState& at, std::size_t point) {
+  return std::any_of(at.layout.segments().begin(), at.layout.segments().end(), [&](const auto& segment) {
+    return segment.span == Span::free && segment.first_point == static_cast<Index>(point) &&
+           at.layout.joins_one_obstacle(segment);
+  });
+}
+
+// Where a new stretch lies about its point, and the force there: how much of either is the end's.
+struct Shares {
+  double length = 0.5, force = 0.5;
+};
+
+// Under a point load that it would arch over the body stays on the wall: there the point stays, and the stretch begins
+// on its other side. A pressed part begins where an arch ends: that stays as it is, and the force is that of the other
+// side.
+Shares shares_of_end(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span between,
+                     double length) {
+  constexpr Shares behind{.length = 1.0, .force = 0.0}, before{.length = 0.0, .force = 1.0};
+  if (lies_by_itself(setting, at, point)) return {};
+  if (between == Span::free) {
+    const double here = at.s(static_cast<Index>(point));
+    const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
+    if (has_load_between(setting, strand, here, here + 0.5 * length)) return before;
+    return has_load_between(setting, strand, here - 0.5 * length, here) ? behind : Shares{};
+  }
+  const bool ends_arch = point > 0 && arches_behind(at, point - 1), begins_arch = arches_behind(at, point);
+  if (ends_arch == begins_arch) return {};
+  return ends_arch ? Shares{.length = 1.0, .force = 1.0} : Shares{.length = 0.0, .force = 0.0};
 }
 
 // Each of the points, ascending, becomes two, a short way apart; `neutral`: spans beside them that are then. Where the
@@ -139,9 +158,10 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
   }
   for (auto k = points.rbegin(); k != points.rend(); ++k) {
     const int behind = edit.elements_behind(*k);
-    const double share = share_behind(setting, at, *k, between, length), force = edit.forces[*k];
+    const Shares end = shares_of_end(setting, at, *k, between, length);
+    const double force = edit.forces[*k];
     double& s = edit.place(*k);
-    s -= (1.0 - share) * length;
+    s -= (1.0 - end.length) * length;
     Span span = between;
     if (lies_by_itself(setting, at, *k))
       span = has_load_between(setting, edit.strands[*k], s, s + length) ? Span::pressed : Span::flat;
@@ -150,12 +170,12 @@ Transition spread(const SlidingSetting& setting, const SlidingState& at, const P
             ? 1
             : elements_asked(setting.body, edit.strands[*k], s, s + length,
                              span == Span::pressed ? fewest_pressed(obstacle_is_straight(setting, at, *k)) : 2);
-    edit.forces[*k] = share * force;
+    edit.forces[*k] = (1.0 - end.force) * force;
     edit.insert({.point = edit.points[*k],
                  .strand = edit.strands[*k],
                  .s = s + length,
                  .closed = true,
-                 .force = (1.0 - share) * force},
+                 .force = end.force * force},
                 between_them, behind);
     edit.points[*k].behind = span;
   }
@@ -234,16 +254,24 @@ std::optional<Transition> spread_half_pressed(const SlidingSetting& setting, con
   return transition;
 }
 
+// Whether a stretch about a point is pressed, or arches off, from end to end, and no point load acts inside.
+bool is_of_one_kind(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double length) {
+  const auto k = static_cast<Index>(point);
+  const double s = at.s(k), half = 0.5 * length;
+  return !pressure_changes_sign(setting, at, point, length) &&
+         !has_load_between(setting, at.mesh.breakpoint(k).first, s - half, s + half);
+}
+
 // Of new parts: a quarter of an element. On a straight wall they may be shorter, and are where that keeps the pressure
-// of one sign, so that no part is begun which has lifted off already.
+// of one sign, so that no part is begun which has lifted off already, and point loads outside, which come in later.
 double first_length(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
   const Index strand = at.mesh.breakpoint(static_cast<Index>(points.front())).first;
   const double length = 2.0 * shortest_span(setting.body, strand);
   const double least = 2.0 * shortest_span_on_straight(setting.body, strand);
   if (!obstacle_is_straight(setting, at, points.front())) return length;
   for (double shorter = length; shorter >= least; shorter *= 0.5)
-    if (std::none_of(points.begin(), points.end(),
-                     [&](std::size_t k) { return pressure_changes_sign(setting, at, k, shorter); }))
+    if (std::all_of(points.begin(), points.end(),
+                    [&](std::size_t k) { return is_of_one_kind(setting, at, k, shorter); }))
       return shorter;
   return length;
 }
@@ -252,9 +280,10 @@ double first_length(const SlidingSetting& setting, const SlidingState& at, const
 // arches off the wall. On a curved wall the axial force, and with it the pressure, may grow with the part: it is then
 // begun longer. On straight walls little but its length may resist, and it is begun as short as a span may be. Shorter
 // ones are tried before longer ones, half pressed ones included unless the pressure changes its sign at once: far from
-// the change a longer one may be on a part of the path that is still to come.
+// the change a longer one may be on a part of the path that is still to come, so that it must hold at a quarter of its
+// length, too; of much shorter ones round-off hides the pressure.
 std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingState& at, const Points& points) {
-  constexpr double shorter = 0.6;
+  constexpr double shorter = 0.6, sure = 0.25;
   const double length = first_length(setting, at, points);
   const auto spread_to = [&](Span between, double factor) {
     return spread(setting, at, points, between, factor * length);
@@ -283,7 +312,7 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
       transitions.push_back(spread_to(Span::pressed, 1.0));
     } else if (!all_flat && !all_lift_off) {
       transitions.push_back(spread_to(Span::pressed, factor));
-      if (!shortest) transitions.back().least = 0.5 * factor * length;
+      if (!shortest) transitions.back().least = std::max(1.0, sure * factor) * length;
     }
   }
   if (!all_flat && !all_lift_off) {
@@ -294,10 +323,10 @@ std::vector<Transition> spreads(const SlidingSetting& setting, const SlidingStat
   return transitions;
 }
 
-// The closed points that have lost their curvature within a tolerance.
-Points points_without_curvature(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+// The closed points that lose their curvature together.
+Points points_without_curvature(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   Points points;
-  for (const CurvatureBound* bound : reached<CurvatureBound>(setting, at, tolerance))
+  for (const CurvatureBound* bound : reached<CurvatureBound>(setting, at, arrival))
     if (at.is_closed(bound->point())) points.push_back(bound->point());
   return points;
 }
@@ -305,10 +334,10 @@ Points points_without_curvature(const SlidingSetting& setting, const SlidingStat
 // A structure that is symmetric but for what hardly counts, as soft springs do, has points that lose their curvature so
 // soon after each other that none is found between: all of them may spread then.
 std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, const SlidingState& at,
-                                                const Points& points) {
+                                                const Points& points, const Arrival& arrival) {
   constexpr double near = 1e-5;  // of curvatures, as reached() takes it
   std::vector<Transition> transitions = spreads(setting, at, points);
-  const Points all = points_without_curvature(setting, at, near);
+  const Points all = points_without_curvature(setting, at, {.forward = arrival.forward, .tolerance = near});
   if (all.size() > points.size())
     for (Transition& transition : spreads(setting, at, all)) transitions.push_back(std::move(transition));
   transitions.push_back(unsupported(why_none_spreads(setting, at, points)));
@@ -367,9 +396,8 @@ std::optional<Transition> spans_lie_down(const SlidingSetting& setting, const Sl
 
 }  // namespace
 
-std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
-                                        double tolerance) {
-  const Points points = points_without_curvature(setting, at, tolerance);
+std::vector<Transition> points_to_lines(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  const Points points = points_without_curvature(setting, at, arrival);
   if (points.size() == 1)
     if (auto touches = tip_touches_with(setting, at, points.front()))
       return {std::move(*touches), unsupported("a tip touches with the part beside it, and no equilibrium was found")};
@@ -387,8 +415,8 @@ std::vector<Transition> points_to_lines(const SlidingSetting& setting, const Sli
   if (is_continuum) {
     transitions.push_back(end_before(common));
   } else {
-    transitions = spreads_with_those_near(setting, at, points);
-    if (auto lie_down = spans_lie_down(setting, at, points, forward)) {
+    transitions = spreads_with_those_near(setting, at, points, arrival);
+    if (auto lie_down = spans_lie_down(setting, at, points, arrival.forward)) {
       // A part that has just begun to buckle is straight, too: a flat one is the last that is tried.
       const bool is_flat = lie_down->from_singular;
       transitions.insert(is_flat ? transitions.end() - 1 : transitions.begin(), std::move(*lie_down));

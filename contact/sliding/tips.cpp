@@ -102,7 +102,7 @@ std::vector<ClosedTip> tangent_tips(const SlidingSetting& setting, const Sliding
     double rate;
   };
   std::map<std::size_t, Reached> by_contact;
-  for (const LiesDownBound* bound : reached<LiesDownBound>(setting, at, arrival.tolerance)) {
+  for (const LiesDownBound* bound : reached<LiesDownBound>(setting, at, arrival)) {
     const double rate = apply(bound->gradient(setting, at), arrival.forward);
     for (std::size_t end = 0; end < setting.free_ends.size(); ++end) {
       if (!setting.free_ends[end].is_of(bound->end()) || !at.is_closed(at.layout.points().size() + end)) continue;
@@ -199,9 +199,10 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
   return transitions;
 }
 
-std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at,
+                                              const Arrival& arrival) {
   std::vector<const TailBound*> tails;
-  for (const TailBound* bound : reached<TailBound>(setting, at, tolerance))
+  for (const TailBound* bound : reached<TailBound>(setting, at, arrival))
     if (at.is_closed(bound->point()) && setting.body.takes_contact(bound->strand(), bound->last()))
       tails.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);

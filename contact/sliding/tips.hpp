@@ -11,12 +11,13 @@
 namespace arcwall::sliding {
 
 /// What may lie behind a state where tips or joints that touch become tangent to their obstacles, the likeliest first:
-/// all that do so within a tolerance together. Contact moves inside, and the tip lifts off, where the body bends away
+/// all that do so together. Contact moves inside, and the tip lifts off, where the body bends away
 /// from the obstacle there; where it bends with it, it lies on the obstacle up to the tip.
 std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival);
 
 /// The reverse, where points have come to tips or joints: the contact there is at the end.
-std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at, double tolerance);
+std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at,
+                                              const Arrival& arrival);
 
 /// Where the body behind a point that loses its curvature gap bends all along as the obstacle does, up to a tip that it
 /// thereby touches: the contact of the tip closes. Empty elsewhere.

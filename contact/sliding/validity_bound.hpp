@@ -13,7 +13,7 @@ namespace arcwall::sliding {
 /// How a state came to a validity bound.
 struct Arrival {
   const Direction& forward;  ///< of the path
-  double tolerance;          ///< bounds within this of zero are reached together
+  double tolerance;          ///< of bounds
 };
 
 /// A condition without which a layout is not valid: a guard of the pieces that have the layout, with what lies behind
@@ -42,13 +42,18 @@ class ValidityBound {
 std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingBody& body,
                                                                   const SlidingContactLayout& on);
 
+/// Whether a bound is reached at a state, surely or as nearly as mirror images of what is reached there: it is near
+/// zero, and is so or below a little farther on. Of nearly straight bodies some are near zero all along.
+bool is_reached(const ValidityBound& bound, const SlidingSetting& setting, const SlidingState& at,
+                const Arrival& arrival);
+
 /// The bounds of one kind that are reached together at a state.
 template <class Bound>
-std::vector<const Bound*> reached(const SlidingSetting& setting, const SlidingState& at, double tolerance) {
+std::vector<const Bound*> reached(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   std::vector<const Bound*> found;
   for (const auto& bound : at.layout.bounds())
     if (const auto* same = dynamic_cast<const Bound*>(bound.get()))
-      if (same->value(setting, at) <= std::max(1e-6, 10.0 * tolerance)) found.push_back(same);
+      if (is_reached(*same, setting, at, arrival)) found.push_back(same);
   return found;
 }
 

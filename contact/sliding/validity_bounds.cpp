@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/element_size.hpp"
@@ -107,6 +109,16 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
                         on.point_at_end(strand, last).value_or(0));
     }
   return bounds;
+}
+
+bool is_reached(const ValidityBound& bound, const SlidingSetting& setting, const SlidingState& at,
+                const Arrival& arrival) {
+  constexpr double near = 1e-6, surely = 1e-9;  // in the scale of bounds
+  constexpr double farther = 1e-3;              // [path metric]
+  const double value = bound.value(setting, at);
+  if (value > std::max(near, 10.0 * arrival.tolerance)) return false;
+  return value <= std::min(surely, 10.0 * arrival.tolerance) ||
+         value + farther * apply(bound.gradient(setting, at), arrival.forward) <= 0.0;
 }
 
 }  // namespace arcwall::sliding

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "continuation/corners/choice.hpp"
+#include "continuation/events/value_point.hpp"
 #include "continuation/trace_tools.hpp"
 
 namespace arcwall {
@@ -23,6 +24,7 @@ struct Corner {
 struct EnteredPiece {
   PathPoint begin{};  ///< on the same piece with a small part of that length: where the step to the first point begins
   PathPoint first{};
+  std::vector<ValuePoint> values{};  ///< between the corner and `begin`, in their order
 };
 
 /// Where a corner leads.

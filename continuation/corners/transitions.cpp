@@ -17,6 +17,7 @@ namespace {
 
 constexpr int most_bounds_at_one_place = 50;
 constexpr double shortened_early = 0.3;  // of its length: a span that is entered early
+constexpr double surely_below = 1e-4;    // of a guard where a new span is short
 
 // Of a transition that is an event.
 EventKind kind_of(Transition::Change change) {
@@ -125,12 +126,18 @@ bool is_of_mesh(const System& system, const State& state, const Direction& forwa
   return !ahead.empty() && ahead.front().change == Transition::Change::remeshed;
 }
 
-// Whether the side conditions hold at the first point of a piece.
+// Whether a point is beyond a bound of its mesh.
+bool is_beyond_mesh(const System& system, const PathPoint& at, double tolerance) {
+  for (Index j = 0; j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && is_of_mesh(system, at.state, at.tangent, j, tolerance)) return true;
+  return false;
+}
+
+// Whether the side conditions hold at the first point of a piece, but for bounds of its mesh.
 bool holds(const System& system, const Transition& transition, const State& state, const Direction& forward) {
   if (!system.admissible(state, -penetration_tolerance)) return false;
   if (transition.change == Transition::Change::remeshed) return true;
   const Vector guards = system.guards(state);
-  if (begins_with_length(transition)) return !(guards.array() < -mesh_error).any();
   for (Index j = 0; j < guards.size(); ++j)
     if (guards[j] < -mesh_error && !is_of_mesh(system, state, forward, j, mesh_error)) return false;
   return true;
@@ -149,11 +156,17 @@ PathPoint entered_point(TraceTools& tools, const Transition& transition, const A
   return to;
 }
 
+// Where a piece begins, as far as it is followed back from its first point.
+struct Beginning {
+  PathPoint at;
+  bool ends_there = false;  // nearer the bound the piece does not hold
+};
+
 // A transition and the first point behind it; where its piece begins before that, with a span that is shorter.
 struct Entered {
   const Transition* transition;
   PathPoint at;
-  std::optional<PathPoint> begin{};
+  std::optional<Beginning> begin{};
 };
 
 // Whether a point behind a part's lifting off lies before that in λ. The free span of length d, at first without one,
@@ -179,64 +192,61 @@ std::optional<PathPoint> with_span(TraceTools& tools, const Transition& transiti
   return at;
 }
 
-// Where a piece begins whose first point has a new span of some length: the piece is followed back towards spans of no
-// length as long as it is followed surely, to a sixteenth, and beyond that until no target value is left between there
-// and the bound. So the first point is reached by a step like any other.
-PathPoint begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
-                   double lambda_scale) {
-  constexpr double counted = 1.0 / 16.0, least = 1e-5;  // of the first length; of shorter spans counts are not sure
-  constexpr double most_kept = 0.95;                    // of a length in one go
-  const Metric metric = tools.metric_on(first.state.piece, lambda_scale);
-  PathPoint begin = first;
-  begin.arc = from.arc;
-  if (!transition.quantity) return begin;
-  const auto value_is_nearer = [&] {
-    const std::vector<TargetValue>& targets = tools.options.target_values;
-    return std::any_of(targets.begin(), targets.end(),
-                       [&](const TargetValue& target) { return lies_between(target, from.state, begin.state); });
-  };
-  const double whole = transition.quantity->value(first.state);
-  double part = 1.0, kept = 0.5;
-  while (kept < most_kept && (part > counted || (part > least && value_is_nearer()))) {
-    const double length = kept * part * whole;
-    if (length < transition.least && !value_is_nearer()) break;
-    auto nearer = with_span(tools, transition, metric, begin, length);
-    if (nearer && lies_back(transition, from, *nearer)) break;
-    if (!nearer) {
-      kept = 0.5 * (1.0 + kept);
-      continue;
-    }
-    part *= kept;
-    if (part >= counted) {
-      decide_count(tools, *nearer);
-      nearer->count = tools.counter.count(nearer->state, nearer->negative_eigenvalues);
-    } else {
-      nearer->negative_eigenvalues = begin.negative_eigenvalues;
-      nearer->count = begin.count;
-    }
-    begin = std::move(*nearer);
-  }
-  return begin;
-}
-
-// Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a
-// part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to pull.
-bool sinks(const PathPoint& at, double tolerance) {
-  return at.guards.size() > 0 && ((at.guards.array() < -tolerance) && (at.guard_rates.array() < 0.0)).any();
-}
-
 // Whether a guard is one of a quantity alone: a bound of the length that a span has.
 bool is_of(const System& system, const State& state, Index guard, const Observable& quantity) {
   const Vector of_guard = system.guard_gradient(state, guard).dx, of_quantity = quantity.gradient(state).dx;
   return std::abs(of_guard.dot(of_quantity)) > 0.999 * of_guard.norm() * of_quantity.norm();
 }
 
-// Whether the guards hold where a piece begins with a short span, but for bounds of the length of that.
+// Whether the guards hold where a piece begins with a short span, but for bounds of the length of that, and of the
+// mesh.
 bool begins_within(const System& system, const Observable& length, const PathPoint& begin, double tolerance) {
   for (Index j = 0; j < begin.guards.size(); ++j)
-    if (begin.guards[j] < -tolerance && !(begin.guard_rates[j] > 0.0 && is_of(system, begin.state, j, length)))
+    if (begin.guards[j] < -tolerance && !(begin.guard_rates[j] > 0.0 && is_of(system, begin.state, j, length)) &&
+        !is_of_mesh(system, begin.state, begin.tangent, j, tolerance))
       return false;
   return true;
+}
+
+// Where a piece begins whose first point has a new span of some length: it is followed back towards spans of no length
+// as long as it is followed surely, and holds, to a sixteenth; of shorter spans neither forces nor counts are sure. So
+// the first point is reached by a step like any other.
+Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
+                   double lambda_scale) {
+  constexpr double shortest = 1.0 / 16.0;              // of the first length
+  constexpr double most_kept = 0.95, roundoff = 1e-9;  // of a length in one go, and of one
+  Beginning beginning{.at = first};
+  PathPoint& begin = beginning.at;
+  begin.arc = from.arc;
+  if (!transition.quantity) return beginning;
+  const Metric metric = tools.metric_on(first.state.piece, lambda_scale);
+  const double whole = transition.quantity->value(first.state);
+  const double least = (1.0 - roundoff) * std::max(shortest * whole, transition.least);
+  double length = whole, kept = 0.5;
+  while (kept < most_kept && kept * length >= least) {
+    auto nearer = with_span(tools, transition, metric, begin, kept * length);
+    if (!nearer) {
+      kept = 0.5 * (1.0 + kept);
+      continue;
+    }
+    if (lies_back(transition, from, *nearer)) break;
+    beginning.ends_there = !begins_within(tools.system, *transition.quantity, *nearer, surely_below);
+    if (beginning.ends_there) break;
+    decide_count(tools, *nearer);
+    nearer->count = tools.counter.count(nearer->state, nearer->negative_eigenvalues);
+    begin = std::move(*nearer);
+    length *= kept;
+  }
+  return beginning;
+}
+
+// Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a
+// part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to pull.
+bool sinks(const System& system, const PathPoint& at, double tolerance) {
+  for (Index j = 0; j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && at.guard_rates[j] < 0.0 && !is_of_mesh(system, at.state, at.tangent, j, tolerance))
+      return true;
+  return false;
 }
 
 // A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
@@ -248,7 +258,7 @@ std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transi
   if (!result.converged() || !tools.system.admissible(result.state, -penetration_tolerance)) return std::nullopt;
   PathPoint first = entered_point(tools, transition, ahead, std::move(result), from.arc);
   if (lies_back(transition, from, first)) return std::nullopt;
-  const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale);
+  const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale).at;
   if (transition.quantity->value(begin.state) > shortened_early * transition.value) return std::nullopt;
   if (!begins_within(tools.system, *transition.quantity, begin, tools.options.guard_tolerance)) return std::nullopt;
   return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
@@ -281,13 +291,13 @@ bool agrees_with_counts(const StabilityCount& before, const PathPoint& from, con
 
 // On another mesh the path's direction tells its sense; where a change of contact is known on neither side but by its
 // state, the counts do. What sinks below its bound in that sense is not the path's. Empty then.
-std::optional<PathPoint> in_sense_of_counts(const StabilityCount& before, const PathPoint& from, PathPoint at,
-                                            double tolerance) {
+std::optional<PathPoint> in_sense_of_counts(const System& system, const StabilityCount& before, const PathPoint& from,
+                                            PathPoint at, double tolerance) {
   if (!agrees_with_counts(before, from, at)) {
     at.tangent = reversed(std::move(at.tangent));
     at.guard_rates = -at.guard_rates;
   }
-  return sinks(at, tolerance) ? std::nullopt : std::optional(std::move(at));
+  return sinks(system, at, tolerance) ? std::nullopt : std::optional(std::move(at));
 }
 
 // Whether a change of contact is known on neither side but by its state.
@@ -301,14 +311,13 @@ bool is_sought(const Transition& transition) {
   return transition.quantity && transition.change == Transition::Change::gathers;
 }
 
-// The first of the transitions behind which a point is found, and better one that does not lie back; all are tried
-// again with patience where none is, and then entered early. Last comes what is not sure to hold ahead, or does not
-// hold between there and the bound, or has a count against which λ does not turn: with its length there may be a second
-// equilibrium behind the next fold, from which the path would come back; and at a pitchfork in the corner the count is
-// right.
+// The first of the transitions behind which a point is found, and better one that does not lie back. Where none is,
+// they are entered early: what begins at the corner comes before what is farther off. Then all are tried again with
+// patience. Last comes what is not sure to hold ahead, or does not hold between there and the bound, or has a count
+// against which λ does not turn: with its length there may be a second equilibrium behind the next fold, from which the
+// path would come back; and at a pitchfork in the corner the count is right.
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  const StabilityCount& before, double lambda_scale) {
-  constexpr double surely_below = 1e-4;  // of a guard where the new span is short
   std::optional<Entered> doubtful;
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     std::optional<Entered> back;
@@ -317,17 +326,18 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       auto at = enter(tools, transition, from, lambda_scale, effort);
       if (!at && is_sought(transition)) at = enter(tools, transition, from, lambda_scale, Effort::patient);
       if (!at) continue;
-      if (is_known_by_state(transition)) at = in_sense_of_counts(before, from, std::move(*at), mesh_error);
+      if (is_known_by_state(transition))
+        at = in_sense_of_counts(tools.system, before, from, std::move(*at), mesh_error);
       if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
       const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
       const bool has_length = begins_with_length(transition);
-      bool leaps = false;
-      if (has_length && transition.quantity && transition.least > 0.0) {
+      const bool leaves_mesh = has_length && is_beyond_mesh(tools.system, entered.at, mesh_error);
+      if (has_length && transition.quantity && (transition.least > 0.0 || leaves_mesh))
         entered.begin = begin_of(tools, transition, entered.at, from, lambda_scale);
-        leaps = !begins_within(tools.system, *transition.quantity, *entered.begin, surely_below);
-      }
-      if (leaps || (has_length && sinks(entered.at, tools.options.guard_tolerance)) ||
+      if (leaves_mesh && (!entered.begin || is_beyond_mesh(tools.system, entered.begin->at, mesh_error))) continue;
+      const bool leaps = entered.begin && transition.least > 0.0 && entered.begin->ends_there;
+      if (leaps || (has_length && sinks(tools.system, entered.at, tools.options.guard_tolerance)) ||
           ((has_length || is_gathered) && !agrees_with_counts(before, from, entered.at))) {
         if (!doubtful) doubtful = std::move(entered);
         continue;
@@ -336,19 +346,21 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (!back) back = std::move(entered);
     }
     if (back) return back;
+    if (effort == Effort::usual)
+      if (auto early = enter_early(tools, transitions, from, lambda_scale)) return early;
   }
-  auto early = enter_early(tools, transitions, from, lambda_scale);
-  return early ? early : doubtful;
+  return doubtful;
 }
 
 // Bounds that are reached together are passed one after the other, and those behind the first may have been shifted
-// past their zero by the new mesh.
+// past their zero by the new mesh: the lowest one. A span that has just begun may still be shorter than its bound, and
+// grows.
 std::optional<Index> shifted_bound(const PathPoint& at, double tolerance) {
-  const auto contacts = static_cast<Index>(at.state.piece.size());
-  if (at.guards.size() == contacts) return std::nullopt;
-  Index bound = 0;
-  if (at.guards.tail(at.guards.size() - contacts).minCoeff(&bound) >= -tolerance) return std::nullopt;
-  return contacts + bound;
+  std::optional<Index> lowest;
+  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && at.guard_rates[j] <= 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]))
+      lowest = j;
+  return lowest;
 }
 
 // A bound of the mesh alone that another transition has left behind.
@@ -425,13 +437,13 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       return passed;
     }
     if (begins_with_length(*entered->transition)) {
-      const PathPoint begin = entered->begin
-                                  ? std::move(*entered->begin)
-                                  : begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
+      if (!entered->begin)
+        entered->begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
+      PathPoint& begin = entered->begin->at;
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
       if (auto pitchfork = pitchfork_at_corner(tools, corner, passed.at, begin))
         add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);
-      passed.entered = EnteredPiece{.begin = begin, .first = std::move(entered->at)};
+      passed.entered = EnteredPiece{.begin = std::move(begin), .first = std::move(entered->at)};
       return passed;
     }
     add_events(tools, corner, passed.at, *entered, entered->at, passed.events);

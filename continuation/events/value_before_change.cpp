@@ -48,12 +48,19 @@ std::optional<ValueBetween> first_value_between(const std::vector<TargetValue>& 
   return first;
 }
 
-std::optional<ArcEnd> land_beyond_bound(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
-                                        const ValueBetween& value) {
-  auto at = point_on_value(tools, origin.metric, tools.options.target_values[value.which], end.point);
+std::optional<PathPoint> point_beyond_bound(TraceTools& tools, const Metric& metric, const PathPoint& near,
+                                            const ValueBetween& value) {
   constexpr double entered = 1e-6;  // of a wall between contacts: farther beyond the bound the piece is another
+  auto at = point_on_value(tools, metric, tools.options.target_values[value.which], near);
   if (!at || !tools.system.admissible(at->state, -entered)) return std::nullopt;
   at->arc += value.distance;
+  return at;
+}
+
+std::optional<ArcEnd> land_beyond_bound(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
+                                        const ValueBetween& value) {
+  auto at = point_beyond_bound(tools, origin.metric, end.point, value);
+  if (!at) return std::nullopt;
   return ArcEnd{.point = std::move(*at),
                 .length = end.length + value.distance,
                 .event = EventPlace{.what = EventPlace::What::target_value, .which = value.which, .t = 1.0},

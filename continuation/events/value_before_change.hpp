@@ -20,9 +20,13 @@ struct ValueBetween {
 std::optional<ValueBetween> first_value_between(const std::vector<TargetValue>& targets, const PathPoint& behind,
                                                 const State& ahead);
 
-/// The arc's end on the value, on the piece that ends, a little beyond its bound, which is passed from there: the two
-/// pieces differ there by the third power of a stretch at most, less than the error of the elements. Empty where no
-/// such point is found, or where it is inside a wall.
+/// The point on a value on the piece that ends, a little beyond its bound: the two pieces differ there by the third
+/// power of a stretch at most, less than the error of the elements. `near`: its last point, or one beyond the bound.
+/// Empty where no such point is found, or where it is inside a wall.
+std::optional<PathPoint> point_beyond_bound(TraceTools& tools, const Metric& metric, const PathPoint& near,
+                                            const ValueBetween& value);
+
+/// The arc's end on such a point; the bound is passed from there.
 std::optional<ArcEnd> land_beyond_bound(TraceTools& tools, const StepOrigin& origin, const ArcEnd& end,
                                         const ValueBetween& value);
 

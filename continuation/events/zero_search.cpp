@@ -183,8 +183,10 @@ class ZeroSearch {
 LocatedEvent locate(TraceTools& tools, const StepOrigin& origin, const EventPlace& place, const PathPoint& to) {
   if (place.what == EventPlace::What::target_value) {
     const TargetValue& target = tools.options.target_values[place.which];
-    CorrectedPoint at = correct_onto(tools, origin, ValueConstraint(*target.quantity, target.value),
-                                     Segment(origin.metric, origin.point(), to), place.t);
+    const ValueConstraint constraint(*target.quantity, target.value);
+    const Segment segment(origin.metric, origin.point(), to);
+    CorrectedPoint at = correct_onto(tools, origin, constraint, segment, place.t);
+    if (!at.point) at = correct_patiently_onto(tools, origin, constraint, segment, place.t);
     return {.place = place, .point = std::move(at.point), .failure = at.status};
   }
   if (tools.options.events == EventSearch::detect) {

@@ -26,12 +26,12 @@ CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const P
                       Wanted::pairs);
 }
 
-CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
-                            const Segment& segment, State guess, double distance, Wanted wanted) {
+namespace {
+
+// A correction as a point inside a step.
+CorrectedPoint inside_step(TraceTools& tools, const StepOrigin& origin, const Segment& segment,
+                           CorrectorResult result) {
   const PathPoint& from = origin.point();
-  distance = std::max(distance, 1e-3 * segment.length());
-  CorrectorResult result =
-      tools.corrector.correct(std::move(guess), constraint, origin.metric, from.tangent, distance, wanted);
   CorrectedPoint corrected{.point = std::nullopt, .status = result.status};
   if (!result.converged()) return corrected;
   // The place must lie inside the step, up to the curvature of the arc: beside it another branch may have the value.
@@ -43,6 +43,26 @@ CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const P
     return corrected;
   corrected.point = path_point(tools.system, origin.metric, std::move(result), from.tangent);
   return corrected;
+}
+
+// Of a guess from points that are known.
+double sure_distance(const Segment& segment, double distance) { return std::max(distance, 1e-3 * segment.length()); }
+
+}  // namespace
+
+CorrectedPoint correct_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
+                            const Segment& segment, State guess, double distance, Wanted wanted) {
+  return inside_step(tools, origin, segment,
+                     tools.corrector.correct(std::move(guess), constraint, origin.metric, origin.point().tangent,
+                                             sure_distance(segment, distance), wanted));
+}
+
+CorrectedPoint correct_patiently_onto(TraceTools& tools, const StepOrigin& origin, const PathConstraint& constraint,
+                                      const Segment& segment, double t) {
+  const double distance = sure_distance(segment, segment.length() * std::min(t, 1.0 - t));
+  return inside_step(
+      tools, origin, segment,
+      tools.corrector.correct_patiently(segment.at(t), constraint, origin.metric, origin.point().tangent, distance));
 }
 
 void find_pairs(TraceTools& tools, const Metric& metric, PathPoint& at) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -177,6 +178,54 @@ profile = {{ type = "parabola", apex = [1.28, -0.5526], curvature = -0.545 }}
       EXPECT_NEAR(contacts[i].force, forces[i], 1.5e-8 * error + 5e-10);
     }
     expect_whole(traced);
+  }
+}
+
+// A column that a load across presses on a wall. Where its touch spreads the body arches off between two touches; the
+// pressure that would hold it changes its sign where the stress-free axis has κ₀″ = 0, near the middle, and the touch
+// on that side becomes a part while the other one stays. With all that is across as large as `size` the events go to
+// those of small slopes as size², so that two sizes tell these. They are from series and polynomials for the spans of a
+// beam under an axial force, joined by their moments, apart from this program; and so are the places of the touch and
+// of the part's ends at the last load.
+TEST(LiftingParts, ATouchBesideAShortArchBecomesAPart) {
+  struct Found {
+    std::array<double, 2> spreads{};
+    std::array<double, 3> places{};
+  };
+  const auto found = [](double size, int elements) {
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "a column that a load across presses on a wall"
+material.steel = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 1e10, I = 1.0 }}
+point = {{ left = [0.0, 0.0], right = [1.0, 0.0] }}
+support = {{ left = ["x", "z"], right = ["z"] }}
+load = [{{ at = "right", force = [-9.869604401089358, 0.0] }}, {{ at = "column:0.22727272727272727", force = [0.0, {}], constant = true }}]
+path = {{ step = 0.05, landing = false, stop = {{ lambda = [-1.0, 4.5] }} }}
+member.column = {{ from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = {}, imperfection = [{{ shape = "sine", amplitude = {}, waves = 1 }}, {{ shape = "sine", amplitude = {}, waves = 2 }}] }}
+wall = [{{ name = "lower", side = "below", profile = {{ type = "flat", z = {} }}, acts_on = "axis" }}]
+)toml",
+                                              -0.04 * size, elements, 1e-4 * size, 9e-5 * size, -2.85e-3 * size));
+    const Record& record = traced.record();
+    EXPECT_EQ(exit_status(record.branches.back().end.value().reason), ExitStatus::success);
+    Found now;
+    if (kinds_of(record) != "start contact-closes contact-spreads contact-spreads end ") {
+      ADD_FAILURE() << kinds_of(record);
+      return now;
+    }
+    for (std::size_t i = 0; i < 2; ++i) now.spreads[i] = record.events[2 + i].lambda;
+    const auto& contacts = record.points.back().forces;
+    for (std::size_t i = 0; i < 3 && contacts.size() == 3; ++i) now.places[i] = contacts[i].label.fraction;
+    return now;
+  };
+  for (const int elements : {22, 44, 88}) {
+    SCOPED_TRACE(elements);
+    const Found whole = found(1.0, elements), half = found(0.5, elements);
+    const auto of_small = [](double at_whole, double at_half) { return (4.0 * at_half - at_whole) / 3.0; };
+    EXPECT_NEAR(of_small(whole.spreads[0], half.spreads[0]), 3.8138766220, 5e-8);
+    EXPECT_NEAR(of_small(whole.spreads[1], half.spreads[1]), 3.8925968276, 2e-7);
+    const std::array places{0.4689911680, 0.5391666299, 0.5446187927};
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(of_small(whole.places[i], half.places[i]), places[i], 1e-8) << "place " << i;
   }
 }
 

@@ -25,7 +25,7 @@ Row ClampBound::gradient(const SlidingSetting& setting, const SlidingState& at) 
 
 std::vector<Transition> ClampBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                 const Arrival& arrival) const {
-  return clamps_are_left(setting, at, arrival.tolerance);
+  return clamps_are_left(setting, at, arrival);
 }
 
 }  // namespace arcwall::sliding

@@ -19,7 +19,7 @@ Row HoldingMomentBound::gradient(const SlidingSetting& setting, const SlidingSta
 
 std::vector<Transition> HoldingMomentBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                         const Arrival& arrival) const {
-  if (auto leave = strands_leave(setting, at, arrival.forward, arrival.tolerance)) return {std::move(*leave)};
+  if (auto leave = strands_leave(setting, at, arrival)) return {std::move(*leave)};
   const SlidingContactLayout::PressedTip& end = at.layout.pressed_tips()[tip_];
   return peels_off(setting, at, end.strand, {end.position > 0});
 }

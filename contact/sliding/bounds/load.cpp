@@ -215,7 +215,7 @@ Row LoadPressesBound::gradient(const SlidingSetting& setting, const SlidingState
 
 std::vector<Transition> LoadPressesBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                       const Arrival& arrival) const {
-  return load_lifts_off(setting, at, load_, arrival.tolerance);
+  return load_lifts_off(setting, at, load_, arrival);
 }
 
 }  // namespace arcwall::sliding

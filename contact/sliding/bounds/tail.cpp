@@ -21,11 +21,11 @@ Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
 
 std::vector<Transition> TailBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {
-  if (!setting.body.takes_contact(strand_, last_)) return parts_gather_at_clamps(setting, at, arrival.tolerance);
+  if (!setting.body.takes_contact(strand_, last_)) return parts_gather_at_clamps(setting, at, arrival);
   if (at.layout.points()[point_].is_pinched())
     return {unsupported("the end of a member slides out from between the walls that hold it")};
   if (!at.is_closed(point_)) return {without_point(setting, at, arrival.forward, point_)};
-  return contacts_come_to_tips(setting, at, arrival.tolerance);
+  return contacts_come_to_tips(setting, at, arrival);
 }
 
 }  // namespace arcwall::sliding
