@@ -370,6 +370,14 @@ std::optional<Index> mesh_bound_behind(const System& system, const PathPoint& at
   return std::nullopt;
 }
 
+// By how much λ of a change that is known on the piece ahead lies before that of the bound where it was looked for,
+// from which the path leads on to it: by the error of the mesh, or what the last stretch of the one piece has lost in
+// round-off.
+double lies_back_by(const PathPoint& bound, const PathPoint& change) {
+  const double on = change.state.lambda - bound.state.lambda;
+  return on * bound.tangent.dlambda < 0.0 ? std::abs(on) : 0.0;
+}
+
 // The corner's events: the transition's own, and what turns with it. `ahead` is the nearest point of the piece ahead.
 void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& at, const Entered& entered,
                 const PathPoint& ahead, std::vector<Event>& events) {
@@ -386,7 +394,7 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
     if (!begins_with_length(transition)) {
       event.state = entered.at.state;
       event.residual = entered.at.residual;
-      event.localised = entered.at.unsettled * corner.lambda_scale;
+      event.localised = entered.at.unsettled * corner.lambda_scale + lies_back_by(at, entered.at);
     }
     events.push_back(event);
     event.guards.clear();
