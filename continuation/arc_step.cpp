@@ -255,11 +255,12 @@ Accepted accept_value_ahead(const TraceTools& tools, const TracerState& state) {
 
 }  // namespace
 
-ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s) {
+ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s, Effort effort) {
   const StepOrigin origin{.from = state.from,
                           .start = state.start,
                           .metric = tools.metric_on(state.from.point.state.piece, state.lambda_scale),
-                          .leaves_branch_point = state.points == 1 && state.start.forward};
+                          .leaves_branch_point = state.points == 1 && state.start.forward,
+                          .effort = effort};
   if (!state.from.values_ahead.empty())
     return {.ledger = {.arc = state.from.point.arc, .radius = s}, .result = accept_value_ahead(tools, state)};
   StepTried step = next_step(tools, origin, s);

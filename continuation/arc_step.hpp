@@ -35,6 +35,6 @@ struct ArcAttempt {
 /// One arc by a step of length s: predict and correct, land on the first change of contacts, then on the first event
 /// before it; leave the change. Where the step's end is known already, the first point of a piece that was just entered
 /// among such, the arc passes the same checks from there on.
-ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s);
+ArcAttempt attempt_arc(TraceTools& tools, const TracerState& state, double s, Effort effort = Effort::usual);
 
 }  // namespace arcwall

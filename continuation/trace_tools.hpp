@@ -31,12 +31,18 @@ struct TraceTools {
   Metric metric_on(const Piece& piece, double lambda_scale) const { return {system.weights(piece), lambda_scale}; }
 };
 
+/// How long a correction may take. Of a nearly perfect structure hardly more than the sum of the lengths of straight
+/// contacts is determined, and corrections swing before they settle; where a span has just begun round-off leaves their
+/// last ones.
+enum class Effort { usual, patient };
+
 /// Where a step begins, and what is known there.
 struct StepOrigin {
   const Departure& from;
   const BranchStart& start;          ///< of the branch
   Metric metric;                     ///< of the piece of `from`
   bool leaves_branch_point = false;  ///< the step is the first one off a branch point
+  Effort effort = Effort::usual;     ///< of its correction
 
   const PathPoint& point() const { return from.point; }
 };

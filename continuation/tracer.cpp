@@ -90,6 +90,23 @@ std::optional<Accepted> pass_near_bound(TraceTools& tools, const TracerState& st
   return std::nullopt;
 }
 
+// Where no step succeeds behind a span that has just begun: a longer one may, with patience. Round-off hides the less
+// of the span the longer that has become.
+std::optional<Accepted> step_patiently(TraceTools& tools, const TracerState& state, double longest) {
+  constexpr int tried = 6;
+  double s = longest;
+  for (int i = 0; i < tried; ++i, s *= 0.5) {
+    tools.corrector.track_from(state.from.nearest());
+    tools.counter.track_from(state.from.nearest());
+    ArcAttempt attempt = attempt_arc(tools, state, s, Effort::patient);
+    auto* const accepted = std::get_if<Accepted>(&attempt.result);
+    if (accepted == nullptr) continue;
+    tell_ledger(tools.options, attempt);
+    return std::move(*accepted);
+  }
+  return std::nullopt;
+}
+
 // Goes on from an accepted arc, which is given.
 Arc take(Accepted accepted, TracerState& state) {
   if (const auto& progress = accepted.progress)
@@ -131,6 +148,7 @@ std::optional<Arc> Tracer::next() {
   }
   std::optional<Rejected> why;
   int insertions = 0;
+  const double longest = state_.step.length();
   while (!state_.step.too_short()) {
     const double s = state_.step.length();
     // What is followed begins where the point says, so that the path does not depend on what was tried before.
@@ -151,6 +169,10 @@ std::optional<Arc> Tracer::next() {
   }
   BranchEnd end = end_of_attempts(tools_->options, why);
   if (end.reason == EndReason::min_step) {
+    if (auto patient = step_patiently(*tools_, state_, longest)) {
+      state_.step.restart(longest);
+      return take(std::move(*patient), state_);
+    }
     if (auto early = pass_near_bound(*tools_, state_)) {
       state_.step.restart(tools_->options.step.max);
       return take(std::move(*early), state_);

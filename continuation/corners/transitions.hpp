@@ -6,10 +6,6 @@
 
 namespace arcwall {
 
-/// How long a correction onto the piece ahead may take: of a nearly perfect structure hardly more than the sum of the
-/// lengths of straight contacts is determined, and corrections swing before they settle.
-enum class Effort { usual, patient };
-
 /// The first point of the piece behind a transition, with its count. Empty if none is found.
 std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                double lambda_scale, Effort effort = Effort::usual);

@@ -53,6 +53,9 @@ std::unique_ptr<PathConstraint> constraint_of(const TraceOptions& options, const
 CorrectorResult corrected(TraceTools& tools, const StepOrigin& origin, double s) {
   const PathPoint& from = origin.point();
   const auto constraint = constraint_of(tools.options, origin, s);
+  if (origin.effort == Effort::patient)
+    return tools.corrector.correct_patiently(moved(from.state, from.tangent, s), *constraint, origin.metric,
+                                             from.tangent, s);
   CorrectorResult result = tools.corrector.correct(predicted(tools.system, tools.options.method, origin, s),
                                                    *constraint, origin.metric, from.tangent, s);
   if (!result.converged() && origin.from.before)
