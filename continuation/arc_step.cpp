@@ -155,7 +155,10 @@ std::vector<ValuePoint> values_before(TraceTools& tools, const Metric& metric, c
   while (value) {
     const PathPoint& last = values.empty() ? change : values.back().at;
     auto at = point_beyond_bound(tools, metric, last, *value);
-    if (!at) break;
+    if (!at) {  // told where the path is known last
+      if (!values.empty()) values.push_back({.which = value->which, .at = values.back().at});
+      break;
+    }
     at->count = begin.count;
     values.push_back({.which = value->which, .at = std::move(*at)});
     value = first_value_between(tools.options.target_values, values.back().at, begin.state);

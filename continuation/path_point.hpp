@@ -61,7 +61,7 @@ struct BranchPoint {
   BranchType type = BranchType::symmetric;
   State state{};
   Direction along{};               ///< unit tangent of the branch it was found on, forward
-  Direction mode{};                ///< critical mode, of unit length, largest component positive; no λ
+  Direction mode{};                ///< critical mode, of unit length, first largest component positive; no λ
   std::vector<Direction> modes{};  ///< all critical modes, `mode` the first
   Direction other{};               ///< unit tangent of the other branch
   std::vector<Way> ways{};         ///< of a one-sided branch point: those not taken; `mode` and `other` stay empty. Of

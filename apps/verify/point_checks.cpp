@@ -67,7 +67,8 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
   return at;
 }
 
-void check_contacts(const PointAtHand& at, Findings& findings, double also) {
+void check_contacts(const PointAtHand& at, Findings& findings, bool waits) {
+  constexpr double entered_in_change = 1e-6;  // of the length
   const double length = 1e-10 * at.scales.length, force = smallest_force(at);
   for (const Touch& touch : at.touches.all) {
     const double gap = touch.gap.value();
@@ -82,9 +83,11 @@ void check_contacts(const PointAtHand& at, Findings& findings, double also) {
   if (at.model.sliding() == nullptr || at.walls.empty()) return;
   const Entry entry = deepest_entry(at.model, at.walls, at.point.state, 2e-9 * at.scales.length);
   if (std::isfinite(entry.depth))
-    findings.compare("no wall is entered between nodes", entry.depth, entry.allowed + also, entry.where);
-  for (const SplinePull& pull : spline_pulls(at.model, at.walls, at.point.state))
-    findings.compare("no part lies across where its wall would pull", pull.pull, pull.held, named(pull.label));
+    findings.compare("no wall is entered between nodes", entry.depth,
+                     entry.allowed + (waits ? entered_in_change * at.scales.length : 0.0), entry.where);
+  if (!waits)
+    for (const SplinePull& pull : spline_pulls(at.model, at.walls, at.point.state))
+      findings.compare("no part lies across where its wall would pull", pull.pull, pull.held, named(pull.label));
   for (const Tangency& tangency : at.touches.tangencies) {
     findings.compare("contacts that slide are tangent", std::abs(tangency.tilt.value()), 1e-9, named(tangency.label));
     if (!tangency.end_of_pressed)

@@ -33,8 +33,9 @@ PointAtHand at_hand(const Model& model, const RecordPoint& point, const std::vec
                     const Scales& scales);
 
 /// Gaps and forces: g ≥ 0 of open contacts, p ≥ 0 and g + c p = 0 of closed ones, nothing inside a wall between nodes;
-/// tangency of contact that slides. `also`: how deep a wall may be entered besides [length].
-void check_contacts(const PointAtHand& at, Findings& findings, double also = 0.0);
+/// tangency of contact that slides. `waits`: a stretch that a change of contact makes is not there yet
+/// (change_before()), so that walls may be entered by 10⁻⁶ of the structure's length, and may pull as little.
+void check_contacts(const PointAtHand& at, Findings& findings, bool waits = false);
 
 /// ∂Π/∂u − Σ p ∂g/∂u = 0, and the contact forces that this leaves at each node.
 void check_equilibrium(const PointAtHand& at, Findings& findings);

@@ -165,8 +165,6 @@ class Verifier {
   }
 
  private:
-  static constexpr double entered_in_change = 1e-6;  // of the length
-
   // Whether a point has the contacts of before a change that makes a stretch.
   bool waits_for_stretch(std::size_t number) const {
     if (model_.sliding() == nullptr) return false;
@@ -193,7 +191,7 @@ class Verifier {
     add_monitors(at, expected, findings);
     if (!record_.stages.empty()) expected.stage = record_.stage_of(point.branch);
     if (!model_.in_increments()) {
-      check_contacts(at, findings, waits_for_stretch(number) ? entered_in_change * scales_.length : 0.0);
+      check_contacts(at, findings, waits_for_stretch(number));
       check_equilibrium(at, findings);
       expected.energy = energy(at);
       if (count) {

@@ -82,12 +82,15 @@ std::vector<Vector> modes_of(Corrector& corrector, const NearNull& pairs, Index 
   return modes;
 }
 
-// The mode's largest component is positive.
+// The mode's largest component is positive: the first of those that are equal but for round-off, as both ends of a
+// half wave turn.
 void add_modes(BranchPoint& point, std::vector<Vector> modes, const Vector& weights) {
+  constexpr double equal = 1.0 - 1e-4;
   for (Vector& mode : modes) {
-    Index largest = 0;
-    mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs().maxCoeff(&largest);
-    if (mode[largest] < 0.0) mode = -mode;
+    const Vector sizes = mode.cwiseProduct(weights.cwiseSqrt()).cwiseAbs();
+    const double least = equal * sizes.maxCoeff();
+    const auto largest = std::find_if(sizes.begin(), sizes.end(), [&](double size) { return size >= least; });
+    if (mode[largest - sizes.begin()] < 0.0) mode = -mode;
     point.modes.push_back({.dx = std::move(mode), .dlambda = 0.0});
   }
   point.mode = point.modes.front();
