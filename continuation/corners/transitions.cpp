@@ -192,29 +192,60 @@ std::optional<PathPoint> with_span(TraceTools& tools, const Transition& transiti
   return at;
 }
 
-// Whether a guard is one of a quantity alone: a bound of the length that a span has.
-bool is_of(const System& system, const State& state, Index guard, const Observable& quantity) {
-  const Vector of_guard = system.guard_gradient(state, guard).dx, of_quantity = quantity.gradient(state).dx;
-  return std::abs(of_guard.dot(of_quantity)) > 0.999 * of_guard.norm() * of_quantity.norm();
+// Whether a guard is a bound of a length alone: of a coordinate, or of the difference of two.
+bool is_of_length(const Row& guard) {
+  const double greatest = guard.dx.cwiseAbs().maxCoeff();
+  const Index entries = (guard.dx.array() != 0.0).count(), equal = (guard.dx.array().abs() == greatest).count();
+  return guard.dlambda == 0.0 && greatest > 0.0 && entries == equal && entries <= 2;
+}
+
+// The bounds of the length that a new span has, and of spans that are its mirror images: as long as it.
+std::vector<bool> bounds_of_span(const System& system, const Observable& length, const PathPoint& at) {
+  constexpr double as_long = 1e-6;  // in the scale of guards
+  const Vector of_length = length.gradient(at.state).dx;
+  std::vector<bool> of_any(static_cast<std::size_t>(at.guards.size())), found = of_any;
+  std::optional<double> value;
+  for (Index j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j) {
+    const Row row = system.guard_gradient(at.state, j);
+    of_any[static_cast<std::size_t>(j)] = is_of_length(row);
+    if (of_any[static_cast<std::size_t>(j)] &&
+        std::abs(row.dx.dot(of_length)) > 0.999 * row.dx.norm() * of_length.norm() && (!value || at.guards[j] < *value))
+      value = at.guards[j];
+  }
+  for (Index j = 0; value && j < at.guards.size(); ++j)
+    found[static_cast<std::size_t>(j)] =
+        of_any[static_cast<std::size_t>(j)] && std::abs(at.guards[j] - *value) <= as_long;
+  return found;
 }
 
 // Whether the guards hold where a piece begins with a short span, but for bounds of the length of that, and of the
 // mesh.
 bool begins_within(const System& system, const Observable& length, const PathPoint& begin, double tolerance) {
+  if (begin.guards.size() == 0 || begin.guards.minCoeff() >= -tolerance) return true;
+  const std::vector<bool> of_span = bounds_of_span(system, length, begin);
   for (Index j = 0; j < begin.guards.size(); ++j)
-    if (begin.guards[j] < -tolerance && !(begin.guard_rates[j] > 0.0 && is_of(system, begin.state, j, length)) &&
+    if (begin.guards[j] < -tolerance && !(begin.guard_rates[j] > 0.0 && of_span[static_cast<std::size_t>(j)]) &&
         !is_of_mesh(system, begin.state, begin.tangent, j, tolerance))
       return false;
   return true;
 }
 
+// Whether a target value lies between a change of contact at which its quantity turns and a point behind that: on the
+// piece that ends there it is not ahead.
+bool value_lies_behind_turn(const std::vector<TargetValue>& targets, const PathPoint& change, const State& behind) {
+  return std::any_of(targets.begin(), targets.end(), [&](const TargetValue& target) {
+    return lies_between(target, change.state, behind) &&
+           excess(target, change.state) * apply(target.quantity->gradient(change.state), change.tangent) >= 0.0;
+  });
+}
+
 // Where a piece begins whose first point has a new span of some length: it is followed back towards spans of no length
-// as long as it is followed surely, and holds, to a sixteenth; of shorter spans neither forces nor counts are sure. So
-// the first point is reached by a step like any other.
+// as long as it is followed surely, and holds, to a sixteenth; of shorter spans neither forces nor counts are sure.
+// Only values that are met nowhere else are followed farther. So the first point is reached by a step like any other.
 Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
                    double lambda_scale) {
-  constexpr double shortest = 1.0 / 16.0;              // of the first length
-  constexpr double most_kept = 0.95, roundoff = 1e-9;  // of a length in one go, and of one
+  constexpr double shortest = 1.0 / 16.0, tiny = 1e-5;  // of the first length
+  constexpr double most_kept = 0.95, roundoff = 1e-9;   // of a length in one go, and of one
   Beginning beginning{.at = first};
   PathPoint& begin = beginning.at;
   begin.arc = from.arc;
@@ -223,17 +254,26 @@ Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPo
   const double whole = transition.quantity->value(first.state);
   const double least = (1.0 - roundoff) * std::max(shortest * whole, transition.least);
   double length = whole, kept = 0.5;
-  while (kept < most_kept && kept * length >= least) {
+  const auto is_sure = [&] { return kept * length >= least; };
+  const auto has_value = [&] {
+    return kept * length >= tiny * whole && value_lies_behind_turn(tools.options.target_values, from, begin.state);
+  };
+  while (kept < most_kept && (is_sure() || has_value())) {
     auto nearer = with_span(tools, transition, metric, begin, kept * length);
     if (!nearer) {
       kept = 0.5 * (1.0 + kept);
       continue;
     }
     if (lies_back(transition, from, *nearer)) break;
-    beginning.ends_there = !begins_within(tools.system, *transition.quantity, *nearer, surely_below);
-    if (beginning.ends_there) break;
-    decide_count(tools, *nearer);
-    nearer->count = tools.counter.count(nearer->state, nearer->negative_eigenvalues);
+    if (is_sure()) {
+      beginning.ends_there = !begins_within(tools.system, *transition.quantity, *nearer, surely_below);
+      if (beginning.ends_there) break;
+      decide_count(tools, *nearer);
+      nearer->count = tools.counter.count(nearer->state, nearer->negative_eigenvalues);
+    } else {
+      nearer->negative_eigenvalues = begin.negative_eigenvalues;
+      nearer->count = begin.count;
+    }
     begin = std::move(*nearer);
     length *= kept;
   }

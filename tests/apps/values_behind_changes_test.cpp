@@ -1,5 +1,5 @@
 // Values that are landed on right behind a change of contact, before the first point of the piece behind it: the change
-// stays where it is, the value is met, and what is told there is an equilibrium. Three decks of columns and beams where
+// stays where it is, the value is met, and what is told there is an equilibrium. Four decks where
 // the first point is a finite stretch away. What is compared with is the same run without the value.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -57,20 +57,34 @@ member.beam = { from = "left", to = "right", theory = "elastica", material = "st
 wall = [{ name = "lower", side = "below", profile = { type = "parabola", apex = [1.257, -0.2224], curvature = 0.0249 } }]
 )toml";
 
+// An arch that has snapped comes to lie along a floor as λ falls, and λ turns there: on the piece that ends no value is
+// ahead.
+constexpr const char* spreads_at_a_turn = R"toml(
+title = "an arch above a floor"
+material.m = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.1, height = 0.1 }
+point = { l = [0.0, 0.0], r = [2.0, 0.0] }
+support = { l = ["x", "z"], r = ["x", "z"] }
+load = [{ on = "arch", distributed = [0.0, -1.0] }]
+path = { step = 0.01, landing = false, stop = { lambda = [-0.05, 0.2] } }
+member.arch = { from = "l", to = "r", sine = { rise = 0.1, waves = 1 }, theory = "elastica", material = "m", section = "s", elements = 40 }
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = 0.0 } }]
+)toml";
+
 std::string kinds_of(const Record& record) {
   std::string kinds;
   for (const RecordEvent& event : record.events) kinds += std::string(to_text(event.kind)) + " ";
   return kinds;
 }
 
-// Values at parts of the way from an event to the next point.
-void expect_events_stay(const char* deck, EventKind kind) {
+// Values at parts of the way from an event to the next point, the least of them `nearest`.
+void expect_events_stay(const char* deck, EventKind kind, double nearest = 1e-3) {
   const test::TracedDeck whole(deck);
   const RecordEvent& event = test::event_of(whole, kind);
   const std::vector<RecordPoint>& points = whole.record().points;
   const double from = event.lambda, to = points.at(static_cast<std::size_t>(event.step) + 1).lambda;
   ASSERT_GT(to, from);
-  for (const double part : {1e-3, 0.03, 0.1, 0.25, 0.5, 0.9}) {
+  for (const double part : {nearest, 0.03, 0.1, 0.25, 0.5, 0.9}) {
     SCOPED_TRACE("part " + round_trip(part));
     const double value = from + part * (to - from);
     const test::TracedDeck traced(deck, {"path.land.lambda=[" + round_trip(value) + "]"});
@@ -78,9 +92,11 @@ void expect_events_stay(const char* deck, EventKind kind) {
     ASSERT_EQ(kinds_of(record), kinds_of(whole.record()));
     for (std::size_t i = 0; i < record.events.size(); ++i)
       EXPECT_NEAR(record.events[i].lambda, whole.record().events[i].lambda, 1e-9) << "event " << i;
-    EXPECT_EQ(std::count_if(record.points.begin(), record.points.end(),
-                            [&](const RecordPoint& point) { return std::abs(point.lambda - value) <= 1e-11; }),
-              1);
+    const double arc = test::event_of(traced, kind).arc;
+    const auto is_met = [&](const RecordPoint& point) {
+      return point.arc >= arc && std::abs(point.lambda - value) <= 1e-11;
+    };
+    EXPECT_EQ(std::count_if(record.points.begin(), record.points.end(), is_met), 1);
     const verify::Verdict verdict =
         verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
     EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
@@ -97,6 +113,11 @@ TEST(ValuesBehindChanges, LeaveASpreadingBesideALoadWhereItIs) {
 
 TEST(ValuesBehindChanges, LeaveASpreadingInAHollowWhereItIs) {
   expect_events_stay(spreads_in_a_hollow, EventKind::contact_spreads);
+}
+
+// Nearer ones are met, too, but round-off hides the forces of a part that is so short.
+TEST(ValuesBehindChanges, AreMetBehindASpreadingAtWhichTheLoadTurns) {
+  expect_events_stay(spreads_at_a_turn, EventKind::contact_spreads, 0.03);
 }
 
 }  // namespace arcwall::values_behind_changes_test
