@@ -116,7 +116,7 @@ TEST(ValuesBehindChanges, LeaveASpreadingInAHollowWhereItIs) {
 }
 
 // Nearer ones are met, too, but round-off hides the forces of a part that is so short.
-TEST(ValuesBehindChanges, AreMetBehindASpreadingAtWhichTheLoadTurns) {
+TEST(ValuesBehindChanges, AreMetBehindASpreadingAtWhichTheLoadTurnsSlow) {
   expect_events_stay(spreads_at_a_turn, EventKind::contact_spreads, 0.03);
 }
 
