@@ -18,10 +18,8 @@ std::size_t change_before(std::span<const RecordPoint> points, std::size_t point
     return points[i].branch == points[point].branch &&
            points[i].state.piece.layout() == points[point].state.piece.layout();
   };
-  for (std::size_t i = point; i > 0 && has_contacts_of(i - 1); --i) {
-    if (makes_stretch(points[i - 1].step)) return i - 1;
-    if (points[i - 1].event) break;
-  }
+  for (std::size_t i = point; i > 0 && has_contacts_of(i - 1); --i)
+    if (points[i - 1].event) return makes_stretch(points[i - 1].step) ? i - 1 : point;
   return point;
 }
 

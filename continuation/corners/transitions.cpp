@@ -199,34 +199,32 @@ bool is_of_length(const Row& guard) {
   return guard.dlambda == 0.0 && greatest > 0.0 && entries == equal && entries <= 2;
 }
 
-// The bounds of the length that a new span has, and of spans that are its mirror images: as long as it.
-std::vector<bool> bounds_of_span(const System& system, const Observable& length, const PathPoint& at) {
-  constexpr double as_long = 1e-6;  // in the scale of guards
+// The bound of the length that a new span has, which is the lowest of those that tell nothing but that; empty where
+// there is none.
+std::optional<double> bound_of_span(const System& system, const Observable& length, const PathPoint& at) {
   const Vector of_length = length.gradient(at.state).dx;
-  std::vector<bool> of_any(static_cast<std::size_t>(at.guards.size())), found = of_any;
-  std::optional<double> value;
-  for (Index j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j) {
+  std::optional<double> lowest;
+  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j) {
     const Row row = system.guard_gradient(at.state, j);
-    of_any[static_cast<std::size_t>(j)] = is_of_length(row);
-    if (of_any[static_cast<std::size_t>(j)] &&
-        std::abs(row.dx.dot(of_length)) > 0.999 * row.dx.norm() * of_length.norm() && (!value || at.guards[j] < *value))
-      value = at.guards[j];
+    const bool is_of_span =
+        is_of_length(row) && std::abs(row.dx.dot(of_length)) > 0.999 * row.dx.norm() * of_length.norm();
+    if (is_of_span && (!lowest || at.guards[j] < *lowest)) lowest = at.guards[j];
   }
-  for (Index j = 0; value && j < at.guards.size(); ++j)
-    found[static_cast<std::size_t>(j)] =
-        of_any[static_cast<std::size_t>(j)] && std::abs(at.guards[j] - *value) <= as_long;
-  return found;
+  return lowest;
 }
 
-// Whether the guards hold where a piece begins with a short span, but for bounds of the length of that, and of the
-// mesh.
+// Whether the guards hold where a piece begins with a short span, but for bounds of the mesh, of the length of that
+// span, which grows, and of its mirror images, which are as long.
 bool begins_within(const System& system, const Observable& length, const PathPoint& begin, double tolerance) {
+  constexpr double as_long = 1e-6;  // in the scale of guards
   if (begin.guards.size() == 0 || begin.guards.minCoeff() >= -tolerance) return true;
-  const std::vector<bool> of_span = bounds_of_span(system, length, begin);
-  for (Index j = 0; j < begin.guards.size(); ++j)
-    if (begin.guards[j] < -tolerance && !(begin.guard_rates[j] > 0.0 && of_span[static_cast<std::size_t>(j)]) &&
-        !is_of_mesh(system, begin.state, begin.tangent, j, tolerance))
-      return false;
+  const std::optional<double> of_span = bound_of_span(system, length, begin);
+  for (Index j = 0; j < begin.guards.size(); ++j) {
+    if (begin.guards[j] >= -tolerance) continue;
+    const bool grows = of_span && std::abs(begin.guards[j] - *of_span) <= as_long && begin.guard_rates[j] > 0.0 &&
+                       is_of_length(system.guard_gradient(begin.state, j));
+    if (!grows && !is_of_mesh(system, begin.state, begin.tangent, j, tolerance)) return false;
+  }
   return true;
 }
 
