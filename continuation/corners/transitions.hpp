@@ -6,10 +6,6 @@
 
 namespace arcwall {
 
-/// The first point of the piece behind a transition, with its count. Empty if none is found.
-std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
-                               double lambda_scale, Effort effort = Effort::usual);
-
 /// The start of a step in the unknowns of a piece whose guards see what is below `margin` at `violated`, where the step
 /// led. Empty if no such piece passes through the start.
 std::optional<Departure> with_new_contact(TraceTools& tools, const StepOrigin& origin, const State& violated,

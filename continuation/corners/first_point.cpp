@@ -1,0 +1,346 @@
+#include "continuation/corners/first_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "continuation/events/target_values.hpp"
+#include "continuation/path_tolerances.hpp"
+#include "continuation/step/point_on_path.hpp"
+
+namespace arcwall {
+
+bool leads_on(Transition::Change change) {
+  return change != Transition::Change::continuum && change != Transition::Change::unsupported;
+}
+
+bool begins_with_length(const Transition& transition) {
+  const Transition::Change change = transition.change;
+  return change == Transition::Change::spreads ||
+         (change == Transition::Change::splits && transition.quantity != nullptr) ||
+         (change == Transition::Change::passes && transition.value > 0.0);
+}
+
+bool is_of_mesh(const System& system, const State& state, const Direction& forward, Index guard, double slack) {
+  if (guard < static_cast<Index>(state.piece.size())) return false;
+  const std::vector<Transition> ahead = system.transitions(state, forward, guard, slack);
+  return !ahead.empty() && ahead.front().change == Transition::Change::remeshed;
+}
+
+namespace {
+
+constexpr double shortened_early = 0.3;  // of its length: a span that is entered early
+constexpr double surely_below = 1e-4;    // of a guard where a new span is short
+
+// Whether the place of a change is known on the piece ahead alone, by a quantity if there is one.
+bool is_known_ahead(Transition::Change change) {
+  return change == Transition::Change::gathers || change == Transition::Change::joins;
+}
+
+// The piece ahead: its metric, and a direction in which it is entered.
+struct Ahead {
+  Metric metric;
+  Direction along{};
+};
+
+Ahead ahead_of(const TraceTools& tools, const Transition& transition, double lambda_scale) {
+  const State& guess = transition.guess;
+  Ahead ahead{.metric = tools.metric_on(guess.piece, lambda_scale), .along = transition.forward};
+  if (ahead.metric.norm(transition.forward) == 0.0) ahead.along = {.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
+  return ahead;
+}
+
+// A target value that a change of mesh moves the path over, or off.
+const TargetValue* value_moved_over(const std::vector<TargetValue>& targets, const State& behind, const State& ahead) {
+  const auto moved_over = [&](const TargetValue& target) {
+    return lies_between(target, behind, ahead) || is_left(target, behind, ahead);
+  };
+  const auto found = std::find_if(targets.begin(), targets.end(), moved_over);
+  return found == targets.end() ? nullptr : &*found;
+}
+
+// From a transition's guess to an equilibrium of the piece ahead. A new mesh moves the path by the error of its
+// elements: where that would move it over a target value, or off one, the point is the one at which that quantity has
+// the value of before. So what lay ahead still does, and what was met is met no more.
+CorrectorResult arrive(TraceTools& tools, const Transition& transition, const PathPoint& from, const Ahead& ahead,
+                       Effort effort) {
+  constexpr double distance = 0.1;  // a generous guess [path metric]
+  const auto corrected = [&](const State& guess, const PathConstraint& constraint) {
+    return effort == Effort::patient
+               ? tools.corrector.correct_patiently(guess, constraint, ahead.metric, ahead.along, distance)
+               : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
+  };
+  const State& guess = transition.guess;
+  const auto in_plane = [&] { return corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0)); };
+  const auto with_value = [&](const State& near) {
+    return corrected(near, ValueConstraint(*transition.quantity, transition.value));
+  };
+  CorrectorResult result = transition.quantity ? with_value(guess) : in_plane();
+  if (!result.converged() && transition.quantity && is_known_ahead(transition.change))
+    if (const CorrectorResult near = in_plane(); near.converged()) result = with_value(near.state);
+  if (!result.converged() || transition.change != Transition::Change::remeshed) return result;
+  const TargetValue* const kept = value_moved_over(tools.options.target_values, from.state, result.state);
+  if (!kept) return result;
+  CorrectorResult moved_back =
+      corrected(result.state, ValueConstraint(*kept->quantity, kept->quantity->value(from.state)));
+  return moved_back.converged() ? moved_back : result;
+}
+
+// Whether a point is beyond a bound of its mesh.
+bool is_beyond_mesh(const System& system, const PathPoint& at, double tolerance) {
+  for (Index j = 0; j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && is_of_mesh(system, at.state, at.tangent, j, tolerance)) return true;
+  return false;
+}
+
+// Whether the side conditions hold at the first point of a piece, but for bounds of its mesh.
+bool holds(const System& system, const Transition& transition, const State& state, const Direction& forward) {
+  if (!system.admissible(state, -penetration_tolerance)) return false;
+  if (transition.change == Transition::Change::remeshed) return true;
+  const Vector guards = system.guards(state);
+  for (Index j = 0; j < guards.size(); ++j)
+    if (guards[j] < -mesh_error && !is_of_mesh(system, state, forward, j, mesh_error)) return false;
+  return true;
+}
+
+// What the corrector arrived at, with its count.
+PathPoint entered_point(TraceTools& tools, const Transition& transition, const Ahead& ahead, CorrectorResult result,
+                        double arc) {
+  if (transition.quantity && apply(transition.quantity->gradient(result.state), result.tangent) < 0.0)
+    result.tangent = reversed(std::move(result.tangent));
+  const Direction forward = transition.quantity ? result.tangent : ahead.along;
+  PathPoint to = path_point(tools.system, ahead.metric, std::move(result), forward);
+  to.arc = arc;
+  decide_count(tools, to);
+  to.count = tools.counter.count(to.state, to.negative_eigenvalues);
+  return to;
+}
+
+// Whether a point behind a part's lifting off lies before that in λ. The free span of length d, at first without one,
+// leaves the path's direction as it is, so it lies before by an error of the mesh alone.
+bool lies_back(const Transition& transition, const PathPoint& from, const PathPoint& at) {
+  return transition.change == Transition::Change::splits &&
+         (at.state.lambda - from.state.lambda) * from.tangent.dlambda < 0.0;
+}
+
+// A point of the piece ahead at which its new span has another length, reached from a point of that piece. Empty where
+// it is farther off the tangent than may be trusted: there it may lie on another branch.
+std::optional<PathPoint> with_span(TraceTools& tools, const Transition& transition, const Metric& metric,
+                                   const PathPoint& from, double length) {
+  constexpr double sure = 0.25;  // of the step
+  const double rate = apply(transition.quantity->gradient(from.state), from.tangent);
+  const double s = (length - transition.quantity->value(from.state)) / rate;
+  const State guess = moved(from.state, from.tangent, s);
+  CorrectorResult result =
+      tools.corrector.correct(guess, ValueConstraint(*transition.quantity, length), metric, from.tangent, std::abs(s));
+  if (!result.converged() || !(metric.distance(result.state, guess) <= sure * std::abs(s))) return std::nullopt;
+  PathPoint at = path_point(tools.system, metric, std::move(result), from.tangent);
+  at.arc = from.arc;
+  return at;
+}
+
+// Whether a guard is a bound of a length alone: of a coordinate, or of the difference of two.
+bool is_of_length(const Row& guard) {
+  const double greatest = guard.dx.cwiseAbs().maxCoeff();
+  const Index entries = (guard.dx.array() != 0.0).count(), equal = (guard.dx.array().abs() == greatest).count();
+  return guard.dlambda == 0.0 && greatest > 0.0 && entries == equal && entries <= 2;
+}
+
+// The bound of the length that a new span has, which is the lowest of those that tell nothing but that; empty where
+// there is none.
+std::optional<double> bound_of_span(const System& system, const Observable& length, const PathPoint& at) {
+  const Vector of_length = length.gradient(at.state).dx;
+  std::optional<double> lowest;
+  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j) {
+    const Row row = system.guard_gradient(at.state, j);
+    const bool is_of_span =
+        is_of_length(row) && std::abs(row.dx.dot(of_length)) > 0.999 * row.dx.norm() * of_length.norm();
+    if (is_of_span && (!lowest || at.guards[j] < *lowest)) lowest = at.guards[j];
+  }
+  return lowest;
+}
+
+// Whether the guards hold where a piece begins with a short span, but for bounds of the mesh, of the length of that
+// span, which grows, and of its mirror images, which are as long.
+bool begins_within(const System& system, const Observable& length, const PathPoint& begin, double tolerance) {
+  constexpr double as_long = 1e-6;  // in the scale of guards
+  if (begin.guards.size() == 0 || begin.guards.minCoeff() >= -tolerance) return true;
+  const std::optional<double> of_span = bound_of_span(system, length, begin);
+  for (Index j = 0; j < begin.guards.size(); ++j) {
+    if (begin.guards[j] >= -tolerance) continue;
+    const bool grows = of_span && std::abs(begin.guards[j] - *of_span) <= as_long && begin.guard_rates[j] > 0.0 &&
+                       is_of_length(system.guard_gradient(begin.state, j));
+    if (!grows && !is_of_mesh(system, begin.state, begin.tangent, j, tolerance)) return false;
+  }
+  return true;
+}
+
+// Whether a target value lies between a change of contact at which its quantity turns and a point behind that: on the
+// piece that ends there it is not ahead.
+bool value_lies_behind_turn(const std::vector<TargetValue>& targets, const PathPoint& change, const State& behind) {
+  return std::any_of(targets.begin(), targets.end(), [&](const TargetValue& target) {
+    return lies_between(target, change.state, behind) &&
+           excess(target, change.state) * apply(target.quantity->gradient(change.state), change.tangent) >= 0.0;
+  });
+}
+
+}  // namespace
+
+Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
+                   double lambda_scale) {
+  constexpr double shortest = 1.0 / 16.0, tiny = 1e-5;  // of the first length
+  constexpr double most_kept = 0.95, roundoff = 1e-9;   // of a length in one go, and of one
+  Beginning beginning{.at = first};
+  PathPoint& begin = beginning.at;
+  begin.arc = from.arc;
+  if (!transition.quantity) return beginning;
+  const Metric metric = tools.metric_on(first.state.piece, lambda_scale);
+  const double whole = transition.quantity->value(first.state);
+  const double least = (1.0 - roundoff) * std::max(shortest * whole, transition.least);
+  double length = whole, kept = 0.5;
+  const auto is_sure = [&] { return kept * length >= least; };
+  const auto has_value = [&] {
+    return kept * length >= tiny * whole && value_lies_behind_turn(tools.options.target_values, from, begin.state);
+  };
+  while (kept < most_kept && (is_sure() || has_value())) {
+    auto nearer = with_span(tools, transition, metric, begin, kept * length);
+    if (!nearer) {
+      kept = 0.5 * (1.0 + kept);
+      continue;
+    }
+    if (lies_back(transition, from, *nearer)) break;
+    if (is_sure()) {
+      beginning.ends_there = !begins_within(tools.system, *transition.quantity, *nearer, surely_below);
+      if (beginning.ends_there) break;
+      decide_count(tools, *nearer);
+      nearer->count = tools.counter.count(nearer->state, nearer->negative_eigenvalues);
+    } else {
+      nearer->negative_eigenvalues = begin.negative_eigenvalues;
+      nearer->count = begin.count;
+    }
+    begin = std::move(*nearer);
+    length *= kept;
+  }
+  return beginning;
+}
+
+std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
+                               double lambda_scale, Effort effort) {
+  const Ahead ahead = ahead_of(tools, transition, lambda_scale);
+  CorrectorResult result = arrive(tools, transition, from, ahead, effort);
+  if (!result.converged() || !holds(tools.system, transition, result.state, ahead.along)) return std::nullopt;
+  return entered_point(tools, transition, ahead, std::move(result), from.arc);
+}
+
+namespace {
+
+// Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a
+// part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to pull.
+bool sinks(const System& system, const PathPoint& at, double tolerance) {
+  for (Index j = 0; j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && at.guard_rates[j] < 0.0 && !is_of_mesh(system, at.state, at.tangent, j, tolerance))
+      return true;
+  return false;
+}
+
+// A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
+// and holds: there but for bounds of the length of the span itself. Empty where there is none.
+std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
+                                     double lambda_scale) {
+  const Ahead ahead = ahead_of(tools, transition, lambda_scale);
+  CorrectorResult result = arrive(tools, transition, from, ahead, Effort::usual);
+  if (!result.converged() || !tools.system.admissible(result.state, -penetration_tolerance)) return std::nullopt;
+  PathPoint first = entered_point(tools, transition, ahead, std::move(result), from.arc);
+  if (lies_back(transition, from, first)) return std::nullopt;
+  const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale).at;
+  if (transition.quantity->value(begin.state) > shortened_early * transition.value) return std::nullopt;
+  if (!begins_within(tools.system, *transition.quantity, begin, tools.options.guard_tolerance)) return std::nullopt;
+  return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
+}
+
+// Behind a transition a piece with a span at whose first length another bound is passed already, or which is not found
+// with that length: it is entered where the span is shorter, and followed from there. Empty where no piece begins so.
+std::optional<Entered> enter_early(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
+                                   double lambda_scale) {
+  for (const double part : {1.0, 0.25}) {
+    for (const Transition& transition : transitions) {
+      if (!leads_on(transition.change)) break;
+      if (!begins_with_length(transition) || !transition.quantity) continue;
+      Transition shorter = transition;
+      shorter.value *= part;
+      if (auto first = first_early(tools, shorter, from, lambda_scale))
+        return Entered{.transition = &transition, .at = std::move(*first)};
+    }
+  }
+  return std::nullopt;
+}
+
+// Along a path the sense of λ turns where the number of unstable directions goes over from even to odd, and nowhere
+// else. Whether a point behind a change of contact agrees with that, as far as counts are known.
+bool agrees_with_counts(const StabilityCount& before, const PathPoint& from, const PathPoint& at) {
+  if (!before.unstable || !at.count.unstable) return true;
+  const double sense = (*before.unstable + *at.count.unstable) % 2 == 0 ? 1.0 : -1.0;
+  return sense * from.tangent.dlambda * at.tangent.dlambda >= 0.0;
+}
+
+// On another mesh the path's direction tells its sense; where a change of contact is known on neither side but by its
+// state, the counts do. What sinks below its bound in that sense is not the path's. Empty then.
+std::optional<PathPoint> in_sense_of_counts(const System& system, const StabilityCount& before, const PathPoint& from,
+                                            PathPoint at, double tolerance) {
+  if (!agrees_with_counts(before, from, at)) {
+    at.tangent = reversed(std::move(at.tangent));
+    at.guard_rates = -at.guard_rates;
+  }
+  return sinks(system, at, tolerance) ? std::nullopt : std::optional(std::move(at));
+}
+
+// Whether a change of contact is known on neither side but by its state.
+bool is_known_by_state(const Transition& transition) {
+  return !transition.quantity && (is_known_ahead(transition.change) || transition.change == Transition::Change::splits);
+}
+
+// Whether a change lies where a quantity has a value, at which it is sought with patience before the transitions that
+// come next are tried: one of them may leap over it.
+bool is_sought(const Transition& transition) {
+  return transition.quantity && transition.change == Transition::Change::gathers;
+}
+
+}  // namespace
+
+std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
+                                 const StabilityCount& before, double lambda_scale) {
+  std::optional<Entered> doubtful;
+  for (const Effort effort : {Effort::usual, Effort::patient}) {
+    std::optional<Entered> back;
+    for (const Transition& transition : transitions) {
+      if (!leads_on(transition.change)) break;
+      auto at = enter(tools, transition, from, lambda_scale, effort);
+      if (!at && is_sought(transition)) at = enter(tools, transition, from, lambda_scale, Effort::patient);
+      if (!at) continue;
+      if (is_known_by_state(transition))
+        at = in_sense_of_counts(tools.system, before, from, std::move(*at), mesh_error);
+      if (!at) continue;
+      Entered entered{.transition = &transition, .at = std::move(*at)};
+      const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
+      const bool has_length = begins_with_length(transition);
+      const bool leaves_mesh = has_length && is_beyond_mesh(tools.system, entered.at, mesh_error);
+      if (has_length && transition.quantity && (transition.least > 0.0 || leaves_mesh))
+        entered.begin = begin_of(tools, transition, entered.at, from, lambda_scale);
+      if (leaves_mesh && (!entered.begin || is_beyond_mesh(tools.system, entered.begin->at, mesh_error))) continue;
+      const bool leaps = entered.begin && transition.least > 0.0 && entered.begin->ends_there;
+      if (leaps || (has_length && sinks(tools.system, entered.at, tools.options.guard_tolerance)) ||
+          ((has_length || is_gathered) && !agrees_with_counts(before, from, entered.at))) {
+        if (!doubtful) doubtful = std::move(entered);
+        continue;
+      }
+      if (!lies_back(transition, from, entered.at)) return entered;
+      if (!back) back = std::move(entered);
+    }
+    if (back) return back;
+    if (effort == Effort::usual)
+      if (auto early = enter_early(tools, transitions, from, lambda_scale)) return early;
+  }
+  return doubtful;
+}
+
+}  // namespace arcwall

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "continuation/trace_tools.hpp"
+
+/// The first point of a piece behind a bound, where a change of contact or of the mesh leads on.
+namespace arcwall {
+
+/// Whether there is a piece behind, or only a reason to end.
+bool leads_on(Transition::Change change);
+
+/// Whether the first point on the piece ahead lies a little beyond the bound, with a new stretch of some length.
+bool begins_with_length(const Transition& transition);
+
+/// Whether behind a bound there is the same piece on another mesh: a state beyond it is none the worse.
+bool is_of_mesh(const System& system, const State& state, const Direction& forward, Index guard, double slack);
+
+/// Where a piece begins, as far as it is followed back from its first point.
+struct Beginning {
+  PathPoint at;
+  bool ends_there = false;  ///< nearer the bound the piece does not hold
+};
+
+/// A transition and the first point behind it; where its piece begins before that, with a span that is shorter.
+struct Entered {
+  const Transition* transition;
+  PathPoint at;
+  std::optional<Beginning> begin{};
+};
+
+/// Where a piece begins whose first point has a new span of some length: it is followed back towards spans of no length
+/// as long as it is followed surely, and holds, to a sixteenth; of shorter spans neither forces nor counts are sure.
+/// Only values that are met nowhere else are followed farther. So the first point is reached by a step like any other.
+Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
+                   double lambda_scale);
+
+/// The first point of the piece behind a transition, with its count. Empty if none is found.
+std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
+                               double lambda_scale, Effort effort = Effort::usual);
+
+/// The first of the transitions behind which a point is found, and better one that does not lie back. Where none is,
+/// they are entered early: what begins at the corner comes before what is farther off. Then all are tried again with
+/// patience. Last comes what is not sure to hold ahead, or does not hold between there and the bound, or has a count
+/// against which λ does not turn: with its length there may be a second equilibrium behind the next fold, from which
+/// the path would come back; and at a pitchfork in the corner the count is right.
+std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
+                                 const StabilityCount& before, double lambda_scale);
+
+}  // namespace arcwall
