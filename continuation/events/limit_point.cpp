@@ -59,15 +59,6 @@ int change_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint
   return origin.from.signs.front() * work > 0.0 ? -1 : 1;
 }
 
-// A point of the path beside a limit point, with a count.
-std::optional<PathPoint> beside(TraceTools& tools, const StepOrigin& origin, const Segment& segment, double t) {
-  const ChordPlaneConstraint plane(origin.metric, segment.from().state, segment.to().state, t);
-  auto point = correct_onto(tools, origin, plane, segment, t).point;
-  if (!point) return std::nullopt;
-  decide_count(tools, *point);
-  return point->negative_eigenvalues ? point : std::nullopt;
-}
-
 // Points on both sides of a limit point inside a step, so near that no other singular point lies between.
 struct Sides {
   std::optional<PathPoint> before{}, after{};  // empty where the step's end is nearer
@@ -84,8 +75,8 @@ Sides sides_of(TraceTools& tools, const StepOrigin& origin, const Segment& segme
   for (const double distance : {1e-4, 1e-3, 3e-5}) {
     const double t0 = t - distance / L, t1 = t + distance / L;
     Sides near{.distance = distance};
-    if (t0 > 0.0 && !(near.before = beside(tools, origin, segment, t0))) continue;
-    if (t1 < 1.0 && !(near.after = beside(tools, origin, segment, t1))) continue;
+    if (t0 > 0.0 && !(near.before = counted_point(tools, origin, segment, t0))) continue;
+    if (t1 < 1.0 && !(near.after = counted_point(tools, origin, segment, t1))) continue;
     near.change = count_at(near.after, *segment.to().negative_eigenvalues) -
                   count_at(near.before, *origin.from.negative_eigenvalues);
     sides = std::move(near);

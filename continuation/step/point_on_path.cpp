@@ -78,4 +78,12 @@ void decide_count(TraceTools& tools, PathPoint& point) {
   point.negative_eigenvalues = point.count.unstable = tools.counter.negative_on(point.state);
 }
 
+std::optional<PathPoint> counted_point(TraceTools& tools, const StepOrigin& origin, const Segment& segment, double t) {
+  const ChordPlaneConstraint plane(origin.metric, segment.from().state, segment.to().state, t);
+  auto point = correct_onto(tools, origin, plane, segment, t).point;
+  if (!point) return std::nullopt;
+  decide_count(tools, *point);
+  return point->negative_eigenvalues ? point : std::nullopt;
+}
+
 }  // namespace arcwall

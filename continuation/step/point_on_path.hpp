@@ -36,4 +36,7 @@ void find_pairs(TraceTools& tools, const Metric& metric, PathPoint& at);
 /// Adds the number of negative eigenvalues where the pivots have not told it.
 void decide_count(TraceTools& tools, PathPoint& point);
 
+/// The point at fraction t of a segment with its count. Empty if there is none, or its count is not known.
+std::optional<PathPoint> counted_point(TraceTools& tools, const StepOrigin& origin, const Segment& segment, double t);
+
 }  // namespace arcwall

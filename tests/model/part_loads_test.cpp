@@ -350,4 +350,33 @@ TEST(PartLoads, AFlatPartBetweenNeutralSpansTakesALoadIn) {
   }
 }
 
+// A column, clamped at both ends, that a load across presses on a wall. Where its touch spreads the span on the one
+// side of that is neutral, so that the stiffness is singular at the change, which has no count. Beside it runs a second
+// branch, on which the touch spreads at 4.0872 on its other side; one step goes from the touch to behind both. The
+// change by shooting, apart from this program: the elastica with extension, with the slope and the moment zero at the
+// touch; there it is known to a few times 1e-7 only, for the equations are singular.
+TEST(PartLoads, AStepOntoASingularChangeStaysOnItsBranch) {
+  for (const std::string stop : {"4.04", "4.2", "6.0"}) {
+    for (const std::string step : {"0.05", "0.02"}) {
+      SCOPED_TRACE(stop + " " + step);
+      const Session run = traced(
+          "title = \"a clamped column pressed on a wall by a load across\"\n"
+          "material.steel = { E = 2.1e4 }\n"
+          "section.s = { shape = \"rectangle\", width = 0.47214503473831626, height = 0.1129935550875601 }\n"
+          "point = { left = [0.0, 0.0], right = [9.088660665769945, 0.0] }\n"
+          "support = { left = [\"x\", \"z\", \"rotation\"], right = [\"z\", \"rotation\"] }\n"
+          "load = [{ at = \"right\", force = [-0.5696845655527032, 0.0] }, { at = \"column:0.6739130434782609\", "
+          "force = [0.0, 0.0013523928961930217], constant = true }]\n"
+          "wall = [{ name = \"upper\", side = \"above\", profile = { type = \"flat\", z = 0.45136463458248754 } }]\n"
+          "member.column = { from = \"left\", to = \"right\", theory = \"elastica\", material = \"steel\", section = "
+          "\"s\", elements = 46 }\n",
+          {"path.step=" + step, "path.stop={ lambda = [-1.0, " + stop + "] }"});
+      expect_stop(run);
+      const std::vector<double> spreads = loads_of(run, EventKind::contact_spreads);
+      ASSERT_EQ(spreads.size(), 1U);
+      EXPECT_NEAR(spreads.front(), 3.9017532, 5e-7);
+    }
+  }
+}
+
 }  // namespace arcwall::part_loads_test
