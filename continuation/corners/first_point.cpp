@@ -259,20 +259,15 @@ std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transi
 }
 
 // Behind a transition a piece with a span at whose first length another bound is passed already, or which is not found
-// with that length: it is entered where the span is shorter, and followed from there. Empty where no piece begins so.
-std::optional<Entered> enter_early(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
-                                   double lambda_scale) {
-  for (const double part : {1.0, 0.25}) {
-    for (const Transition& transition : transitions) {
-      if (!leads_on(transition.change)) break;
-      if (!begins_with_length(transition) || !transition.quantity) continue;
-      Transition shorter = transition;
-      shorter.value *= part;
-      if (auto first = first_early(tools, shorter, from, lambda_scale))
-        return Entered{.transition = &transition, .at = std::move(*first)};
-    }
-  }
-  return std::nullopt;
+// with that length: it is entered where the span is shorter, and followed from there. `part` is that of the first
+// length. Empty where no piece begins so.
+std::optional<Entered> enter_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
+                                   double lambda_scale, double part) {
+  if (!begins_with_length(transition) || !transition.quantity) return std::nullopt;
+  Transition shorter = transition;
+  shorter.value *= part;
+  auto first = first_early(tools, shorter, from, lambda_scale);
+  return first ? std::optional(Entered{.transition = &transition, .at = std::move(*first)}) : std::nullopt;
 }
 
 // Along a path the sense of λ turns where the number of unstable directions goes over from even to odd, and nowhere
@@ -310,12 +305,20 @@ bool is_sought(const Transition& transition) {
 std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition>& transitions, const PathPoint& from,
                                  const StabilityCount& before, double lambda_scale) {
   std::optional<Entered> doubtful;
+  const auto early = [&](const Transition& transition, double part) {
+    auto entered = enter_early(tools, transition, from, lambda_scale, part);
+    if (!entered || agrees_with_counts(before, from, entered->at)) return entered;
+    if (!doubtful) doubtful = std::move(entered);
+    return std::optional<Entered>();
+  };
   for (const Effort effort : {Effort::usual, Effort::patient}) {
     std::optional<Entered> back;
     for (const Transition& transition : transitions) {
       if (!leads_on(transition.change)) break;
       auto at = enter(tools, transition, from, lambda_scale, effort);
       if (!at && is_sought(transition)) at = enter(tools, transition, from, lambda_scale, Effort::patient);
+      if (!at && effort == Effort::usual)
+        if (auto entered = early(transition, 1.0)) return entered;
       if (!at) continue;
       if (is_known_by_state(transition))
         at = in_sense_of_counts(tools.system, before, from, std::move(*at), mesh_error);
@@ -337,8 +340,12 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (!back) back = std::move(entered);
     }
     if (back) return back;
-    if (effort == Effort::usual)
-      if (auto early = enter_early(tools, transitions, from, lambda_scale)) return early;
+    if (effort == Effort::patient) break;
+    for (const double part : {1.0, 0.25})
+      for (const Transition& transition : transitions) {
+        if (!leads_on(transition.change)) break;
+        if (auto entered = early(transition, part)) return entered;
+      }
   }
   return doubtful;
 }

@@ -99,13 +99,16 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
   add_turns(tools, corner.signs, ahead, event, events);
 }
 
-// Where stability is lost with a span that grows while λ goes on, another branch leaves with the span, across the path:
-// a pitchfork in the corner itself, where the span has no length. Its mode is that of the path's first point behind.
-std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& corner, const PathPoint& at,
-                                               const PathPoint& begin) {
+// Whether stability is lost with a span that grows while λ goes on. Then another branch leaves there, or the piece is
+// not the path's.
+bool gives_way_at_corner(const Corner& corner, const PathPoint& at, const PathPoint& begin) {
   const std::optional<Index>&before = corner.before.unstable, &behind = begin.count.unstable;
-  const bool goes_on = begin.tangent.dlambda * at.tangent.dlambda > 0.0;
-  if (!(before && behind && *behind == *before + 1 && goes_on)) return std::nullopt;
+  return before && behind && *behind == *before + 1 && begin.tangent.dlambda * at.tangent.dlambda > 0.0;
+}
+
+// The branch that leaves with a span that begins, across the path: a pitchfork in the corner itself, where the span has
+// no length. Its mode is that of the path's first point behind.
+std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& corner, const PathPoint& begin) {
   const Metric metric = tools.metric_on(begin.state.piece, corner.lambda_scale);
   BranchPoint point = branch_point_before(tools.system, tools.corrector, metric, begin);
   if (point.type != BranchType::symmetric || point.mode.dx.size() == 0) return std::nullopt;
@@ -144,9 +147,16 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       if (!entered->begin)
         entered->begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       PathPoint& begin = entered->begin->at;
+      std::optional<BranchPoint> pitchfork;
+      if (gives_way_at_corner(corner, passed.at, begin)) {
+        pitchfork = pitchfork_at_corner(tools, corner, begin);
+        if (!pitchfork) {
+          passed.end = end_before(transitions);
+          return passed;
+        }
+      }
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
-      if (auto pitchfork = pitchfork_at_corner(tools, corner, passed.at, begin))
-        add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);
+      if (pitchfork) add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);
       passed.entered = EnteredPiece{.begin = std::move(begin), .first = std::move(entered->at)};
       return passed;
     }

@@ -229,4 +229,78 @@ wall = [{{ name = "lower", side = "below", profile = {{ type = "flat", z = {} }}
   }
 }
 
+// A propped column between two walls. At its touch on the lower wall an arch begins, of which the left touch becomes a
+// part soon after. On a coarse mesh the first length of the arch lies beyond that, and a part whose pressure vanishes
+// where it begins was entered instead, which leapt over the second change with status 0. Loads of both changes by
+// shooting, apart from this program: the elastica with extension from the stress-free axis, with gap and slope zero at
+// every touch and no curvature where a change is.
+TEST(LiftingParts, AnArchComesBeforeWhatLeapsOverIt) {
+  for (const int elements : {12, 16, 24, 48}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "a column with a crooked axis between two walls"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.004521116089226707, height = 0.004052606612099937 }}
+point = {{ left = [0.0, 0.0], right = [1.141177015948108, 0.0] }}
+support = {{ left = ["x", "z", "rotation"], right = ["z"] }}
+load = [{{ at = "right", force = [-8.164370628849034e-06, 0.0] }}]
+path = {{ step = 0.05, landing = false, stop = {{ lambda = [-1.0, 10.89] }} }}
+member.column = {{ from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = {}, imperfection = [{{ shape = "sine", amplitude = 0.004464500376695884, waves = 2 }}, {{ shape = "sine", amplitude = 0.0011775847094003407, waves = 3 }}] }}
+[[wall]]
+name = "upper"
+side = "above"
+profile = {{ type = "flat", z = 0.04384893677757347 }}
+[[wall]]
+name = "lower"
+side = "below"
+profile = {{ type = "flat", z = -0.04384893677757347 }}
+)toml",
+                                              elements));
+    std::vector<double> spreads;
+    for (const RecordEvent& event : traced.record().events)
+      if (event.kind == EventKind::contact_spreads) spreads.push_back(event.lambda);
+    ASSERT_EQ(spreads.size(), 2U);
+    const double error = std::pow(12.0 / elements, 4);
+    EXPECT_NEAR(spreads[0], 8.4275123, 2e-4 * error + 1e-6);
+    EXPECT_NEAR(spreads[1], 8.656997, 4e-4 * error + 1e-5);
+    expect_whole(traced);
+  }
+}
+
+// A clamped column between two walls, thrice bent. Beside a part's beginning two equilibria have parts of one length;
+// along the path as many directions give way behind the change as before, for λ goes on, and the other one has one
+// more. It was taken on the coarsest mesh, and the path ended with `mid` −2.62724 and status 0; finer meshes have the
+// path.
+TEST(LiftingParts, BeginWithTheCountThatTheLoadTells) {
+  for (const int elements : {28, 56}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "a clamped column with a crooked axis between two walls"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.13417505390529683, height = 0.10500669074045688 }}
+point = {{ left = [0.0, 0.0], right = [24.278218174061656, 0.0] }}
+support = {{ left = ["x", "z", "rotation"], right = ["z", "rotation"] }}
+load = [{{ at = "right", force = [-0.018209032044165793, 0.0] }}]
+path = {{ step = 0.05, landing = false, stop = {{ lambda = [-1.0, 9.18], shortening = [-4.9, 17.0] }} }}
+member.column = {{ from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = {}, imperfection = [{{ shape = "sine", amplitude = 0.004474647982516008, waves = 2 }}, {{ shape = "sine", amplitude = -0.003784287705548113, waves = 3 }}] }}
+wall = [
+  {{ name = "upper", side = "above", profile = {{ type = "flat", z = 1.14982324553484 }}, acts_on = "axis" }},
+  {{ name = "lower", side = "below", profile = {{ type = "flat", z = -3.3964639599729836 }}, acts_on = "axis" }},
+]
+monitor = [
+  {{ name = "mid", at = "column:0.5", component = "z" }},
+  {{ name = "shortening", at = "right", component = "x", sign = -1 }},
+]
+)toml",
+                                              elements));
+    const Record& record = traced.record();
+    const RecordEvent& begins = record.events[record.events.size() - 2];
+    EXPECT_EQ(begins.kind, EventKind::contact_spreads);
+    EXPECT_EQ(begins.unstable_before, 2);
+    EXPECT_EQ(begins.unstable_after, 2);
+    EXPECT_NEAR(record.points.back().monitors.front(), -2.6589, 2e-4);
+    expect_whole(traced);
+  }
+}
+
 }  // namespace arcwall::lifting_parts_test
