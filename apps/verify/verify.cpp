@@ -79,9 +79,10 @@ void add_monitors(const PointAtHand& at, PathExpectation& expected, Findings& fi
   }
 }
 
-// Where the stiffness is singular, as where a branch leaves another, eigenvalues are as near to zero as the place is
-// sure. A contact that slides moves its mesh, which this second variation does not know of: it turns up to 1e-2 of arc
-// length from where the other does, on coarse meshes, where the eigenvalue is a hundredth of the next.
+// Where the stiffness is singular, as where a branch leaves another, or at a change of contact beside a neutral span,
+// eigenvalues are as near to zero as the place is sure. A contact that slides moves its mesh, which this second
+// variation does not know of: it turns up to 1e-2 of arc length from where the other does, on coarse meshes, where the
+// eigenvalue is a hundredth of the next.
 ZeroEigenvalue zero_eigenvalue(const Model& model, const Record& record, const RecordPoint& point) {
   constexpr double near = 1e-2;
   constexpr ZeroEigenvalue regular{.least = 1e-11}, singular_zero{.least = 1e-6, .of_next = 1e-2, .of_parts = 1e-4};
@@ -92,6 +93,7 @@ ZeroEigenvalue zero_eigenvalue(const Model& model, const Record& record, const R
   if (record.branches.at(static_cast<std::size_t>(point.branch)).origin && is_here(0.0, 0)) return singular_zero;
   const auto singular = [&](const RecordEvent& event) {
     if (event.branch != point.branch || !is_here(event.arc, event.step)) return false;
+    if (event.step == point.step && point.count.stability == Stability::undecided) return true;
     return event.kind == EventKind::limit_point || event.kind == EventKind::branch_point ||
            (event.branch_end && event.branch_end->reason == EndReason::continuum);
   };

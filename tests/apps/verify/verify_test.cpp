@@ -216,6 +216,37 @@ member.strip = { from = "clamp", to = "tip", theory = "classic", material = "ste
 )toml"));
 }
 
+// At the spreading of a clamped column's touch both spans are neutral; the row there says that stability is undecided.
+TEST(Verify, ANeutralSpanAtAChangeOfContactHolds) {
+  expect_confirmed(TracedDeck(R"(
+title = "a clamped column between walls"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 5.177260424129696, height = 2.3035284272892818 }
+point = { left = [0.0, 0.0], right = [65.99690486418933, 0.0] }
+member.column = { from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = 16 }
+support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
+load = [{ at = "right", force = [-1003.7634744502974, 0.0] }]
+wall = [{ name = "upper", side = "above", profile = { type = "flat", z = 2.5511640248401424 } }, { name = "lower", side = "below", profile = { type = "flat", z = -2.5511640248401424 } }]
+path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 5.0] } }
+)"));
+}
+
+// Both ends of a free span inside a part come together where the pressure between them is zero: on the mesh of the part
+// the node there pulls by the error of its element.
+TEST(Verify, APartThatClosesWhereItHasNoPressureHolds) {
+  expect_confirmed(TracedDeck(R"(
+title = "a sine arch pressed onto a floor"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.4437846259858828, height = 0.14367804052109273 }
+point = { left = [0.0, 0.0], right = [12.840521238569345, 0.0] }
+member.arch = { from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = 20, sine = { rise = 0.6163417683782546, waves = 1 } }
+support = { left = ["x", "z"], right = ["x", "z"] }
+load = [{ on = "arch", distributed = [0.0, -0.013195084863219153] }]
+wall = [{ name = "lower", side = "below", profile = { type = "flat", z = -0.463283826579837 } }]
+path = { step = 0.05, landing = false, branches = "primary", stop = { lambda = [-3.0, 3.0] } }
+)"));
+}
+
 // Sharp corners have no normal of their own where they hold a column between them, which has turned there; it is drawn
 // through them to its end, where next to nothing of it is left on one side.
 TEST(Verify, KnifeEdgesPressAcrossTheAxis) {
