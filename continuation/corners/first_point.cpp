@@ -232,6 +232,22 @@ std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, 
   return entered_point(tools, transition, ahead, std::move(result), from.arc);
 }
 
+double scatter_of(TraceTools& tools, const Entered& entered, double lambda_scale) {
+  constexpr double beside = 1e-6, generous = 0.1;  // [path metric]
+  const Transition& transition = *entered.transition;
+  if (!transition.quantity || !is_known_ahead(transition.change)) return 0.0;
+  const PathPoint& at = entered.at;
+  const Metric metric = tools.metric_on(at.state.piece, lambda_scale);
+  double scatter = 0.0;
+  for (const double off : {-beside, beside}) {
+    const CorrectorResult again = tools.corrector.correct_patiently(
+        moved(at.state, at.tangent, off), ValueConstraint(*transition.quantity, transition.value), metric, at.tangent,
+        generous);
+    if (again.converged()) scatter = std::max(scatter, std::abs(again.state.lambda - at.state.lambda));
+  }
+  return scatter;
+}
+
 namespace {
 
 // Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a

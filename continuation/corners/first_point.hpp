@@ -40,6 +40,10 @@ Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPo
 std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                double lambda_scale, Effort effort = Effort::usual);
 
+/// By how much λ of a change that is known on the piece ahead by a quantity differs where it is sought from beside:
+/// what round-off makes of the forces, and with them of the quantity. 0 of other changes.
+double scatter_of(TraceTools& tools, const Entered& entered, double lambda_scale);
+
 /// The first of the transitions behind which a point is found, and better one that does not lie back. Where none is,
 /// they are entered early: what begins at the corner comes before what is farther off. Then all are tried again with
 /// patience. Last comes what is not sure to hold ahead, or does not hold between there and the bound, or has a count

@@ -75,7 +75,7 @@ double lies_back_by(const PathPoint& bound, const PathPoint& change) {
 }
 
 // The corner's events: the transition's own, and what turns with it. `ahead` is the nearest point of the piece ahead.
-void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& at, const Entered& entered,
+void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, const Entered& entered,
                 const PathPoint& ahead, std::vector<Event>& events) {
   const Transition& transition = *entered.transition;
   Event event{.state = at.state,
@@ -90,7 +90,8 @@ void add_events(const TraceTools& tools, const Corner& corner, const PathPoint& 
     if (!begins_with_length(transition)) {
       event.state = entered.at.state;
       event.residual = entered.at.residual;
-      event.localised = entered.at.unsettled * corner.lambda_scale + lies_back_by(at, entered.at);
+      event.localised = entered.at.unsettled * corner.lambda_scale + lies_back_by(at, entered.at) +
+                        scatter_of(tools, entered, corner.lambda_scale);
     }
     events.push_back(event);
     event.guards.clear();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -301,6 +302,45 @@ monitor = [
     EXPECT_NEAR(record.points.back().monitors.front(), -2.6589, 2e-4);
     expect_whole(traced);
   }
+}
+
+// On a curved wall the pressure in a part is what the forces of its nodes tell, to the round-off of these. Where a span
+// inside closes that pressure is zero; it hardly changes with λ, so that each step finds another λ, which says so.
+TEST(LiftingParts, TellHowSureTheirJoiningIs) {
+  std::vector<RecordEvent> joinings;
+  for (const double step : {0.1, 0.05, 0.025, 0.02}) {
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "a crooked column between a parabola and a circle"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.3120825286351224, height = 0.07163953744780178 }}
+point = {{ left = [0.0, 0.0], right = [6.042754395813942, 0.0] }}
+support = {{ left = ["x", "z"], right = ["z"] }}
+load = [{{ at = "right", force = [-0.054274481549204424, 0.0] }}]
+path = {{ step = {}, landing = false, stop = {{ lambda = [-1.0, 3.5] }} }}
+member.column = {{ from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = 28, imperfection = [{{ shape = "sine", amplitude = 0.022901399309230214, waves = 1 }}, {{ shape = "sine", amplitude = 0.001075435426453921, waves = 2 }}, {{ shape = "sine", amplitude = 0.002699283304885129, waves = 3 }}] }}
+[[wall]]
+name = "upper"
+side = "above"
+profile = {{ type = "parabola", apex = [3.8602322450247115, 0.26775920157953115], curvature = -0.016580111951096193 }}
+[[wall]]
+name = "lower"
+side = "below"
+profile = {{ type = "circle", centre = [2.5272697217909212, -6.677072225950458], radius = 6.532846406334598 }}
+)toml",
+                                              step));
+    const auto closes = test::events_of(traced, EventKind::contact_closes);
+    ASSERT_EQ(closes.size(), 2U);
+    EXPECT_EQ(closes.front().localised, 0.0);  // a touch
+    joinings.push_back(closes.back());
+  }
+  double least = joinings.front().lambda, most = least;
+  for (const RecordEvent& event : joinings) {
+    least = std::min(least, event.lambda);
+    most = std::max(most, event.lambda);
+    EXPECT_GT(event.localised, 0.0);
+    EXPECT_LT(event.localised, 1e-4);
+  }
+  for (const RecordEvent& event : joinings) EXPECT_GT(event.localised, most - least);
 }
 
 }  // namespace arcwall::lifting_parts_test
