@@ -183,10 +183,8 @@ void land_before_piece_ahead(TraceTools& tools, const StepOrigin& origin, const 
   }
   end.event = EventPlace{.what = EventPlace::What::target_value, .which = value.which, .t = 1.0};
   if (passed->entered || !land_piece_ahead(tools, origin.metric.lambda_scale(), value, passed->at)) return;
-  for (Event& event : passed->events) {
+  for (Event& event : passed->events)
     event.localised = std::max(event.localised, std::abs(passed->at.state.lambda - event.state.lambda));
-    event.state = passed->at.state;
-  }
 }
 
 // A change of contacts at an arc's end is left; empty where there is none.

@@ -81,7 +81,7 @@ struct BranchPoint {
 struct Event {
   EventKind kind = EventKind::start;
   std::string label{};  ///< which monitor turns; why the branch ends
-  State state{};
+  State state{};        ///< on the piece of `guards`; the arc's end may be the same place on another mesh
   double arc = 0.0;
   double residual = 0.0;   ///< relative
   double localised = 0.0;  ///< half-width in λ of what is left uncertain

@@ -103,7 +103,7 @@ void Recorder::add(const Arc& arc) {
   for (const Event& event : arc.events) {
     if (event.branching)
       record_.branch_points.push_back({.point = event.branching, .event = static_cast<Index>(record_.events.size())});
-    add_event(recorded(event));
+    add_event(recorded(event, to.state));
   }
 }
 
@@ -128,11 +128,11 @@ void Recorder::end(const BranchEnd& end) {
              .branch_end = end});
 }
 
-RecordEvent Recorder::recorded(const Event& event) const {
+RecordEvent Recorder::recorded(const Event& event, const State& at) const {
   RecordEvent record{.kind = event.kind,
                      .arc = event.arc,
-                     .lambda = event.state.lambda,
-                     .monitors = values(model_, event.state),
+                     .lambda = at.lambda,
+                     .monitors = values(model_, at),
                      .unstable_before = event.unstable_before,
                      .unstable_after = event.unstable_after,
                      .residual = event.residual,

@@ -36,7 +36,8 @@ class Recorder {
 
   void begin(const BranchRecord& branch);
   RecordBranch& branch() { return record_.branches[branch_]; }
-  RecordEvent recorded(const Event& event) const;
+  /// `at`: the state that the point of the event tells.
+  RecordEvent recorded(const Event& event, const State& at) const;
   void add_event(RecordEvent event);
 
   const Model* model_;  // null for a system of a program

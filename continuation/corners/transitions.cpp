@@ -166,11 +166,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
     only_remeshed = only_remeshed && entered->transition->change == Transition::Change::remeshed;
     const auto next = only_remeshed ? shifted_bound(passed.at, tools.options.guard_tolerance)
                                     : mesh_bound_behind(tools.system, passed.at, tools.options.guard_tolerance);
-    if (!next) {
-      if (!only_remeshed)
-        for (Event& event : passed.events) event.state = passed.at.state;
-      return passed;
-    }
+    if (!next) return passed;
     if (++passed.without_progress > most_bounds_at_one_place) {
       passed.end = {.reason = EndReason::no_ray, .detail = "the mesh keeps changing at one point; try a finer one"};
       return passed;
