@@ -7,7 +7,7 @@ namespace arcwall {
 inline constexpr double coincidence_tolerance = 1e-8;
 
 /// Penetration that is let pass between contacts [scale of guards].
-inline constexpr double penetration_tolerance = 1e-9;
+inline constexpr double penetration_tolerance = 1e-11;
 
 /// What the error of a mesh may make of a guard that is zero [scale of guards].
 inline constexpr double mesh_error = 1e-6;

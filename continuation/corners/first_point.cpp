@@ -59,9 +59,22 @@ const TargetValue* value_moved_over(const std::vector<TargetValue>& targets, con
   return found == targets.end() ? nullptr : &*found;
 }
 
+// A contact that has just closed, or whose force leaves zero, and whose force or gap a change of mesh moves below zero.
+std::optional<Index> contact_moved_below(const TraceTools& tools, const PathPoint& behind, const State& ahead) {
+  const double tolerance = tools.options.guard_tolerance;
+  bool leaves_zero = false;
+  for (Index j = 0; j < static_cast<Index>(behind.state.piece.size()); ++j)
+    leaves_zero = leaves_zero || (std::abs(behind.guards[j]) <= tolerance && behind.guard_rates[j] > 0.0);
+  if (!leaves_zero || ahead.piece.empty()) return std::nullopt;
+  Index lowest = 0;
+  const double least = tools.system.guards(ahead).head(static_cast<Index>(ahead.piece.size())).minCoeff(&lowest);
+  return least < -tolerance ? std::optional(lowest) : std::nullopt;
+}
+
 // From a transition's guess to an equilibrium of the piece ahead. A new mesh moves the path by the error of its
 // elements: where that would move it over a target value, or off one, the point is the one at which that quantity has
-// the value of before. So what lay ahead still does, and what was met is met no more.
+// the value of before; and where a contact has just changed, the one at which that changes. So what lay ahead still
+// does, and what was met is met no more.
 CorrectorResult arrive(TraceTools& tools, const Transition& transition, const PathPoint& from, const Ahead& ahead,
                        Effort effort) {
   constexpr double distance = 0.1;  // a generous guess [path metric]
@@ -79,11 +92,15 @@ CorrectorResult arrive(TraceTools& tools, const Transition& transition, const Pa
   if (!result.converged() && transition.quantity && is_known_ahead(transition.change))
     if (const CorrectorResult near = in_plane(); near.converged()) result = with_value(near.state);
   if (!result.converged() || transition.change != Transition::Change::remeshed) return result;
-  const TargetValue* const kept = value_moved_over(tools.options.target_values, from.state, result.state);
-  if (!kept) return result;
-  CorrectorResult moved_back =
-      corrected(result.state, ValueConstraint(*kept->quantity, kept->quantity->value(from.state)));
-  return moved_back.converged() ? moved_back : result;
+  const auto moved_back = [&](const PathConstraint& constraint) {
+    CorrectorResult back = corrected(result.state, constraint);
+    return back.converged() ? back : result;
+  };
+  if (const TargetValue* const kept = value_moved_over(tools.options.target_values, from.state, result.state))
+    return moved_back(ValueConstraint(*kept->quantity, kept->quantity->value(from.state)));
+  if (const auto contact = contact_moved_below(tools, from, result.state))
+    return moved_back(GuardConstraint(tools.system, *contact));
+  return result;
 }
 
 // Whether a point is beyond a bound of its mesh.
@@ -260,7 +277,7 @@ bool sinks(const System& system, const PathPoint& at, double tolerance) {
 }
 
 // A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
-// and holds: there but for bounds of the length of the span itself. Empty where there is none.
+// and holds, its mesh too: there but for bounds of the length of the span itself. Empty where there is none.
 std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                      double lambda_scale) {
   const Ahead ahead = ahead_of(tools, transition, lambda_scale);
@@ -271,6 +288,7 @@ std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transi
   const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale).at;
   if (transition.quantity->value(begin.state) > shortened_early * transition.value) return std::nullopt;
   if (!begins_within(tools.system, *transition.quantity, begin, tools.options.guard_tolerance)) return std::nullopt;
+  if (is_beyond_mesh(tools.system, begin, mesh_error)) return std::nullopt;
   return tools.system.admissible(begin.state, -penetration_tolerance) ? std::optional(std::move(first)) : std::nullopt;
 }
 
