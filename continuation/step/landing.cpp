@@ -95,6 +95,27 @@ LandedStep land_on(TraceTools& tools, const StepOrigin& origin, const StepEnd& e
   return {.end = StepEnd{.point = std::move(*at.point), .turn = end.turn, .landing = landing}};
 }
 
+// A point of a step at which a guard is below zero that holds at the step's end: before that it falls below zero and
+// rises again, or nearly so by its values and rates at both ends, and then in fact. Empty where there is none.
+std::optional<PathPoint> dip_before(TraceTools& tools, const StepOrigin& origin, const StepEnd& end) {
+  constexpr double nearly = 0.1;  // of the lower of its values at both ends
+  const double tolerance = tools.options.guard_tolerance;
+  const PathPoint& from = origin.point();
+  const Segment segment(origin.metric, from, end.point);
+  const double L = segment.length();
+  for (Index j = 0; j < end.point.guards.size(); ++j) {
+    if ((end.landing && j == end.landing->guard) || from.guards[j] <= tolerance) continue;
+    const double v0 = from.guards[j], r0 = from.guard_rates[j] * L;
+    const double v1 = end.point.guards[j], r1 = end.point.guard_rates[j] * L;
+    const auto t = cubic_turn(v0, r0, v1, r1);
+    if (!t || r0 > 0.0 || least_cubic_value(v0, r0, v1, r1) >= nearly * std::min(v0, v1)) continue;
+    const ChordPlaneConstraint plane(origin.metric, from.state, end.point.state, *t);
+    auto dip = correct_onto(tools, origin, plane, segment, *t).point;
+    if (dip && dip->guards[j] < -tolerance) return dip;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 // Solves for the guard's zero, and for that of any guard that turns out to come before.
@@ -105,8 +126,16 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
                ? first_crossing(origin, tolerance, Segment(origin.metric, origin.point(), last.point))
                : std::nullopt;
   };
+  const auto dips = [&](StepEnd& last) {
+    auto dip = dip_before(tools, origin, last);
+    if (dip) last = {.point = std::move(*dip), .turn = last.turn};
+    return dip.has_value();
+  };
   auto crossing = crossing_before(end);
-  if (!crossing) return {.end = std::move(end)};
+  if (!crossing) {
+    if (!dips(end)) return {.end = std::move(end)};
+    crossing = crossing_before(end);
+  }
   // Contacts that should vanish together miss each other by round-off, more so where a mode is almost neutral: then
   // none of the landings leaves all guards fulfilled to the last digit, and the best of them is the change.
   std::optional<StepEnd> nearly;
@@ -117,8 +146,9 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
     if (!landed.end) break;
     end = std::move(*landed.end);
     const double slack = end.landing->slack;
-    if (slack <= tolerance || end.landing->singular) return {.end = std::move(end)};
-    if (slack <= together * tolerance && (!nearly || slack < nearly->landing->slack)) nearly = end;
+    if (end.landing->singular) return {.end = std::move(end)};
+    if (slack <= tolerance && !dips(end)) return {.end = std::move(end)};
+    if (end.landing && slack <= together * tolerance && (!nearly || slack < nearly->landing->slack)) nearly = end;
     crossing = crossing_before(end);
     if (nearly && round >= 3) break;
   }
