@@ -59,12 +59,36 @@ int change_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint
   return origin.from.signs.front() * work > 0.0 ? -1 : 1;
 }
 
+// The point that lies a little farther along the tangent than another, backwards where the distance is negative, with
+// its count. Empty if there is none, or its count is not known.
+std::optional<PathPoint> counted_beyond(TraceTools& tools, const StepOrigin& origin, const PathPoint& at,
+                                        double distance) {
+  const State guess = moved(at.state, at.tangent, distance);
+  CorrectorResult result = tools.corrector.correct(guess, PlaneConstraint(origin.metric, guess, at.tangent, 0.0),
+                                                   origin.metric, at.tangent, std::abs(distance));
+  if (!result.converged()) return std::nullopt;
+  PathPoint beyond = path_point(tools.system, origin.metric, std::move(result), at.tangent);
+  decide_count(tools, beyond);
+  return beyond.negative_eigenvalues ? std::optional(std::move(beyond)) : std::nullopt;
+}
+
 // Points on both sides of a limit point inside a step, so near that no other singular point lies between.
 struct Sides {
   std::optional<PathPoint> before{}, after{};  // empty where the step's end is nearer
   Index change = 0;                            // of the number of negative eigenvalues
   double distance = 0.0;
 };
+
+// Of a step that is shorter than counts take: points beyond its ends.
+Sides sides_beyond(TraceTools& tools, const StepOrigin& origin, const Segment& segment) {
+  constexpr double distance = 1e-4;
+  Sides sides{.before = counted_beyond(tools, origin, segment.from(), -distance),
+              .after = counted_beyond(tools, origin, segment.to(), distance),
+              .distance = distance};
+  if (sides.before && sides.after)
+    sides.change = *sides.after->negative_eigenvalues - *sides.before->negative_eigenvalues;
+  return sides;
+}
 
 Sides sides_of(TraceTools& tools, const StepOrigin& origin, const Segment& segment, double t) {
   const auto count_at = [](const std::optional<PathPoint>& point, Index otherwise) {
@@ -86,10 +110,11 @@ Sides sides_of(TraceTools& tools, const StepOrigin& origin, const Segment& segme
 }
 
 // λ turns and the count does not change by one: two eigenvalues pass zero, or one touches it as the branch of a
-// pitchfork goes through it from one side to the other.
-void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint& before,
-                               const PathPoint& after, double half_width, SingularPoint& limit) {
+// pitchfork goes through it from one side to the other. `length`: of the step.
+void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, const Sides& sides, double length,
+                               SingularPoint& limit) {
   const Metric& metric = origin.metric;
+  const PathPoint &before = *sides.before, &after = *sides.after;
   Turning turning = turning_between(metric, before, after, limit.at.state);
   limit.at.state = std::move(turning.state);
   limit.uncertain = turning.uncertain;
@@ -97,12 +122,13 @@ void add_branch_point_at_limit(TraceTools& tools, const StepOrigin& origin, cons
   limit.at.residual = tools.corrector.inspect(limit.at.state, metric, limit.at.tangent).residual;
   const auto pairs = tools.corrector.near_null(limit.at.state, metric.weights(), 2);
   const auto second = [](const NearNull& nearest) { return std::abs(nearest.values[1]); };
-  SingularPlace place{.point = limit.at, .t = limit.place.t, .half_width = half_width, .change = limit.change};
+  SingularPlace place{
+      .point = limit.at, .t = limit.place.t, .half_width = sides.distance / length, .change = limit.change};
   place.at_limit = pairs && pairs->values.size() > 1 && after.nearest.values.size() > 1 &&
                    second(*pairs) < 0.1 * second(after.nearest);
   place.touches = !place.at_limit;
   auto branching = std::make_shared<BranchPoint>(branch_point_at(tools.system, tools.corrector, metric, place));
-  branching->localised = half_width * std::abs(limit.at.tangent.dlambda);
+  branching->localised = sides.distance * std::abs(limit.at.tangent.dlambda);
   branching->discretisation = made_by_nodes(tools, limit.at.state);
   if (place.touches) find_crossing_branch(tools.corrector, metric, *branching);
   limit.suspected = place.touches && branching->ways.empty();
@@ -126,19 +152,20 @@ SingularSearch find_limit_point(TraceTools& tools, const StepOrigin& origin, con
     if (expected == -whole && L > shortest_telling_step) return {.clear = false};
     return {.points = {{.place = limit.place, .at = std::move(*limit.point), .change = whole}}};
   }
-  const Sides sides = sides_of(tools, origin, segment, limit.place.t);
+  Sides sides = sides_of(tools, origin, segment, limit.place.t);
   if (sides.before && *sides.before->negative_eigenvalues != count_before)
     return find_branch_points(tools, origin, *sides.before);
   SingularPoint point{.place = limit.place, .at = std::move(*limit.point), .change = sides.change};
   if (std::abs(sides.change) == 1) return {.points = {std::move(point)}};
-  if (!sides.before || !sides.after) {
+  if ((!sides.before || !sides.after) && L <= shortest_telling_step) sides = sides_beyond(tools, origin, segment);
+  if (!sides.before || !sides.after || sides.change % 2 != 0) {
     point.change = count_after - count_before;
     return {.points = {std::move(point)}, .clear = L <= shortest_telling_step};
   }
   // Where they do not, λ turns on none of the branches that pass each other there.
   if (L > shortest_telling_step && !Segment(origin.metric, *sides.before, *sides.after).follows_the_path())
     return {.clear = false};
-  add_branch_point_at_limit(tools, origin, *sides.before, *sides.after, sides.distance / L, point);
+  add_branch_point_at_limit(tools, origin, sides, L, point);
   return {.points = {std::move(point)}};
 }
 

@@ -1,0 +1,61 @@
+// The branch of a pitchfork may end at a second one, where it goes through the first branch from one side to the other:
+// λ turns along it and an eigenvalue touches zero without passing it. Whatever the steps are, also where one of them is
+// shorter than a count of eigenvalues beside such a point takes, the second pitchfork is told and `follow` goes on
+// along the first branch, not into the mirror image of the second. On the first branch an eigenvalue passes zero at
+// both.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/model/traced_session.hpp"
+
+namespace arcwall::own_pitchfork_test {
+namespace {
+
+Session traced(const std::string& branches, double step) {
+  return test::traced(R"toml(
+title = "a clamped arch with a load on its crown"
+material.steel = { E = 21000.0, nu = 0.3 }
+section.s = { shape = "rectangle", width = 0.06248188940972283, height = 0.018655954346713677 }
+point = { left = [0.0, 0.0], right = [5.020538616883647, 0.0] }
+support = { left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }
+load = [{ at = "arch:0.5", force = [0.0, -0.0015829032310130389] }]
+monitor = [
+  { name = "down", at = "arch:0.5", component = "z", sign = -1 },
+  { name = "across", at = "arch:0.5", component = "x" },
+]
+[member.arch]
+from = "left"
+to = "right"
+via = [2.5102693084418237, 0.8933280363771969]
+theory = "classic"
+material = "steel"
+section = "s"
+elements = 20
+)toml",
+                      {"path.branches=\"" + branches + "\"", "path.step=" + std::to_string(step),
+                       "path.stop={ lambda = [-3.0, 1.0], down = [-1.7866560727543939, 2.679984109131591] }"});
+}
+
+TEST(OwnPitchfork, IsToldAndLeftWhateverTheStep) {
+  const auto both = test::events_of(traced("primary", 0.05).record(), EventKind::branch_point);
+  ASSERT_EQ(both.size(), 2U);
+  for (const double step : {0.05, 0.025, 0.0125, 0.005}) {
+    SCOPED_TRACE(step);
+    const Session run = traced("follow", step);
+    const Record& record = run.record();
+    const auto met = test::events_of(record, EventKind::branch_point);
+    ASSERT_EQ(met.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(met[i].lambda, both[i].lambda, 1e-8);
+    EXPECT_EQ(record.branches.size(), 3U);
+    const RecordPoint& last = record.points.back();
+    EXPECT_EQ(record.branches.back().end->reason, EndReason::stop);
+    EXPECT_EQ(last.lambda, 1.0);
+    EXPECT_EQ(last.count.unstable, 0);
+    EXPECT_NEAR(last.monitors[1], 0.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace arcwall::own_pitchfork_test
