@@ -250,6 +250,13 @@ bool MultiplierContact::passes_through(const State& from, const State& to) const
   return false;
 }
 
+bool MultiplierContact::comes_behind_an_end(const State& from, const State& to) const {
+  const double touching = 1e-6 * scales_.length;
+  return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
+    return !candidate.faces_wall(from) && candidate.faces_wall(to) && candidate.gap(to) < -touching;
+  });
+}
+
 double MultiplierContact::force(const State& state, Index j) const {
   if (const auto k = multiplier_index(state.piece, j))
     return has_opposite(j) ? std::max(state.x[*k], 0.0) : state.x[*k];

@@ -201,6 +201,10 @@ bool SlidingContact::passes_through(const State& from, const State& to) const {
   return sliding::passes_through(*setting_, SlidingState(from), SlidingState(to));
 }
 
+bool SlidingContact::comes_behind_an_end(const State& from, const State& to) const {
+  return sliding::comes_behind_an_end(*setting_, SlidingState(from), SlidingState(to));
+}
+
 Piece SlidingContact::canonical_piece(const State& state) const {
   return sliding::canonical_piece(*setting_, SlidingState(state));
 }

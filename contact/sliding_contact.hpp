@@ -65,6 +65,7 @@ class SlidingContact final : public System, public ContactQuery {
   std::optional<Transition> with_mesh_for_landing(const State& from, const Direction& forward, const State& to,
                                                   Index guard) const override;
   bool passes_through(const State& from, const State& to) const override;
+  bool comes_behind_an_end(const State& from, const State& to) const override;
   Piece canonical_piece(const State& state) const override;
 
   ContactPoint contact(const State& state, Index j) const override;

@@ -23,6 +23,11 @@ BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejec
   const bool controlled = options.method == PathMethod::load || options.method == PathMethod::displacement;
   if (why && why->outcome == StepOutcome::obstructed)
     return {.reason = EndReason::wall_end, .detail = "a closed contact reached the end of its wall"};
+  if (why && why->outcome == StepOutcome::behind_end)
+    return {.reason = EndReason::wall_end,
+            .detail =
+                "an end of the body comes into a wall from beyond its end, where that has no face; an outline "
+                "has one all around"};
   if (controlled)
     return {.reason = EndReason::turning_control,
             .detail = "the controlled quantity turns back; use method = \"spherical\" to go on"};

@@ -221,7 +221,7 @@ std::string_view what_to_try(EndReason reason) {
     case EndReason::turning_control:
       return "path.method = \"spherical\", which follows the path through turning points";
     case EndReason::wall_end:
-      return "a longer wall, or a bound in path.stop before its end";
+      return "a longer wall, an outline that goes all around, or a bound in path.stop before its end";
     case EndReason::continuum:
       return "a small imperfection, which singles one equilibrium of the continuum out; or contact.points = \"nodes\", "
              "where loads depend on the mesh: compare several numbers of elements";

@@ -28,6 +28,8 @@ std::string_view to_text(StepOutcome outcome) {
       return "not_finite";
     case StepOutcome::obstructed:
       return "wall_end";
+    case StepOutcome::behind_end:
+      return "behind_end";
     case StepOutcome::strayed:
       return "strayed";
     case StepOutcome::turned:

@@ -258,6 +258,21 @@ bool passes_through(const SlidingSetting& setting, const SlidingState& from, con
   return false;
 }
 
+bool comes_behind_an_end(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to) {
+  const double touching = 1e-6 * setting.scales.length;
+  for (std::size_t w = 0; w < setting.obstacles.size(); ++w)
+    for (Index strand = 0; strand < setting.body.strands(); ++strand) {
+      if (!setting.obstacles[w].concerns(strand)) continue;
+      const auto gap = [&](const SlidingState& at, bool last) {
+        const AxisPlace end = at.mesh.inside(strand, last ? at.mesh.nodes(strand) - 2 : 0, last ? 1.0 : 0.0, at.now);
+        return face_gap(setting.obstacles[w], setting.face_offset(w, strand), end, at.now.lambda);
+      };
+      for (const bool last : {false, true})
+        if (!std::isfinite(gap(from, last)) && gap(to, last) < -touching) return true;
+    }
+  return false;
+}
+
 double sampled_least_gap(const SlidingSetting& setting, const SlidingState& at, int places) {
   double least = infinity;
   for (std::size_t w = 0; w < setting.obstacles.size(); ++w)

@@ -364,4 +364,9 @@ bool EventSystem::passes_through(const State& from, const State& to) const {
   return begin && end && end->system->passes_through(begin->state, end->state);
 }
 
+bool EventSystem::comes_behind_an_end(const State& from, const State& to) const {
+  const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
+  return begin && end && end->system->comes_behind_an_end(begin->state, end->state);
+}
+
 }  // namespace arcwall

@@ -87,6 +87,7 @@ class EventSystem final : public System {
   std::optional<Transition> with_inserted_contact(const State& from, const Direction& forward, const State& to,
                                                   double margin) const override;
   bool passes_through(const State& from, const State& to) const override;
+  bool comes_behind_an_end(const State& from, const State& to) const override;
 
  private:
   class EventLayout;

@@ -101,6 +101,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   tried.attempt.roots = result.roots;
   if (!result.converged()) return rejected(outcome_of(result.status), result.status);
   if (tools.system.invalid_reason(result.state)) return rejected(StepOutcome::obstructed);
+  if (tools.system.comes_behind_an_end(from.state, result.state)) return rejected(StepOutcome::behind_end);
 
   StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), from.tangent)};
   tried.attempt.turn = end.turn = angle_between(origin.metric, from.tangent, end.point.tangent);

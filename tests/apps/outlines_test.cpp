@@ -229,4 +229,34 @@ TEST(Outlines, WhatTheyCannotDoIsSaid) {
             std::string::npos);
 }
 
+// A strip that bends around a peg comes with its end under it. The upper arc of a circle alone has no face below, where
+// the strip would be inside: the run ends there and says so, with contact that slides and at nodes. Nothing is in the
+// way of the same strip around the whole circle.
+TEST(Outlines, AnEndThatComesUnderAnArcIsNamedAndGoesOnBelowACircle) {
+  const auto bent = [](const std::string& wall, const std::string& contact) {
+    return test::TracedDeck(fmt::format(R"toml(
+title = "a strip that a moment bends around a peg"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.06780454806702974, height = 0.01257320420341675 }}
+point = {{ clamp = [0.0, 0.0], tip = [1.8764310217021987, 0.0] }}
+support = {{ clamp = ["x", "z", "rotation"] }}
+load = [{{ at = "tip", moment = -6.284520997532813e-05 }}]
+path = {{ step = 0.1, landing = false, stop = {{ lambda = [-1.0, 6.9] }} }}
+member.strip = {{ from = "clamp", to = "tip", theory = "elastica", material = "steel", section = "s", elements = 30 }}
+wall = [{{ name = "peg", {} = {{ type = "circle", centre = [0.9158244608564969, -0.3736809701065393], radius = 0.086608979312623 }} }}]
+{}
+)toml",
+                                        wall, contact));
+  };
+  for (const std::string contact : {"", "contact.points = \"nodes\""}) {
+    SCOPED_TRACE(contact);
+    const test::TracedDeck above = bent("side = \"below\", profile", contact);
+    const BranchEnd& end = above.record().branches.back().end.value();
+    EXPECT_EQ(end.reason, EndReason::wall_end);
+    EXPECT_NE(end.detail.find("an outline has one all around"), std::string::npos);
+    EXPECT_NEAR(above.record().points.back().lambda, contact.empty() ? 6.22404 : 6.08707, 1e-4);
+  }
+  expect_verified(bent("outline", ""));
+}
+
 }  // namespace arcwall::outlines_test
