@@ -89,9 +89,10 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
     return open_direction(tools, metric, way.direction, way.piece);
   };
 
+  // The layout of a piece that has been left and come back to is another one with the same unknowns.
   const auto is_here = [&](const VisitedCorner& v) {
     return std::abs(v.corner.lambda - here.lambda) <= coincidence_tolerance * metric.lambda_scale() &&
-           v.corner.piece == here.piece && metric.distance(v.corner, here) <= coincidence_tolerance;
+           v.corner.x.size() == here.x.size() && metric.distance(v.corner, here) <= coincidence_tolerance;
   };
   const auto place = std::find_if(visited.begin(), visited.end(), is_here);
   std::vector<Direction> known = place == visited.end() ? std::vector<Direction>{} : place->ways;
