@@ -45,6 +45,22 @@ Turning turning_between(const Metric& metric, const PathPoint& before, const Pat
   return {.state = std::move(between)};
 }
 
+// The derivative along the tangent of what λ does work on, ∂Π/∂λ, from energies: on a mesh that slides its places are
+// variables of the energy, too, which F_λ does not know of.
+double work_from_energies(const System& system, const Metric& metric, const PathPoint& at) {
+  constexpr double step = 1e-4;  // [path metric, scale of λ]
+  const double h = step * metric.lambda_scale();
+  const auto by_lambda = [&](State state) {
+    const double lambda = state.lambda;
+    state.lambda = lambda + h;
+    const double more = system.energy(state);
+    state.lambda = lambda - h;
+    return (more - system.energy(state)) / (2.0 * h);
+  };
+  const auto beside = [&](double s) { return by_lambda(moved(at.state, at.tangent, s)); };
+  return (beside(step) - beside(-step)) / (2.0 * step);
+}
+
 // How a limit point alone changes the number of negative eigenvalues: with K t_x = −t_λ F_λ,
 //
 //   t_xᵀ K t_x = −t_λ F_λᵀ t_x,
@@ -53,9 +69,10 @@ Turning turning_between(const Metric& metric, const PathPoint& before, const Pat
 int change_at_limit(TraceTools& tools, const StepOrigin& origin, const PathPoint& at) {
   constexpr double nearly = 1e-6;
   if (!tools.corrector.is_at(at.state)) tools.system.linearize(at.state, tools.workspace(at.state.piece));
-  const Vector& F_lambda = tools.corrector.factorized().equations().F_lambda;
-  const double work = F_lambda.dot(at.tangent.dx);
-  if (std::abs(work) <= nearly * origin.metric.dual_norm(F_lambda)) return 0;
+  const Linearization& now = tools.corrector.factorized().equations();
+  const double work =
+      now.B.cols() > 0 ? work_from_energies(tools.system, origin.metric, at) : now.F_lambda.dot(at.tangent.dx);
+  if (std::abs(work) <= nearly * origin.metric.dual_norm(now.F_lambda)) return 0;
   return origin.from.signs.front() * work > 0.0 ? -1 : 1;
 }
 

@@ -440,4 +440,31 @@ profile = {{ type = "spline", x = [-2.584298738785712, -0.36918553411224453, 1.8
   for (const double touch : touches) EXPECT_NEAR(touch, touches.front(), 1e-7);
 }
 
+// λ turns between a spreading and the first point of the piece behind it, and the arch that gave way does so no more.
+// How a turn of λ changes the count follows from the work of the load along the path; a load that is spread over a mesh
+// that slides does work by that, too, without which the sign was the other one, and the turn was told to change
+// nothing.
+TEST(LiftingParts, ATurnOfTheLoadBehindTheirBeginningChangesTheCount) {
+  for (const int elements : {20, 40}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "an arch under a spread load above a bump"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.03304631295605372, height = 0.02289571084352235 }}
+point = {{ left = [0.0, 0.0], right = [4.980372197347962, 0.0] }}
+support = {{ left = ["x", "z", "rotation"], right = ["x", "z", "rotation"] }}
+load = [{{ on = "arch", distributed = [0.0, -0.0002733628096943046] }}]
+path = {{ step = 0.05, landing = false, stop = {{ lambda = [-3.0, 3.0], down = [-1.0, 1.0] }} }}
+monitor = [{{ name = "down", at = "arch:0.4", component = "z", sign = -1 }}]
+wall = [{{ name = "bump", side = "below", profile = {{ type = "circle", centre = [2.381738965886233, -1.4118384034217561], radius = 1.4582141121608931 }} }}]
+member.arch = {{ from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = {}, via = [2.490186098673981, 0.4795053624830633] }}
+)toml",
+                                              elements));
+    const RecordEvent& turn = test::event_of(traced, EventKind::limit_point, 2);
+    EXPECT_EQ(turn.unstable_before, 1);
+    EXPECT_EQ(turn.unstable_after, 0);
+    expect_whole(traced);
+  }
+}
+
 }  // namespace arcwall::lifting_parts_test
