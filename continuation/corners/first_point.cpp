@@ -375,7 +375,7 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
     }
     if (back) return back;
     if (effort == Effort::patient) break;
-    for (const double part : {1.0, 0.25})
+    for (const double part : {1.0, 0.5, 0.25})
       for (const Transition& transition : transitions) {
         if (!leads_on(transition.change)) break;
         if (auto entered = early(transition, part)) return entered;

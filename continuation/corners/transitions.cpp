@@ -100,11 +100,11 @@ void add_events(TraceTools& tools, const Corner& corner, const PathPoint& at, co
   add_turns(tools, corner.signs, ahead, event, events);
 }
 
-// Whether stability is lost with a span that grows while λ goes on. Then another branch leaves there, or the piece is
-// not the path's.
-bool gives_way_at_corner(const Corner& corner, const PathPoint& at, const PathPoint& begin) {
+// Whether one direction more, or less, gives way with a span that grows while λ goes on. Then another branch leaves
+// there, or the piece is not the path's.
+bool changes_count_at_corner(const Corner& corner, const PathPoint& at, const PathPoint& begin) {
   const std::optional<Index>&before = corner.before.unstable, &behind = begin.count.unstable;
-  return before && behind && *behind == *before + 1 && begin.tangent.dlambda * at.tangent.dlambda > 0.0;
+  return before && behind && std::abs(*behind - *before) == 1 && begin.tangent.dlambda * at.tangent.dlambda > 0.0;
 }
 
 // The branch that leaves with a span that begins, across the path: a pitchfork in the corner itself, where the span has
@@ -149,8 +149,8 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
         entered->begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       PathPoint& begin = entered->begin->at;
       std::optional<BranchPoint> pitchfork;
-      if (gives_way_at_corner(corner, passed.at, begin)) {
-        pitchfork = pitchfork_at_corner(tools, corner, begin);
+      if (changes_count_at_corner(corner, passed.at, begin)) {
+        if (*begin.count.unstable > *corner.before.unstable) pitchfork = pitchfork_at_corner(tools, corner, begin);
         if (!pitchfork) {
           passed.end = end_before(transitions);
           return passed;
