@@ -13,8 +13,7 @@ namespace {
 
 // Whether the arc passes a place: it lies beside the chord, and on the path as exactly as such places are located.
 bool passes(TraceTools& tools, const StepOrigin& origin, const PathPoint& to, const State& place) {
-  // The layout of a piece that has been left and come back to is another one with the same unknowns.
-  if (place.x.size() != to.state.x.size() || place.piece.size() != to.state.piece.size()) return false;
+  if (place.piece != to.state.piece) return false;
   // What lies beside the chord has its λ there, too.
   const Metric& metric = origin.metric;
   const double lambda_off = std::abs(place.lambda - to.state.lambda) / metric.lambda_scale();
