@@ -59,13 +59,13 @@ const TargetValue* value_moved_over(const std::vector<TargetValue>& targets, con
   return found == targets.end() ? nullptr : &*found;
 }
 
-// A contact that has just closed, or whose force leaves zero, and whose force or gap a change of mesh moves below zero.
+// A contact that has just changed, or is new, and whose force or gap a change of mesh moves below zero.
 std::optional<Index> contact_moved_below(const TraceTools& tools, const PathPoint& behind, const State& ahead) {
   const double tolerance = tools.options.guard_tolerance;
-  bool leaves_zero = false;
+  bool may_be = ahead.piece.size() > behind.state.piece.size();
   for (Index j = 0; j < static_cast<Index>(behind.state.piece.size()); ++j)
-    leaves_zero = leaves_zero || (std::abs(behind.guards[j]) <= tolerance && behind.guard_rates[j] > 0.0);
-  if (!leaves_zero || ahead.piece.empty()) return std::nullopt;
+    may_be = may_be || (std::abs(behind.guards[j]) <= tolerance && behind.guard_rates[j] > 0.0);
+  if (!may_be || ahead.piece.empty()) return std::nullopt;
   Index lowest = 0;
   const double least = tools.system.guards(ahead).head(static_cast<Index>(ahead.piece.size())).minCoeff(&lowest);
   return least < -tolerance ? std::optional(lowest) : std::nullopt;
@@ -73,8 +73,8 @@ std::optional<Index> contact_moved_below(const TraceTools& tools, const PathPoin
 
 // From a transition's guess to an equilibrium of the piece ahead. A new mesh moves the path by the error of its
 // elements: where that would move it over a target value, or off one, the point is the one at which that quantity has
-// the value of before; and where a contact has just changed, the one at which that changes. So what lay ahead still
-// does, and what was met is met no more.
+// the value of before; and where a contact has just changed, or one that is new would be inside, the one at which that
+// has neither gap nor force. So what lay ahead still does, and what was met is met no more.
 CorrectorResult arrive(TraceTools& tools, const Transition& transition, const PathPoint& from, const Ahead& ahead,
                        Effort effort) {
   constexpr double distance = 0.1;  // a generous guess [path metric]

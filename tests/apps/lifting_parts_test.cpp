@@ -467,4 +467,32 @@ member.arch = {{ from = "left", to = "right", theory = "elastica", material = "s
   }
 }
 
+// A column that a parabola touches bends back towards it beside the touch. The point that is inserted there has another
+// mesh around it, on which the body is a little inside at once, by the error of that mesh: the touch is there then, for
+// it would be behind otherwise, and no step led on.
+TEST(LiftingParts, ATouchThatItsOwnMeshMovesBehindIsMet) {
+  for (const double step : {0.05, 0.0125, 0.005}) {
+    SCOPED_TRACE(step);
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "a column above a parabola"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.5141092880919065, height = 0.10557921313915591 }}
+point = {{ left = [0.0, 0.0], right = [15.38596957295468, 0.0] }}
+support = {{ left = ["x", "z"], right = ["z"] }}
+load = [{{ at = "right", force = [-0.04414472020436456, 0.0] }}]
+path = {{ step = {}, landing = false, stop = {{ lambda = [-1.0, 4.0] }} }}
+member.column = {{ from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = 36, imperfection = [{{ shape = "sine", amplitude = 0.022721914423025024, waves = 2 }}, {{ shape = "sine", amplitude = -0.021887748618703833, waves = 3 }}] }}
+wall = [{{ name = "lower", side = "below", profile = {{ type = "parabola", apex = [9.588171533878324, -0.3957553015498693], curvature = 0.0004614637089968968 }} }}]
+monitor = [
+  {{ name = "mid", at = "column:0.5", component = "z" }},
+  {{ name = "shortening", at = "right", component = "x", sign = -1 }},
+]
+)toml",
+                                              step));
+    ASSERT_EQ(kinds_of(traced.record()), "start contact-closes contact-closes end ");
+    EXPECT_NEAR(traced.record().events[2].lambda, 2.697740442, 1e-8);
+    expect_whole(traced);
+  }
+}
+
 }  // namespace arcwall::lifting_parts_test
