@@ -225,6 +225,8 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
     accepted.visit = std::move(passed->visit);
     if (!accepted.end) accepted.end = std::move(passed->end);
     end.point = std::move(passed->at);
+    // Behind a change of contact that was not left nothing is counted.
+    if (accepted.end && passed->events.empty() && !passed->entered) end.point.count = origin.from.count_after;
   }
   if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.piece);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
