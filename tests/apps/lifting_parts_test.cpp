@@ -235,7 +235,7 @@ wall = [{{ name = "lower", side = "below", profile = {{ type = "flat", z = {} }}
 // where it begins was entered instead, which leapt over the second change with status 0. Loads of both changes by
 // shooting, apart from this program: the elastica with extension from the stress-free axis, with gap and slope zero at
 // every touch and no curvature where a change is.
-TEST(LiftingParts, AnArchComesBeforeWhatLeapsOverIt) {
+TEST(LiftingParts, AnArchComesBeforeWhatLeapsOverItSlow) {
   for (const int elements : {12, 16, 24, 48}) {
     SCOPED_TRACE(elements);
     const test::TracedDeck traced(fmt::format(R"toml(
@@ -272,7 +272,7 @@ profile = {{ type = "flat", z = -0.04384893677757347 }}
 // along the path as many directions give way behind the change as before, for λ goes on, and the other one has one
 // more. It was taken on the coarsest mesh, and the path ended with `mid` −2.62724 and status 0; finer meshes have the
 // path.
-TEST(LiftingParts, BeginWithTheCountThatTheLoadTells) {
+TEST(LiftingParts, BeginWithTheCountThatTheLoadTellsSlow) {
   for (const int elements : {28, 56}) {
     SCOPED_TRACE(elements);
     const test::TracedDeck traced(fmt::format(R"toml(
@@ -306,7 +306,7 @@ monitor = [
 
 // On a curved wall the pressure in a part is what the forces of its nodes tell, to the round-off of these. Where a span
 // inside closes that pressure is zero; it hardly changes with λ, so that each step finds another λ, which says so.
-TEST(LiftingParts, TellHowSureTheirJoiningIs) {
+TEST(LiftingParts, TellHowSureTheirJoiningIsSlow) {
   std::vector<RecordEvent> joinings;
   for (const double step : {0.1, 0.05, 0.025, 0.02}) {
     const test::TracedDeck traced(fmt::format(R"toml(
@@ -346,7 +346,7 @@ profile = {{ type = "circle", centre = [2.5272697217909212, -6.677072225950458],
 // A span inside a part opens, and closes again, where the stress-free axis has κ₀″ = 0, as of two sines with
 // a₁ + 81 a₃ (3 − 4 sin²(π x/L)) = 0. As it closes a bound of the mesh lies at the same place, and the mesh changes
 // once more; the place was looked up on that other mesh, and the run ended as an internal error.
-TEST(LiftingParts, TellWhereTheyCloseIfTheMeshChangesThere) {
+TEST(LiftingParts, TellWhereTheyCloseIfTheMeshChangesThereSlow) {
   constexpr double a1 = -0.0060036572168036375, a3 = 0.0017306426462564467;
   const double place = 1.0 - std::asin(std::sqrt((3.0 + a1 / (81.0 * a3)) / 4.0)) / std::numbers::pi;
   const test::TracedDeck traced(fmt::format(R"toml(
