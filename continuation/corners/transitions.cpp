@@ -107,9 +107,10 @@ bool changes_count_at_corner(const Corner& corner, const PathPoint& at, const Pa
   return before && behind && std::abs(*behind - *before) == 1 && begin.tangent.dlambda * at.tangent.dlambda > 0.0;
 }
 
-// The branch that leaves with a span that begins, across the path: a pitchfork in the corner itself, where the span has
-// no length. Its mode is that of the path's first point behind.
+// The branch that leaves with a span that begins, across the path, where one direction more gives way: a pitchfork in
+// the corner itself, where the span has no length. Its mode is that of the path's first point behind.
 std::optional<BranchPoint> pitchfork_at_corner(TraceTools& tools, const Corner& corner, const PathPoint& begin) {
+  if (begin.count.unstable <= corner.before.unstable) return std::nullopt;
   const Metric metric = tools.metric_on(begin.state.piece, corner.lambda_scale);
   BranchPoint point = branch_point_before(tools.system, tools.corrector, metric, begin);
   if (point.type != BranchType::symmetric || point.mode.dx.size() == 0) return std::nullopt;
@@ -149,12 +150,11 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
         entered->begin = begin_of(tools, *entered->transition, entered->at, passed.at, corner.lambda_scale);
       PathPoint& begin = entered->begin->at;
       std::optional<BranchPoint> pitchfork;
-      if (changes_count_at_corner(corner, passed.at, begin)) {
-        if (*begin.count.unstable > *corner.before.unstable) pitchfork = pitchfork_at_corner(tools, corner, begin);
-        if (!pitchfork) {
-          passed.end = end_before(transitions);
-          return passed;
-        }
+      const bool changes_count = changes_count_at_corner(corner, passed.at, begin);
+      if (changes_count) pitchfork = pitchfork_at_corner(tools, corner, begin);
+      if (changes_count && !pitchfork) {
+        passed.end = end_before(transitions);
+        return passed;
       }
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
       if (pitchfork) add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);

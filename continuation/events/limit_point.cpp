@@ -89,9 +89,9 @@ std::optional<PathPoint> counted_beyond(TraceTools& tools, const StepOrigin& ori
   return beyond.negative_eigenvalues ? std::optional(std::move(beyond)) : std::nullopt;
 }
 
-// Points on both sides of a limit point inside a step, so near that no other singular point lies between.
+// Points on both sides of a limit point, so near that no other singular point lies between.
 struct Sides {
-  std::optional<PathPoint> before{}, after{};  // empty where the step's end is nearer
+  std::optional<PathPoint> before{}, after{};  // empty where the step's end is nearer, or there is none
   Index change = 0;                            // of the number of negative eigenvalues
   double distance = 0.0;
 };

@@ -12,10 +12,9 @@
 #include <vector>
 
 #include "apps/output/exit_status.hpp"
-#include "apps/verify/verify.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
-#include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::deck_answers_test {
 namespace {
@@ -308,8 +307,7 @@ TEST_P(DeckAnswers, HoldAndAreVerified) {
   for (std::size_t i = 0; i < scenes.size(); ++i)
     EXPECT_NEAR(record.events[i].lambda, scenes[i].lambda, scenes[i].tolerance) << to_text(scenes[i].kind);
   EXPECT_EQ(exit_status(record.branches.back().end.value().reason), status);
-  const verify::Verdict verdict = verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
-  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+  test::expect_verified(traced);
 }
 
 INSTANTIATE_TEST_SUITE_P(Decks, DeckAnswers, testing::ValuesIn(answers()),

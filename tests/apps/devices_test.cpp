@@ -8,9 +8,8 @@
 #include <string>
 
 #include "apps/cli/example_decks.hpp"
-#include "apps/verify/verify.hpp"
 #include "tests/apps/traced_deck.hpp"
-#include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::devices_test {
 namespace {
@@ -151,9 +150,7 @@ TEST(ExampleDevices, HaveTheNumbersThatTheySaySlow) {
           << branch.end->detail;
     const Number number = numbers.at(device.name)(record);
     EXPECT_NEAR(number.found, number.by_hand, number.relative * number.by_hand);
-    const verify::Verdict verdict =
-        verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
-    EXPECT_FALSE(verdict.findings.first().has_value()) << verify::to_text(*verdict.findings.first());
+    test::expect_verified(traced);
   }
 }
 

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "apps/verify/verify.hpp"
 #include "tests/apps/traced_deck.hpp"
-#include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::joint_touches_test {
 namespace {
@@ -50,9 +49,7 @@ TEST(JointTouches, AsOneContactSlow) {
       ASSERT_EQ(closes.contacts.size(), 1U);
       EXPECT_EQ(closes.contacts.front().label.member, "west");
       EXPECT_EQ(record.events[2].kind, EventKind::end);
-      const verify::Verdict verdict =
-          verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
-      EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+      test::expect_verified(traced);
     }
 }
 

@@ -11,10 +11,9 @@
 #include <string>
 
 #include "apps/output/exit_status.hpp"
-#include "apps/verify/verify.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
-#include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::lifting_parts_test {
 namespace {
@@ -45,14 +44,6 @@ acts_on = "axis"
                      held, to, elements, first, last, waves);
 }
 
-// Ends at the bound, is verified, and nowhere does a wall pull.
-void expect_whole(const test::TracedDeck& traced) {
-  const Record& record = traced.record();
-  EXPECT_EQ(exit_status(record.branches.back().end.value().reason), ExitStatus::success);
-  const verify::Verdict verdict = verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
-  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
-}
-
 std::string kinds_of(const Record& record) {
   std::string kinds;
   for (const RecordEvent& event : record.events) kinds += std::string(to_text(event.kind)) + " ";
@@ -78,7 +69,7 @@ TEST(LiftingParts, LiftOffWhereTheStressFreeAxisHasNoPressureSlow) {
       EXPECT_NEAR(opens.lambda, load, 1e-5);
     }
     load = opens.lambda;
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -104,14 +95,14 @@ TEST(LiftingParts, LiftOffBesideAPlaceWithoutPressureSlow) {
     }
     spreads = record.events[2].lambda;
     opens = record.events[3].lambda;
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
   const test::TracedDeck coarse = traced_with(12);
   ASSERT_EQ(kinds_of(coarse.record()), "start contact-closes contact-spreads contact-opens end ");
   EXPECT_NEAR(coarse.record().events[2].lambda, spreads, 1e-4);
   EXPECT_NEAR(coarse.record().events[3].lambda, opens, 1e-5);
   EXPECT_NEAR(coarse.record().events[3].contacts.front().label.fraction, place, 1e-4);
-  expect_whole(coarse);
+  test::expect_whole(coarse);
 }
 
 // A floor that is less curved on one side of the touch. Where the part lifts off inside, λ grows on: on a curved wall
@@ -142,7 +133,7 @@ profile = {{ type = "spline", x = [-1.0, 0.5, 2.0, 3.5, 5.0], z = [-0.078, -0.07
       EXPECT_NEAR(record.events[3].lambda, load, 1e-6);
     }
     load = record.events[3].lambda;
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -178,7 +169,7 @@ profile = {{ type = "parabola", apex = [1.28, -0.5526], curvature = -0.545 }}
       EXPECT_NEAR(contacts[i].label.fraction, fractions[i], 3e-8 * error + 2e-10);
       EXPECT_NEAR(contacts[i].force, forces[i], 1.5e-8 * error + 5e-10);
     }
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -264,7 +255,7 @@ profile = {{ type = "flat", z = -0.04384893677757347 }}
     const double error = std::pow(12.0 / elements, 4);
     EXPECT_NEAR(spreads[0], 8.4275123, 2e-4 * error + 1e-6);
     EXPECT_NEAR(spreads[1], 8.656997, 4e-4 * error + 1e-5);
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -300,7 +291,7 @@ monitor = [
     EXPECT_EQ(begins.unstable_before, 2);
     EXPECT_EQ(begins.unstable_after, 2);
     EXPECT_NEAR(record.points.back().monitors.front(), -2.6589, 2e-4);
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -376,7 +367,7 @@ wall = [
     ASSERT_EQ(event.contacts.size(), 1U);
     EXPECT_NEAR(event.contacts.front().label.fraction, place, 1e-5);
   }
-  expect_whole(traced);
+  test::expect_whole(traced);
 }
 
 // A part on a straight wall lifts off where the stress-free axis has κ₀″ = 0, as of two sines with
@@ -408,7 +399,7 @@ wall = [
                                               step, a1, a2));
     ASSERT_EQ(kinds_of(traced.record()), "start contact-closes contact-spreads contact-opens end ");
     EXPECT_NEAR(test::event_of(traced, EventKind::contact_opens).contacts.front().label.fraction, place, 1e-5);
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -435,7 +426,7 @@ profile = {{ type = "spline", x = [-2.584298738785712, -0.36918553411224453, 1.8
                                               step));
     ASSERT_EQ(kinds_of(traced.record()), "start contact-closes contact-closes end ");
     touches.push_back(traced.record().events[2].lambda);
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
   for (const double touch : touches) EXPECT_NEAR(touch, touches.front(), 1e-7);
 }
@@ -463,7 +454,7 @@ member.arch = {{ from = "left", to = "right", theory = "elastica", material = "s
     const RecordEvent& turn = test::event_of(traced, EventKind::limit_point, 2);
     EXPECT_EQ(turn.unstable_before, 1);
     EXPECT_EQ(turn.unstable_after, 0);
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -491,7 +482,7 @@ monitor = [
                                               step));
     ASSERT_EQ(kinds_of(traced.record()), "start contact-closes contact-closes end ");
     EXPECT_NEAR(traced.record().events[2].lambda, 2.697740442, 1e-8);
-    expect_whole(traced);
+    test::expect_whole(traced);
   }
 }
 

@@ -8,23 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/output/exit_status.hpp"
-#include "apps/verify/verify.hpp"
 #include "core/error.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
-#include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::outlines_test {
 
 namespace {
-
-void expect_verified(const test::TracedDeck& traced) {
-  const Record& record = traced.record();
-  EXPECT_EQ(exit_status(record.branches.back().end.value().reason), ExitStatus::success);
-  const verify::Verdict verdict = verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
-  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
-}
 
 std::vector<double> lambdas_of(const test::TracedDeck& traced, EventKind kind) {
   std::vector<double> found;
@@ -89,7 +80,7 @@ TEST(Outlines, APegIsTouchedFromAnySideSlow) {
     ASSERT_EQ(touches.size(), 1u);
     EXPECT_NEAR(touches[0], 0.2081006194318634, 1e-8);
     EXPECT_NEAR(strip.sag(traced), -0.07814581171568506, 1e-8);
-    expect_verified(traced);
+    test::expect_whole(traced);
   }
 }
 
@@ -99,7 +90,7 @@ TEST(Outlines, TheSamePegIsOneOfManyShapes) {
   const Strip strip{};
   const auto touch_and_sag = [&](const std::string& outline, const std::string& more) {
     const test::TracedDeck traced(strip.deck(outline, more));
-    expect_verified(traced);
+    test::expect_whole(traced);
     const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
     EXPECT_EQ(touches.size(), 1u);
     EXPECT_NEAR(touches.at(0), 0.2081006194318634, 1e-8) << outline;
@@ -149,7 +140,7 @@ TEST(Outlines, AFloorMayStandUprightSlow) {
     strip.to = 4.0;
     const test::TracedDeck traced(
         strip.deck("type = \"half-plane\", point = " + strip.point(0.3, -0.1) + ", normal = " + strip.point(0.0, 2.0)));
-    expect_verified(traced);
+    test::expect_whole(traced);
     std::vector<double> lambdas;
     for (const RecordEvent& event : traced.record().events) lambdas.push_back(event.lambda);
     found.push_back(lambdas);
@@ -184,7 +175,7 @@ path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
       const double expected = theory == "truss" ? 10.0 * 1.05 * 0.5 * (1.05 * 1.05 - 1.0) : 0.5;  // Green's strain
       EXPECT_NEAR(touches[0], expected, 1e-10);
       EXPECT_NEAR(traced.record().points.back().monitors[0], expected - 2.0, 1e-10);
-      expect_verified(traced);
+      test::expect_whole(traced);
     }
 }
 
@@ -256,7 +247,7 @@ wall = [{{ name = "peg", {} = {{ type = "circle", centre = [0.9158244608564969, 
     EXPECT_NE(end.detail.find("an outline has one all around"), std::string::npos);
     EXPECT_NEAR(above.record().points.back().lambda, contact.empty() ? 6.22404 : 6.08707, 1e-4);
   }
-  expect_verified(bent("outline", ""));
+  test::expect_whole(bent("outline", ""));
 }
 
 }  // namespace arcwall::outlines_test

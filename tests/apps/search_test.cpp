@@ -18,7 +18,7 @@
 #include "model/shape.hpp"
 #include "tests/apps/deck_texts.hpp"
 #include "tests/apps/traced_deck.hpp"
-#include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::search_test {
 namespace {
@@ -312,8 +312,7 @@ TEST(Search, TellsNoEquilibriumInWhichTheBodyIsCrushedSlow) {
           << "branch " << point.branch << ", step " << point.step << " at " << places[i].fraction;
     }
   }
-  const verify::Verdict verdict = verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
-  EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+  test::expect_verified(traced);
 }
 
 }  // namespace arcwall::search_test

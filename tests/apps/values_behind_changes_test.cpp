@@ -9,11 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/verify/verify.hpp"
 #include "core/text.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
-#include "tests/apps/verify/stored_files_of.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 
 namespace arcwall::values_behind_changes_test {
 namespace {
@@ -97,9 +96,7 @@ void expect_events_stay(const char* deck, EventKind kind, double nearest = 1e-3)
       return point.arc >= arc && std::abs(point.lambda - value) <= 1e-11;
     };
     EXPECT_EQ(std::count_if(record.points.begin(), record.points.end(), is_met), 1);
-    const verify::Verdict verdict =
-        verify::verify(traced.model(), record, verify::stored_files_of(record), "checkpoint");
-    EXPECT_FALSE(verdict.findings.first().has_value()) << to_text(*verdict.findings.first());
+    test::expect_verified(traced);
   }
 }
 
