@@ -37,6 +37,10 @@ LinearField MovingObstacle::curvature(const Vec2& position, double lambda) const
   return moved(at_rest_->curvature(at.position, 0.0), at);
 }
 
+double MovingObstacle::curvature_second(const Vec2& position, double lambda) const {
+  return at_rest_->curvature_second(seen(position, lambda).position, 0.0);
+}
+
 LinearField MovingObstacle::beyond(const CurvatureRateJump& jump, const Vec2& position, double lambda) const {
   const Seen at = seen(position, lambda);
   return moved(at_rest_->beyond(jump, at.position, 0.0), at);

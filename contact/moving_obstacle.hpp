@@ -40,6 +40,7 @@ class MovingObstacle final : public Obstacle {
   LinearField gap_slope(const Vec2& position, double lambda) const override;
   QuadraticField direction(const Vec2& position, double lambda) const override;
   LinearField curvature(const Vec2& position, double lambda) const override;
+  double curvature_second(const Vec2& position, double lambda) const override;
   double along(const Vec2& position, double lambda) const override;
   const std::vector<double>& knots() const override { return at_rest_->knots(); }
   double period() const override { return at_rest_->period(); }

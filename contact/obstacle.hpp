@@ -79,6 +79,10 @@ class Obstacle {
   /// The curvature of the surface there, > 0 where it turns to the left [1/length]. Only where faces().
   virtual LinearField curvature(const Vec2& position, double lambda) const = 0;
 
+  /// The second derivative of the curvature by the length of the surface, at a place that touches it; where the rate of
+  /// the curvature jumps without what the jump adds [1/length³]. Only where faces().
+  virtual double curvature_second(const Vec2& position, double lambda) const = 0;
+
   /// A coordinate along the surface of what a position faces: continuous, and it goes on beyond the surface's ends.
   virtual double along(const Vec2& position, double lambda) const = 0;
 

@@ -129,6 +129,10 @@ class OutlineObstacle final : public Obstacle {
     return {.value = at.curvature * shrink, .x = slope.x(), .z = slope.y()};
   }
 
+  double curvature_second(const Vec2& position, double) const override {
+    return outline_->foot(position).curvature_second;
+  }
+
   double along(const Vec2& position, double) const override { return outline_->foot(position).along; }
   const std::vector<double>& knots() const override { return knots_; }
   double period() const override { return outline_->period(); }

@@ -10,12 +10,13 @@ namespace arcwall {
 
 /// The place of an outline that is nearest to a position.
 struct OutlineFoot {
-  double distance = 0.0;         ///< of the position from it, positive to the left of the outline [length]
-  Vec2 tangent = Vec2::UnitX();  ///< of the outline there, in the direction in which it runs
-  double curvature = 0.0;        ///< of the parallel curve through the position, > 0 to the left [1/length]
-  double curvature_slope = 0.0;  ///< its derivative by the length of that curve [1/length²]
-  double along = 0.0;            ///< Obstacle::along()
-  bool beyond = false;           ///< the position is beyond an end of the outline
+  double distance = 0.0;          ///< of the position from it, positive to the left of the outline [length]
+  Vec2 tangent = Vec2::UnitX();   ///< of the outline there, in the direction in which it runs
+  double curvature = 0.0;         ///< of the parallel curve through the position, > 0 to the left [1/length]
+  double curvature_slope = 0.0;   ///< its derivative by the length of that curve [1/length²]
+  double curvature_second = 0.0;  ///< Obstacle::curvature_second() of that curve [1/length³]
+  double along = 0.0;             ///< Obstacle::along()
+  bool beyond = false;            ///< the position is beyond an end of the outline
 };
 
 /// A curve in the plane that has a direction; the body stays to the left of it. It may be closed.

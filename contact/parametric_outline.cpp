@@ -14,7 +14,7 @@ constexpr double most_turn = pi / 18.0;  // of the tangent between two knots [ra
 
 // A place of a curve p(a) with its derivatives by the parameter.
 struct OnCurve {
-  Vec2 p, first, second, third;
+  Vec2 p, first, second, third, fourth;
 };
 
 double curvature_of(const OnCurve& at) { return cross(at.first, at.second) / std::pow(at.first.norm(), 3); }
@@ -23,6 +23,17 @@ double curvature_of(const OnCurve& at) { return cross(at.first, at.second) / std
 double curvature_slope_of(const OnCurve& at) {
   const double v = at.first.norm(), bend = cross(at.first, at.second);
   return (cross(at.first, at.third) - 3.0 * bend * at.first.dot(at.second) / (v * v)) / std::pow(v, 4);
+}
+
+// d² κ / d length²
+double curvature_second_of(const OnCurve& at) {
+  const double v2 = at.first.squaredNorm(), bend = cross(at.first, at.second);
+  const double bend_rate = cross(at.first, at.third), lengthens = at.first.dot(at.second);
+  const double bend_second = cross(at.second, at.third) + cross(at.first, at.fourth);
+  const double lengthens_rate = at.second.squaredNorm() + at.first.dot(at.third);
+  return (bend_second - (7.0 * bend_rate * lengthens + 3.0 * bend * lengthens_rate) / v2 +
+          18.0 * bend * lengthens * lengthens / (v2 * v2)) /
+         std::pow(v2, 2.5);
 }
 
 // A smooth curve p(a), of which the derived class gives the knots in ascending order: between two of them it turns by a
@@ -146,7 +157,9 @@ class ParametricOutline : public Outline {
     return {.distance = d,
             .tangent = t,
             .curvature = bend * widen,
-            .curvature_slope = curvature_slope_of(on) * widen * widen * widen,
+            .curvature_slope = curvature_slope_of(on) * std::pow(widen, 3),
+            .curvature_second = curvature_second_of(on) * std::pow(widen, 4) +
+                                3.0 * std::pow(curvature_slope_of(on), 2) * d * std::pow(widen, 5),
             .along = is_end ? a + before / on.first.norm() : a,
             .beyond = is_end && (a == knots_.back() ? before > 0.0 : before < 0.0)};
   }
@@ -181,7 +194,7 @@ class EllipseOutline final : public ParametricOutline {
   OnCurve at(double a) const override {
     const double c = std::cos(a), s = std::sin(a);
     const Vec2 arm = c * first_ + s * second_, along = c * second_ - s * first_;
-    return {.p = centre_ + arm, .first = along, .second = -arm, .third = -along};
+    return {.p = centre_ + arm, .first = along, .second = -arm, .third = -along, .fourth = arm};
   }
 
  private:
@@ -230,7 +243,8 @@ class CurveOutline final : public ParametricOutline {
  protected:
   OnCurve at(double a) const override {
     const auto x = x_.at(a), z = z_.at(a);
-    return {.p = {x[0], z[0]}, .first = {x[1], z[1]}, .second = {x[2], z[2]}, .third = {x[3], z[3]}};
+    return {
+        .p = {x[0], z[0]}, .first = {x[1], z[1]}, .second = {x[2], z[2]}, .third = {x[3], z[3]}, .fourth = {0.0, 0.0}};
   }
 
  private:

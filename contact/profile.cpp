@@ -15,7 +15,7 @@ constexpr int quarter = 9;                // so many of them are a quarter of a 
 class LineProfile final : public Profile {
  public:
   LineProfile(double z, double slope) : z_(z), slope_(slope) {}
-  Height at(double x) const override { return {z_ + slope_ * x, slope_, 0.0, 0.0}; }
+  Height at(double x) const override { return {z_ + slope_ * x, slope_, 0.0, 0.0, 0.0}; }
 
  private:
   double z_, slope_;
@@ -26,7 +26,7 @@ class ParabolaProfile final : public Profile {
   ParabolaProfile(const Vec2& apex, double curvature) : apex_(apex), curvature_(curvature) {}
   Height at(double x) const override {
     const double d = x - apex_.x();
-    return {apex_.y() + 0.5 * curvature_ * d * d, curvature_ * d, curvature_, 0.0};
+    return {apex_.y() + 0.5 * curvature_ * d * d, curvature_ * d, curvature_, 0.0, 0.0};
   }
 
   std::vector<double> knots() const override {
@@ -48,10 +48,11 @@ class CircleProfile final : public Profile {
   CircleProfile(const Vec2& centre, double radius, Side side)
       : centre_(centre), radius_(radius), sign_(side == Side::below ? 1.0 : -1.0) {}
 
-  // y = √(R² − d²):  y′ = −d/y,  y″ = −R²/y³,  y‴ = −3 R² d/y⁵
+  // y = √(R² − d²):  y′ = −d/y,  y″ = −R²/y³,  y‴ = −3 R² d/y⁵,  y⁗ = −3 R² (R² + 4 d²)/y⁷
   Height at(double x) const override {
     const double d = x - centre_.x(), r2 = radius_ * radius_, y = std::sqrt(r2 - d * d);
-    return {centre_.y() + sign_ * y, -sign_ * d / y, -sign_ * r2 / (y * y * y), -3.0 * sign_ * r2 * d / std::pow(y, 5)};
+    return {centre_.y() + sign_ * y, -sign_ * d / y, -sign_ * r2 / (y * y * y), -3.0 * sign_ * r2 * d / std::pow(y, 5),
+            -3.0 * sign_ * r2 * (r2 + 4.0 * d * d) / std::pow(y, 7)};
   }
 
   // The arc ends where its normal is level to 1e-6: there the height says nothing about the distance any more.
@@ -77,7 +78,7 @@ class SplineProfile final : public Profile {
   SplineProfile(std::vector<double> x, std::vector<double> z) : spline_(std::move(x), std::move(z), knot_rounding) {}
   Height at(double x) const override {
     const auto v = spline_.at(x);
-    return {v[0], v[1], v[2], v[3]};
+    return {v[0], v[1], v[2], v[3], 0.0};
   }
   bool covers(double x) const override { return x >= spline_.first() && x <= spline_.last(); }
   std::pair<double, double> extent() const override { return {spline_.first(), spline_.last()}; }
@@ -155,6 +156,16 @@ class ProfileObstacle final : public Obstacle {
     const double w = 1.0 + psi.first * psi.first, root = std::sqrt(w);
     return {.value = psi.second / (w * root),
             .x = psi.third / (w * root) - 3.0 * psi.first * psi.second * psi.second / (w * w * root)};
+  }
+
+  // With w = 1 + ψ′² the curvature is ψ″ w^(−3/2), and d/ds = w^(−1/2) d/dx.
+  double curvature_second(const Vec2& position, double) const override {
+    const Height psi = profile_->at(position.x());
+    const double w = 1.0 + psi.first * psi.first, bend = psi.first * psi.second, second3 = std::pow(psi.second, 3);
+    const double by_x = psi.third - 3.0 * bend * psi.second / w;                        // times w^(−3/2)
+    const double by_xx = psi.fourth - 9.0 * bend * psi.third / w - 3.0 * second3 / w +  // the same
+                         15.0 * bend * bend * psi.second / (w * w);
+    return (by_xx - by_x * bend / w) / (w * w * std::sqrt(w));
   }
 
   double along(const Vec2& position, double) const override { return position.x(); }

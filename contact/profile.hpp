@@ -10,7 +10,7 @@ namespace arcwall {
 
 /// Height of a surface and its derivatives at one x.
 struct Height {
-  double value, first, second, third;
+  double value, first, second, third, fourth;
 };
 
 /// The surface z = ψ(x) of a rigid obstacle that stands still.
@@ -18,7 +18,7 @@ class Profile {
  public:
   virtual ~Profile() = default;
 
-  /// ψ, ψ′, ψ″, ψ‴; defined where covers(x).
+  /// ψ, ψ′, ψ″, ψ‴, ψ⁗; defined where covers(x). Where ψ‴ jumps ψ⁗ leaves the jump out.
   virtual Height at(double x) const = 0;
 
   /// Whether there is a surface at this x.

@@ -7,6 +7,7 @@
 
 #include "contact/moving_obstacle.hpp"
 #include "contact/outline.hpp"
+#include "core/unit_tangent.hpp"
 #include "tests/contact/contact_models.hpp"
 
 namespace arcwall::obstacle_test {
@@ -162,6 +163,12 @@ TEST(Obstacle, GradientDirectionAndCurvatureBelongTogetherOnTheSurface) {
       const Obstacle& on = *obstacle;
       const auto turned = [&](double s) { return on.direction(at + s * along, lambda).value; };
       EXPECT_NEAR(difference(turned), obstacle->curvature(at, lambda).value, tolerance);
+      const auto bent = [&](double s) {
+        const Vec2 beside = at + s * along + 0.5 * on.curvature(at, lambda).value * s * s * perp(along);
+        const LinearField bend = on.curvature(beside, lambda);
+        return Vec2(bend.x, bend.z).dot(unit_tangent(on.direction(beside, lambda).value));
+      };
+      EXPECT_NEAR(difference(bent), on.curvature_second(at, lambda), 10.0 * tolerance);
     }
 }
 
