@@ -112,6 +112,9 @@ class SlidingMesh {
   /// Just before or behind breakpoint k.
   virtual AxisStrain strain(Index k, At side, const MeshState& now) const = 0;
 
+  /// On one side of any node. Curvature has the derivatives at a place that the breakpoints do not move.
+  virtual AxisStrain node_strain(Index strand, Index position, At side, const MeshState& now) const = 0;
+
   /// At an end of a strand.
   virtual AxisStrain end_strain(Index strand, bool last, const MeshState& now) const = 0;
 

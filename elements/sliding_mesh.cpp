@@ -412,7 +412,7 @@ double SlidingStructureMesh::energy(const MeshState& now) const {
 //   curvature = κ₀ ± M/EI,   stretch = 1 + e ± N/EA,   N = f·t
 //
 // κ₀ and e with what temperatures make. The derivatives are those at a node whose material coordinate is fixed.
-AxisStrain SlidingStructureMesh::strain_at_node(Index strand, Index position, At side, const MeshState& now) const {
+AxisStrain SlidingStructureMesh::node_strain(Index strand, Index position, At side, const MeshState& now) const {
   const bool before = side == At::before;
   const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();
   const Index place = before ? 3 : 0, turn = place + 2;  // of the node among the element's freedoms
@@ -452,13 +452,13 @@ AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) 
   const auto natural = [&, strand = strand](double at) {
     return structure_.natural_curvature({.strand = strand, .s = at}, now.lambda);
   };
-  AxisStrain strain = strain_at_node(strand, position, side, now);
+  AxisStrain strain = node_strain(strand, position, side, now);
   strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
   return strain;
 }
 
 AxisStrain SlidingStructureMesh::end_strain(Index strand, bool last, const MeshState& now) const {
-  return strain_at_node(strand, last ? nodes(strand) - 1 : 0, last ? At::before : At::behind, now);
+  return node_strain(strand, last ? nodes(strand) - 1 : 0, last ? At::before : At::behind, now);
 }
 
 SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index position, const MeshState& now) const {

@@ -33,6 +33,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   Eigen::Vector3d node_rate(Index strand, Index position) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
   AxisStrain strain(Index k, At side, const MeshState& now) const override;
+  AxisStrain node_strain(Index strand, Index position, At side, const MeshState& now) const override;
   AxisStrain end_strain(Index strand, bool last, const MeshState& now) const override;
   double element_energy(Index strand, Index position, const MeshState& now) const override {
     return respond(strand, position, now, false).energy;
@@ -48,8 +49,6 @@ class SlidingStructureMesh final : public SlidingMesh {
   SlidingStructure::Reaction reaction(const MeshState& now, Index freedom) const;
 
  private:
-  AxisStrain strain_at_node(Index strand, Index position, At side, const MeshState& now) const;
-
   static constexpr Index held = -1;  // in place of an unknown, or of a breakpoint
 
   // An end of a segment: a breakpoint, or a fixed place.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "contact/sliding/differences.hpp"
+
 namespace arcwall::sliding {
 
 namespace {
@@ -149,18 +151,6 @@ double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, s
       body.bending_stiffness(strand) * wall_second - body.axial_stiffness(strand) * strain * wall(0.0);
   return straight_pressure(setting, held, ahead) + sign_of(obstacle.side()) * by_wall;
 }
-
-namespace {
-
-constexpr double difference_step = 1e-3;  // of what is varied, or of the length of the strand
-
-// By central differences of fourth order, f being a function of the change.
-template <class Function>
-double derivative(const Function& f, double step) {
-  return (8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step);
-}
-
-}  // namespace
 
 double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   return derivative([&](double d) { return straight_pressure(setting, held, ahead + d); },

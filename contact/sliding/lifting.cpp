@@ -258,14 +258,16 @@ std::optional<Transition> parts_leave(const SlidingSetting& setting, const Slidi
 
 }  // namespace
 
-std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
-  const Nodes nodes = lifting_nodes(setting, at, arrival);
+std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival,
+                                       std::size_t node) {
+  Nodes nodes = lifting_nodes(setting, at, arrival);
+  if (nodes.empty()) nodes.push_back(node);
   if (auto leave = strands_leave(setting, at, arrival))
     return {std::move(*leave), unsupported("a member leaves its wall, and no equilibrium was found")};
   std::vector<Transition> transitions;
   if (auto leave = parts_leave(setting, at, arrival)) transitions.push_back(std::move(*leave));
   LiftOffs lifts;
-  for (const std::size_t node : nodes) lifts.push_back(lift_off_at(setting, at, node));
+  for (const std::size_t lifting : nodes) lifts.push_back(lift_off_at(setting, at, lifting));
   const auto is_one_of_them = [&](const PressureBound& bound) {
     return std::find(nodes.begin(), nodes.end(), bound.node()) != nodes.end();
   };
@@ -296,17 +298,23 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
   return transitions;
 }
 
-std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const SlidingState& at, std::size_t edge) {
-  const auto k = static_cast<Index>(edge);
-  const auto& segments = at.layout.segments();
-  const auto ends_here = [&](const SlidingContactLayout::Segment& part) {
-    return part.span == Span::pressed && (part.first_point == k || part.last_point == k);
-  };
-  const auto part = std::find_if(segments.begin(), segments.end(), ends_here);
-  const auto jump = pulling_jump_ahead(setting, at, edge);
-  const LiftOffs lifts{{.segment = static_cast<std::size_t>(part - segments.begin()),
+std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const SlidingState& at, std::size_t edge,
+                                       const Arrival& arrival) {
+  const auto jump = pulling_jump_beside(setting, at, edge);
+  if (!jump) return {nothing_lifted()};
+  // Across by more than half the arch the part lifts off inside.
+  if (-jump->distance.value > 0.9 * jump->held) {
+    const auto& pressed = at.layout.pressed_nodes();
+    const auto of_part = [&](const auto& node) { return node.segment == jump->segment; };
+    const auto first =
+        static_cast<std::size_t>(std::find_if(pressed.begin(), pressed.end(), of_part) - pressed.begin());
+    const Index last = at.layout.segments()[jump->segment].elements - 2;
+    return parts_lift_off(setting, at, arrival,
+                          first + static_cast<std::size_t>(std::clamp<Index>(std::lround(jump->place) - 1, 0, last)));
+  }
+  const LiftOffs lifts{{.segment = jump->segment,
                         .obstacle = at.layout.points()[edge].obstacle,
-                        .place = at.s(k),
+                        .place = at.s(static_cast<Index>(edge)),
                         .on_straight = false,
                         .jump = jump}};
   const std::vector<Index> bounds =

@@ -15,11 +15,14 @@ namespace arcwall::sliding {
 /// does, of neighbours the one with the least pressure, the part becomes two with a free span between them; at its end,
 /// one and a point contact. Free spans are tried in several lengths. A strand that lies on its obstacle from end to end
 /// leaves it where its pressure vanishes all along.
-std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival);
+/// `node`: the pressed node at which it vanishes, if there is no doubt about others.
+std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival,
+                                       std::size_t node);
 
 /// The same at the edge of a part where the wall ahead would pull: the part ends beyond that place, and the edge stays
 /// as a point contact.
-std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const SlidingState& at, std::size_t edge);
+std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const SlidingState& at, std::size_t edge,
+                                       const Arrival& arrival);
 
 /// The same where a point load inside a pressed part pulls it off: the free span has the load in its middle.
 std::vector<Transition> load_lifts_off(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load,

@@ -23,11 +23,4 @@ double push(const SlidingSetting& setting, const SlidingState& at, const PartLoa
 /// Its derivatives by all unknowns and by λ.
 Row push_gradient(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load);
 
-/// What point loads add to the forces of a part's pressed nodes, from its first to its last.
-Vector forces_of_loads(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
-
-/// Adds the derivatives of the sum of these, each times a factor.
-void add_forces_of_loads_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
-                                  const Vector& factors, Row& row);
-
 }  // namespace arcwall::sliding

@@ -3,81 +3,15 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <optional>
 
 #include "contact/sliding/bending.hpp"
-#include "contact/sliding/part_loads.hpp"
+#include "contact/sliding/curve_pressure.hpp"
+#include "contact/sliding/pulling_jumps.hpp"
 
 namespace arcwall::sliding {
 
 namespace {
-
-// Forces of the nodes of a pressed part, its first and last node left out, less what the mesh adds at the ends: the
-// part is a beam on knife edges at equal distances whose slope is held at its ends. To a pressure with the slope f′
-// from edge to edge belong moments that miss those of the interior by a thirtieth of f′, from which a layer of forces
-// decays,
-//
-//   −f′ r / (5 (2 − r)) · (−r)^j,   r = 2 − √3,   j nodes from the first.
-//
-// A cubic through four forces shows the force that an edge at the end itself would have, and f′ with the layer's own
-// part in it.
-constexpr Index fewest_for_ends = 4;
-
-using Four = Eigen::Vector4d;
-const Four at_end(4.0, -6.0, 4.0, -1.0);
-const Four slope_at_end(-13.0 / 3.0, 19.0 / 2.0, -7.0, 11.0 / 6.0);
-
-// (1 − layer) as a matrix: smooth forces from forces.
-Matrix smoothing(Index count) {
-  Matrix smooth = Matrix::Identity(count, count);
-  if (count < fewest_for_ends) return smooth;
-  const double r = 2.0 - std::sqrt(3.0);
-  const double c = r / (5.0 * (2.0 - r));
-  double layer = c / (1.0 - c * slope_at_end.dot(Four(1.0, -r, r * r, -r * r * r)));
-  for (Index j = 0; j < count; ++j, layer *= -r) {
-    smooth.row(j).head<4>() += layer * slope_at_end;
-    smooth.row(count - 1 - j).tail<4>() += layer * slope_at_end.reverse();
-  }
-  return smooth;
-}
-
-// A place near a node, in elements from it, with the weights of the nodes' smooth forces there.
-struct Place {
-  double offset = 0.0;
-  Vector weights{};
-};
-
-// The least value of the parabola through the forces of three neighbours within half an element of node i.
-Place least_of_parabola(const Vector& force, Index i) {
-  const Index count = force.size();
-  Place least{.offset = 0.0, .weights = Vector::Unit(count, i)};
-  if (count < 3) return least;
-  const Index middle = std::clamp(i, Index{1}, count - 2);
-  const double slope = 0.5 * (force[middle + 1] - force[middle - 1]);
-  const double bend = force[middle + 1] - 2.0 * force[middle] + force[middle - 1];
-  const auto rise = [&](double t) { return t * (slope + 0.5 * t * bend); };
-  const double a = double(i - middle) - 0.5, b = a + 1.0;
-  double t = rise(a) < rise(b) ? a : b;
-  if (bend > 0.0) t = std::clamp(-slope / bend, a, b);
-  least.offset = t - double(i - middle);
-  least.weights.setZero();
-  least.weights.segment<3>(middle - 1) << 0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0);
-  return least;
-}
-
-// From the first and the last node the end of the part is seen, too.
-Place least_near(const Vector& force, Index i) {
-  const Index count = force.size();
-  Place least = least_of_parabola(force, i);
-  for (const bool last : {false, true}) {
-    if (count < fewest_for_ends || i != (last ? count - 1 : 0)) continue;
-    Vector end = Vector::Zero(count);
-    last ? end.tail<4>() = at_end.reverse() : end.head<4>() = at_end;
-    if (end.dot(force) >= least.weights.dot(force)) continue;
-    least.weights = end;
-    least.offset = last ? 1.0 : -1.0;
-  }
-  return least;
-}
 
 // A pressed node and the part that it belongs to.
 struct PartOfNode {
@@ -103,25 +37,96 @@ Extent extent(const SlidingSetting& setting, const SlidingState& at, const PartO
   return {.from = from, .length = to - from};
 }
 
-// --- on a curved obstacle: by the forces of the nodes --------------------------------------------------------------
+// --- on a curved obstacle ------------------------------------------------------------------------------------------
 
-struct ByForces {
-  Index first = 0;      // the first force of the part among the unknowns
-  Vector weights{};     // of the forces of the part's nodes: their sum is the pressure times the length of an element
-  double offset = 0.0;  // of the place from the node, in elements
-  double sum = 0.0;     // of the forces less what point loads add to them, by the weights
+// A place near a node, in elements from it, with the weights of the pressures before, at and behind the node there.
+struct NearNode {
+  double offset = 0.0;
+  Eigen::Vector3d weights = Eigen::Vector3d::UnitY();
 };
 
-ByForces least_by_forces(const SlidingSetting& setting, const SlidingState& at, std::size_t number,
-                         const PartOfNode& part) {
-  ByForces out{.first = at.index.pressed_force(number - static_cast<std::size_t>(part.node))};
-  const Vector forces = at.state.x.segment(out.first, part.nodes) - forces_of_loads(setting, at, part.pressed.segment);
-  const Matrix smooth = smoothing(part.nodes);
-  const Place least = least_near(smooth * forces, part.node);
-  out.weights = smooth.transpose() * least.weights;
-  out.offset = least.offset;
-  out.sum = out.weights.dot(forces);
-  return out;
+// The least value of the parabola through three pressures within half an element of the middle one.
+NearNode least_of_parabola(const Eigen::Vector3d& pressure) {
+  const double slope = 0.5 * (pressure[2] - pressure[0]), bend = pressure[2] - 2.0 * pressure[1] + pressure[0];
+  const auto rise = [&](double t) { return t * (slope + 0.5 * t * bend); };
+  double t = rise(-0.5) < rise(0.5) ? -0.5 : 0.5;
+  if (bend > 0.0) t = std::clamp(-slope / bend, -0.5, 0.5);
+  return {.offset = t, .weights = {0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)}};
+}
+
+// What is left of the pressure beside a node where the rate of the wall's curvature jumps so that it pulls: all of the
+// pull counts within half an element of the node, nothing from a whole one on.
+struct LeftBeside {
+  double value = infinity;
+  double offset = 0.0;      // of the place from the node, in elements
+  NodeFunction distance{};  // of the node beyond the place [length]
+  double by_distance = 0.0, by_element = 0.0;
+};
+
+LeftBeside left_beside(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part,
+                       const CurvePressure& on) {
+  const Touch touch = on.touch(part.node + 1);
+  const Obstacle& wall = *setting.obstacles[touch.obstacle].surface;
+  LeftBeside least;
+  if (wall.curvature_rate_jumps().empty()) return least;
+  const AxisPlace axis = touch.axis(at);
+  const Vec2 place = face(touch.offset, axis), at_rest = wall.seen_at_rest(place, at.now.lambda);
+  const double h = on.element(), way = travel(wall, place, axis.angle, at.now.lambda);
+  const LengthToHold to_hold = length_to_hold(setting, at, part.pressed.segment);
+  for (const CurvatureRateJump& jump : wall.curvature_rate_jumps()) {
+    const double pulled = pull(setting, touch.strand, touch.obstacle, jump) / to_hold.value;
+    if (pulled <= 0.0 || (jump.place - at_rest).norm() > 2.0 * h) continue;
+    const NodeFunction far = beyond(wall, jump, touch, at);
+    const double offset = -way * far.value / h, away = std::abs(offset), weight = std::min(2.0 - 2.0 * away, 1.0);
+    if (weight <= 0.0) continue;
+    const double there = double(part.node + 1) + offset, left = on.pressure_between(there) - weight * pulled;
+    if (left >= least.value) continue;
+    const double by_offset = on.slope_between(there) + (weight < 1.0 ? std::copysign(2.0 * pulled, offset) : 0.0);
+    least = {.value = left,
+             .offset = offset,
+             .distance = far,
+             .by_distance = -way * by_offset / h,
+             .by_element = -by_offset * offset / h + weight * pulled * to_hold.by_element / to_hold.value};
+  }
+  return least;
+}
+
+// The least pressure that a node sees: of the parabola through it and its neighbours, of the end of the part beside it,
+// or what is left of it where the wall pulls.
+struct LeastOnCurve {
+  double value = 0.0, offset = 0.0;  // of the place from the node, in elements
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();
+  std::optional<LeftBeside> left{};
+};
+
+LeastOnCurve least_on_curve(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part,
+                            const CurvePressure& on) {
+  const Eigen::Vector3d three(on.pressure(part.node), on.pressure(part.node + 1), on.pressure(part.node + 2));
+  const NearNode inside = least_of_parabola(three);
+  LeastOnCurve least{.value = inside.weights.dot(three), .offset = inside.offset, .weights = inside.weights};
+  for (const Index end : {0, 2}) {
+    if (part.node != (end == 0 ? 0 : part.nodes - 1) || three[end] >= least.value) continue;
+    least = {.value = three[end], .offset = double(end - 1), .weights = Eigen::Vector3d::Unit(end)};
+  }
+  if (const LeftBeside left = left_beside(setting, at, part, on); left.value < least.value)
+    least = {.value = left.value, .offset = left.offset, .left = left};
+  return least;
+}
+
+Row gradient_on_curve(const SlidingSetting& setting, const SlidingState& at, const PartOfNode& part) {
+  const CurvePressure on(setting, at, part.pressed.segment);
+  const LeastOnCurve least = least_on_curve(setting, at, part, on);
+  Row row = at.no_slope();
+  for (Index j = 0; j < 3; ++j)
+    if (least.weights[j] != 0.0) on.add_gradient(part.node + j, least.weights[j], row);
+  if (!least.left) return row;
+  on.add_gradient_between(double(part.node + 1) + least.offset, 1.0, row);
+  const Touch touch = on.touch(part.node + 1);
+  add_at_node(at.mesh.node_unknowns(touch.strand, touch.position),
+              least.left->by_distance * least.left->distance.gradient, row.dx);
+  row.dlambda += least.left->by_distance * least.left->distance.rate;
+  on.add_element_gradient(least.left->by_element, row);
+  return row;
 }
 
 // --- on a straight obstacle: the axis is straight, so that its pressure is known -------------------------------------
@@ -198,31 +203,21 @@ bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& a
 
 LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
-  const auto [from, length] = extent(setting, at, part);
   if (part_is_on_straight(setting, at, part)) {
+    const auto [from, length] = extent(setting, at, part);
     const AtFraction least = least_on_straight(setting, at, part);
     return {.value = least.pressure, .s = from + least.r * length};
   }
-  const ByForces least = least_by_forces(setting, at, node, part);
-  const double element = length / part.segment.elements;
-  return {.value = least.sum / element,
-          .s = at.mesh.coordinate(part.pressed.strand, part.pressed.position, at.now.s) + least.offset * element};
+  const CurvePressure on(setting, at, part.pressed.segment);
+  const LeastOnCurve least = least_on_curve(setting, at, part, on);
+  return {.value = least.value, .s = on.coordinate(double(part.node + 1) + least.offset)};
 }
 
 // The place of the least pressure moves, which at a least one, or at the end of its range, has no part in this.
 Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node) {
   const PartOfNode part(at.layout, node);
-  if (part_is_on_straight(setting, at, part)) return gradient_on_straight(setting, at, part);
-  const ByForces least = least_by_forces(setting, at, node, part);
-  const double length = extent(setting, at, part).length, per_force = part.segment.elements / length;
-  const double p = least.sum;
-  Row row = at.no_slope();
-  row.dx.segment(least.first, part.nodes) = per_force * least.weights;
-  const SlidingContactLayout::Segment& ends = part.segment;
-  if (ends.last_point >= 0) row.dx[at.index.coordinate(ends.last_point)] = -per_force * p / length;
-  if (ends.first_point >= 0) row.dx[at.index.coordinate(ends.first_point)] = per_force * p / length;
-  add_forces_of_loads_gradient(setting, at, part.pressed.segment, -per_force * least.weights, row);
-  return row;
+  return part_is_on_straight(setting, at, part) ? gradient_on_straight(setting, at, part)
+                                                : gradient_on_curve(setting, at, part);
 }
 
 }  // namespace arcwall::sliding

@@ -12,8 +12,9 @@ bool lies_on_straight(const SlidingSetting& setting, const SlidingState& at, std
 bool part_needs_no_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t segment);
 
 /// The pressure on a pressed part, seen from one of its nodes: up to the middles of the elements on both sides, and
-/// from the first and the last node up to the end of the part. On a straight obstacle by (8.7), which is exact there;
-/// on a curved one by the forces of the nodes (8.11).
+/// from the first and the last node up to the end of the part. By (8.7) of docs/theory.md, which is exact on a straight
+/// obstacle. Where the rate of a curved one's curvature jumps so that it pulls, less what the pressure has to hold
+/// there.
 struct LeastPressure {
   double value = 0.0;  ///< force per length of axis; < 0 where the part would lift off
   double s = 0.0;      ///< material coordinate of the place where it is least [length]
@@ -23,8 +24,7 @@ LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& 
 /// Its derivatives by all unknowns and by λ.
 Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node);
 
-/// Fewest elements of a part that is pressed on a straight obstacle, or on a curved one, where four forces and more
-/// show the pressure up to the ends.
+/// Fewest elements of a part that is pressed on a straight obstacle, or on a curved one, which it has to follow.
 constexpr int fewest_pressed(bool straight) { return straight ? 2 : 8; }
 
 }  // namespace arcwall::sliding

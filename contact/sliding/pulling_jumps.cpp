@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/sliding/part_loads.hpp"
+#include "contact/sliding/curve_pressure.hpp"
 
 namespace arcwall::sliding {
 
@@ -42,24 +42,22 @@ double length_of(const SlidingSetting& setting, const SlidingState& at, const Se
   return to - from;
 }
 
-// The pressure of the wall on the two nodes next to the edge, less what loads add to it; 0 where it would pull.
-double pressure_beside(const SlidingSetting& setting, const SlidingState& at, const Edge& edge) {
-  const Segment& part = at.layout.segments()[edge.segment];
-  const auto& pressed = at.layout.pressed_nodes();
-  const auto of_part = [&](const auto& node) { return node.segment == edge.segment; };
-  const auto begin = std::find_if(pressed.begin(), pressed.end(), of_part) - pressed.begin();
-  const Vector loads = forces_of_loads(setting, at, edge.segment);
-  const Index nodes = loads.size(), seen = std::min(nodes, Index{2});
-  double sum = 0.0;
-  for (Index j = 0; j < seen; ++j) {
-    const Index node = edge.first ? j : nodes - 1 - j;
-    sum += at.pressed_force(static_cast<std::size_t>(begin + node)) - loads[node];
-  }
-  const double element = length_of(setting, at, part) / part.elements;
-  return seen == 0 ? 0.0 : std::max(sum / (double(seen) * element), 0.0);
+}  // namespace
+
+double pull(const SlidingSetting& setting, Index strand, std::size_t obstacle, const CurvatureRateJump& jump) {
+  return -sign_of(setting.obstacles[obstacle].surface->side()) * setting.body.bending_stiffness(strand) * jump.jump;
 }
 
-// How far the place of a touch is beyond a jump.
+// An arch is up to 1.8 times as long as the part that holds the pull (8.11a), and no shorter than the shortest span.
+LengthToHold length_to_hold(const SlidingSetting& setting, const SlidingState& at, std::size_t segment) {
+  constexpr double elements = 2.0, least = 0.25;
+  const Segment& part = at.layout.segments()[segment];
+  const double asked = element_of(setting.body, part.strand);
+  const double element = length_of(setting, at, part) / part.elements;
+  const double seen = std::clamp(element, least * asked, asked);
+  return {.value = elements * seen, .by_element = seen == element ? elements : 0.0};
+}
+
 NodeFunction beyond(const Obstacle& wall, const CurvatureRateJump& jump, const Touch& touch, const SlidingState& at) {
   const AxisPlace axis = touch.axis(at);
   const Vec2 place = face(touch.offset, axis), arm = place - axis.position;
@@ -67,11 +65,8 @@ NodeFunction beyond(const Obstacle& wall, const CurvatureRateJump& jump, const T
   return {.value = far.value, .gradient = {far.x, far.z, far.z * arm.x() - far.x * arm.y()}, .rate = far.rate};
 }
 
-}  // namespace
-
-std::optional<PullingJump> pulling_jump_ahead(const SlidingSetting& setting, const SlidingState& at,
-                                              std::size_t point) {
-  constexpr double shown = 2.0;                      // elements over whose pressure it has to pull to be seen
+std::optional<PullingJump> pulling_jump_beside(const SlidingSetting& setting, const SlidingState& at,
+                                               std::size_t point) {
   constexpr double reach = 10.0, lies_across = 4.0;  // elements; the other half of the part is that of its other edge
   const Obstacle& wall = *setting.obstacles[at.layout.points()[point].obstacle].surface;
   if (wall.curvature_rate_jumps().empty()) return std::nullopt;
@@ -83,31 +78,67 @@ std::optional<PullingJump> pulling_jump_ahead(const SlidingSetting& setting, con
   const Vec2 place = face(touch.offset, axis);
   if (!wall.faces(place, at.now.lambda)) return std::nullopt;
   const Vec2 at_rest = wall.seen_at_rest(place, at.now.lambda);
-  const double pressure = pressure_beside(setting, at, *edge);
-  const double length = length_of(setting, at, at.layout.segments()[edge->segment]);
-  const double across = std::min(lies_across * element, 0.5 * length);
+  const Segment& part = at.layout.segments()[edge->segment];
+  const CurvePressure on(setting, at, edge->segment);
+  const double to_hold = length_to_hold(setting, at, edge->segment).value;
+  const double across = std::min(lies_across * element, 0.5 * length_of(setting, at, part));
   const double away = (edge->first ? -1.0 : 1.0) * travel(wall, place, axis.angle, at.now.lambda);
-  std::optional<PullingJump> nearest;
+  std::optional<PullingJump> tightest;
   for (const CurvatureRateJump& jump : wall.curvature_rate_jumps()) {
     if ((jump.place - at_rest).norm() > reach * element) continue;
-    const double pull = -sign_of(wall.side()) * setting.body.bending_stiffness(touch.strand) * jump.jump;
-    if (!(pull > shown * element * pressure)) continue;
+    const double force = pull(setting, touch.strand, touch.obstacle, jump);
+    if (force <= 0.0) continue;
     const NodeFunction here = beyond(wall, jump, touch, at);
     const double distance = -away * here.value - jump.half_width;
-    if (distance < -across || (nearest && nearest->distance.value <= distance)) continue;
-    nearest = {.at = jump,
-               .distance = {.value = distance, .gradient = -away * here.gradient, .rate = -away * here.rate},
-               .held = pull / pressure};
+    if (distance < -across) continue;
+    const double inside = std::max(-distance, 0.0) / on.element();
+    const double there = edge->first ? inside : part.elements - inside;
+    const double held = force / std::max(on.pressure(edge->first ? 0 : part.elements), 0.0);
+    const PullingJump found{
+        .at = jump,
+        .segment = edge->segment,
+        .place = there,
+        .distance = {.value = distance, .gradient = -away * here.gradient, .rate = -away * here.rate},
+        .held = held,
+        .left = on.pressure_between(there) - force / to_hold};
+    if (!tightest || found.room(setting.scales) < tightest->room(setting.scales)) tightest = found;
   }
-  return nearest;
+  return tightest;
+}
+
+Row room_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, const PullingJump& jump) {
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  const NodeUnknowns node = at.mesh.node_unknowns(touch.strand, touch.position);
+  Row row = at.no_slope();
+  if (jump.room(setting.scales) == jump.distance.value / setting.scales.length) {
+    const double scale = 1.0 / setting.scales.length;
+    add_at_node(node, scale * jump.distance.gradient, row.dx);
+    row.dlambda = scale * jump.distance.rate;
+    return row;
+  }
+  const CurvePressure on(setting, at, jump.segment);
+  const LengthToHold to_hold = length_to_hold(setting, at, jump.segment);
+  const double scale = setting.scales.length / setting.scales.force;
+  on.add_gradient_between(jump.place, scale, row);
+  const double force = pull(setting, touch.strand, touch.obstacle, jump.at);
+  double by_element = force * to_hold.by_element / (to_hold.value * to_hold.value);
+  if (jump.distance.value < 0.0) {  // the place moves in the part
+    const double h = on.element(), toward_last = edge_at(at.layout, point)->first ? 1.0 : -1.0;
+    const double by_distance = -toward_last * on.slope_between(jump.place) / h;
+    add_at_node(node, scale * by_distance * jump.distance.gradient, row.dx);
+    row.dlambda += scale * by_distance * jump.distance.rate;
+    by_element -= by_distance * jump.distance.value / h;
+  }
+  on.add_element_gradient(scale * by_element, row);
+  return row;
 }
 
 bool bridges_pulling_jump(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const bool before = at.layout.span_before(point) == Span::pressed;
   if (before == (at.layout.points()[point + 1].behind == Span::pressed)) return false;
   const std::size_t edge = before ? point : point + 1, other = before ? point + 1 : point;
-  const auto ahead = pulling_jump_ahead(setting, at, edge);
-  if (!ahead || ahead->distance.value < 0.0) return false;
+  const auto ahead = pulling_jump_beside(setting, at, edge);
+  if (!ahead || ahead->distance.value < 0.0 || ahead->left >= 0.0) return false;
   const Obstacle& wall = *setting.obstacles[at.layout.points()[point].obstacle].surface;
   return beyond(wall, ahead->at, touch_of_contact(setting, at.layout, edge), at).value *
              beyond(wall, ahead->at, touch_of_contact(setting, at.layout, other), at).value <=

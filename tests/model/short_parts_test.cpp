@@ -319,47 +319,6 @@ TEST(ShortParts, EndAsNearToALoadedJointAsTheLoadIsLargeSlow) {
 
 namespace {
 
-// Between a circle and a floor along which the axial force presses a part only where that is bent the right way.
-constexpr const char* column_on_a_wavy_floor = R"toml(
-title = "a column between a circle and a spline"
-material.steel = { E = 2.1e4 }
-section.s = { shape = "rectangle", width = 0.0668, height = 0.02296 }
-point = { left = [0.0, 0.0], right = [1.636, 0.0] }
-support = { left = ["x", "z"], right = ["z", "rotation"] }
-load = [{ at = "right", force = [-0.01066, 0.0] }]
-path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 9.0] } }
-member.column = { from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = 54, imperfection = [{ shape = "sine", amplitude = -0.001076, waves = 1 }, { shape = "sine", amplitude = 0.000363, waves = 3 }] }
-[[wall]]
-name = "upper"
-side = "above"
-profile = { type = "circle", centre = [0.755, 15.2745], radius = 15.2227 }
-[[wall]]
-name = "lower"
-side = "below"
-profile = { type = "spline", x = [-0.409, -0.0584, 0.2922, 0.6428, 0.9934, 1.344, 1.6946, 2.0452], z = [-0.05621, -0.06019, -0.05208, -0.06044, -0.05879, -0.05545, -0.05648, -0.05983] }
-)toml";
-
-}  // namespace
-
-// The forces at the edges of a part that has become short are lost in round-off, and the change that ends it is found
-// at a load that the path has passed. It is told with as much as it may be off by.
-TEST(ShortParts, TellWhatTheLoadOfTheirEndMayBeOffBy) {
-  const Session run = test::traced(column_on_a_wavy_floor);
-  const Record& record = run.record();
-  bool found = false;
-  for (const RecordEvent& event : record.events) {
-    if (event.kind != EventKind::contact_closes || event.step == 0) continue;
-    const auto before = static_cast<std::size_t>(event.step - 1);
-    const double last = record.points[before].lambda, direction = last - record.points[before - 1].lambda;
-    const double back = (event.lambda - last) * direction < 0.0 ? std::abs(event.lambda - last) : 0.0;
-    found = found || back > 0.1;
-    EXPECT_GE(event.localised, back) << "event " << event.id;
-  }
-  EXPECT_TRUE(found);
-}
-
-namespace {
-
 constexpr const char* slender_column = R"toml(
 title = "a slender column between walls"
 material.steel = { E = 2.1e4 }

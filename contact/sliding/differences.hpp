@@ -1,0 +1,13 @@
+#pragma once
+
+namespace arcwall::sliding {
+
+inline constexpr double difference_step = 1e-3;  // of what is varied, or of the length of the strand
+
+/// The derivative of a function of a change at no change, by central differences of fourth order.
+template <class Function>
+double derivative(const Function& f, double step) {
+  return (8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step);
+}
+
+}  // namespace arcwall::sliding

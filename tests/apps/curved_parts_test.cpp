@@ -1,0 +1,127 @@
+// Parts that are pressed on curved walls. Their pressure follows from where they lie, whatever the forces of their
+// nodes say: those of a short part are lost in round-off, and beside a point of a spline they scatter.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
+
+namespace arcwall::curved_parts_test {
+namespace {
+
+constexpr const char* column_on_a_wavy_floor = R"toml(
+title = "a column between a circle and a spline"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.0668, height = 0.02296 }
+point = { left = [0.0, 0.0], right = [1.636, 0.0] }
+support = { left = ["x", "z"], right = ["z", "rotation"] }
+load = [{ at = "right", force = [-0.01066, 0.0] }]
+path = { step = 0.05, landing = false, stop = { lambda = [-1.0, 9.0] } }
+member.column = { from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = 54, imperfection = [{ shape = "sine", amplitude = -0.001076, waves = 1 }, { shape = "sine", amplitude = 0.000363, waves = 3 }] }
+[[wall]]
+name = "upper"
+side = "above"
+profile = { type = "circle", centre = [0.755, 15.2745], radius = 15.2227 }
+[[wall]]
+name = "lower"
+side = "below"
+profile = { type = "spline", x = [-0.409, -0.0584, 0.2922, 0.6428, 0.9934, 1.344, 1.6946, 2.0452], z = [-0.05621, -0.06019, -0.05208, -0.06044, -0.05879, -0.05545, -0.05648, -0.05983] }
+)toml";
+
+}  // namespace
+
+// A part joins a touch where its pressure vanishes at that end. Told from the forces of its nodes, the load was
+// 5.6 ± 0.3 on 54 elements, and the run ended there on 108.
+TEST(CurvedParts, JoinATouchWhereTheirPressureVanishesSlow) {
+  for (const std::string elements : {"54", "108"}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(column_on_a_wavy_floor, {"member.column.elements=" + elements});
+    const auto closes = test::events_of(traced, EventKind::contact_closes);
+    ASSERT_EQ(closes.size(), 5U);
+    EXPECT_NEAR(closes[3].lambda, 5.36410922, 5e-9);
+    test::expect_whole(traced);
+  }
+}
+
+namespace {
+
+// End moments bend a beam onto a hill that is next to flat: its pressure there is some 10⁻⁵ of EI/L³.
+constexpr const char* beam_on_a_flat_hill = R"toml(
+title = "a simple beam on a hill under end moments"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.655, height = 0.33355 }
+point = { left = [0.0, 0.0], right = [31.1635, 0.0] }
+support = { left = ["x", "z"], right = ["z"] }
+load = [{ at = "left", moment = -0.14926 }, { at = "right", moment = 0.14926 }]
+monitor = [{ name = "mid", at = "beam:0.5", component = "z" }]
+path = { step = 0.1, stop = { lambda = [-1.0, 5.72] } }
+member.beam = { from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = 24 }
+[[wall]]
+name = "floor"
+side = "below"
+profile = { type = "parabola", apex = [14.0515, -0.57259], curvature = -0.00027045 }
+)toml";
+
+}  // namespace
+
+// The part is shorter than an element as it begins, and its nodes bear no more than round-off: it was told to lift off.
+TEST(CurvedParts, StayWherePressureIsSmallerThanTheRoundOffOfForces) {
+  for (const std::string elements : {"24", "48"}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(beam_on_a_flat_hill, {"member.beam.elements=" + elements});
+    EXPECT_EQ(test::events_of(traced, EventKind::contact_opens).size(), 0U);
+    EXPECT_EQ(test::events_of(traced, EventKind::contact_spreads).size(), 1U);
+    test::expect_whole(traced);
+  }
+}
+
+// The same on an arc with a force in the middle, which the part hands on to the two nodes beside it: what it adds to
+// their forces is 10⁶ times what the pressure makes of them.
+TEST(CurvedParts, StayUnderALoadThatTheyHandOn) {
+  const test::TracedDeck traced(R"toml(
+title = "a simple beam on an arc under a force and end moments"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.74025, height = 0.106828 }
+point = { left = [0.0, 0.0], right = [6.26568, 0.0] }
+support = { left = ["x", "z"], right = ["z"] }
+load = [{ at = "left", moment = -0.060924 }, { at = "right", moment = 0.060924 }, { at = "beam:0.5", force = [0.0, -0.058321] }]
+path = { step = 0.1, stop = { lambda = [-1.0, 9.0] } }
+member.beam = { from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = 52 }
+[[wall]]
+name = "floor"
+side = "below"
+profile = { type = "circle", centre = [2.24117, -49.970877], radius = 49.72822 }
+)toml");
+  EXPECT_EQ(test::events_of(traced, EventKind::contact_opens).size(), 0U);
+  EXPECT_EQ(traced.record().branches.back().end->reason, EndReason::stop);
+}
+
+// At 16.3 a point of the spline pushes with a force of its own. It lies inside the part, whose pressure is the same on
+// both sides; the forces of the nodes beside it scatter, and the pressure at the end that they tell came to zero.
+TEST(CurvedParts, StayAcrossAPointOfASplineThatPushes) {
+  for (const std::string elements : {"40", "80"}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(R"toml(
+title = "a guided beam on a wavy floor"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.42243, height = 0.30706 }
+point = { left = [0.0, 0.0], right = [32.59031, 0.0] }
+support = { left = ["x", "z", "rotation"], right = ["z", "rotation"] }
+load = [{ on = "beam", distributed = [0.0, -0.00220234] }]
+path = { step = 0.1, stop = { lambda = [-1.0, 9.0] } }
+member.beam = { from = "left", to = "right", theory = "classic", material = "steel", section = "s", elements = 40 }
+[[wall]]
+name = "floor"
+side = "below"
+profile = { type = "spline", x = [-8.147578, 0.0, 8.147578, 16.295155, 24.442734, 32.590312, 40.73789], z = [-0.623046, -0.521258, -0.692849, -0.688117, -0.577003, -0.519453, -0.642177] }
+)toml",
+                                  {"member.beam.elements=" + elements});
+    EXPECT_EQ(test::events_of(traced, EventKind::contact_opens).size(), 0U);
+    EXPECT_EQ(test::events_of(traced, EventKind::contact_spreads).size(), 1U);
+    test::expect_whole(traced);
+  }
+}
+
+}  // namespace arcwall::curved_parts_test
