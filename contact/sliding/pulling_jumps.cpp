@@ -133,6 +133,24 @@ Row room_gradient(const SlidingSetting& setting, const SlidingState& at, std::si
   return row;
 }
 
+std::optional<double> pushing_jump_beside(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
+                                          double reach) {
+  const Touch touch = touch_of_contact(setting, at.layout, point);
+  const Obstacle& wall = *setting.obstacles[touch.obstacle].surface;
+  const AxisPlace axis = touch.axis(at);
+  const Vec2 place = face(touch.offset, axis);
+  if (!wall.faces(place, at.now.lambda)) return std::nullopt;
+  const Vec2 at_rest = wall.seen_at_rest(place, at.now.lambda);
+  const double way = travel(wall, place, axis.angle, at.now.lambda);
+  std::optional<double> nearest;
+  for (const CurvatureRateJump& jump : wall.curvature_rate_jumps()) {
+    if (pull(setting, touch.strand, touch.obstacle, jump) >= 0.0 || (jump.place - at_rest).norm() > reach) continue;
+    const double ahead = -way * beyond(wall, jump, touch, at).value;
+    if (!nearest || std::abs(ahead) < std::abs(*nearest)) nearest = ahead;
+  }
+  return nearest;
+}
+
 bool bridges_pulling_jump(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const bool before = at.layout.span_before(point) == Span::pressed;
   if (before == (at.layout.points()[point + 1].behind == Span::pressed)) return false;

@@ -45,6 +45,11 @@ std::optional<PullingJump> pulling_jump_beside(const SlidingSetting& setting, co
 /// The derivatives of its room by all unknowns and by λ.
 Row room_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point, const PullingJump& jump);
 
+/// How far ahead of a tracked point along the body the nearest place is where the rate of the wall's curvature jumps so
+/// that it pushes; < 0 behind it. Empty where there is none within a reach [length].
+std::optional<double> pushing_jump_beside(const SlidingSetting& setting, const SlidingState& at, std::size_t point,
+                                          double reach);
+
 /// Whether the free span behind a point bridges such a place, with a pressed part on one side and none on the other.
 bool bridges_pulling_jump(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 

@@ -10,6 +10,7 @@
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/neutral_spans.hpp"
 #include "contact/sliding/pressed_part.hpp"
+#include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
@@ -130,7 +131,7 @@ struct Shares {
 };
 
 // Under a point load that it would arch over the body stays on the wall: there the point stays, and the stretch begins
-// on its other side. A pressed part begins where an arch ends: that stays as it is, and the force is that of the other
+// on its other side. So it does at a point of a spline that pushes, which an arch would enter. A pressed part begins where an arch ends: that stays as it is, and the force is that of the other
 // side.
 Shares shares_of_end(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span between,
                      double length) {
@@ -140,7 +141,11 @@ Shares shares_of_end(const SlidingSetting& setting, const SlidingState& at, std:
     const double here = at.s(static_cast<Index>(point));
     const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
     if (has_load_between(setting, strand, here, here + 0.5 * length)) return before;
-    return has_load_between(setting, strand, here - 0.5 * length, here) ? behind : Shares{};
+    if (has_load_between(setting, strand, here - 0.5 * length, here)) return behind;
+    const auto pushes = pushing_jump_beside(setting, at, point, 0.5 * length);
+    if (!pushes) return {};
+    const double away = *pushes / length;  // the force of the one point, in balance
+    return *pushes < 0.0 ? Shares{.length = 1.0 + away, .force = -away} : Shares{.length = away, .force = 1.0 - away};
   }
   const bool ends_arch = point > 0 && arches_behind(at, point - 1), begins_arch = arches_behind(at, point);
   if (ends_arch == begins_arch) return {};

@@ -124,4 +124,33 @@ profile = { type = "spline", x = [-8.147578, 0.0, 8.147578, 16.295155, 24.442734
   }
 }
 
+// Just beyond a point of a spline that pushes, 0.0135 of a length of 34.3, the wall would pull: the touch becomes two,
+// one at that point. An arch as long to both sides would enter the wall there, and the branch ended. The loads are own
+// shooting's, of the elastica with extension (Dormand-Prince of eighth order, tolerance 10⁻¹²): a touch and one without
+// curvature; two touches and one without force between them.
+TEST(CurvedParts, TouchesSpreadBesideAPointOfASplineThatPushesSlow) {
+  for (const auto& [elements, tolerance] : {std::pair("26", 2e-6), std::pair("52", 2e-8)})
+    for (const std::string step : {"0.05", "0.0125"}) {
+      SCOPED_TRACE(fmt::format("{} elements, steps of {}", elements, step));
+      const test::TracedDeck traced(R"toml(
+title = "a pinned column under a wavy ceiling"
+material.steel = { E = 2.1e4 }
+section.s = { shape = "rectangle", width = 0.543559467438243, height = 0.28941142817075316 }
+point = { left = [0.0, 0.0], right = [34.30214712285035, 0.0] }
+support = { left = ["x", "z"], right = ["z"] }
+load = [{ at = "right", force = [-0.19341461030843976, 0.0] }]
+path = { step = 0.05, stop = { lambda = [-1.0, 8.0] } }
+member.column = { from = "left", to = "right", theory = "elastica", material = "steel", section = "s", elements = 26 }
+[[wall]]
+name = "upper"
+side = "above"
+profile = { type = "spline", x = [-8.575536780712588, 4.287768390356293, 17.15107356142517, 30.014378732494052, 42.87768390356293], z = [3.7738395386721852, 3.5310491335423015, 3.4178242573363, 3.894299068590671, 3.8372088635198254] }
+)toml",
+                                    {fmt::format("member.column.elements={}", elements), "path.step=" + step});
+      EXPECT_NEAR(test::event_of(traced, EventKind::contact_spreads, 2).lambda, 4.5420029018, tolerance);
+      EXPECT_NEAR(test::event_of(traced, EventKind::contact_opens).lambda, 6.6144000261, tolerance);
+      test::expect_whole(traced);
+    }
+}
+
 }  // namespace arcwall::curved_parts_test
