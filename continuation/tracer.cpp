@@ -26,8 +26,8 @@ BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejec
   if (why && why->outcome == StepOutcome::behind_end)
     return {.reason = EndReason::wall_end,
             .detail =
-                "an end of the body comes into a wall from beyond its end, where that has no face; an outline "
-                "has one all around"};
+                "the body comes into a wall from beyond the wall's end, where that has no face; an outline has one "
+                "all around"};
   if (controlled)
     return {.reason = EndReason::turning_control,
             .detail = "the controlled quantity turns back; use method = \"spherical\" to go on"};

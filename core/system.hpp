@@ -55,8 +55,8 @@ class System : public UnilateralSystem {
   /// step: it is inside there, or on another side.
   virtual bool passes_through(const State& /*from*/, const State& /*to*/) const { return false; }
 
-  /// Whether a free end of the body comes from beyond the end of an obstacle to where it is inside of it, through where
-  /// the obstacle has no face: that of an upper arc of a circle from below, say.
+  /// Whether the body comes from beyond the end of an obstacle to where it is inside of it, through where the obstacle
+  /// has no face: that of an upper arc of a circle from below, say.
   virtual bool comes_behind_an_end(const State& /*from*/, const State& /*to*/) const { return false; }
 
   /// The piece whose guards suit a state that was reached along another branch: a flat part that has buckled, say.

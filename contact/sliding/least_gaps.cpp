@@ -258,18 +258,66 @@ bool passes_through(const SlidingSetting& setting, const SlidingState& from, con
   return false;
 }
 
+namespace {
+
+// A strand beside an obstacle whose surface has ends.
+struct StrandBesideEnds {
+  const SlidingSetting& setting;
+  std::size_t obstacle;
+  Index strand;
+
+  const Obstacle& surface() const { return *setting.obstacles[obstacle].surface; }
+  double gap(const AxisPlace& axis, double lambda) const {
+    return face_gap(setting.obstacles[obstacle], setting.face_offset(obstacle, strand), axis, lambda);
+  }
+};
+
+bool has_ends(const Obstacle& surface) {
+  const std::vector<double>& knots = surface.knots();
+  return !knots.empty() && surface.period() == 0.0 && (std::isfinite(knots.front()) || std::isfinite(knots.back()));
+}
+
+// Whether an element may be partly beyond an end of the surface, and partly not.
+bool is_near_an_end(const StrandBesideEnds& beside, const Vec2& first, const Vec2& last, double lambda) {
+  const Obstacle& surface = beside.surface();
+  const double chord = (last - first).norm();
+  const auto is_near = [&](const Vec2& place) {
+    const double along = surface.along(place, lambda);
+    return std::min(std::abs(along - surface.knots().front()), std::abs(along - surface.knots().back())) <= 2.0 * chord;
+  };
+  return (!surface.faces(first, lambda) || !surface.faces(last, lambda)) && (is_near(first) || is_near(last));
+}
+
+}  // namespace
+
+// Inside an element that is partly beyond the end a bend of the body may come in first, between its nodes.
 bool comes_behind_an_end(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to) {
-  const double touching = 1e-6 * setting.scales.length;
-  for (std::size_t w = 0; w < setting.obstacles.size(); ++w)
+  constexpr int looks = 16;
+  const double touching = 1e-6 * setting.scales.length, lambda = to.now.lambda;
+  const auto comes = [&](const StrandBesideEnds& beside, Index element, double fraction) {
+    const AxisPlace here = to.mesh.inside(beside.strand, element, fraction, to.now);
+    if (!(beside.gap(here, lambda) < -touching)) return false;
+    const double S1 = to.mesh.coordinate(beside.strand, element, to.now.s);
+    const double S2 = to.mesh.coordinate(beside.strand, element + 1, to.now.s);
+    const AxisPlace before = from.mesh.place({.strand = beside.strand, .s = S1 + fraction * (S2 - S1)}, from.now);
+    return !std::isfinite(beside.gap(before, from.now.lambda));
+  };
+  for (std::size_t w = 0; w < setting.obstacles.size(); ++w) {
+    const Obstacle& surface = *setting.obstacles[w].surface;
+    if (!has_ends(surface)) continue;
     for (Index strand = 0; strand < setting.body.strands(); ++strand) {
       if (!setting.obstacles[w].concerns(strand)) continue;
-      const auto gap = [&](const SlidingState& at, bool last) {
-        const AxisPlace end = at.mesh.inside(strand, last ? at.mesh.nodes(strand) - 2 : 0, last ? 1.0 : 0.0, at.now);
-        return face_gap(setting.obstacles[w], setting.face_offset(w, strand), end, at.now.lambda);
-      };
-      for (const bool last : {false, true})
-        if (!std::isfinite(gap(from, last)) && gap(to, last) < -touching) return true;
+      const StrandBesideEnds beside{.setting = setting, .obstacle = w, .strand = strand};
+      Vec2 first = to.mesh.node(strand, 0, to.now).position;
+      for (Index e = 0; e + 1 < to.mesh.nodes(strand); ++e) {
+        const Vec2 last = to.mesh.node(strand, e + 1, to.now).position;
+        const int count = is_near_an_end(beside, first, last, lambda) ? looks : 1;
+        for (int i = e == 0 ? 0 : 1; i <= count; ++i)
+          if (comes(beside, e, double(i) / count)) return true;
+        first = last;
+      }
     }
+  }
   return false;
 }
 

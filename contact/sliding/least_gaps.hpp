@@ -29,7 +29,7 @@ std::optional<LeastGap> nearest_least_gap(const SlidingSetting& setting, const S
 /// closed one, or one of its ends passes through.
 bool passes_through(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to);
 
-/// Whether one of a strand's ends comes from where an obstacle has no face, beyond its end, to where it is inside.
+/// Whether a place of a strand comes from where an obstacle has no face, beyond its end, to where it is inside.
 bool comes_behind_an_end(const SlidingSetting& setting, const SlidingState& from, const SlidingState& to);
 
 /// The least gap at `places` points of each element and where it faces the knots of a surface, against every obstacle

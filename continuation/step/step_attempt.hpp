@@ -16,7 +16,7 @@ enum class StepOutcome {
   singular,
   not_finite,
   obstructed,      ///< a closed contact has left its wall
-  behind_end,      ///< an end of the body has come into a wall from beyond its end, where that has no face
+  behind_end,      ///< the body has come into a wall from beyond the wall's end, where that has no face
   strayed,         ///< the corrector ended far off the predictor
   turned,          ///< the tangent turned more than is trusted
   not_landed,      ///< no point of the path where contacts change

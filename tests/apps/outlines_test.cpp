@@ -250,4 +250,26 @@ wall = [{{ name = "peg", {} = {{ type = "circle", centre = [0.9158244608564969, 
   test::expect_whole(bent("outline", ""));
 }
 
+// The same where a bend of the member comes under the arc first, between its nodes: the last points were 0.02 inside.
+TEST(Outlines, ABendThatComesUnderAnArcIsNamed) {
+  const auto frame = [](const std::string& wall) {
+    return test::TracedDeck(fmt::format(R"toml(
+title = "an L frame with a stop under its beam"
+material.steel = {{ E = 2.1e4 }}
+section.s = {{ shape = "rectangle", width = 0.5658144514342969, height = 0.0716386204570734 }}
+point = {{ foot = [0.0, 0.0], corner = [0.0, 4.101117927065021], end = [4.341436281473455, 4.101117927065021] }}
+support = {{ foot = ["x", "z", "rotation"], end = ["x", "z", "rotation"] }}
+load = [{{ at = "beam:0.041666666666666664", force = [0.0, -0.38629301870089927] }}]
+path = {{ step = 0.05, landing = false, stop = {{ lambda = [-1.0, 3.55] }} }}
+member.column = {{ from = "foot", to = "corner", theory = "classic", material = "steel", section = "s", elements = 24 }}
+member.beam = {{ from = "corner", to = "end", theory = "classic", material = "steel", section = "s", elements = 48 }}
+wall = [{{ name = "stop", members = ["beam"], {} = {{ type = "circle", centre = [3.319576553721003, 3.3335537581040793], radius = 0.3569767408623584 }} }}]
+)toml",
+                                        wall));
+  };
+  const test::TracedDeck above = frame("side = \"below\", profile");
+  EXPECT_EQ(above.record().branches.back().end->reason, EndReason::wall_end);
+  test::expect_verified(above);
+}
+
 }  // namespace arcwall::outlines_test
