@@ -28,6 +28,7 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
   };
   const Row border = metric.row(along);
   double previous = length;
+  bool foretold = false;  // that nothing is left
   while (result.iterations < options.max_iterations) {
     if (here_.linearize_at(result.state) == FactorStatus::not_finite) return ended(CorrectorStatus::not_finite);
     if (!find_line(metric, border)) return ended(CorrectorStatus::singular);
@@ -37,17 +38,20 @@ CorrectorResult Corrector::iterate(State guess, const PathConstraint& constraint
     ++result.iterations;
     if (!std::isfinite(size)) return ended(CorrectorStatus::not_finite);
     const double ratio = size / std::max(previous, 1e-300);
-    // Newton's next correction, from the last two; from one alone only if the path is nearly straight.
+    // Newton's next correction, from the last two; from one alone only if the path is nearly straight. That from a long
+    // one is not believed before it is made.
     const double next = result.iterations > 1 ? size * ratio * ratio : size * options.straight;
     const bool settled = next <= options.tolerance && ratio <= 1.0;
-    if (settled || (size <= options.stagnation && ratio > 0.1))
+    const bool is_believed = settled && size * options.inexact <= options.tolerance;
+    if (is_believed || (foretold && ratio <= 1.0) || (size <= options.stagnation && ratio > 0.1))
       return arrived(std::move(result), metric, border, wanted);
+    foretold = settled;
     const bool grows = ratio > options.divergence && size > options.small * length;
     if (grows && result.iterations > 1) return ended(CorrectorStatus::diverged);
     previous = size;
   }
-  if (previous <= options.unsettled) {
-    result.unsettled = previous;
+  if (foretold || previous <= options.unsettled) {
+    if (!foretold) result.unsettled = previous;
     return arrived(std::move(result), metric, border, wanted);
   }
   return ended(CorrectorStatus::too_many_iterations);
