@@ -67,7 +67,7 @@ CorrectorResult Corrector::correct_patiently(State guess, const PathConstraint& 
   CorrectorOptions patient = options_;
   patient.divergence = infinity;
   patient.max_iterations = options_.patient_iterations;
-  patient.unsettled = 1e-7;
+  patient.unsettled = 1e-6;
   return iterate(std::move(guess), constraint, metric, along, length, patient, Wanted::pairs);
 }
 
