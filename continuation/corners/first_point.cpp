@@ -134,10 +134,13 @@ PathPoint entered_point(TraceTools& tools, const Transition& transition, const A
 }
 
 // Whether a point behind a part's lifting off lies before that in λ. The free span of length d, at first without one,
-// leaves the path's direction as it is, so it lies before by an error of the mesh alone.
+// leaves the path's direction as it is, so it lies before by an error of the mesh alone. By round-off it does where
+// nothing changes but what is in contact.
 bool lies_back(const Transition& transition, const PathPoint& from, const PathPoint& at) {
+  constexpr double roundoff = 1e-12;  // of the path metric
+  const double rate = from.tangent.dlambda;
   return transition.change == Transition::Change::splits &&
-         (at.state.lambda - from.state.lambda) * from.tangent.dlambda < 0.0;
+         (at.state.lambda - from.state.lambda) * rate < -roundoff * rate * rate;
 }
 
 // A point of the piece ahead at which its new span has another length, reached from a point of that piece. Empty where
