@@ -180,7 +180,8 @@ std::optional<std::string> SlidingContact::invalid_reason(const State& state) co
 std::vector<Transition> SlidingContact::transitions(const State& state, const Direction& forward, Index bound,
                                                     double tolerance) const {
   const SlidingState at(state);
-  return bound_of(at, bound).transitions(*setting_, at, {.forward = forward, .tolerance = tolerance});
+  const sliding::ValidityBound& at_hand = bound_of(at, bound);
+  return at_hand.transitions(*setting_, at, {.forward = forward, .tolerance = tolerance, .at_hand = &at_hand});
 }
 
 bool SlidingContact::admissible(const State& state, double margin) const {

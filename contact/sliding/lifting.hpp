@@ -15,7 +15,7 @@ namespace arcwall::sliding {
 /// does, of neighbours the one with the least pressure, the part becomes two with a free span between them; at its end,
 /// one and a point contact. Free spans are tried in several lengths. A strand that lies on its obstacle from end to end
 /// leaves it where its pressure vanishes all along.
-/// `node`: the pressed node at which it vanishes, if there is no doubt about others.
+/// `node`: a pressed node of that part, at which it does if it does at none that is sure.
 std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival,
                                        std::size_t node);
 

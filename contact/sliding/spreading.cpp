@@ -131,8 +131,8 @@ struct Shares {
 };
 
 // Under a point load that it would arch over the body stays on the wall: there the point stays, and the stretch begins
-// on its other side. So it does at a point of a spline that pushes, which an arch would enter. A pressed part begins where an arch ends: that stays as it is, and the force is that of the other
-// side.
+// on its other side. So it does at a point of a spline that pushes, which an arch would enter. A pressed part begins
+// where an arch ends: that stays as it is, and the force is that of the other side.
 Shares shares_of_end(const SlidingSetting& setting, const SlidingState& at, std::size_t point, Span between,
                      double length) {
   constexpr Shares behind{.length = 1.0, .force = 0.0}, before{.length = 0.0, .force = 1.0};
@@ -342,7 +342,8 @@ std::vector<Transition> spreads_with_those_near(const SlidingSetting& setting, c
                                                 const Points& points, const Arrival& arrival) {
   constexpr double near = 1e-5;  // of curvatures, as reached() takes it
   std::vector<Transition> transitions = spreads(setting, at, points);
-  const Points all = points_without_curvature(setting, at, {.forward = arrival.forward, .tolerance = near});
+  const Points all = points_without_curvature(
+      setting, at, {.forward = arrival.forward, .tolerance = near, .at_hand = arrival.at_hand});
   if (all.size() > points.size())
     for (Transition& transition : spreads(setting, at, all)) transitions.push_back(std::move(transition));
   transitions.push_back(unsupported(why_none_spreads(setting, at, points)));

@@ -10,10 +10,13 @@
 
 namespace arcwall::sliding {
 
+class ValidityBound;
+
 /// How a state came to a validity bound.
 struct Arrival {
-  const Direction& forward;  ///< of the path
-  double tolerance;          ///< of bounds
+  const Direction& forward;                ///< of the path
+  double tolerance;                        ///< of bounds
+  const ValidityBound* at_hand = nullptr;  ///< the bound that is passed: it is reached, however near it is
 };
 
 /// A condition without which a layout is not valid: a guard of the pieces that have the layout, with what lies behind

@@ -115,6 +115,7 @@ bool is_reached(const ValidityBound& bound, const SlidingSetting& setting, const
                 const Arrival& arrival) {
   constexpr double near = 1e-6, surely = 1e-9;  // in the scale of bounds
   constexpr double farther = 1e-3;              // [path metric]
+  if (&bound == arrival.at_hand) return true;
   const double value = bound.value(setting, at);
   if (value > std::max(near, 10.0 * arrival.tolerance)) return false;
   return value <= std::min(surely, 10.0 * arrival.tolerance) ||
