@@ -76,7 +76,7 @@ std::vector<Landing> near_bounds(const PathPoint& at) {
 // Where no step succeeds, as before the end of a stretch whose forces are lost in round-off, a bound that is near is
 // passed early: what lies behind it holds on its own. Empty where nothing does, or is far off.
 std::optional<Accepted> pass_near_bound(TraceTools& tools, const TracerState& state) {
-  constexpr double far = 0.02;                  // of λ
+  constexpr double far = 0.02;                  // of the greatest λ so far
   if (!state.from.before) return std::nullopt;  // contacts have changed just before: what is near lies behind
   const double lambda = state.from.point.state.lambda;
   const auto turns = [](const Event& event) { return event.kind == EventKind::contact_limit_point; };
@@ -87,7 +87,7 @@ std::optional<Accepted> pass_near_bound(TraceTools& tools, const TracerState& st
     auto* const accepted = std::get_if<Accepted>(&attempt.result);
     if (accepted == nullptr || accepted->end) continue;
     const auto& events = accepted->arc.events;
-    if (std::abs(accepted->arc.to.state.lambda - lambda) > far * std::abs(lambda)) continue;
+    if (std::abs(accepted->arc.to.state.lambda - lambda) > far * state.greatest_lambda) continue;
     if (std::any_of(events.begin(), events.end(), turns)) continue;
     tell_ledger(tools.options, attempt);
     return std::move(*accepted);
@@ -117,6 +117,7 @@ Arc take(Accepted accepted, TracerState& state) {
   if (const auto& progress = accepted.progress)
     state.step.succeeded(progress->iterations, progress->turn, progress->taken);
   ++state.points;
+  state.greatest_lambda = std::max(state.greatest_lambda, std::abs(accepted.arc.to.state.lambda));
   state.from = std::move(accepted.leave);
   if (accepted.visit) remember(state.visited, std::move(*accepted.visit));
   state.corners_without_progress = accepted.corners_without_progress;
@@ -199,6 +200,7 @@ std::optional<Arc> Tracer::begin() {
   if (contacts_change) state_.end = stop_at_contacts(tools_->options, begun.arc.to.state.piece);
   if (!state_.end) state_.end = stop_at_events(tools_->options, begun.arc.events);
   state_.points = 1;
+  state_.greatest_lambda = std::abs(begun.arc.to.state.lambda);
   return std::move(begun.arc);
 }
 

@@ -50,11 +50,12 @@ struct TracerState {
   std::vector<VisitedCorner> visited{};
   std::optional<BranchEnd> end{};
   int points = 0;                    ///< accepted
+  double greatest_lambda = 0.0;      ///< the greatest |λ| of these
   int corners_without_progress = 0;  ///< changes of contacts in a row at one place
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(lambda_scale, start, step, from, visited, end, points, corners_without_progress);
+    archive(lambda_scale, start, step, from, visited, end, points, greatest_lambda, corners_without_progress);
   }
 };
 
