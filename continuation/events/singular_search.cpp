@@ -2,6 +2,7 @@
 
 #include "continuation/events/branch_point_search.hpp"
 #include "continuation/events/limit_point.hpp"
+#include "continuation/step/point_on_path.hpp"
 
 namespace arcwall {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/session.hpp"
+#include "tests/model/traced_session.hpp"
 
 namespace arcwall::short_parts_test {
 namespace {
