@@ -1,6 +1,7 @@
 #include "contact/sliding/lifting.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -258,16 +259,14 @@ std::optional<Transition> parts_leave(const SlidingSetting& setting, const Slidi
 
 }  // namespace
 
-std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival,
-                                       std::size_t node) {
-  Nodes nodes = lifting_nodes(setting, at, arrival);
-  if (nodes.empty()) nodes.push_back(node);
+std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
+  const Nodes nodes = lifting_nodes(setting, at, arrival);
   if (auto leave = strands_leave(setting, at, arrival))
     return {std::move(*leave), unsupported("a member leaves its wall, and no equilibrium was found")};
   std::vector<Transition> transitions;
   if (auto leave = parts_leave(setting, at, arrival)) transitions.push_back(std::move(*leave));
   LiftOffs lifts;
-  for (const std::size_t lifting : nodes) lifts.push_back(lift_off_at(setting, at, lifting));
+  for (const std::size_t node : nodes) lifts.push_back(lift_off_at(setting, at, node));
   const auto is_one_of_them = [&](const PressureBound& bound) {
     return std::find(nodes.begin(), nodes.end(), bound.node()) != nodes.end();
   };
@@ -298,20 +297,37 @@ std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const Slid
   return transitions;
 }
 
+namespace {
+
+// The bound of the pressed node that is nearest to a place of a part, by CurvePressure.
+const PressureBound& pressure_bound_at(const SlidingState& at, std::size_t segment, double place) {
+  const auto& pressed = at.layout.pressed_nodes();
+  const PressureBound* nearest = nullptr;
+  double least = infinity;
+  Index node = 0;  // of the part
+  for (const auto& bound : at.layout.bounds()) {
+    const auto* of_pressure = dynamic_cast<const PressureBound*>(bound.get());
+    if (of_pressure == nullptr || pressed[of_pressure->node()].segment != segment) continue;
+    if (const double far = std::abs(double(++node) - place); far < least) {
+      least = far;
+      nearest = of_pressure;
+    }
+  }
+  assert(nearest != nullptr);
+  return *nearest;
+}
+
+}  // namespace
+
 std::vector<Transition> edge_lifts_off(const SlidingSetting& setting, const SlidingState& at, std::size_t edge,
                                        const Arrival& arrival) {
   const auto jump = pulling_jump_beside(setting, at, edge);
   if (!jump) return {nothing_lifted()};
-  // Across by more than half the arch the part lifts off inside.
-  if (-jump->distance.value > 0.9 * jump->held) {
-    const auto& pressed = at.layout.pressed_nodes();
-    const auto of_part = [&](const auto& node) { return node.segment == jump->segment; };
-    const auto first =
-        static_cast<std::size_t>(std::find_if(pressed.begin(), pressed.end(), of_part) - pressed.begin());
-    const Index last = at.layout.segments()[jump->segment].elements - 2;
-    return parts_lift_off(setting, at, arrival,
-                          first + static_cast<std::size_t>(std::clamp<Index>(std::lround(jump->place) - 1, 0, last)));
-  }
+  if (-jump->distance.value > 0.9 * jump->held)  // half the arch and more: the part lifts off inside
+    return parts_lift_off(setting, at,
+                          {.forward = arrival.forward,
+                           .tolerance = arrival.tolerance,
+                           .at_hand = &pressure_bound_at(at, jump->segment, jump->place)});
   const LiftOffs lifts{{.segment = jump->segment,
                         .obstacle = at.layout.points()[edge].obstacle,
                         .place = at.s(static_cast<Index>(edge)),

@@ -15,9 +15,7 @@ namespace arcwall::sliding {
 /// does, of neighbours the one with the least pressure, the part becomes two with a free span between them; at its end,
 /// one and a point contact. Free spans are tried in several lengths. A strand that lies on its obstacle from end to end
 /// leaves it where its pressure vanishes all along.
-/// `node`: a pressed node of that part, at which it does if it does at none that is sure.
-std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival,
-                                       std::size_t node);
+std::vector<Transition> parts_lift_off(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival);
 
 /// The same at the edge of a part where the wall ahead would pull: the part ends beyond that place, and the edge stays
 /// as a point contact.

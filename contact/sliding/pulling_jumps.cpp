@@ -80,6 +80,7 @@ std::optional<PullingJump> pulling_jump_beside(const SlidingSetting& setting, co
   const Vec2 at_rest = wall.seen_at_rest(place, at.now.lambda);
   const Segment& part = at.layout.segments()[edge->segment];
   const CurvePressure on(setting, at, edge->segment);
+  const double at_edge = on.pressure(edge->first ? 0 : part.elements);
   const double to_hold = length_to_hold(setting, at, edge->segment).value;
   const double across = std::min(lies_across * element, 0.5 * length_of(setting, at, part));
   const double away = (edge->first ? -1.0 : 1.0) * travel(wall, place, axis.angle, at.now.lambda);
@@ -93,14 +94,13 @@ std::optional<PullingJump> pulling_jump_beside(const SlidingSetting& setting, co
     if (distance < -across) continue;
     const double inside = std::max(-distance, 0.0) / on.element();
     const double there = edge->first ? inside : part.elements - inside;
-    const double held = force / std::max(on.pressure(edge->first ? 0 : part.elements), 0.0);
     const PullingJump found{
         .at = jump,
         .segment = edge->segment,
         .place = there,
         .distance = {.value = distance, .gradient = -away * here.gradient, .rate = -away * here.rate},
-        .held = held,
-        .left = on.pressure_between(there) - force / to_hold};
+        .held = force / std::max(at_edge, 0.0),
+        .left = (inside > 0.0 ? on.pressure_between(there) : at_edge) - force / to_hold};
     if (!tightest || found.room(setting.scales) < tightest->room(setting.scales)) tightest = found;
   }
   return tightest;

@@ -22,7 +22,7 @@ Row PressureBound::gradient(const SlidingSetting& setting, const SlidingState& a
 
 std::vector<Transition> PressureBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                    const Arrival& arrival) const {
-  return parts_lift_off(setting, at, arrival, node_);
+  return parts_lift_off(setting, at, arrival);
 }
 
 }  // namespace arcwall::sliding
