@@ -38,6 +38,19 @@ void take_nodes_beside(const MaterialPoint& place, LayoutEdit& edit) {
   }
 }
 
+// Gives up open points that follow least gaps with other obstacles and beside which there is no room for a point: what
+// is touched now comes first.
+void give_up_beside(const MaterialPoint& place, std::size_t obstacle, LayoutEdit& edit) {
+  constexpr double room = 0.75;  // in elements; a point beside another one is given up at half an element
+  for (std::size_t k = edit.points.size(); k-- > 0;) {
+    const SlidingContactLayout::Point& point = edit.points[k];
+    if (edit.strands[k] != place.strand || edit.closed[k] != 0 || point.is_pinched() || point.obstacle == obstacle)
+      continue;
+    const double from = std::min(place.s, edit.place(k)), to = std::max(place.s, edit.place(k));
+    if (edit.body.elements_between(place.strand, from, to) <= room) edit.erase(k, edit.elements_without(k));
+  }
+}
+
 // Whether the strands of two edits of one layout are divided at the same nodes.
 bool are_divided_alike(const LayoutEdit& one, const LayoutEdit& other) {
   const auto same_end = [](const MeshSegment& a, const MeshSegment& b) { return a.load == b.load; };
@@ -91,6 +104,7 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
     // The point follows the least gap, which may move along the member much faster than the body moves.
     const double s = nearest_least_gap(setting, at, *violated).value_or(*start).at.s;
     take_nodes_beside(start->at, edit);
+    give_up_beside(start->at, start->obstacle, edit);
     const int undivided = edit.undivided_at(strand, s);
     point = edit.insert({.point = {.obstacle = start->obstacle, .undivided = undivided}, .strand = strand, .s = s},
                         undivided, undivided);

@@ -115,6 +115,31 @@ TEST(Pinches, PegsHoldTheSlope) {
     }
 }
 
+// Four pegs, two at each third: the part at the held end, which is as long as they are apart, is neutral first, at
+// 9 z² EI/L², less what the column shortens.
+TEST(Pinches, FourPegsHoldAColumnAtItsThirds) {
+  const double z = 4.493409457909064, held = 9.0 * z * z, load = held / (1.0 + held / EA);
+  for (const std::string theory : {"classic", "elastica"}) {
+    SCOPED_TRACE(theory);
+    std::string deck = column(1.0 / 3.0, "path = { step = 5.0, branches = \"primary\", stop = { lambda = [-1.0, " +
+                                             round_trip(1.01 * load) + "] } }");
+    std::string second = deck.substr(deck.find("wall = [") + 8, deck.find("]\npath") - deck.find("wall = [") - 8);
+    for (std::size_t at; (at = second.find(round_trip(1.0 / 3.0))) != std::string::npos;)
+      second.replace(at, round_trip(1.0 / 3.0).size(), "0.6666666666666667");
+    second.replace(second.find("over"), 4, "over2");
+    second.replace(second.find("under"), 5, "under2");
+    deck.insert(deck.find("]\npath"), ", " + second);
+    const Session run = traced(deck, {"member.column.theory = \"" + theory + "\""});
+    EXPECT_EQ(run.record().branches[0].end->reason, EndReason::stop);
+    const RecordEvent* leaves = first_branch_point(run);
+    ASSERT_NE(leaves, nullptr);
+    EXPECT_NEAR(leaves->lambda, load, (theory == "classic" ? 1e-4 : 1e-8) * load);
+    EXPECT_EQ(leaves->unstable_before, Index{0});
+    EXPECT_EQ(leaves->unstable_after, Index{1});
+    for (const RecordPoint& point : run.points()) EXPECT_EQ(point.contacts, 4);
+  }
+}
+
 // With one in the middle 4 π² EI/L², less what the column shortens.
 TEST(Pinches, KnifeEdgesHoldThePlaceAlone) {
   EXPECT_NEAR(first_load_on_knife_edges(0.5), 39.49401537685698, 2e-5);  // P (1 − P/EA) = 4 π² but for (P/EA)²
