@@ -224,6 +224,10 @@ State SlidingContact::start(double toward) const {
   return sliding::with_strands_lying(*setting_, SlidingState(at_rest), toward);
 }
 
+std::optional<State> SlidingContact::with_strands_come_to_lie(const State& state, double toward) const {
+  return sliding::with_strands_come_to_lie(*setting_, SlidingState(state), toward);
+}
+
 std::string SlidingContact::why_not_lying(const State& state) const {
   return sliding::why_not_lying(*setting_, SlidingState(state), state.lambda);
 }

@@ -80,6 +80,10 @@ class SlidingContact final : public System, public ContactQuery {
   /// all along as λ goes from 0 towards this value.
   State start(double toward) const;
 
+  /// The state with those strands pressed along their obstacles that have come down flush on them and are pressed all
+  /// along as λ goes on towards this value; empty if none has.
+  std::optional<State> with_strands_come_to_lie(const State& state, double toward) const;
+
   /// Why a state in which strands are pressed along obstacles is none any more as λ goes from 0 towards that of the
   /// state: it moves what they lie on, or their ends into it; empty if it does not.
   std::string why_not_lying(const State& state) const;

@@ -121,23 +121,30 @@ HeldAxis held_axis(const SlidingSetting& setting, const SlidingState& at, const 
   return held_axis_at_end(setting, at, part.strand, at.layout.lies_on(part.strand).value());
 }
 
+namespace {
+
+// What acts along a held body so far ahead [force/length].
+Vec2 load_on(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
+  const AxisPlace axis{.position = place_ahead({.position = held.position, .angle = held.angle}, held.stretch, ahead),
+                       .angle = held.angle};
+  return setting.body.load({.strand = held.touch.strand, .s = held.s + ahead}, axis, held.stretch, held.lambda);
+}
+
+}  // namespace
+
 // ∓ (EI κ₀″/Λ + q·n), q the load along the body.
 double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   const SlidingBody& body = setting.body;
   const MaterialPoint here{.strand = held.touch.strand, .s = held.s + ahead};
-  AxisPlace axis{.position = held.position, .angle = held.angle};
-  axis.position = place_ahead(axis, held.stretch, ahead);
-  const Vec2 load = body.load(here, axis, held.stretch, held.lambda);
   const double bending = body.bending_stiffness(here.strand) * body.natural_curvature_second(here) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
-  return -side * held.travel * (bending + load.dot(normal(held.angle)));
+  return -side * held.travel * (bending + load_on(setting, held, ahead).dot(normal(held.angle)));
 }
 
 // ± [EI (κ̂″ − κ₀″/Λ) + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it does
 // so by itself.
-double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead) {
+double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, double ahead) {
   const SlidingBody& body = setting.body;
-  const HeldAxis held = held_axis(setting, at, point);
   const Index strand = held.touch.strand;
   const Obstacle& obstacle = *setting.obstacles[held.touch.obstacle].surface;
   const auto wall = [&](double farther) {
@@ -187,19 +194,34 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
   return row;
 }
 
+namespace {
+
+// As if it were parallel to its obstacle already. A guess of what is to lie is not; a load along the obstacle would
+// press it.
+HeldAxis laid_axis(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  HeldAxis held = held_axis(setting, at, point);
+  held.angle -= touch_gap(setting, held.touch, at).tilt.value;
+  return held;
+}
+
+}  // namespace
+
 double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   const Index strand = at.mesh.breakpoint(static_cast<Index>(point)).first;
   const double L = setting.body.length(strand), noise = 1e-7 * setting.body.bending_stiffness(strand) / (L * L * L);
-  const double q = pressure_to_hold(setting, at, point, 0.0);
+  const double q = pressure_to_hold(setting, laid_axis(setting, at, point), 0.0);
   return std::abs(q) > noise ? q : 0.0;
 }
 
-// What acts along the body is linear in λ, and exactly the same where λ does not drive it.
+// What acts along the body is linear in λ, and the same but for round-off of its direction where λ does not drive it.
 double holding_pressure_rate(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
-  HeldAxis less = held_axis(setting, at, point), more = less;
+  constexpr double round_off = 1e-12;
+  HeldAxis less = laid_axis(setting, at, point), more = less;
   less.lambda -= 1.0;
   more.lambda += 1.0;
-  return 0.5 * (straight_pressure(setting, more, 0.0) - straight_pressure(setting, less, 0.0));
+  const double rate = 0.5 * (straight_pressure(setting, more, 0.0) - straight_pressure(setting, less, 0.0));
+  const double of_load = 0.5 * (load_on(setting, more, 0.0) - load_on(setting, less, 0.0)).norm();
+  return std::abs(rate) > round_off * of_load ? rate : 0.0;
 }
 
 bool lies_by_itself(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {

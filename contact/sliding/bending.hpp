@@ -62,11 +62,11 @@ double straight_pressure_slope(const SlidingSetting& setting, const HeldAxis& he
 Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, const HeldAxis& held,
                                double ahead);
 
-/// Force per length that would hold the body on the obstacle at a tracked point, or `ahead` of it along the body; > 0
-/// where the obstacle would press (8.7). Exact beside a straight obstacle.
-double pressure_to_hold(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double ahead);
+/// Force per length that would hold the axis on its obstacle so far `ahead` along the body; > 0 where the obstacle
+/// would press (8.7). Exact beside a straight obstacle.
+double pressure_to_hold(const SlidingSetting& setting, const HeldAxis& held, double ahead);
 
-/// The same at the point itself, 0 where that is round-off.
+/// The same at a tracked point where the body is parallel to the obstacle or is to become so, 0 where it is round-off.
 double holding_pressure(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
 
 /// The derivative by λ of the pressure with which a straight obstacle holds the body straight at a tracked point: that

@@ -25,10 +25,6 @@ TouchGap touch_at_end(const SlidingSetting& setting, const SlidingState& at, Ind
                    at);
 }
 
-bool is_straight(const SlidingSetting& setting, std::size_t obstacle) {
-  return setting.obstacles[obstacle].surface->knots().empty();
-}
-
 // Whether λ, going from 0 towards a value, turns a clamped end of a strand against its obstacle, or moves an end and
 // the obstacle into each other. An end that leaves the obstacle peels off.
 bool is_driven_into(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
@@ -45,18 +41,27 @@ bool may_lie(const SlidingSetting& setting, const SlidingState& at, Index strand
   const SlidingBody& body = setting.body;
   for (const bool last : both_ends)
     if (!body.is_tip(strand, last) && !body.is_hinged(strand, last) && !body.is_clamped(strand, last)) return false;
-  return setting.obstacles[obstacle].concerns(strand) && is_straight(setting, obstacle) &&
-         !at.layout.point_at_end(strand, false) && !is_driven_into(setting, at, strand, obstacle, toward);
+  return setting.obstacles[obstacle].concerns(strand) && !is_driven_into(setting, at, strand, obstacle, toward);
 }
 
-// Whether all nodes of a strand are on an obstacle and parallel to it.
-bool lies_along(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle) {
-  constexpr double touching = 1e-9;  // gap, scaled, and angle
+// Whether a strand runs straight along an obstacle, within `touching` of the length scale and of an angle.
+bool lies_along(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
+                double touching) {
+  constexpr int parts = 8;  // of an element, in which the obstacle is looked at for notches
+  const Obstacle& surface = *setting.obstacles[obstacle].surface;
+  const auto touches = [&](const Vec2& place) {
+    return std::abs(surface.gap_slope(place, at.now.lambda).value) <= touching * setting.scales.length;
+  };
+  std::optional<Vec2> before;
   for (Index position = 0; position < at.mesh.nodes(strand); ++position) {
     const Touch touch{
         .strand = strand, .position = position, .obstacle = obstacle, .offset = setting.face_offset(obstacle, strand)};
-    if (!(std::abs(face_gap(setting, touch, at)) <= touching * setting.scales.length)) return false;
+    const Vec2 here = face(touch.offset, touch.axis(at));
+    if (!touches(here) || !is_flush_at(surface, here, at.now.lambda)) return false;
     if (!(std::abs(touch_gap(setting, touch, at).tilt.value) <= touching)) return false;
+    for (int i = 1; before && i < parts; ++i)
+      if (!touches(*before + (here - *before) * i / parts)) return false;
+    before = here;
   }
   return true;
 }
@@ -73,15 +78,20 @@ bool is_pressed_at(const SlidingSetting& setting, const SlidingState& at, Index 
 }
 
 std::optional<std::size_t> pressed_along(const SlidingSetting& setting, const SlidingState& at, Index strand,
-                                         double toward) {
+                                         double toward, double touching) {
   for (std::size_t w = 0; w < setting.obstacles.size(); ++w)
-    if (may_lie(setting, at, strand, w, toward) && lies_along(setting, at, strand, w) &&
+    if (may_lie(setting, at, strand, w, toward) && lies_along(setting, at, strand, w, touching) &&
         is_pressed_at(setting, at, strand, w, toward))
       return w;
   return std::nullopt;
 }
 
 }  // namespace
+
+bool is_flush_at(const Obstacle& surface, const Vec2& place, double lambda) {
+  return surface.faces(place, lambda) && surface.curvature(place, lambda).value == 0.0 &&
+         surface.curvature_second(place, lambda) == 0.0;
+}
 
 void lay_down(const SlidingSetting& setting, Index strand, std::size_t obstacle, LayoutEdit& edit) {
   edit.set_lying(strand, obstacle);
@@ -90,12 +100,31 @@ void lay_down(const SlidingSetting& setting, Index strand, std::size_t obstacle,
 }
 
 State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest, double toward) {
+  constexpr double touching = 1e-9;
   LayoutEdit edit = edit_of(setting.body, rest);
   for (Index strand = 0; strand < setting.body.strands(); ++strand) {
-    const auto obstacle = pressed_along(setting, rest, strand, toward);
+    const auto obstacle = pressed_along(setting, rest, strand, toward, touching);
     if (obstacle) lay_down(setting, strand, *obstacle, edit);
   }
   return edit.lying.empty() ? rest.state : mapped_onto(setting, rest, edit, layout_of(edit));
+}
+
+std::optional<State> with_strands_come_to_lie(const SlidingSetting& setting, const SlidingState& at, double toward) {
+  constexpr double touching = 1e-6;  // what hardly any load bends away, or still holds up
+  LayoutEdit edit = edit_of(setting.body, at);
+  bool changed = false;
+  for (Index strand = 0; strand < setting.body.strands(); ++strand) {
+    if (at.layout.lies_on(strand)) continue;
+    const auto obstacle = pressed_along(setting, at, strand, toward, touching);
+    if (!obstacle) continue;
+    const int elements = elements_asked(setting.body, strand, 0.0, setting.body.length(strand), fewest_pressed(true));
+    for (std::size_t k = edit.points.size(); k-- > 0;)
+      if (edit.strands[k] == strand) edit.erase(k, elements);
+    lay_down(setting, strand, *obstacle, edit);
+    changed = true;
+  }
+  if (!changed) return std::nullopt;
+  return mapped_onto(setting, at, edit, layout_of(edit));
 }
 
 State with_flat_parts_loaded(const SlidingSetting& setting, const SlidingState& at, double toward) {
@@ -166,7 +195,7 @@ std::vector<Transition> peels_off(const SlidingSetting& setting, const SlidingSt
   return transitions;
 }
 
-HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& at, std::size_t tip) {
+HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& at, std::size_t tip, double halves) {
   const SlidingContactLayout::PressedTip& end = at.layout.pressed_tips()[tip];
   const bool last = end.position > 0;
   const SlidingContactLayout::Segment& part = at.layout.segment_at_end(end.strand, last);
@@ -175,7 +204,8 @@ HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& 
   const Index element = last ? end.position - 1 : 0;
   const double h =
       at.mesh.coordinate(end.strand, element + 1, at.now.s) - at.mesh.coordinate(end.strand, element, at.now.s);
-  const double half = h * h / 24.0, sign = outward(setting.obstacles[end.obstacle].surface->side(), last) * held.travel;
+  const double half = halves * h * h / 24.0,
+               sign = outward(setting.obstacles[end.obstacle].surface->side(), last) * held.travel;
   HoldingMoment moment{
       .value = sign * at.state.x[at.index.tip_moment(tip)] - half * straight_pressure(setting, held, s - held.s),
       .row = straight_pressure_gradient(setting, at, held, s - held.s)};

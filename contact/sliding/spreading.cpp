@@ -196,8 +196,9 @@ struct HalfPressed {
 
 // Whether the pressure that would hold the body on the wall changes its sign within a stretch about a point.
 bool pressure_changes_sign(const SlidingSetting& setting, const SlidingState& at, std::size_t point, double length) {
-  const double before = pressure_to_hold(setting, at, point, -0.5 * length);
-  const double behind = pressure_to_hold(setting, at, point, 0.5 * length);
+  const HeldAxis held = held_axis(setting, at, point);
+  const double before = pressure_to_hold(setting, held, -0.5 * length);
+  const double behind = pressure_to_hold(setting, held, 0.5 * length);
   return std::min(before, behind) < 0.0 && std::max(before, behind) > 0.0;
 }
 
@@ -207,7 +208,8 @@ std::optional<HalfPressed> half_pressed(const SlidingSetting& setting, const Sli
                                         double length) {
   constexpr double beyond = 0.6;
   if (!pressure_changes_sign(setting, at, point, length)) return std::nullopt;
-  const auto pressure = [&](double ahead) { return pressure_to_hold(setting, at, point, ahead); };
+  const HeldAxis held = held_axis(setting, at, point);
+  const auto pressure = [&](double ahead) { return pressure_to_hold(setting, held, ahead); };
   double pressed = -0.5 * length, free = 0.5 * length;
   if (pressure(pressed) < pressure(free)) std::swap(pressed, free);
   double edge = free;

@@ -10,6 +10,7 @@
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/bounds/tail.hpp"
+#include "contact/sliding/bounds/tip_presses.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
@@ -33,19 +34,15 @@ struct ClosedTip {
   bool bends_with_it = false;  // as the obstacle does, by round-off
 };
 
-// By what the last element carries: its end force is that of the contact and of all that is put on the tip.
 ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std::size_t end, const StrandEnd& of) {
   constexpr double round_off = 1e-6;  // of curvatures, times the length scale
-  const std::size_t contact = at.layout.points().size() + end;
   const FreeEnd there = setting.free_ends[end].seen_from(of);
-  const auto [strand, last] = of;
-  const std::size_t obstacle = there.obstacle;
-  const Touch touch = touch_of_end(setting, at.layout, there);
-  const AxisPlace axis = touch.axis(at);
-  const Obstacle& surface = *setting.obstacles[obstacle].surface;
-  const Eigen::Vector3d carried = at.mesh.end_forces(strand, last ? touch.position - 1 : 0, at.now)[last ? 1 : 0];
-  ClosedTip tip{.end = end, .strand = strand, .last = last, .obstacle = obstacle, .force = at.force(contact)};
-  tip.load = tip.force - carried.head<2>().dot(surface.normal(face(touch.offset, axis), at.now.lambda));
+  ClosedTip tip{.end = end,
+                .strand = of.strand,
+                .last = of.last,
+                .obstacle = there.obstacle,
+                .force = at.force(at.layout.points().size() + end)};
+  tip.load = tip.force - carried_at_end(setting, at, there);
   tip.bend = end_curvature_gap(setting, at, there).value;
   tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= round_off;
   return tip;
@@ -104,11 +101,10 @@ std::vector<ClosedTip> tangent_tips(const SlidingSetting& setting, const Sliding
   std::map<std::size_t, Reached> by_contact;
   for (const LiesDownBound* bound : reached<LiesDownBound>(setting, at, arrival)) {
     const double rate = apply(bound->gradient(setting, at), arrival.forward);
-    for (std::size_t end = 0; end < setting.free_ends.size(); ++end) {
-      if (!setting.free_ends[end].is_of(bound->end()) || !at.is_closed(at.layout.points().size() + end)) continue;
-      const auto [known, is_new] = by_contact.try_emplace(end, Reached{.end = bound->end(), .rate = rate});
-      if (!is_new && rate < known->second.rate) known->second = {.end = bound->end(), .rate = rate};
-    }
+    const auto end = end_nearest_to_lying_down(setting, at, bound->end());
+    if (!end) continue;
+    const auto [known, is_new] = by_contact.try_emplace(*end, Reached{.end = bound->end(), .rate = rate});
+    if (!is_new && rate < known->second.rate) known->second = {.end = bound->end(), .rate = rate};
   }
   std::vector<ClosedTip> tips;
   for (const auto& [end, there] : by_contact) tips.push_back(closed_tip(setting, at, end, there.end));
@@ -149,10 +145,21 @@ std::optional<std::string> what_hinders(const SlidingSetting& setting, const Sli
   if (beyond == Beyond::hollow_bend)
     return "contact came to a hollow joint of members, behind which the next one would touch";
   if (inner == Span::free) return std::nullopt;
+  if (setting.body.is_tip(end.strand, end.last) && inner == Span::pressed) return std::nullopt;
   if (setting.body.is_tip(end.strand, end.last)) return "a part that lies on a wall reached the free end of its member";
   if (beyond == Beyond::same_face) return "a part that lies on a wall reached a joint behind which its face goes on";
   if (inner == Span::pressed) return "a part that is pressed on a wall reached a corner of the body";
   return std::nullopt;
+}
+
+// Takes the point out that has come to a tip from inside, so that its part is pressed on its obstacle up to there.
+void press_up_to_end(const StrandEnd& end, std::size_t point, LayoutEdit& edit) {
+  const std::size_t obstacle = edit.points[point].obstacle;
+  const std::size_t inner = end.last ? point - 1 : point + 1;
+  const bool is_alone = inner >= edit.points.size() || edit.strands[inner] != end.strand;  // also of the first point
+  if (!is_alone && !end.last) edit.points[inner].before = Span::pressed;
+  edit.erase(point, end.last ? edit.elements_before(point) : edit.elements_behind(point));
+  if (is_alone) edit.set_lying(end.strand, obstacle);
 }
 
 // Takes the point out that has come to an end. A flat part of which it was the edge lifts off between its other edge,
@@ -171,6 +178,25 @@ void erase_before_end(const SlidingSetting& setting, const StrandEnd& end, bool 
 }
 
 }  // namespace
+
+double carried_at_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  const Touch touch = touch_of_end(setting, at.layout, end);
+  const Obstacle& surface = *setting.obstacles[end.obstacle].surface;
+  const Eigen::Vector3d on_element =
+      at.mesh.end_forces(end.strand, end.last ? touch.position - 1 : 0, at.now)[end.last ? 1 : 0];
+  return on_element.head<2>().dot(surface.normal(face(touch.offset, touch.axis(at)), at.now.lambda));
+}
+
+std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of) {
+  for (const SlidingContactLayout::PressedTip& tip : at.layout.pressed_tips()) {
+    if (tip.strand != of.strand || (tip.position > 0) != of.last) continue;
+    for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
+      if (setting.free_ends[j].is_of(of) && setting.free_ends[j].obstacle == tip.obstacle &&
+          at.is_closed(at.layout.points().size() + j))
+        return j;
+  }
+  return std::nullopt;
+}
 
 std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const std::vector<ClosedTip> tips = tangent_tips(setting, at, arrival);
@@ -207,7 +233,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
       tails.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
   std::vector<std::size_t> ends;
-  bool lay = false;
+  bool lay = false, is_pressed = false;
   for (auto tail = tails.rbegin(); tail != tails.rend(); ++tail) {
     const std::size_t point = (*tail)->point();
     const auto [strand, last] = std::pair((*tail)->strand(), (*tail)->last());
@@ -222,17 +248,65 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     ends.push_back(end);
     edit.end_forces[end] += edit.forces[point];
     edit.ends_closed[end] = 1;
-    erase_before_end(setting, of, inner == Span::flat, point, edit);
+    is_pressed = inner == Span::pressed;
+    if (is_pressed) {
+      press_up_to_end(of, point, edit);
+    } else {
+      erase_before_end(setting, of, inner == Span::flat, point, edit);
+    }
   }
   const auto on = layout_of(edit);
   State guess = mapped_onto(setting, at, edit, on);
-  const std::size_t lies_down = bound_number<LiesDownBound>(*on, [&](const LiesDownBound& bound) {
+  const auto is_of_tail = [&](const auto& bound) {
     return bound.end() == StrandEnd{.strand = tails.back()->strand(), .last = tails.back()->last()};
-  });
-  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, lies_down),
-                                lay ? Change::gathers : Change::passes, std::move(guess));
+  };
+  const std::size_t behind =
+      is_pressed ? bound_number<TipPressesBound>(*on, is_of_tail) : bound_number<LiesDownBound>(*on, is_of_tail);
+  Transition transition = up_to(0.0, std::make_shared<BoundValue>(setting, behind),
+                                is_pressed ? Change::joins
+                                : lay      ? Change::gathers
+                                           : Change::passes,
+                                std::move(guess));
   for (const std::size_t end : ends) transition.contacts.push_back(static_cast<Index>(on->points().size() + end));
   return {transition, unsupported("contact came to the end of a member, and no equilibrium was found there")};
+}
+
+std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const SlidingState& at,
+                                           const std::vector<StrandEnd>& tips, bool lifted) {
+  const Transition none = unsupported(
+      "a part that lies on a wall up to the free end of its member peels off from there, and no such equilibrium was "
+      "found");
+  std::vector<Transition> transitions;
+  for (const double factor : {2.0, 8.0, 32.0, 128.0}) {
+    const double length = factor * shortest_tail(setting.body, tips.front().strand);
+    LayoutEdit edit = edit_of(setting.body, at);
+    std::vector<Index> contacts;
+    for (const auto& [strand, last] : tips) {
+      const double L = setting.body.length(strand), s = last ? L - length : length;
+      const auto end = pressed_contact(setting, at, {.strand = strand, .last = last});
+      if (!end) return {none};
+      edit.set_lying(strand, std::nullopt);
+      const int rest = edit.elements[static_cast<std::size_t>(strand)][edit.part_at(strand, s).place].elements;
+      const int tail = elements_asked(setting.body, strand, 0.0, length, 2);
+      edit.insert({.point = {.obstacle = setting.free_ends[*end].obstacle,
+                             .behind = last ? Span::free : Span::pressed,
+                             .before = last ? Span::pressed : Span::free},
+                   .strand = strand,
+                   .s = s,
+                   .closed = true},
+                  last ? rest : tail, last ? tail : rest);
+      edit.ends_closed[*end] = static_cast<std::uint8_t>(!lifted);
+      contacts.push_back(static_cast<Index>(at.layout.points().size() + *end));
+    }
+    const auto on = layout_of(edit);
+    const auto [strand, last] = tips.front();
+    const std::size_t point = on->point_at_end(strand, last).value();
+    transitions.push_back(up_to(length, std::make_shared<TailLength>(point, last ? setting.body.length(strand) : 0.0),
+                                Change::splits, mapped_onto(setting, at, edit, on)));
+    transitions.back().contacts = contacts;
+  }
+  transitions.push_back(none);
+  return transitions;
 }
 
 std::optional<Transition> tip_touches_with(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {

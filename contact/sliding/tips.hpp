@@ -10,6 +10,14 @@
 
 namespace arcwall::sliding {
 
+/// What the last element at an end that touches carries, the load along it included: along the obstacle's normal, as
+/// the contact and all that is put on the end push it [force].
+double carried_at_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
+/// The closed contact of a tip with the obstacle on which a part is pressed up to there, by its number among the free
+/// ends; empty where there is none.
+std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of);
+
 /// What may lie behind a state where tips or joints that touch become tangent to their obstacles, the likeliest first:
 /// all that do so together. Contact moves inside, and the tip lifts off, where the body bends away
 /// from the obstacle there; where it bends with it, it lies on the obstacle up to the tip.
@@ -18,6 +26,11 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
 /// The reverse, where points have come to tips or joints: the contact there is at the end.
 std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at,
                                               const Arrival& arrival);
+
+/// What may lie behind a state where a part that is pressed on an obstacle up to tips does not stay so: it peels off
+/// from them, be they `lifted` off the obstacle, or stay there with an arch beside them.
+std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const SlidingState& at,
+                                           const std::vector<StrandEnd>& tips, bool lifted);
 
 /// Where the body behind a point that loses its curvature gap bends all along as the obstacle does, up to a tip that it
 /// thereby touches: the contact of the tip closes. Empty elsewhere.

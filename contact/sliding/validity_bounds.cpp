@@ -14,7 +14,9 @@
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/pulling_jump.hpp"
 #include "contact/sliding/bounds/room.hpp"
+#include "contact/sliding/bounds/straight_end.hpp"
 #include "contact/sliding/bounds/tail.hpp"
+#include "contact/sliding/bounds/tip_presses.hpp"
 
 namespace arcwall::sliding {
 
@@ -95,7 +97,10 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   for (std::size_t i = 0; i < on.pressed_nodes().size(); ++i) add_if<PressureBound>(true, bounds, i);
   for (std::size_t i = 0; i < on.pressed_tips().size(); ++i) {
     const SlidingContactLayout::PressedTip& tip = on.pressed_tips()[i];
-    add_if<HoldingMomentBound>(body.is_hinged(tip.strand, tip.position > 0), bounds, i);
+    const bool last = tip.position > 0, free = body.is_tip(tip.strand, last);
+    add_if<HoldingMomentBound>(free || body.is_hinged(tip.strand, last), bounds, i);
+    add_if<HoldingMomentBound>(free, bounds, i, HoldingMomentBound::Against::lifting);
+    add_if<TipPressesBound>(free, bounds, tip.strand, last);
   }
   for (std::size_t i = 0; i < on.neutral_spans().size(); ++i) add_if<NeutralBound>(true, bounds, i);
   for (Index strand = 0; strand < body.strands(); ++strand)
@@ -104,6 +109,7 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
       add_if<LiesDownBound>(free, bounds, strand, last);
       add_if<UprightBound>(free, bounds, strand, last);
       add_if<EndStaysBound>(!free && on.lies_on(strand).has_value(), bounds, strand, last);
+      add_if<StraightEndBound>(on.lies_on(strand).has_value(), bounds, strand, last);
       add_if<ClampBound>(body.is_clamped(strand, last) || body.is_hinged(strand, last), bounds, strand, last);
       add_if<TailBound>(has_tail(body, on, strand, last), bounds, strand, last,
                         on.point_at_end(strand, last).value_or(0));

@@ -15,14 +15,11 @@ namespace {
 constexpr double out_of_reach = 1.0;     // value of the bounds of an end that does not touch
 constexpr double nearly_upright = 0.02;  // cosine: beyond 0 the section's other corner touches, and nothing is smooth
 
-// The contact of an end of a strand that is closed, seen from that end, if one is and the body does not lie on the
-// obstacle beside it.
+// The contact of an end of a strand to which it is nearest to lying down, seen from that end.
 std::optional<FreeEnd> touching_end(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of) {
-  if (at.layout.span_at_end(of.strand, of.last) != SlidingContactLayout::Span::free) return std::nullopt;
-  const std::size_t points = at.layout.points().size();
-  for (std::size_t j = 0; j < setting.free_ends.size(); ++j)
-    if (at.is_closed(points + j) && setting.free_ends[j].is_of(of)) return setting.free_ends[j].seen_from(of);
-  return std::nullopt;
+  const auto nearest = end_nearest_to_lying_down(setting, at, of);
+  if (!nearest) return std::nullopt;
+  return setting.free_ends[*nearest].seen_from(of);
 }
 
 // Whether an end is the first of those that are one place to the obstacle.
@@ -47,6 +44,22 @@ Row sine_from_end_gradient(const SlidingSetting& setting, const SlidingState& at
   add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), by_tilt * gap.tilt.gradient, row.dx);
   row.dlambda = by_tilt * gap.tilt.rate;
   return row;
+}
+
+std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setting, const SlidingState& at,
+                                                     const StrandEnd& of) {
+  if (at.layout.span_at_end(of.strand, of.last) != SlidingContactLayout::Span::free) return std::nullopt;
+  const std::size_t points = at.layout.points().size();
+  std::optional<std::size_t> nearest;
+  double least = 0.0;
+  for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
+    if (!at.is_closed(points + j) || !setting.free_ends[j].is_of(of)) continue;
+    const double sine = sine_from_end(setting, at, setting.free_ends[j].seen_from(of));
+    if (nearest && sine >= least) continue;
+    nearest = j;
+    least = sine;
+  }
+  return nearest;
 }
 
 double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {

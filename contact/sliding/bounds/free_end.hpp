@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "contact/sliding/validity_bound.hpp"
 
 namespace arcwall::sliding {
@@ -7,6 +10,12 @@ namespace arcwall::sliding {
 /// The sine of the angle at which the body leaves an obstacle from an end on that touches it; < 0 where it would enter.
 double sine_from_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 Row sine_from_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
+/// Of the closed contacts of an end of a strand the one whose obstacle the body leaves at the least angle: its number
+/// among the free ends. An end in a corner between walls touches several. None where the end does not touch, or where
+/// the body lies on an obstacle beside it.
+std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setting, const SlidingState& at,
+                                                     const StrandEnd& of);
 
 /// How fast the gap grows from a free end on that touches: behind the bound a tip lies down on the wall, or contact
 /// moves inside. Positive where the end does not touch.
