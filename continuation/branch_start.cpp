@@ -28,7 +28,9 @@ CorrectorResult correct_start(TraceTools& tools, const Metric& metric, const Sta
   const ParameterValue parameter;
   CorrectorResult result =
       tools.corrector.correct(start, ValueConstraint(parameter, start.lambda), metric, forward, distance);
-  return result.converged() ? result : tools.corrector.inspect(start, metric, forward);
+  if (!result.converged()) return tools.corrector.inspect(start, metric, forward);
+  result.state.lambda = start.lambda;  // to the last digit
+  return result;
 }
 
 // Its forward tangent, and the contacts that already touch.

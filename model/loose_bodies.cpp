@@ -111,21 +111,25 @@ std::vector<deck::Spring> LooseHolds::springs(double times) const {
   return springs;
 }
 
+double LooseHolds::stiffness() const {
+  double stiffness = 0.0;
+  for (const Hold& hold : holds) stiffness = std::max({stiffness, hold.stiffness.x, hold.stiffness.z});
+  return stiffness;
+}
+
 std::string LooseHolds::warning(const deck::Units& units) const {
   std::string places;
-  double stiffness = 0.0;
   for (const Hold& hold : holds) {
     const bool both = hold.stiffness.x > 0.0 && hold.stiffness.z > 0.0;
     places += (places.empty() ? "" : ", ") + to_text(hold.at) + " in " +
               (both                     ? "x and z"
                : hold.stiffness.x > 0.0 ? "x"
                                         : "z");
-    stiffness = std::max({stiffness, hold.stiffness.x, hold.stiffness.z});
   }
   return fmt::format(
       "no support holds the structure against moving as a whole, contact alone may: where neither contact "
       "nor a load says where it goes it is held where it is, by springs of {:.3g} {} at {}",
-      stiffness, unit_text(deck::unit::line_load, units), places);
+      stiffness(), unit_text(deck::unit::line_load, units), places);
 }
 
 double softest_stiffness(const deck::Deck& deck, const Structure& structure) {
@@ -138,6 +142,22 @@ double softest_stiffness(const deck::Deck& deck, const Structure& structure) {
                                                                    : 3.0 * E * section.I / (length * length * length));
   }
   return stiffness;
+}
+
+Vec2 constant_resultant(const deck::Deck& deck) {
+  deck::Deck loads = deck;
+  loads.prescribed.clear();
+  DeckProblems ignored(deck.source);
+  const auto structure = describe_structure(loads, ignored, Mesh::coarsest).builder.build(true);
+  Linearization at_rest;
+  structure->linearize({.x = Vector::Zero(structure->size({})), .lambda = 0.0}, at_rest);
+  Vec2 sum = Vec2::Zero();
+  for (Index i = 0; i < at_rest.F_lambda.size(); ++i) {
+    const Freedom which = structure->meaning(i).freedom;
+    if (which == Freedom::x) sum.x() -= at_rest.F_lambda[i];
+    if (which == Freedom::z) sum.y() -= at_rest.F_lambda[i];
+  }
+  return sum;
 }
 
 // Free ends of members are preferred: a spring in a row of members is in the way of contact that slides along them.

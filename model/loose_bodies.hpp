@@ -24,6 +24,9 @@ struct LooseHolds {
 
   bool empty() const { return holds.empty(); }
 
+  /// Of the stiffest spring [force/length].
+  double stiffness() const;
+
   /// As springs of a deck, `times` as stiff.
   std::vector<deck::Spring> springs(double times = 1.0) const;
 
@@ -38,5 +41,8 @@ LooseHolds loose_holds(const deck::Deck& deck);
 /// The force by which the most flexible member resists a displacement of one of its ends: 3 EI/ℓ³ of a cantilever, of a
 /// bar EA/ℓ [force/length]. `structure` is that of the deck.
 double softest_stiffness(const deck::Deck& deck, const Structure& structure);
+
+/// The sum of the constant loads on a deck's structure, as they are at rest [force].
+Vec2 constant_resultant(const deck::Deck& deck);
 
 }  // namespace arcwall

@@ -301,19 +301,29 @@ bool Model::hold_loose_bodies() {
   return !loose_holds_.empty();
 }
 
-// The structure with springs as stiff as its members in place of those that hold loose bodies.
-std::unique_ptr<Structure> Model::held_structure(bool ramp) const {
+// The deck's structure with springs so many times as stiff in place of those that hold loose bodies.
+StructureOfDeck Model::described_if_held(double times) const {
   deck::Deck held = *deck_;
   held.springs.resize(held.springs.size() - loose_holds_.holds.size());
-  double softest = 0.0;
-  for (const LooseHolds::Hold& hold : loose_holds_.holds)
-    softest = std::max({softest, hold.stiffness.x, hold.stiffness.z});
-  const std::vector<deck::Spring> springs = loose_holds_.springs(softest_stiffness(*deck_, *structure_) / softest);
+  const std::vector<deck::Spring> springs = loose_holds_.springs(times);
   held.springs.insert(held.springs.end(), springs.begin(), springs.end());
   DeckProblems known(held.source);
   StructureOfDeck described = describe_structure(held, known);
   hold_between_walls(held, described.builder);
-  return described.builder.build(ramp);
+  return described;
+}
+
+// The structure with springs as stiff as its members in place of those that hold loose bodies.
+std::unique_ptr<Structure> Model::held_structure(bool ramp) const {
+  return described_if_held(softest_stiffness(*deck_, *structure_) / loose_holds_.stiffness()).builder.build(ramp);
+}
+
+// While constant loads grow the springs of loose bodies may bear a small part of them: which way the bodies go to their
+// rest is then no matter of round-off in the members' axial forces.
+double Model::stiffness_of_ramp_holds() const {
+  constexpr double borne = 1e-4;  // of the resultant of constant loads, by springs that give by the structure's size
+  if (loose_holds_.empty()) return 0.0;
+  return std::max(loose_holds_.stiffness(), borne * constant_resultant(*deck_).norm() / structure_->length_scale());
 }
 
 // A loose body moves by any amount under hardly any load before it meets something: the λ that would deform it counts.
@@ -329,14 +339,14 @@ double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
 }
 
 std::optional<std::string> Model::adrift(const State& state) const {
-  constexpr double far = 2.0;  // of the structure's size
+  constexpr int far = 20;  // times the structure's size: a wall may be that far
   for (std::size_t i = 0; i < held_.size(); ++i) {
     double squared = 0.0;
     for (const Freedom direction : {Freedom::x, Freedom::z})
       squared += std::pow(body_->motion(structure_->freedom(held_[i], direction))->value(state), 2.0);
     if (squared <= std::pow(far * structure_->length_scale(), 2.0)) continue;
     return "nothing holds the body at \"" + to_text(loose_holds_.holds[i].at) + "\", which has moved by more than " +
-           "twice the size of the structure";
+           std::to_string(far) + " times the size of the structure";
   }
   return std::nullopt;
 }
@@ -347,7 +357,10 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
       stage_ == 0 && (std::any_of(whole_deck_->loads.begin(), whole_deck_->loads.end(), constant) ||
                       std::any_of(whole_deck_->prescribed.begin(), whole_deck_->prescribed.end(), constant) ||
                       has_interference(*deck_));
-  if (ramp) ramp_structure_ = builder.build(true);
+  const bool falls = ramp && !loose_holds_.empty();
+  const StructureBuilder of_ramp =
+      falls ? described_if_held(stiffness_of_ramp_holds() / loose_holds_.stiffness()).builder : builder;
+  if (ramp) ramp_structure_ = of_ramp.build(true);
   if (!deck_->walls.empty()) {
     const auto held = loose_holds_.empty() ? nullptr : held_structure(false);
     const ContactScales scales = contact_scales(*deck_, *structure_, held ? *held : *structure_, deck_->path.step);
@@ -359,7 +372,17 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
       ramp_contact_ = std::make_unique<MultiplierContact>(
           *ramp_structure_, contact_candidates(with_walls_of_ramp(*deck_, *structure_), *ramp_structure_, {}, known),
           scales, law);
-    if (sliding) make_sliding(builder, ramp, scales);
+    if (!sliding) return;
+    const auto on = [&](const SlidingStructure& structure, const deck::Deck& deck, double stiffness_of_holds) {
+      ContactScales of_body = scales;
+      of_body.slack = stiffness_of_holds * structure_->length_scale();
+      return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), of_body,
+                                              deck.path.continuum);
+    };
+    sliding_ = on(*sliding_structure_, *deck_, loose_holds_.stiffness());
+    if (!ramp) return;
+    sliding_ramp_structure_ = sliding_structure(of_ramp, true);
+    sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_of_ramp(*deck_, *structure_), stiffness_of_ramp_holds());
   }
 }
 
@@ -367,16 +390,6 @@ std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilde
   return builder.build_sliding(ramp, [this](const std::string& a, const std::string& b) {
     return same_walls(*deck_, a, b) && !is_driven_apart(*whole_deck_, a) && !is_driven_apart(*whole_deck_, b);
   });
-}
-
-void Model::make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales) {
-  const auto on = [&](const SlidingStructure& structure, const deck::Deck& deck) {
-    return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), scales, deck.path.continuum);
-  };
-  sliding_ = on(*sliding_structure_, *deck_);
-  if (!ramp) return;
-  sliding_ramp_structure_ = sliding_structure(builder, true);
-  sliding_ramp_ = on(*sliding_ramp_structure_, with_walls_of_ramp(*deck_, *structure_));
 }
 
 const System& Model::system() const {
@@ -417,17 +430,22 @@ std::optional<State> Model::start(std::string& reason) const {
     ramp = sliding_ramp_.get();
     state = sliding_ramp_->start(1.0);
   }
-  Tracer tracer(*ramp, state, options);
-  while (const auto arc = tracer.next()) {
+  std::optional<Tracer> tracer(std::in_place, *ramp, state, options);
+  while (const auto arc = tracer->next()) {
     state = arc->to.state;
     if (auto why = adrift(state)) {
       reason = "the constant loads and movements find no equilibrium: " + *why;
       return std::nullopt;
     }
+    // A loose body that comes down flush on a wall touches it all along at once, which no event of a path is: it is
+    // laid down, and the ramp goes on from there.
+    const bool falls = sliding_ramp_ && !loose_holds_.empty() && state.lambda != 1.0;
+    auto lying = falls ? sliding_ramp_->with_strands_come_to_lie(state, 1.0) : std::nullopt;
+    if (lying) tracer.emplace(*ramp, std::move(*lying), options);
   }
-  if (!tracer.end() || tracer.end()->reason != EndReason::stop) {
+  if (!tracer->end() || tracer->end()->reason != EndReason::stop) {
     reason = "the constant loads and movements find no equilibrium: their growth ends at " +
-             std::to_string(state.lambda) + " of their value (" + (tracer.end() ? tracer.end()->detail : "") + ")";
+             std::to_string(state.lambda) + " of their value (" + (tracer->end() ? tracer->end()->detail : "") + ")";
     return std::nullopt;
   }
   if (sliding_) {

@@ -19,6 +19,8 @@
 
 namespace arcwall {
 
+struct StructureOfDeck;
+
 /// A column of path.csv.
 struct MonitorColumn {
   std::string name{};
@@ -114,12 +116,13 @@ class Model {
   // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
   Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional<std::vector<DrivenThing>> progress);
   bool hold_loose_bodies();
+  StructureOfDeck described_if_held(double times) const;
   std::unique_ptr<Structure> held_structure(bool ramp) const;
+  double stiffness_of_ramp_holds() const;
   double lambda_scale_if_held(const deck::Deck& deck, bool ramp) const;
   std::unique_ptr<SlidingStructure> sliding_structure(const StructureBuilder& builder, bool ramp) const;
   // Also the structure under what is constant alone.
   void make_contact(const StructureBuilder& builder, std::vector<Candidate> candidates, bool sliding);
-  void make_sliding(const StructureBuilder& builder, bool ramp, const ContactScales& scales);
 
   std::shared_ptr<const deck::Deck> whole_deck_;
   Index stage_ = 0;
