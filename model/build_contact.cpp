@@ -152,6 +152,24 @@ RigidMotion motion_of(const deck::Wall& wall) {
           .rate = motion.progress.proportional};
 }
 
+std::vector<deck::Wall> parts_of(const deck::Wall& wall) {
+  const auto* line = wall.outline ? std::get_if<deck::PolylineOutline>(&*wall.outline) : nullptr;
+  if (line == nullptr || wall.corner_radius > 0.0) return {wall};
+  std::vector<deck::Wall> parts;
+  for (deck::PolylineOutline& part : line->without_hollows()) {
+    parts.push_back(wall);
+    parts.back().outline = std::move(part);
+  }
+  return parts;
+}
+
+std::vector<deck::Wall> walls_in_parts(const deck::Deck& deck) {
+  std::vector<deck::Wall> walls;
+  for (const deck::Wall& wall : deck.walls)
+    for (deck::Wall& part : parts_of(wall)) walls.push_back(std::move(part));
+  return walls;
+}
+
 std::unique_ptr<Outline> outline_of(const deck::Wall& wall) {
   struct Maker {
     double corner_radius;
@@ -266,7 +284,8 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
     return false;
   }
   const double off = kept_off(wall, mesh.height.value_or(0.0));
-  if (has_sharp_corners(wall) && off == 0.0 && !has_knife_edge(wall, known)) {
+  const std::vector<deck::Wall> parts = parts_of(wall);
+  if (off == 0.0 && std::any_of(parts.begin(), parts.end(), has_sharp_corners) && !has_knife_edge(wall, known)) {
     problems.add(
         wall.position, "wall.corner_radius",
         "the corners of the outline are sharp, and members touch it with their axes: that is modelled only where "
@@ -274,7 +293,9 @@ bool can_touch(const deck::Wall& wall, const MemberMesh& mesh, const PinchedPlac
         "give a corner_radius, or let faces touch, with acts_on = \"face\"");
     return false;
   }
-  if (const double hollow = outline_of(wall)->sharpest_hollow(); off * hollow >= 1.0) {
+  double hollow = 0.0;
+  for (const deck::Wall& part : parts) hollow = std::max(hollow, outline_of(part)->sharpest_hollow());
+  if (off * hollow >= 1.0) {
     problems.add(wall.position, "wall.outline",
                  fmt::format("the outline is hollow with a radius of {:.4g} somewhere, and member \"{}\" with half its "
                              "height, {:.4g}, does not fit into it",
@@ -414,7 +435,7 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
 
 std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
   std::vector<SlidingObstacle> obstacles;
-  for (const deck::Wall& wall : deck.walls) {
+  for (const deck::Wall& wall : walls_in_parts(deck)) {
     // To an outline those strands that keep their axes at one distance from it.
     const auto concerned = [&](Index strand) {
       return concerns(wall, structure.label({.strand = strand, .s = 0.0}).first);

@@ -17,6 +17,11 @@ namespace arcwall {
 /// How λ moves a wall.
 RigidMotion motion_of(const deck::Wall& wall);
 
+/// The walls of which a wall with sharp hollow corners is made: what is in such a corner touches two of them. Itself
+/// where it has none. All have its name.
+std::vector<deck::Wall> parts_of(const deck::Wall& wall);
+std::vector<deck::Wall> walls_in_parts(const deck::Deck& deck);
+
 /// What stands in the way where the deck has a wall: to a profile that of the body's faces, to an outline that of an
 /// axis from which the body's outside is this far.
 std::shared_ptr<const Obstacle> obstacle_of(const deck::Wall& wall, double half_height = 0.0);

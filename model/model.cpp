@@ -46,6 +46,9 @@ bool moves_walls(const deck::Deck& deck) {
                      [](const deck::Wall& wall) { return !motion_of(wall).is_none(); });
 }
 
+// By so many times the structure's size loose bodies may move before they count as adrift: a wall may be that far.
+constexpr int farthest = 20;
+
 // Forces below the tolerance times this scale count as zero: small against what λ brings in a step, above the round-off
 // of the mesh. `held` is the structure with supports for what nothing but contact holds.
 ContactScales contact_scales(const deck::Deck& deck, const Structure& structure, const Structure& held,
@@ -113,6 +116,17 @@ bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::Pa
 bool may_slide(const deck::Deck& deck, const StructureBuilder& builder) {
   return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::sliding &&
          deck.contact.method == ContactLaw::Method::rigid && !increments_of(deck) && builder.can_slide();
+}
+
+// A node that is a contact touches a wall once.
+void check_hollow_corners(const deck::Deck& deck, DeckProblems& problems) {
+  for (const deck::Wall& wall : deck.walls)
+    if (parts_of(wall).size() > 1)
+      problems.add(
+          wall.position, "wall.outline",
+          "the outline has hollow corners that are sharp: what touches in one touches two lines at once, which "
+          "contact at nodes does not know",
+          "give a corner_radius, or make a wall of each line");
 }
 
 // Whether contact points slide, which springs, increments and members of other theories do not allow.
@@ -244,6 +258,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
   auto candidates = contact_candidates(*deck_, *structure_, pinched, stage_ == 0 ? problems : not_at_rest);
   const bool sliding = slides(*deck_, described.builder, candidates, problems);
   if (!sliding) sliding_structure_.reset();
+  if (!sliding) check_hollow_corners(*deck_, problems);
   if (problems.empty()) make_contact(described.builder, std::move(candidates), sliding);
   for (const LooseHolds::Hold& hold : loose_holds_.holds)
     held_.push_back(described.places.find(hold.at, structure_->members()).node);
@@ -339,14 +354,13 @@ double Model::lambda_scale_if_held(const deck::Deck& deck, bool ramp) const {
 }
 
 std::optional<std::string> Model::adrift(const State& state) const {
-  constexpr int far = 20;  // times the structure's size: a wall may be that far
   for (std::size_t i = 0; i < held_.size(); ++i) {
     double squared = 0.0;
     for (const Freedom direction : {Freedom::x, Freedom::z})
       squared += std::pow(body_->motion(structure_->freedom(held_[i], direction))->value(state), 2.0);
-    if (squared <= std::pow(far * structure_->length_scale(), 2.0)) continue;
+    if (squared <= std::pow(farthest * structure_->length_scale(), 2.0)) continue;
     return "nothing holds the body at \"" + to_text(loose_holds_.holds[i].at) + "\", which has moved by more than " +
-           std::to_string(far) + " times the size of the structure";
+           std::to_string(farthest) + " times the size of the structure";
   }
   return std::nullopt;
 }
@@ -375,7 +389,7 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
     if (!sliding) return;
     const auto on = [&](const SlidingStructure& structure, const deck::Deck& deck, double stiffness_of_holds) {
       ContactScales of_body = scales;
-      of_body.slack = stiffness_of_holds * structure_->length_scale();
+      of_body.slack = stiffness_of_holds * farthest * structure_->length_scale();
       return std::make_unique<SlidingContact>(structure, sliding_obstacles(deck, structure), of_body,
                                               deck.path.continuum);
     };

@@ -79,8 +79,7 @@ class CurveVerifier {
     const Scales scales{
         .length = model.structure().length_scale(),
         .force = model.contact() != nullptr ? model.contact()->scales().force : model.structure().force_scale()};
-    std::vector<PlainWall> walls;
-    for (const deck::Wall& wall : model.deck().walls) walls.emplace_back(wall);
+    const std::vector<PlainWall> walls = walls_of(model.deck());
     const RecordPoint as_of_run{.lambda = state.lambda, .state = state};
     const PointAtHand at = at_hand(model, as_of_run, walls, scales);
     check_contacts(at, findings);

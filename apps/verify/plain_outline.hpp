@@ -46,7 +46,7 @@ class PlainOutline {
   };
   OnCurve on_curve(double a) const;
 
-  const deck::Outline& outline_;
+  deck::Outline outline_;
   bool is_closed_ = true;
   double width_ = infinity;
   std::vector<Part> parts_{};

@@ -6,6 +6,7 @@
 
 #include "apps/verify/plain_knot.hpp"
 #include "core/unit_tangent.hpp"
+#include "model/build_contact.hpp"
 
 namespace arcwall::verify {
 
@@ -163,6 +164,12 @@ Vec2 PlainWall::normal(const Vec2& point) const {
 Vec2 PlainWall::touched_by(const Vec2& point, double half_height) const {
   const double off = kept_off(half_height);
   return off > 0.0 && faces(point) ? Vec2(point - off * perp(unit_tangent(slope_angle(point)))) : point;
+}
+
+std::vector<PlainWall> walls_of(const deck::Deck& deck) {
+  std::vector<PlainWall> walls;
+  for (const deck::Wall& wall : walls_in_parts(deck)) walls.emplace_back(wall);
+  return walls;
 }
 
 const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string& name) {

@@ -84,7 +84,7 @@ class PlainWall {
   Vec2 at_rest(const Vec2& point) const;  // the point as the wall sees it, which moves and turns with λ
   double turned() const { return wall_.motion ? progress_ * wall_.motion->rotation : 0.0; }
 
-  const deck::Wall& wall_;
+  deck::Wall wall_;
   double progress_ = 0.0;         // of its motion
   std::vector<double> second_{};  // derivatives of a spline at its knots
   std::shared_ptr<const PlainOutline> outline_{};
@@ -95,6 +95,9 @@ using WallsOfStages = std::vector<std::vector<PlainWall>>;
 
 /// The walls where they are at a λ.
 std::vector<PlainWall> walls_at(const std::vector<PlainWall>& walls, double lambda);
+
+/// The walls of a deck, those with sharp hollow corners in their parts, which have one name.
+std::vector<PlainWall> walls_of(const deck::Deck& deck);
 
 /// The wall of that name, which there must be.
 const PlainWall& wall_of(const std::vector<PlainWall>& walls, const std::string& name);

@@ -75,12 +75,16 @@ double gap_on_strand(const Model& model, const State& state, const PlainWall& wa
 }
 
 std::optional<double> gap(const PointAtHand& at, const deck::Monitor& monitor) {
-  const auto is_meant = [&](const PlainWall& wall) { return wall.deck().name == monitor.wall; };
-  const PlainWall& wall = *std::find_if(at.walls.begin(), at.walls.end(), is_meant);
-  const auto node = node_of(at.model, monitor.at, wall);
-  if (!node) return std::nullopt;
-  return at.model.sliding() != nullptr ? gap_on_strand(at.model, at.point.state, wall, *node)
-                                       : gap_on_nodes(at.model, at.point.state, wall, *node);
+  std::optional<double> least;
+  for (const PlainWall& wall : at.walls) {  // a wall may have parts
+    if (wall.deck().name != monitor.wall) continue;
+    const auto node = node_of(at.model, monitor.at, wall);
+    if (!node) return std::nullopt;
+    const double gap = at.model.sliding() != nullptr ? gap_on_strand(at.model, at.point.state, wall, *node)
+                                                     : gap_on_nodes(at.model, at.point.state, wall, *node);
+    least = std::min(gap, least.value_or(infinity));
+  }
+  return least;
 }
 
 // --- springs --------------------------------------------------------------------------------------------------------

@@ -11,8 +11,17 @@ namespace {
 
 using Span = SlidingContactLayout::Span;
 
+// Of a wall in parts each is as many obstacles as the others, one after the other.
 const PlainWall& wall_of_obstacle(const Sliding& at, const std::vector<PlainWall>& walls, std::size_t obstacle) {
-  return wall_of(walls, at.model.sliding()->obstacles()[obstacle].name);
+  const auto& obstacles = at.model.sliding()->obstacles();
+  const std::string& name = obstacles[obstacle].name;
+  const auto is_of_wall = [&](const auto& other) { return other.name == name; };
+  const auto is_part = [&](const PlainWall& wall) { return wall.deck().name == name; };
+  const auto all = std::count_if(obstacles.begin(), obstacles.end(), is_of_wall);
+  const auto before = std::count_if(obstacles.begin(), obstacles.begin() + static_cast<Index>(obstacle), is_of_wall);
+  auto part = std::find_if(walls.begin(), walls.end(), is_part);
+  part += before * std::count_if(walls.begin(), walls.end(), is_part) / all;
+  return *part;
 }
 
 Touch sliding_touch(const std::shared_ptr<const Sliding>& at, const PlainWall& wall, const SlidingNode& node) {

@@ -142,10 +142,8 @@ class Verifier {
         scales_(scales_of(model)),
         path_rows_(csv_rows(files.path_csv)),
         contact_rows_(csv_rows(files.contacts_csv)) {
-    for (Index stage = 0; stage <= static_cast<Index>(model.ended_stages().size()); ++stage) {
-      auto& walls = walls_.emplace_back();
-      for (const deck::Wall& wall : model.at_stage(stage).deck().walls) walls.emplace_back(wall);
-    }
+    for (Index stage = 0; stage <= static_cast<Index>(model.ended_stages().size()); ++stage)
+      walls_.push_back(walls_of(model.at_stage(stage).deck()));
   }
 
   Verdict run(const StoredFiles& files) {

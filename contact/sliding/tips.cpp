@@ -122,8 +122,11 @@ enum class Beyond {
 Beyond beyond_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   constexpr double in_line = 1e-9;  // sine of the angle between both strands
   const auto other = setting.body.joined_end(end.strand, end.last);
-  for (std::size_t w = 0; other && w < setting.obstacles.size(); ++w) {
-    const bool is_of_wall = setting.obstacles[w].name == setting.obstacles[end.obstacle].name;
+  if (!other) return Beyond::nothing;
+  const bool same_obstacle = setting.obstacles[end.obstacle].concerns(other->strand);
+  for (std::size_t w = 0; w < setting.obstacles.size(); ++w) {
+    const bool is_of_wall =
+        same_obstacle ? w == end.obstacle : setting.obstacles[w].name == setting.obstacles[end.obstacle].name;
     if (!is_of_wall || !setting.obstacles[w].concerns(other->strand)) continue;
     const double step =
         setting.half_height_touched(w, other->strand) - setting.half_height_touched(end.obstacle, end.strand);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "contact/outline.hpp"
 #include "core/text.hpp"
 #include "model/deck/value.hpp"
 #include "model/deck/words.hpp"
@@ -42,6 +43,60 @@ SectionProperties properties_of(const General& shape) {
 
 SectionProperties properties(const Section& section) {
   return std::visit([](const auto& shape) { return properties_of(shape); }, section.shape);
+}
+
+namespace {
+
+// Whether a closed outline is given in the order in which the body is to the right.
+bool runs_the_other_way(const OutlinePoints& outline) {
+  return outline.closed && (doubled_area(outline.points()) > 0.0) == (outline.keep == Keep::outside);
+}
+
+}  // namespace
+
+std::vector<PolylineOutline::Corner> PolylineOutline::corners() const {
+  const std::vector<Vec2> all = points();
+  const std::size_t count = all.size(), margin = closed ? 0 : 1;
+  const double left = runs_the_other_way(*this) ? -1.0 : 1.0;
+  std::vector<Corner> corners;
+  for (std::size_t i = margin; i + margin < count; ++i) {
+    const Vec2 before = all[i] - all[(i + count - 1) % count], behind = all[(i + 1) % count] - all[i];
+    corners.push_back(
+        {.point = i, .turn = left * turn_between(before, behind), .before = before.norm(), .behind = behind.norm()});
+  }
+  return corners;
+}
+
+std::vector<PolylineOutline> PolylineOutline::without_hollows() const {
+  constexpr double beyond = 1e-3;  // of the line that ends in a hollow
+  const std::vector<Vec2> all = points();
+  std::vector<std::size_t> cuts;
+  for (const Corner& corner : corners())
+    if (corner.is_hollow()) cuts.push_back(corner.point);
+  if (cuts.size() < (closed ? 2U : 1U)) return {*this};
+  const std::size_t count = all.size();
+  if (closed) {
+    cuts.push_back(cuts.front() + count);
+  } else {
+    cuts.insert(cuts.begin(), 0);
+    cuts.push_back(count - 1);
+  }
+  std::vector<PolylineOutline> parts;
+  for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+    std::vector<Vec2> line;
+    for (std::size_t i = cuts[c]; i <= cuts[c + 1]; ++i) line.push_back(all[i % count]);
+    const auto lengthen = [&](Vec2& end, const Vec2& inner) { end += beyond * (end - inner); };
+    const Vec2 second = line[1], last_but_one = line[line.size() - 2];
+    if (closed || c > 0) lengthen(line.front(), second);
+    if (closed || c + 2 < cuts.size()) lengthen(line.back(), last_but_one);
+    if (runs_the_other_way(*this)) std::reverse(line.begin(), line.end());
+    PolylineOutline& part = parts.emplace_back();
+    for (const Vec2& point : line) {
+      part.x.push_back(point.x());
+      part.z.push_back(point.y());
+    }
+  }
+  return parts;
 }
 
 std::vector<Vec2> OutlinePoints::points() const {

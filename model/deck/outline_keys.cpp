@@ -96,42 +96,22 @@ void points_keys(Keys& keys, OutlinePoints& outline) {
   if (const auto fault = fault_of(outline)) keys.report("x", fault->message, fault->cure);
 }
 
-// A corner of a polyline: how much it turns to the left, and the shorter of the lines that meet there.
-struct Corner {
-  Vec2 place{};
-  double turn = 0.0, before = 0.0, behind = 0.0;
-};
-
-std::vector<Corner> corners_of(const PolylineOutline& outline) {
-  const std::vector<Vec2> points = outline.points();
-  const std::size_t count = points.size();
-  std::vector<Corner> corners;
-  for (std::size_t i = outline.closed ? 0 : 1; i + (outline.closed ? 0 : 1) < count; ++i) {
-    const Vec2 before = points[i] - points[(i + count - 1) % count], behind = points[(i + 1) % count] - points[i];
-    corners.push_back(
-        {.place = points[i], .turn = turn_between(before, behind), .before = before.norm(), .behind = behind.norm()});
-  }
-  const bool runs_the_other_way = outline.closed && (doubled_area(points) > 0.0) == (outline.keep == Keep::outside);
-  if (runs_the_other_way)
-    for (Corner& corner : corners) corner.turn = -corner.turn;
-  return corners;
-}
-
 void check_corners(Keys& keys, const Wall& wall, const PolylineOutline& outline) {
-  constexpr double straight = 1e-9, turned_back = pi - 1e-6;  // [rad]
-  const std::vector<Corner> corners = corners_of(outline);
+  constexpr double turned_back = pi - 1e-6;  // [rad]
+  using Corner = PolylineOutline::Corner;
+  const std::vector<Corner> corners = outline.corners();
   const double radius = wall.corner_radius;
   const auto taken = [&](const Corner& corner) { return radius * std::tan(0.5 * std::abs(corner.turn)); };
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner& corner = corners[i];
-    const std::string where = "the corner at " + text_of_point(corner.place);
+    const std::string where = "the corner at " + text_of_point(outline.points()[corner.point]);
     if (std::abs(corner.turn) > turned_back)
       return keys.report("outline", where + " turns back on itself", "leave a width between the lines");
-    if (radius == 0.0 && corner.turn > straight)
+    if (radius == 0.0 && corner.is_hollow() && outline.without_hollows().size() == 1)
       return keys.report("outline",
                          where +
-                             " is hollow and sharp: what touches in it touches two lines at once, which is not "
-                             "modelled",
+                             " is hollow and sharp, and no other one is: what touches in it touches the outline twice, "
+                             "which is not modelled",
                          "give a corner_radius, or make two walls of it");
     const bool has_next = outline.closed || i + 1 < corners.size();
     const double next = has_next ? taken(corners[(i + 1) % corners.size()]) : 0.0;

@@ -91,7 +91,22 @@ struct OutlinePoints {
 };
 
 /// Straight between the points; Wall::corner_radius rounds the corners.
-struct PolylineOutline : OutlinePoints {};
+struct PolylineOutline : OutlinePoints {
+  /// A corner: which of the points, how much the outline turns there towards the body [rad], and the lengths of the
+  /// lines before and behind.
+  struct Corner {
+    std::size_t point = 0;
+    double turn = 0.0, before = 0.0, behind = 0.0;
+
+    /// Whether the body is in a hollow there, between two lines.
+    bool is_hollow() const { return turn > 1e-9; }
+  };
+  std::vector<Corner> corners() const;
+
+  /// The outline in parts without hollow corners, which reach a little beyond these: what is in such a corner touches
+  /// two of them. Itself where it has none, or is closed and has one alone, so that no parts are to be told apart.
+  std::vector<PolylineOutline> without_hollows() const;
+};
 
 /// C² interpolating cubic by chord length.
 struct CurveOutline : OutlinePoints {};

@@ -151,7 +151,8 @@ TEST(BadDecks, SupportsAndLoads) {
 
 TEST(BadDecks, Outlines) {
   const char* const ramp = "x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0]";
-  const char* const open_ramp = "z = [-30.0, -20.0, -31.0], closed = true, keep = \"outside\" }\ncorner_radius = 0.125";
+  const char* const closed_ramp =
+      "x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, keep = \"outside\" }\ncorner_radius = 0.125";
   expect_refused({
       {"name = \"stop\"", "name = \"stop\"\nside = \"above\"", "wall.5.side", "belongs to a profile", 1},
       {"name = \"stop\"", "name = \"stop\"\nprofile = { type = \"flat\", z = 9.0 }", "wall.5.profile",
@@ -178,8 +179,10 @@ TEST(BadDecks, Outlines) {
       {ramp, "x = [10.5, 20.0, 30.0, 10.5], z = [-30.0, -20.0, -31.0, -30.0]", "wall.7.outline.x",
        "where the outline closes; leave the last point out"},
       {ramp, "x = [0.0, 1.0, 1.0, 0.0], z = [-30.0, -29.0, -30.0, -29.0]", "wall.7.outline.x", "crosses itself"},
-      {open_ramp, "z = [-30.0, -40.0, -31.0] }\ncorner_radius = 0.0", "wall.7.outline",
-       "hollow and sharp: what touches in it"},
+      {closed_ramp,
+       "x = [10.5, 20.0, 30.0, 20.0], z = [-30.0, -20.0, -31.0, -24.0], closed = true, keep = \"outside\" }\n"
+       "corner_radius = 0.0",
+       "wall.7.outline", "the corner at (20, -24) is hollow and sharp, and no other one is"},
       {"x = [10.5, 20.0, 30.0], z = [-30.0, -20.0, -31.0], closed = true, keep = \"outside\" }",
        "x = [10.5, 20.0, 11.0], z = [-30.0, -30.0, -30.0] }", "wall.7.outline", "turns back on itself"},
       {"corner_radius = 0.125", "corner_radius = 9.0", "wall.7.corner_radius", "too short; give a smaller"},
