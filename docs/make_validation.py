@@ -544,8 +544,18 @@ What is no structure of a deck is compared in `tests/published` with closed form
 exact folds of its difference scheme, the sinusoidal shallow arch, the star dome with its double points, and the normal forms of
 singular points.
 
-Parts that lift off a straight wall are compared with the place where κ₀″ = 0 on four meshes each, and no wall pulls
-(`tests/apps/lifting_parts_test.cpp`).
+Parts that lift off a straight wall are compared with the place where κ₀″ = 0 on four meshes each, and no wall pulls; and a touch
+beside a short arch that becomes a part with a beam of small slopes, solved by series and polynomials: loads to 2e-7, places to 1e-8
+(`tests/apps/lifting_parts_test.cpp`). Changes of contact stay where they are to 1e-9 whatever value is landed on right behind them
+(`tests/apps/values_behind_changes_test.cpp`). An arch between two touches of which one becomes a part (loads to 1e-6 and 1e-5), a touch that
+spreads beside a neutral span (5e-7), and three toggles that come back to their upright path above a floor (2e-8 to 3e-6) are compared with
+own shooting (`tests/model/part_loads_test.cpp`, `tests/model/missed_corners_test.cpp`), and so is a touch that becomes two beside a point of a spline that pushes, to
+the load at which one of them lets go (4e-10 on 52 elements; `tests/apps/curved_parts_test.cpp`).
+
+Rods that nothing but a bore holds are compared with own shooting: in a round one the loads at which the middle touches and spreads (1e-7 on 48 elements), in a
+square one those at which the foot and the top come to lie on its walls, and where the top is at ten times that load; on its floor with closed forms of
+small slopes: a force lifts 2 F/q of it, a moment √(2 M/q) (`tests/apps/loading/rods_in_bores_test.cpp`). A column between four pegs touches three of them one after the
+other where own shooting says so (5e-9 on 48 elements; `tests/apps/four_pegs_test.cpp`).
 
 Whole runs of ten decks are compared in `tests/apps/deck_answers_test.cpp`, event by event, six of them with closed forms and
 shooting and four with finer meshes and shorter steps: bounds just behind the spreading of a touch, stops that are smaller than an

@@ -77,6 +77,12 @@ bool is_pressed_at(const SlidingSetting& setting, const SlidingState& at, Index 
   return true;
 }
 
+bool has_pinched_point(const SlidingState& at, Index strand) {
+  const auto& pinched = at.layout.pinched_points();
+  return std::any_of(pinched.begin(), pinched.end(),
+                     [&](std::size_t point) { return at.mesh.breakpoint(static_cast<Index>(point)).first == strand; });
+}
+
 std::optional<std::size_t> pressed_along(const SlidingSetting& setting, const SlidingState& at, Index strand,
                                          double toward, double touching) {
   for (std::size_t w = 0; w < setting.obstacles.size(); ++w)
@@ -103,6 +109,7 @@ State with_strands_lying(const SlidingSetting& setting, const SlidingState& rest
   constexpr double touching = 1e-9;
   LayoutEdit edit = edit_of(setting.body, rest);
   for (Index strand = 0; strand < setting.body.strands(); ++strand) {
+    if (rest.layout.point_at_end(strand, false)) continue;  // it is pinched
     const auto obstacle = pressed_along(setting, rest, strand, toward, touching);
     if (obstacle) lay_down(setting, strand, *obstacle, edit);
   }
@@ -114,7 +121,7 @@ std::optional<State> with_strands_come_to_lie(const SlidingSetting& setting, con
   LayoutEdit edit = edit_of(setting.body, at);
   bool changed = false;
   for (Index strand = 0; strand < setting.body.strands(); ++strand) {
-    if (at.layout.lies_on(strand)) continue;
+    if (at.layout.lies_on(strand) || has_pinched_point(at, strand)) continue;
     const auto obstacle = pressed_along(setting, at, strand, toward, touching);
     if (!obstacle) continue;
     const int elements = elements_asked(setting.body, strand, 0.0, setting.body.length(strand), fewest_pressed(true));

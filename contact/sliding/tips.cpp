@@ -282,6 +282,11 @@ std::vector<Transition> peel_off_from_tips(const SlidingSetting& setting, const 
   std::vector<Transition> transitions;
   for (const double factor : {2.0, 8.0, 32.0, 128.0}) {
     const double length = factor * shortest_tail(setting.body, tips.front().strand);
+    const auto has_room = [&](const StrandEnd& tip) {
+      const auto [from, to] = at.layout.ends(setting.body, at.layout.segment_at_end(tip.strand, tip.last), at.now.s);
+      return length <= 0.5 * (to - from) / double(tips.size());
+    };
+    if (!std::all_of(tips.begin(), tips.end(), has_room)) break;
     LayoutEdit edit = edit_of(setting.body, at);
     std::vector<Index> contacts;
     for (const auto& [strand, last] : tips) {

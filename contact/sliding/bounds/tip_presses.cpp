@@ -9,14 +9,14 @@ namespace arcwall::sliding {
 
 namespace {
 
-constexpr double lifted = -1.0;  // value of the bound of a tip that does not touch while the part is pressed up to it
-constexpr double round_off = 1e-9;  // of the force scale
+constexpr double off_its_obstacle = -1.0;  // value where the tip does not touch and the part is pressed up to it
+constexpr double round_off = 1e-9;         // of the force scale
 
 }  // namespace
 
 double TipPressesBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto contact = pressed_contact(setting, at, end());
-  if (!contact) return lifted;
+  if (!contact) return off_its_obstacle;
   const double carried = carried_at_end(setting, at, setting.free_ends[*contact].seen_from(end()));
   const double hardly_lifts = setting.scales.slack / setting.scales.force + round_off;
   return (at.force(at.layout.points().size() + *contact) - carried) / setting.scales.force + hardly_lifts;

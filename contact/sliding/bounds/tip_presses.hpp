@@ -6,7 +6,7 @@ namespace arcwall::sliding {
 
 /// The force that is put on a tip up to which a part is pressed on an obstacle, into that: behind the bound it lifts
 /// the tip, and the part peels off from there, however little it is. The pressure beside the tip, of which its contact
-/// bears a share, does not hold it. Positive where the tip does not touch.
+/// bears a share, does not hold it. Negative where the tip does not touch.
 class TipPressesBound final : public ValidityBound {
  public:
   TipPressesBound(Index strand, bool last) : strand_(strand), last_(last) {}
