@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -400,9 +401,21 @@ void Model::make_contact(const StructureBuilder& builder, std::vector<Candidate>
   }
 }
 
+// The strands of the ramp are those of the path, on which λ may load two members differently that what is constant
+// loads alike.
 std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilder& builder, bool ramp) const {
-  return builder.build_sliding(ramp, [this](const std::string& a, const std::string& b) {
-    return same_walls(*deck_, a, b) && !is_driven_apart(*whole_deck_, a) && !is_driven_apart(*whole_deck_, b);
+  const auto strands_at_ends = [this](const std::string& member) {
+    constexpr double inside = 1e-9;  // fraction
+    return std::array{sliding_structure_->find(member, inside).strand,
+                      sliding_structure_->find(member, 1.0 - inside).strand};
+  };
+  const auto are_joined = [&](const std::string& a, const std::string& b) {
+    const auto of_a = strands_at_ends(a), of_b = strands_at_ends(b);
+    return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
+  };
+  return builder.build_sliding(ramp, [&](const std::string& a, const std::string& b) {
+    return same_walls(*deck_, a, b) && !is_driven_apart(*whole_deck_, a) && !is_driven_apart(*whole_deck_, b) &&
+           (!ramp || are_joined(a, b));
   });
 }
 

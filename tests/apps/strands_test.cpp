@@ -112,4 +112,48 @@ TEST(Strands, RunThroughMembersOfEitherDirection) {
   }
 }
 
+// What is constant loads both halves of a beam alike, λ one of them: they are two strands from the start on, also while
+// the constant loads grow. In small slopes the middle sags by 5 q L⁴/384 EI, and a load on a half moves it by half of
+// that.
+TEST(Strands, AreThoseOfThePathWhileConstantLoadsGrow) {
+  const double q = 1e-6, EI = 1.0, L = 20.0, sag = 5.0 * q * L * L * L * L / (384.0 * EI);
+  const TracedDeck traced(R"(
+title = "Beam"
+material.m = { E = 1.0 }
+section.s = { shape = "rectangle", width = 12.0, height = 1.0 }
+point = { A = [0.0, 0.0], C = [10.0, 0.0], B = [20.0, 0.0] }
+support = { A = ["x", "z"], B = ["z"] }
+[member]
+left = { from = "A", to = "C", theory = "elastica", material = "m", section = "s", elements = 10 }
+right = { from = "C", to = "B", theory = "elastica", material = "m", section = "s", elements = 10 }
+[[wall]]
+name = "floor"
+side = "below"
+profile = { type = "flat", z = -0.8 }
+[[load]]
+on = "left"
+distributed = [0.0, -1e-6]
+constant = true
+[[load]]
+on = "right"
+distributed = [0.0, -1e-6]
+constant = true
+[[load]]
+on = "right"
+distributed = [0.0, 1e-6]
+[path]
+step = 0.05
+max_step = 0.05
+landing = false
+stop = { lambda = [-0.1, 1.0] }
+[[monitor]]
+name = "middle"
+at = "C"
+component = "z"
+)");
+  EXPECT_NEAR(traced.record().points.front().monitors[0], -sag, 1e-3 * sag);
+  EXPECT_NEAR(traced.record().points.back().monitors[0], -0.5 * sag, 1e-3 * sag);
+  expect_confirmed(traced);
+}
+
 }  // namespace arcwall::strands_test
