@@ -62,6 +62,13 @@ SlidingContact::SlidingContact(const SlidingBody& body, std::vector<SlidingObsta
 
 SlidingContact::~SlidingContact() = default;
 
+std::vector<SlidingContact::EndContact> SlidingContact::ends() const {
+  std::vector<EndContact> ends;
+  for (const FreeEnd& end : setting_->free_ends)
+    ends.push_back({.strand = end.strand, .last = end.last, .obstacle = end.obstacle});
+  return ends;
+}
+
 const ContactScales& SlidingContact::scales() const { return setting_->scales; }
 const SlidingBody& SlidingContact::body() const { return setting_->body; }
 const std::vector<SlidingObstacle>& SlidingContact::obstacles() const { return setting_->obstacles; }

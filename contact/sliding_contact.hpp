@@ -118,6 +118,15 @@ class SlidingContact final : public System, public ContactQuery {
   /// The least gap at `places` points of each element against every obstacle, flat parts included [length].
   double least_gap(const State& state, int places) const;
 
+  /// The ends of strands with the obstacles that may touch them: the contacts behind those of the points, in their
+  /// order.
+  struct EndContact {
+    Index strand = 0;
+    bool last = false;
+    std::size_t obstacle = 0;
+  };
+  std::vector<EndContact> ends() const;
+
   /// Where two obstacles leave the body no clearance: two contacts each that are closed for good.
   struct PinchedPlace {
     std::string obstacle{}, other{};  ///< their names

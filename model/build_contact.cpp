@@ -433,6 +433,26 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
                      [&](const deck::Wall& wall) { return concerns(wall, a) == concerns(wall, b); });
 }
 
+namespace {
+
+// Whether a wall that is straight all along has more than a half of its normal in x: where it is and goes is no matter,
+// so that the ramp and all stages of a deck have the same contacts.
+bool stands_across(const deck::Wall& wall) {
+  constexpr double across = 0.5;
+  Vec2 along = Vec2::UnitX();
+  if (!wall.outline) {
+    if (const auto* line = std::get_if<deck::LineProfile>(&wall.profile)) along = {1.0, line->slope};
+  } else if (const auto* plane = std::get_if<deck::HalfPlaneOutline>(&*wall.outline)) {
+    along = {plane->normal.z, -plane->normal.x};
+  } else if (const auto* line = std::get_if<deck::PolylineOutline>(&*wall.outline)) {
+    const std::vector<Vec2> points = line->points();
+    if (points.size() == 2) along = points[1] - points[0];
+  }
+  return std::abs(along.normalized().y()) > across;
+}
+
+}  // namespace
+
 std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const SlidingStructure& structure) {
   std::vector<SlidingObstacle> obstacles;
   for (const deck::Wall& wall : walls_in_parts(deck)) {
@@ -449,7 +469,8 @@ std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const Sli
     for (const double off : distances) {
       SlidingObstacle obstacle{.name = wall.name,
                                .surface = obstacle_of(wall, off),
-                               .on_face = wall.acts_on == deck::ActsOn::face && !wall.outline};
+                               .on_face = wall.acts_on == deck::ActsOn::face && !wall.outline,
+                               .stands_across = stands_across(wall)};
       for (Index strand = 0; strand < structure.strands(); ++strand) {
         const bool keeps = kept_off(wall, 2.0 * structure.half_height(strand)) == off;
         obstacle.strands.push_back(concerned(strand) && keeps ? 1 : 0);

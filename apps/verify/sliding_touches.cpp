@@ -109,27 +109,6 @@ Tangency tangency(const std::shared_ptr<const Sliding>& at, const PlainWall& wal
   return tangency;
 }
 
-// Free ends of runs, walls outside: the order in which a piece has them behind its points.
-std::vector<std::pair<SlidingNode, const PlainWall*>> free_ends(const Sliding& at,
-                                                                const std::vector<PlainWall>& walls) {
-  std::vector<std::pair<SlidingNode, const PlainWall*>> ends;
-  const auto concerns = [&](const PlainWall& wall, Index strand) {
-    return wall.concerns(at.body.label({.strand = strand, .s = 0.0}).first);
-  };
-  for (Index strand = 0; strand < at.body.strands(); ++strand)
-    for (const PlainWall& wall : walls)
-      for (const bool last : {false, true}) {
-        if (!concerns(wall, strand) || at.body.end_is_held(strand, last)) continue;
-        const bool on_axis = wall.has_outline() || wall.deck().acts_on == deck::ActsOn::axis;
-        const StrandEnd first = at.body.first_of_joint(strand, last, on_axis);
-        const bool is_as_thick = wall.deck().acts_on == deck::ActsOn::axis ||
-                                 at.body.half_height(first.strand) == at.body.half_height(strand);
-        if (first != StrandEnd{.strand = strand, .last = last} && is_as_thick && concerns(wall, first.strand)) continue;
-        ends.push_back({{.strand = strand, .position = last ? at.mesh.nodes(strand) - 1 : 0}, &wall});
-      }
-  return ends;
-}
-
 // The pinch of a wall that is nearest a place.
 SlidingContact::PinchedPlace pinch_of(const Sliding& at, const std::string& wall, const Vec2& place) {
   const auto pinches = at.model.sliding()->pinches();
@@ -227,9 +206,11 @@ Touches sliding_touches(const Model& model, const std::vector<PlainWall>& walls,
     touches.tangencies.push_back(tangency(at, wall, sliding_touch(at, wall, node), node, std::nullopt));
     touches.tangencies.back().moment = state.x[moments - static_cast<Index>(tips.size() - i)];
   }
-  const auto ends = free_ends(*at, walls);
+  const auto ends = model.sliding()->ends();
   for (std::size_t i = 0; i < ends.size(); ++i)
-    add(*ends[i].second, ends[i].first, state.piece[points.size() + i] != 0);
+    add(wall_of_obstacle(*at, walls, ends[i].obstacle),
+        {.strand = ends[i].strand, .position = ends[i].last ? at->mesh.nodes(ends[i].strand) - 1 : 0},
+        state.piece[points.size() + i] != 0);
   for (const SlidingContactLayout::PressedNode& node : at->on.pressed_nodes()) {
     add(wall_of_obstacle(*at, walls, node.obstacle), {.strand = node.strand, .position = node.position}, true);
     touches.all.back().listed = false;

@@ -14,14 +14,16 @@ std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<Slidin
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (std::size_t w = 0; w < obstacles.size(); ++w)
       for (const bool last : {false, true}) {
-        if (!obstacles[w].concerns(strand) || body.end_is_held(strand, last)) continue;
+        FreeEnd end{.strand = strand, .last = last, .obstacle = w};
+        const bool slides = mesh.node_unknowns(strand, end.position(mesh))[0] >= 0;
+        const bool may_touch = !body.end_is_held(strand, last) || (slides && obstacles[w].stands_across);
+        if (!obstacles[w].concerns(strand) || !may_touch) continue;
         const StrandEnd first = body.first_of_joint(strand, last, !obstacles[w].on_face);
         const auto same = known.find({w, first.strand, first.last});
         if (same != known.end()) {
           ends[same->second].joined.push_back({.strand = strand, .last = last});
           continue;
         }
-        FreeEnd end{.strand = strand, .last = last, .obstacle = w};
         const double along = std::cos(mesh.node(strand, end.position(mesh), rest).angle);
         if (std::abs(along) > vertical) end.travel = std::copysign(1.0, along);
         known[{w, strand, last}] = ends.size();

@@ -13,7 +13,7 @@
 namespace arcwall {
 
 /// A free end of a strand with an obstacle that may touch it, though no tangent of the body does: a contact of its own,
-/// at the last node.
+/// at the last node. Also an end that a support holds in z alone, with an obstacle that stands across its way in x.
 struct FreeEnd {
   Index strand = 0;
   bool last = false;
