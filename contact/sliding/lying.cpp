@@ -218,6 +218,11 @@ HoldingMoment holding_moment(const SlidingSetting& setting, const SlidingState& 
       .row = straight_pressure_gradient(setting, at, held, s - held.s)};
   moment.row.dx *= -half;
   moment.row.dlambda *= -half;
+  if (part.has_point()) {  // the elements become longer or shorter with the part
+    const double by_length = -2.0 * half / h * straight_pressure(setting, held, s - held.s);
+    const auto edge = static_cast<Index>(part.end_point());
+    moment.row.dx[at.index.coordinate(edge)] += (last ? -by_length : by_length) / part.elements;
+  }
   moment.row.dx[at.index.tip_moment(tip)] += sign;
   return moment;
 }
