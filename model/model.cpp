@@ -457,6 +457,8 @@ std::optional<State> Model::start(std::string& reason) const {
     ramp = sliding_ramp_.get();
     state = sliding_ramp_->start(1.0);
   }
+  constexpr int most_laid = 20;  // so often: what is laid down may peel off again
+  int laid = 0;
   std::optional<Tracer> tracer(std::in_place, *ramp, state, options);
   while (const auto arc = tracer->next()) {
     state = arc->to.state;
@@ -466,9 +468,11 @@ std::optional<State> Model::start(std::string& reason) const {
     }
     // A loose body that comes down flush on a wall touches it all along at once, which no event of a path is: it is
     // laid down, and the ramp goes on from there.
-    const bool falls = sliding_ramp_ && !loose_holds_.empty() && state.lambda != 1.0;
+    const bool falls = sliding_ramp_ && !loose_holds_.empty() && state.lambda != 1.0 && laid < most_laid;
     auto lying = falls ? sliding_ramp_->with_strands_come_to_lie(state, 1.0) : std::nullopt;
-    if (lying) tracer.emplace(*ramp, std::move(*lying), options);
+    if (!lying) continue;
+    tracer.emplace(*ramp, std::move(*lying), options);
+    ++laid;
   }
   if (!tracer->end() || tracer->end()->reason != EndReason::stop) {
     reason = "the constant loads and movements find no equilibrium: their growth ends at " +
