@@ -191,11 +191,11 @@ bool is_remeshed(const Branch& branch, std::size_t i) {
          !branch.has_event(before.step, point.step, is_contact_event);
 }
 
-// Whether parts on a wall join, or one gathers to a point: where they do is known on the piece ahead alone, so that the
-// points before may lie beyond it by the error of the elements.
+// Whether the mesh gets a node where it touches, or parts on a wall join, or one gathers to a point: that is known on
+// the piece ahead alone, so that the points before may lie beyond it by the error of the elements.
 bool is_known_ahead(const Branch& branch, std::size_t i) {
-  const RecordPoint& point = branch.points[i];
-  return point.contacts < branch.points[i - 1].contacts &&
+  const RecordPoint &before = branch.points[i - 1], &point = branch.points[i];
+  return before.state.piece.layout() != point.state.piece.layout() &&
          branch.has_event(point.step, point.step, [](const ListedEvent& event) {
            return event.kind == "contact-closes" || event.kind == "contact-gathers";
          });

@@ -60,6 +60,39 @@ double rate_of(const Rates& rates, Index freedom) {
   return found == rates.end() ? 0.0 : found->second;
 }
 
+using KindOf = std::function<Freedom(std::size_t local)>;
+
+// Slender elements buckle in themselves at strains of EI/(EA h²): steps change the axial force by no more than a small
+// part of EI/h². That is linear in what a step stretches, K_xi, and quadratic in what it turns the chord or an end.
+void limit_steps(double length, const KindOf& kind_of, Potential& potential) {
+  constexpr double part = 0.01;
+  const Vector here = potential.gradient(potential.at);
+  Vector along(here.size());  // greatest change of a nodal force with each unknown
+  double stretching = 0.0, bending = 0.0;
+  const auto is_place = [&](Index i) {
+    const Freedom kind = kind_of(static_cast<std::size_t>(i));
+    return kind == Freedom::x || kind == Freedom::z;
+  };
+  for (Index i = 0; i < here.size(); ++i) {
+    constexpr double shorter = 1e-4;  // of the steps that are none too long for most
+    const double step = shorter * potential.steps[i];
+    Vector u = potential.at;
+    u[i] += step;
+    const Vector change = (potential.gradient(u) - here) / step;
+    along[i] = 0.0;
+    for (Index j = 0; j < change.size(); ++j)
+      if (is_place(j)) along[i] = std::max(along[i], std::abs(change[j]));
+    if (is_place(i)) stretching = std::max(stretching, along[i]);
+    if (kind_of(static_cast<std::size_t>(i)) == Freedom::rotation) bending = std::max(bending, std::abs(change[i]));
+  }
+  if (bending == 0.0 || stretching == 0.0) return;
+  const double turning = std::sqrt(part * bending / stretching);  // of a place [length]
+  for (Index i = 0; i < here.size(); ++i) {
+    const double most = is_place(i) ? turning : turning / length;
+    potential.steps[i] = std::min({potential.steps[i], most, part * bending / (length * along[i])});
+  }
+}
+
 // The kind of each local unknown, by how many a node has: x, z, then a rotation, then changes of thickness.
 Freedom kind_of(std::size_t local, std::size_t stride) {
   constexpr Freedom kinds[] = {Freedom::x, Freedom::z, Freedom::rotation, Freedom::thickness, Freedom::thickness2};
@@ -108,6 +141,8 @@ Potential fixed_potential(const Structure& structure, Index e, const State& stat
   }
   potential.energy = [loaded](const Vector& u) { return loaded.energy(u); };
   potential.gradient = [loaded](const Vector& u) { return loaded.gradient(u); };
+  limit_steps(
+      length, [stride](std::size_t i) { return kind_of(i, stride); }, potential);
   return potential;
 }
 
@@ -158,6 +193,8 @@ Potential sliding_potential(const std::shared_ptr<const SlidingElements>& of, In
       return gradient;
     });
   };
+  limit_steps(
+      length, [](std::size_t i) { return kind_of(i, 3); }, potential);
   return potential;
 }
 

@@ -115,6 +115,35 @@ TEST(EventList, ARowMovedFlippedOrBeyondTheBoundIsSeen) {
   EXPECT_EQ(incompleteness(traced, events, record).value_or(Failure{}).what, "no point is beyond path.stop: lambda");
 }
 
+// Where a column touches between two nodes the mesh gets one, and λ may step back by the error that was there without.
+TEST(EventList, LambdaMayStepBackWhereTheMeshGetsANode) {
+  const TracedDeck traced(R"toml(
+title = "A column that buckles against a curved wall"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 2.5e7, I = 1.0, height = 0.03 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z", "rotation"] }
+member.c = { from = "a", to = "b", theory = "classic", elements = 6, material = "m", section = "s" }
+load = [{ at = "b", force = [-8.085, 0.0] }]
+wall = [{ name = "upper", side = "above", profile = { type = "parabola", apex = [0.65, 0.03], curvature = 0.41 } }]
+path = { step = 0.1, stop = { lambda = [-0.5, 1.0] } }
+)toml");
+  const std::vector<ListedEvent> events = listed_events(traced.record());
+  const auto closes = test::events_of(traced, EventKind::contact_closes);
+  ASSERT_FALSE(closes.empty());
+  const auto at = std::find_if(
+      traced.record().points.begin(), traced.record().points.end(),
+      [&](const RecordPoint& point) { return point.branch == closes[0].branch && point.step == closes[0].step; });
+  const auto moved = [&](std::ptrdiff_t row, double by) {
+    Record record = traced.record();
+    record.points[static_cast<std::size_t>(at - traced.record().points.begin() + row)].lambda += by;
+    return incompleteness(traced, events, record).value_or(Failure{}).what;
+  };
+  EXPECT_EQ(moved(-1, 1e-6), "");
+  EXPECT_NE(moved(-1, 1e-2).find("λ turns at step"), std::string::npos);
+  EXPECT_NE(moved(-2, 1e-4).find("λ turns at step"), std::string::npos);
+}
+
 // --- traced again
 // -----------------------------------------------------------------------------------------------------
 

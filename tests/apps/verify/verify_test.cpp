@@ -15,6 +15,7 @@
 #include "model/deck/reader.hpp"
 #include "model/event_names.hpp"
 #include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
 #include "tests/apps/verify/stored_files_of.hpp"
 
 namespace arcwall::verify::verify_test {
@@ -314,6 +315,21 @@ TEST(Verify, IncrementsAreCheckedAgainstTheirFilesAlone) {
   EXPECT_FALSE(has_check(verdict, "forces balance at nodes"));
   EXPECT_NE(verdict.not_checked.at(0).find("equilibrium"), std::string::npos);
   EXPECT_NE(to_text(verdict).find("- equilibrium"), std::string::npos);
+}
+
+// Differences over 10⁻⁴ of an element would compress one with EA h²/EI = 1.4·10⁵ by 14 EI/h², and it buckles at 10.
+TEST(Verify, SlenderElementsDoNotBuckleInItsSteps) {
+  const TracedDeck traced(R"toml(
+title = "A slender beam of a wavy shape"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 2e7, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["z"] }
+member.c = { from = "a", to = "b", theory = "elastica", elements = 12, material = "m", section = "s", imperfection = { shape = "sine", amplitude = 0.01, waves = 3 } }
+load = [{ at = "c:0.25", force = [0.0, 3.0] }]
+path = { step = 0.1, stop = { lambda = [-0.5, 1.0] } }
+)toml");
+  test::expect_whole(traced);
 }
 
 }  // namespace arcwall::verify::verify_test
