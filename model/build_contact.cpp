@@ -435,20 +435,30 @@ bool same_walls(const deck::Deck& deck, const std::string& a, const std::string&
 
 namespace {
 
-// Whether a wall that is straight all along has more than a half of its normal in x: where it is and goes is no matter,
-// so that the ramp and all stages of a deck have the same contacts.
-bool stands_across(const deck::Wall& wall) {
-  constexpr double across = 0.5;
-  Vec2 along = Vec2::UnitX();
+// The direction of a wall that is straight all along.
+std::optional<Vec2> straight_direction(const deck::Wall& wall) {
   if (!wall.outline) {
-    if (const auto* line = std::get_if<deck::LineProfile>(&wall.profile)) along = {1.0, line->slope};
-  } else if (const auto* plane = std::get_if<deck::HalfPlaneOutline>(&*wall.outline)) {
-    along = {plane->normal.z, -plane->normal.x};
-  } else if (const auto* line = std::get_if<deck::PolylineOutline>(&*wall.outline)) {
-    const std::vector<Vec2> points = line->points();
-    if (points.size() == 2) along = points[1] - points[0];
+    if (std::holds_alternative<deck::FlatProfile>(wall.profile)) return Vec2::UnitX();
+    const auto* line = std::get_if<deck::LineProfile>(&wall.profile);
+    return line ? std::optional(Vec2(1.0, line->slope)) : std::nullopt;
   }
-  return std::abs(along.normalized().y()) > across;
+  if (const auto* plane = std::get_if<deck::HalfPlaneOutline>(&*wall.outline))
+    return Vec2(plane->normal.z, -plane->normal.x);
+  if (const auto* line = std::get_if<deck::PolylineOutline>(&*wall.outline)) {
+    const std::vector<Vec2> points = line->points();
+    if (points.size() == 2) return points[1] - points[0];
+  }
+  return std::nullopt;
+}
+
+// Where a wall goes is no matter, so that the ramp and all stages of a deck have the same contacts.
+RollerEnds roller_ends(const deck::Wall& wall) {
+  constexpr double along = 1e-9, across = 0.5;  // part of a straight wall's normal in x
+  const std::optional<Vec2> direction = straight_direction(wall);
+  if (!direction) return RollerEnds::clear_at_rest;
+  const double in_x = std::abs(direction->normalized().y());
+  if (in_x > across) return RollerEnds::all;
+  return in_x > along ? RollerEnds::clear_at_rest : RollerEnds::none;
 }
 
 }  // namespace
@@ -460,6 +470,8 @@ std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const Sli
     const auto concerned = [&](Index strand) {
       return concerns(wall, structure.label({.strand = strand, .s = 0.0}).first);
     };
+    deck::Wall unmoved = wall;
+    unmoved.motion.reset();
     std::vector<double> distances;
     for (Index strand = 0; strand < structure.strands(); ++strand) {
       const double off = kept_off(wall, 2.0 * structure.half_height(strand));
@@ -469,8 +481,9 @@ std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const Sli
     for (const double off : distances) {
       SlidingObstacle obstacle{.name = wall.name,
                                .surface = obstacle_of(wall, off),
+                               .unmoved = obstacle_of(unmoved, off),
                                .on_face = wall.acts_on == deck::ActsOn::face && !wall.outline,
-                               .stands_across = stands_across(wall)};
+                               .roller_ends = roller_ends(wall)};
       for (Index strand = 0; strand < structure.strands(); ++strand) {
         const bool keeps = kept_off(wall, 2.0 * structure.half_height(strand)) == off;
         obstacle.strands.push_back(concerned(strand) && keeps ? 1 : 0);

@@ -6,17 +6,34 @@
 
 namespace arcwall {
 
+namespace {
+
+// Of an end that a support holds in z; `at`: its axis in the stress-free shape.
+bool roller_touches(const SlidingObstacle& obstacle, const AxisPlace& at, double half_height, double near) {
+  if (obstacle.roller_ends != RollerEnds::clear_at_rest) return obstacle.roller_ends == RollerEnds::all;
+  const double towards = obstacle.on_face ? -sign_of(obstacle.unmoved->side()) * half_height : 0.0;
+  const double up = std::cos(at.angle) >= 0.0 ? 1.0 : -1.0;
+  const Vec2 place = at.position + up * towards * Vec2(-std::sin(at.angle), std::cos(at.angle));
+  return obstacle.unmoved->gap_slope(place, 0.0).value > near;
+}
+
+}  // namespace
+
 std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<SlidingObstacle>& obstacles,
                                const SlidingMesh& mesh, const MeshState& rest) {
   constexpr double vertical = 1e-6;  // cosine of an axis that stands upright
+  constexpr double near = 1e-9;      // of a strand's length
   std::vector<FreeEnd> ends;
   std::map<std::tuple<std::size_t, Index, bool>, std::size_t> known;  // obstacle, strand, last: which of the ends
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (std::size_t w = 0; w < obstacles.size(); ++w)
       for (const bool last : {false, true}) {
         FreeEnd end{.strand = strand, .last = last, .obstacle = w};
+        const AxisPlace at = mesh.node(strand, end.position(mesh), rest);
         const bool slides = mesh.node_unknowns(strand, end.position(mesh))[0] >= 0;
-        const bool may_touch = !body.end_is_held(strand, last) || (slides && obstacles[w].stands_across);
+        const bool may_touch =
+            !body.end_is_held(strand, last) ||
+            (slides && roller_touches(obstacles[w], at, body.half_height(strand), near * body.length(strand)));
         if (!obstacles[w].concerns(strand) || !may_touch) continue;
         const StrandEnd first = body.first_of_joint(strand, last, !obstacles[w].on_face);
         const auto same = known.find({w, first.strand, first.last});
@@ -24,7 +41,7 @@ std::vector<FreeEnd> free_ends(const SlidingBody& body, const std::vector<Slidin
           ends[same->second].joined.push_back({.strand = strand, .last = last});
           continue;
         }
-        const double along = std::cos(mesh.node(strand, end.position(mesh), rest).angle);
+        const double along = std::cos(at.angle);
         if (std::abs(along) > vertical) end.travel = std::copysign(1.0, along);
         known[{w, strand, last}] = ends.size();
         ends.push_back(end);
