@@ -250,6 +250,15 @@ bool MultiplierContact::passes_through(const State& from, const State& to) const
   return false;
 }
 
+bool MultiplierContact::may_have_kink(const State& from, const State& to) const {
+  const auto curvature = [](const Candidate& candidate, const State& at) {
+    return candidate.obstacle().curvature(candidate.point().position(at), at.lambda).value;
+  };
+  for (std::size_t j = 0; j < candidates_.size(); ++j)
+    if (from.piece[j] && curvature_jumps(curvature(candidates_[j], from), curvature(candidates_[j], to))) return true;
+  return false;
+}
+
 bool MultiplierContact::comes_behind_an_end(const State& from, const State& to) const {
   const double touching = 1e-6 * scales_.length;
   return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {

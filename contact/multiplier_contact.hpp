@@ -60,6 +60,7 @@ class MultiplierContact final : public System, public ContactQuery {
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
   std::optional<std::string> invalid_reason(const State& state) const override;
   bool passes_through(const State& from, const State& to) const override;
+  bool may_have_kink(const State& from, const State& to) const override;
   bool comes_behind_an_end(const State& from, const State& to) const override;
 
   const Candidate& candidate(Index j) const { return candidates_[static_cast<std::size_t>(j)]; }

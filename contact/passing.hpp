@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "contact/obstacle.hpp"
@@ -10,6 +12,12 @@ namespace arcwall {
 struct PlaceInStep {
   Vec2 from, to;
 };
+
+/// Whether the curvatures of a surface at two places beside each other tell that it jumps between them [1/length].
+inline bool curvature_jumps(double here, double there) {
+  constexpr double smooth = 1e-2;  // part of the greater one, where it does not
+  return std::abs(there - here) > smooth * std::max(std::abs(here), std::abs(there));
+}
 
 /// Whether a point of the body that goes straight, as the obstacle sees it, enters the obstacle between two values of
 /// λ: it leaves it again, or is deeper inside in the end than what touches may be [length].

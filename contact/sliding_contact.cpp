@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/passing.hpp"
 #include "contact/sliding/contact_points.hpp"
 #include "contact/sliding/equations.hpp"
 #include "contact/sliding/inserted_contact.hpp"
@@ -13,6 +14,7 @@
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/touch.hpp"
 #include "contact/sliding/validity_bound.hpp"
+#include "core/text.hpp"
 
 namespace arcwall {
 
@@ -195,6 +197,15 @@ bool SlidingContact::admissible(const State& state, double margin) const {
   return !sliding::deepest_unwatched(*setting_, SlidingState(state), margin);
 }
 
+std::string SlidingContact::most_inadmissible(const State& state, double margin) const {
+  const auto deepest = sliding::deepest_unwatched(*setting_, SlidingState(state), margin);
+  if (!deepest) return {};
+  const auto [member, fraction] = setting_->body.label(deepest->at);
+  constexpr double shown = 1e4;  // parts of the member
+  return setting_->obstacles[deepest->obstacle].name + " at " + member + ":" +
+         round_trip(std::round(shown * fraction) / shown);
+}
+
 std::optional<Transition> SlidingContact::with_inserted_contact(const State& from, const Direction& forward,
                                                                 const State& to, double margin) const {
   return sliding::with_inserted_contact(*setting_, SlidingState(from), forward, SlidingState(to), margin);
@@ -207,6 +218,20 @@ std::optional<Transition> SlidingContact::with_mesh_for_landing(const State& fro
 
 bool SlidingContact::passes_through(const State& from, const State& to) const {
   return sliding::passes_through(*setting_, SlidingState(from), SlidingState(to));
+}
+
+bool SlidingContact::may_have_kink(const State& from, const State& to) const {
+  const SlidingState before(from), behind(to);
+  const auto curvature = [&](const sliding::Touch& touch, const SlidingState& at) {
+    const Vec2 place = sliding::face(touch.offset, touch.axis(at));
+    return setting_->obstacles[touch.obstacle].surface->curvature(place, at.now.lambda).value;
+  };
+  for (std::size_t j = 0; j < before.contacts(); ++j) {
+    if (!before.is_closed(j)) continue;
+    const sliding::Touch touch = sliding::touch_of_contact(*setting_, before.layout, j);
+    if (curvature_jumps(curvature(touch, before), curvature(touch, behind))) return true;
+  }
+  return false;
 }
 
 bool SlidingContact::comes_behind_an_end(const State& from, const State& to) const {

@@ -32,7 +32,9 @@ BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejec
     return {.reason = EndReason::turning_control,
             .detail = "the controlled quantity turns back; use method = \"spherical\" to go on"};
   if (why && why->outcome == StepOutcome::penetrates)
-    return {.reason = EndReason::unsupported, .detail = "a wall is touched ahead where contact cannot be followed"};
+    return {.reason = EndReason::unsupported,
+            .detail = "a wall is touched ahead where contact cannot be followed" +
+                      (why->where.empty() ? std::string() : ": " + why->where)};
   if (why && why->failure == CorrectorStatus::singular)
     return {.reason = EndReason::singular, .detail = "the equations are singular ahead"};
   if (why && why->failure == CorrectorStatus::not_finite)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/transition.hpp"
@@ -37,6 +38,9 @@ class System : public UnilateralSystem {
   /// enters an obstacle between the contacts.
   virtual bool admissible(const State&, double /*margin*/) const { return true; }
 
+  /// Names what exceeds `margin` most, for messages: `floor at beam:0.4`; empty where nothing does.
+  virtual std::string most_inadmissible(const State&, double /*margin*/) const { return {}; }
+
   /// The transition (`remeshed`) from a regular point to a piece whose guards see what is below `margin` at `to`, the
   /// end of a step; empty if no such piece passes through `from`. Asked for where admissible(to, margin) is not so.
   virtual std::optional<Transition> with_inserted_contact(const State& /*from*/, const Direction& /*forward*/,
@@ -54,6 +58,10 @@ class System : public UnilateralSystem {
   /// Whether the body would have to go through an obstacle on its way from one state to the other, a landed end of a
   /// step: it is inside there, or on another side.
   virtual bool passes_through(const State& /*from*/, const State& /*to*/) const { return false; }
+
+  /// Whether the path from one state to another on the same piece may have a kink: a closed contact goes over a place
+  /// where the curvature of its obstacle jumps, as where the arc of a rounded corner begins.
+  virtual bool may_have_kink(const State& /*from*/, const State& /*to*/) const { return false; }
 
   /// Whether the body comes from beyond the end of an obstacle to where it is inside of it, through where the obstacle
   /// has no face: that of an upper arc of a circle from below, say.

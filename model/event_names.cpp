@@ -226,9 +226,9 @@ std::string_view what_to_try(EndReason reason) {
       return "a small imperfection, which singles one equilibrium of the continuum out; or contact.points = \"nodes\", "
              "where loads depend on the mesh: compare several numbers of elements";
     case EndReason::unsupported:
-      return "contact.points = \"nodes\" or contact.method = \"penalty\", which have no such limit, but contact at "
-             "nodes: "
-             "loads then depend on the mesh, so compare several numbers of elements";
+      return "more elements for the members (member.NAME.elements), where they bend much in one; else contact.points = "
+             "\"nodes\" or contact.method = \"penalty\", which have no such limit, but contact at nodes: loads then "
+             "depend on the mesh, so compare several numbers of elements";
     case EndReason::adrift:
       return "a support or a wall that holds the body there; or [[prescribed]], which moves it instead of a load";
   }

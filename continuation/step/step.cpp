@@ -74,8 +74,12 @@ bool leads_aside(const StepOrigin& origin, const StepEnd& end, const Direction& 
 }
 
 // Why the end of a step is not the continuation of its start: it is far off the predictor, has turned too much or lies
-// aside.
-std::optional<StepOutcome> strayed(const StepOrigin& origin, const StepEnd& end, double s, double max_turn) {
+// aside. At a kink of the path a step turns it by the same angle however short it is.
+std::optional<StepOutcome> strayed(const System& system, const StepOrigin& origin, const StepEnd& end, double s,
+                                   double max_turn) {
+  constexpr double over_a_kink = 1e-6;  // steps are no longer [path metric]
+  const bool at_kink = s <= over_a_kink && system.may_have_kink(origin.point().state, end.point.state);
+  if (at_kink) return std::nullopt;
   if (end.turn > max_turn) return StepOutcome::turned;
   const Direction chord = difference(end.point.state, origin.point().state);
   const bool near = end.turn <= max_turn && origin.metric.norm(chord) <= 2.0 * s &&
@@ -89,9 +93,10 @@ std::optional<StepOutcome> strayed(const StepOrigin& origin, const StepEnd& end,
 StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   const PathPoint& from = origin.point();
   StepTried tried{.attempt = {.arc = from.arc, .radius = s}};
-  const auto rejected = [&](StepOutcome outcome, CorrectorStatus failure = CorrectorStatus::converged) {
+  const auto rejected = [&](StepOutcome outcome, CorrectorStatus failure = CorrectorStatus::converged,
+                            std::string where = {}) {
     tried.attempt.outcome = outcome;
-    tried.result = Rejected{.outcome = outcome, .failure = failure};
+    tried.result = Rejected{.outcome = outcome, .failure = failure, .where = std::move(where)};
     return std::move(tried);
   };
 
@@ -105,7 +110,8 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
 
   StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), from.tangent)};
   tried.attempt.turn = end.turn = angle_between(origin.metric, from.tangent, end.point.tangent);
-  if (const auto outcome = strayed(origin, end, s, tools.options.step.max_turn)) return rejected(*outcome);
+  if (const auto outcome = strayed(tools.system, origin, end, s, tools.options.step.max_turn))
+    return rejected(*outcome);
 
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
   if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure);
@@ -121,8 +127,10 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   const double margin = end.landing ? near_change : -penetration_tolerance;
   if (!tools.system.admissible(end.point.state, margin)) {
     if (auto finer = with_new_contact(tools, origin, end.point.state, margin)) return refined(std::move(*finer));
-    if (!end.landing || !tools.system.admissible(end.point.state, -penetration_tolerance))
-      return rejected(StepOutcome::penetrates);
+    if (!end.landing || !tools.system.admissible(end.point.state, -penetration_tolerance)) {
+      std::string where = tools.system.most_inadmissible(end.point.state, -penetration_tolerance);
+      return rejected(StepOutcome::penetrates, CorrectorStatus::converged, std::move(where));
+    }
   }
   if (end.landing)
     if (auto finer = with_mesh_for_landing(tools, origin, end.point.state, end.landing->guard))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <variant>
 
 #include "continuation/step/landing.hpp"
@@ -10,6 +11,7 @@ namespace arcwall {
 struct Rejected {
   StepOutcome outcome = StepOutcome::too_many_iterations;
   CorrectorStatus failure = CorrectorStatus::converged;  ///< of the correction that failed, if one did
+  std::string where{};                                   ///< the wall that is entered, and where, if that is known
 };
 
 /// The step's start in the unknowns of a piece whose guards see what the step's end violates: the step is tried again
