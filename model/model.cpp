@@ -459,9 +459,13 @@ std::optional<State> Model::start(std::string& reason) const {
   }
   constexpr int most_laid = 20;  // so often: what is laid down may peel off again
   int laid = 0;
+  constexpr double far_back = -1.0;  // of their value: a path that has turned back by so much does not return
+  double most = 0.0;
   std::optional<Tracer> tracer(std::in_place, *ramp, state, options);
   while (const auto arc = tracer->next()) {
     state = arc->to.state;
+    most = std::max(most, state.lambda);
+    if (state.lambda < far_back) break;
     if (auto why = adrift(state)) {
       reason = "the constant loads and movements find no equilibrium: " + *why;
       return std::nullopt;
@@ -475,8 +479,12 @@ std::optional<State> Model::start(std::string& reason) const {
     ++laid;
   }
   if (!tracer->end() || tracer->end()->reason != EndReason::stop) {
-    reason = "the constant loads and movements find no equilibrium: their growth ends at " +
-             std::to_string(state.lambda) + " of their value (" + (tracer->end() ? tracer->end()->detail : "") + ")";
+    reason = "the constant loads and movements find no equilibrium: ";
+    if (state.lambda < most)
+      reason += fmt::format(
+          "their growth turns back at about {:.2g} of their value, where the structure buckles or snaps", most);
+    else
+      reason += fmt::format("their growth ends at {:.4g} of their value ({})", most, tracer->end()->detail);
     return std::nullopt;
   }
   if (sliding_) {

@@ -180,6 +180,62 @@ path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
     }
 }
 
+// The same bar, whose end runs along z = 0 into what is not upright but crosses that line at x = 2.1: a peg, a bore, a
+// rounded corner and a floor that rises. The support bears what is across.
+TEST(Outlines, ARollerTouchesWhateverCrossesItsWay) {
+  const std::string peg = R"(outline = { type = "circle", centre = [2.265831239517769, -0.25], radius = 0.3 })";
+  const std::string bore =
+      R"(outline = { type = "circle", centre = [0.0, 0.25], radius = 2.1148285982556614, keep = "inside" })";
+  const std::string corner =
+      R"(outline = { type = "polyline", x = [1.0, 2.0, 2.2], z = [-0.1, -0.1, 0.1] }, corner_radius = 0.05)";
+  const std::string rise = R"(side = "below", profile = { type = "line", z = -0.42, slope = 0.2 })";
+  for (const std::string& wall : {peg, bore, corner, rise}) {
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "A bar against what crosses its way"
+material.m = {{ E = 10.0 }}
+section.s = {{ shape = "general", A = 1.0, I = 100.0 }}
+point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
+member.bar = {{ from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 2 }}
+support = {{ A = ["x", "z", "rotation"], B = ["z"] }}
+load = [{{ at = "B", force = [1.0, 0.0] }}]
+wall = [{{ name = "stop", acts_on = "axis", {} }}]
+monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
+path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
+)toml",
+                                              wall));
+    const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
+    ASSERT_EQ(touches.size(), 1u) << wall;
+    EXPECT_NEAR(touches[0], 0.5, 1e-10) << wall;
+    EXPECT_NEAR(traced.record().points.back().monitors[0], 0.5 - 2.0, 1e-10) << wall;
+    test::expect_whole(traced);
+  }
+}
+
+// A moment at its right end bends a beam against a rounded corner above it. The contact leaves the arc at λ = 1.1536
+// and slides along the line behind it, where the path has a kink of 0.8 rad. Reference: extensible elastica shot from B
+// with an 8th-order method (1e-12) for the place and angle at a contact on the line, and at the clamp.
+TEST(Outlines, AContactSlidesOffARoundedCorner) {
+  const test::TracedDeck traced(R"toml(
+title = "A beam on a rounded corner"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e5, I = 1.0 }
+point = { A = [0.0, 0.0], B = [1.0, 0.0] }
+support = { A = ["x", "z", "rotation"], B = ["z"] }
+member.beam = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
+load = [{ at = "B", moment = -1.0 }]
+wall = [{ name = "corner", acts_on = "axis", corner_radius = 0.05, outline = { type = "polyline", x = [1.3, 0.45, -0.2], z = [0.098, 0.03, 0.16] } }]
+monitor = [{ name = "turn", at = "B", component = "rotation" }]
+path = { step = 0.1, stop = { lambda = [-1.0, 3.0] } }
+)toml");
+  const RecordPoint& last = traced.record().points.back();
+  EXPECT_EQ(last.lambda, 3.0);
+  EXPECT_NEAR(last.monitors[0], -0.5043694046905773, 1e-9);
+  ASSERT_EQ(last.forces.size(), 1u);
+  EXPECT_NEAR(last.forces[0].label.fraction, 0.635523134815197, 1e-8);
+  EXPECT_NEAR(last.forces[0].force, 7.04046966599791, 1e-7);
+  test::expect_whole(traced);
+}
+
 // The least gap of this curve runs to the end of the strip: a point that follows it is given up L/1000 from there, and
 // is not inserted and given up at the same place again and again.
 TEST(Outlines, APointThatIsGivenUpAtATipIsNotInsertedAgain) {

@@ -124,6 +124,24 @@ TEST(Session, HasNoPointsWhereItFindsNoStart) {
   EXPECT_FALSE(session.has_ended());
 }
 
+// Driven by λ the same loads have a limit point at λ = 0.843, behind which the path goes back for ever.
+TEST(Session, SaysWhereAStructureGivesWayToItsConstantLoads) {
+  Session session({.deck = "portal.toml", .deck_text = R"toml(
+title = "A portal under constant loads beyond its limit"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e4, I = 1.0 }
+point = { a = [0.0, 0.0], e = [0.0, 0.7], f = [1.0, 0.7], b = [1.0, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["x", "z"] }
+member.left = { from = "a", to = "e", theory = "elastica", elements = 4, material = "m", section = "s" }
+member.top = { from = "e", to = "f", theory = "elastica", elements = 4, material = "m", section = "s" }
+member.right = { from = "f", to = "b", theory = "elastica", elements = 4, material = "m", section = "s" }
+load = [{ at = "e", force = [3.0, -30.0], constant = true }, { at = "top:0.5", force = [0.0, -1.0] }]
+path = { step = 0.1, stop = { lambda = [-1.0, 1.0] } }
+)toml"});
+  EXPECT_FALSE(session.begin());
+  EXPECT_NE(session.problem().find("turns back at about 0.84 of their value"), std::string::npos) << session.problem();
+}
+
 TEST(Session, IsNotStoppedBeforeItBegins) {
   Session session = opened({"truss"});
   session.stop({.reason = EndReason::max_points, .detail = ""});
