@@ -231,7 +231,8 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.piece);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
-  if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
+  if (passed && passed->entered && tools.system.admissible(passed->entered->first.state, -penetration_tolerance))
+    accepted.leave.known_end = std::move(passed->entered->first);
   if (passed && passed->entered && !passed->entered->values.empty()) {
     accepted.leave.values_ahead = std::move(passed->entered->values);
     accepted.leave.begin = std::exchange(accepted.leave.point, end.point);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/passing.hpp"
+#include "contact/sliding/bending.hpp"
 #include "contact/sliding/curved_surface.hpp"
 #include "contact/sliding/pinches.hpp"
 #include "contact/sliding/touch.hpp"
@@ -197,12 +198,59 @@ void for_each_least_gap(const SlidingSetting& setting, const SlidingState& at, W
   }
 }
 
+// The end of a strand that touches an obstacle and in whose element a least gap to the same obstacle is.
+std::optional<FreeEnd> touching_end_beside(const SlidingSetting& setting, const SlidingState& at,
+                                           const LeastGap& least) {
+  for (const bool last : {false, true}) {
+    const Index inner = last ? at.mesh.nodes(least.at.strand) - 2 : 1;
+    const double s = at.mesh.coordinate(least.at.strand, inner, at.now.s);
+    if (last ? least.at.s < s : least.at.s > s) continue;
+    for (std::size_t j = 0; j < setting.free_ends.size(); ++j) {
+      const StrandEnd end{.strand = least.at.strand, .last = last};
+      const bool touches = at.is_closed(at.layout.points().size() + j);
+      if (touches && setting.free_ends[j].obstacle == least.obstacle && setting.free_ends[j].is_of(end))
+        return setting.free_ends[j].seen_from(end);
+    }
+  }
+  return std::nullopt;
+}
+
+// The least of the gap inside the element at an end that touches, as a quartic: gaps and slopes are those of both
+// nodes, and the curvature is that of the body at the end, which that of the element's cubic is but nearly.
+double least_beside_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  constexpr int looks = 32;
+  const Index outer = end.position(at.mesh), inner = end.last ? outer - 1 : 1;
+  const double offset = setting.face_offset(end.obstacle, end.strand), inwards = end.last ? -1.0 : 1.0;
+  const auto sample = [&](Index position) {
+    const AxisPlace axis = at.mesh.node(end.strand, position, at.now);
+    const Placed node{.position = axis.position, .tangent = {std::cos(axis.angle), std::sin(axis.angle)}};
+    return sampled(setting.obstacles[end.obstacle], offset, node, at.now.lambda);
+  };
+  const Sample from = sample(outer), to = sample(inner);
+  const double length = (to.face - from.face).norm();
+  const double r0 = inwards * from.rate * length, r1 = inwards * to.rate * length;
+  const double bend = 0.5 * length * length * end_curvature_gap(setting, at, end).value;
+  const double rise = to.gap - from.gap - r0 - bend, fourth = r1 - r0 - 2.0 * bend - 3.0 * rise;
+  double least = to.gap;
+  for (int i = 1; i < looks; ++i) {
+    const double t = double(i) / looks;
+    least = std::min(least, from.gap + t * (r0 + t * (bend + t * (rise - fourth + t * fourth))));
+  }
+  return least;
+}
+
 }  // namespace
 
+// As an end that touches lies down, all gaps beside it come to nothing. That is watched by a guard of its own, so that
+// there the body must be inside.
 std::optional<LeastGap> deepest_unwatched(const SlidingSetting& setting, const SlidingState& at, double margin) {
+  constexpr double inside = -1e-11;  // in the scale of guards
   std::optional<LeastGap> deepest;
   for_each_least_gap(setting, at, Which::unwatched, [&](const LeastGap& least) {
-    if (least.gap < margin * setting.scales.length && (!deepest || least.gap < deepest->gap)) deepest = least;
+    if (least.gap >= margin * setting.scales.length || (deepest && least.gap >= deepest->gap)) return;
+    const auto end = touching_end_beside(setting, at, least);
+    if (end && least_beside_end(setting, at, *end) >= std::min(margin, inside) * setting.scales.length) return;
+    deepest = least;
   });
   return deepest;
 }

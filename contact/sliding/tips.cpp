@@ -48,27 +48,41 @@ ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std:
   return tip;
 }
 
-// Tips with a stretch of some length between each and a new point, which runs as `spans` says.
+// How the body runs between a tip that has come to lie down and the contact inside.
+enum class Tail {
+  off,      // free, and the tip is off the obstacle
+  arch,     // free, and the tip touches: the body is bent so that its middle is off
+  flat,     // it lies on the obstacle by itself
+  pressed,  // it is pressed on the obstacle
+};
+
+Span span_of(Tail tail) {
+  if (tail == Tail::flat) return Span::flat;
+  return tail == Tail::pressed ? Span::pressed : Span::free;
+}
+
+// Tips with a tail of some length between each and a new point.
 Transition with_points_inside(const SlidingSetting& setting, const SlidingState& at, const std::vector<ClosedTip>& tips,
-                              const std::vector<Span>& spans, double length) {
+                              const std::vector<Tail>& tails, double length) {
   constexpr double round_off = 1e-9;  // of forces
   LayoutEdit edit = edit_of(setting.body, at);
   for (std::size_t i = 0; i < tips.size(); ++i) {
     const auto& [end, strand, last, obstacle, force, load, bend, bends_with_it] = tips[i];
     const double s = last ? setting.body.length(strand) - length : length;
-    const bool stays = spans[i] == Span::pressed || (spans[i] == Span::flat && load > round_off * setting.scales.force);
+    const bool is_loaded = load > round_off * setting.scales.force;
+    const bool stays = tails[i] == Tail::pressed || tails[i] == Tail::arch || (tails[i] == Tail::flat && is_loaded);
     edit.ends_closed[end] = static_cast<std::uint8_t>(stays);
-    edit.end_forces[end] = stays ? std::max(load, 0.0) : 0.0;
+    edit.end_forces[end] = stays ? std::max(tails[i] == Tail::arch ? force : load, 0.0) : 0.0;
     const int rest = edit.elements[static_cast<std::size_t>(strand)][edit.part_at(strand, s).place].elements;
-    const int tail = spans[i] == Span::pressed ? 2 : 1;
-    edit.insert({.point = {.obstacle = obstacle,
-                           .behind = last ? spans[i] : Span::free,
-                           .before = last ? Span::free : spans[i]},
-                 .strand = strand,
-                 .s = s,
-                 .closed = true,
-                 .force = force - edit.end_forces[end]},
-                last ? rest : tail, last ? tail : rest);
+    const Span span = span_of(tails[i]);
+    const int tail = span == Span::pressed ? 2 : 1;
+    edit.insert(
+        {.point = {.obstacle = obstacle, .behind = last ? span : Span::free, .before = last ? Span::free : span},
+         .strand = strand,
+         .s = s,
+         .closed = true,
+         .force = force - edit.end_forces[end]},
+        last ? rest : tail, last ? tail : rest);
   }
   const auto on = layout_of(edit);
   const ClosedTip& first = tips.front();
@@ -76,19 +90,20 @@ Transition with_points_inside(const SlidingSetting& setting, const SlidingState&
   const double coordinate = first.last ? setting.body.length(first.strand) : 0.0;
   Transition transition =
       up_to(length, std::make_shared<TailLength>(point, coordinate),
-            spans.front() == Span::free ? Change::passes : Change::spreads, mapped_onto(setting, at, edit, on));
+            tails.front() == Tail::off ? Change::passes : Change::spreads, mapped_onto(setting, at, edit, on));
   for (const ClosedTip& tip : tips)
     transition.contacts.push_back(static_cast<Index>(at.layout.points().size() + tip.end));
   return transition;
 }
 
-// How the body may run behind a tip that bends as its obstacle does, by what would hold it there.
-std::vector<Span> lying_spans(const SlidingSetting& setting, const Transition& free, const ClosedTip& tip) {
+// How the body may run behind a tip that bends as its obstacle does, by what would hold it there. Where the obstacle
+// would have to pull it off its own shape, the shape lifts the tip off or, as that bends towards the obstacle, arches.
+std::vector<Tail> tails_behind(const SlidingSetting& setting, const Transition& free, const ClosedTip& tip) {
   const SlidingState guess(free.guess);
   const std::size_t point = guess.layout.point_at_end(tip.strand, tip.last).value();
-  if (lies_by_itself(setting, guess, point)) return {Span::flat};
+  if (lies_by_itself(setting, guess, point)) return {Tail::flat};
   const bool lifts_off = holding_pressure(setting, guess, point) < 0.0;
-  return lifts_off ? std::vector{Span::free, Span::pressed} : std::vector{Span::pressed, Span::free};
+  return lifts_off ? std::vector{Tail::off, Tail::arch, Tail::pressed} : std::vector{Tail::pressed, Tail::off};
 }
 
 // The tips and joints that become tangent to their obstacles together. A joint may do so with both of its strands,
@@ -210,19 +225,21 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
                            : "a joint of members lies down on a wall, and no equilibrium was found there");
   if (tips.empty()) return {none};
   const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
-  const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Span::free), length);
-  std::vector<std::vector<Span>> ways;
+  const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Tail::off), length);
+  std::vector<std::vector<Tail>> ways;
   for (const ClosedTip& tip : tips) {
     if (!tip.bends_with_it && tip.bend < 0.0) return {none};
     if (tip.bends_with_it && !setting.body.is_tip(tip.strand, tip.last)) return {none};
-    ways.push_back(tip.bends_with_it ? lying_spans(setting, free, tip) : std::vector{Span::free});
+    ways.push_back(tip.bends_with_it ? tails_behind(setting, free, tip) : std::vector{Tail::off});
   }
   std::vector<Transition> transitions;
-  for (std::size_t way = 0; way < 2; ++way) {
-    std::vector<Span> spans;
-    for (const std::vector<Span>& of_tip : ways) spans.push_back(of_tip[std::min(way, of_tip.size() - 1)]);
-    for (const double factor : {1.0, 4.0})
-      transitions.push_back(with_points_inside(setting, at, tips, spans, factor * length));
+  for (std::size_t way = 0; way < 3; ++way) {
+    std::vector<Tail> tails;
+    for (const std::vector<Tail>& of_tip : ways) tails.push_back(of_tip[std::min(way, of_tip.size() - 1)]);
+    // The gap below an arch grows with the fifth power of its length, and the angle at its ends with the fourth.
+    const bool arches = std::find(tails.begin(), tails.end(), Tail::arch) != tails.end();
+    for (const double factor : {arches ? 8.0 : 1.0, arches ? 32.0 : 4.0})
+      transitions.push_back(with_points_inside(setting, at, tips, tails, factor * length));
   }
   transitions.push_back(none);
   return transitions;

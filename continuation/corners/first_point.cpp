@@ -280,12 +280,13 @@ bool sinks(const System& system, const PathPoint& at, double tolerance) {
 }
 
 // A first point of the piece behind a transition from which it can be followed back to where its span is much shorter,
-// and holds, its mesh too: there but for bounds of the length of the span itself. Empty where there is none.
+// and holds, its mesh too: there but for bounds of the length of the span itself. What is touched between the two is
+// found by the step from there. Empty where there is none.
 std::optional<PathPoint> first_early(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                      double lambda_scale) {
   const Ahead ahead = ahead_of(tools, transition, lambda_scale);
   CorrectorResult result = arrive(tools, transition, from, ahead, Effort::usual);
-  if (!result.converged() || !tools.system.admissible(result.state, -penetration_tolerance)) return std::nullopt;
+  if (!result.converged()) return std::nullopt;
   PathPoint first = entered_point(tools, transition, ahead, std::move(result), from.arc);
   if (lies_back(transition, from, first)) return std::nullopt;
   const PathPoint begin = begin_of(tools, transition, first, from, lambda_scale).at;
