@@ -126,6 +126,15 @@ class SlidingMesh {
   using EndForces = std::array<Eigen::Vector3d, 2>;
   virtual EndForces end_forces(Index strand, Index position, const MeshState& now) const = 0;
 
+  /// What point loads and springs exert on an end of a strand: along x, and along z [force]. With derivatives by x and
+  /// λ.
+  struct EndLoad {
+    Vec2 force = Vec2::Zero();
+    std::array<Vector, 2> dx{};
+    Vec2 dlambda = Vec2::Zero();
+  };
+  virtual EndLoad load_on_end(Index strand, bool last, const MeshState& now) const = 0;
+
   /// Any place, by interpolation consistent with the elements.
   virtual AxisPlace place(const MaterialPoint& point, const MeshState& now) const = 0;
 

@@ -228,6 +228,24 @@ class NodalTerms {
     }
   }
 
+  /// What loads and springs exert on a freedom that is not held: p − k u and the forces of springs. Adds its
+  /// derivatives by the unknowns and by λ.
+  template <class UnknownOf, class DisplacementOf, class Derivatives>
+  double force_on(Index freedom, double lambda, const UnknownOf& unknown_of, const DisplacementOf& displacement_of,
+                  Derivatives& by_unknowns, double& by_lambda) const {
+    const double ground = ground_stiffness(freedom);
+    double resists = ground;
+    for (const Spring& spring : springs_)
+      if (spring.joins(freedom)) resists += spring.stiffness;
+    Derivatives against = Derivatives::Zero(by_unknowns.size());
+    double against_lambda = 0.0;
+    add_support_force_gradient(freedom, lambda, unknown_of, displacement_of, against, against_lambda);
+    if (const Index i = unknown_of(freedom); i >= 0) against[i] += resists;
+    by_unknowns -= against;
+    by_lambda -= against_lambda;
+    return -support_force(freedom, lambda, displacement_of) - ground * displacement_of(freedom);
+  }
+
  private:
   template <class Value>
   using List = std::vector<std::pair<Index, Value>>;  // ascending by freedom

@@ -546,6 +546,20 @@ Vector SlidingStructureMesh::transferred(const MeshState& now, const SlidingMesh
   return moved;
 }
 
+SlidingMesh::EndLoad SlidingStructureMesh::load_on_end(Index strand, bool last, const MeshState& now) const {
+  const auto unknown_of = [this](Index of) { return unknown(of); };
+  const auto displacement_of = [&](Index of) { return structure_.value(*this, now, of); };
+  EndLoad load;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Index freedom = structure_.at(strand).ends[last ? 1 : 0].freedom[i];
+    load.dx[i] = Vector::Zero(unknowns());
+    const auto row = static_cast<Index>(i);
+    load.force[row] =
+        structure_.nodal_.force_on(freedom, now.lambda, unknown_of, displacement_of, load.dx[i], load.dlambda[row]);
+  }
+  return load;
+}
+
 SlidingStructure::Reaction SlidingStructureMesh::reaction(const MeshState& now, Index freedom) const {
   SlidingStructure::Reaction reaction{.dx = Vector::Zero(unknowns()), .ds = Vector::Zero(breakpoints())};
   if (unknown(freedom) != held) return reaction;

@@ -42,7 +42,7 @@ ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std:
                 .last = of.last,
                 .obstacle = there.obstacle,
                 .force = at.force(at.layout.points().size() + end)};
-  tip.load = tip.force - carried_at_end(setting, at, there);
+  tip.load = put_on_end(setting, at, there);
   tip.bend = end_curvature_gap(setting, at, there).value;
   tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= round_off;
   return tip;
@@ -197,12 +197,41 @@ void erase_before_end(const SlidingSetting& setting, const StrandEnd& end, bool 
 
 }  // namespace
 
-double carried_at_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+double put_on_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   const Touch touch = touch_of_end(setting, at.layout, end);
   const Obstacle& surface = *setting.obstacles[end.obstacle].surface;
-  const Eigen::Vector3d on_element =
-      at.mesh.end_forces(end.strand, end.last ? touch.position - 1 : 0, at.now)[end.last ? 1 : 0];
-  return on_element.head<2>().dot(surface.normal(face(touch.offset, touch.axis(at)), at.now.lambda));
+  return -at.mesh.load_on_end(end.strand, end.last, at.now)
+              .force.dot(surface.normal(face(touch.offset, touch.axis(at)), at.now.lambda));
+}
+
+// The normal at the end changes with the end's place and direction: that by differences.
+Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  constexpr double step = 1e-6;  // of the strand's length, of an angle, of λ
+  const Touch touch = touch_of_end(setting, at.layout, end);
+  const Obstacle& surface = *setting.obstacles[end.obstacle].surface;
+  const SlidingMesh::EndLoad load = at.mesh.load_on_end(end.strand, end.last, at.now);
+  const auto normal = [&](const State& there) {
+    const SlidingState moved(there);
+    return surface.normal(face(touch.offset, touch.axis(moved)), moved.now.lambda);
+  };
+  const auto rate = [&](const auto& change, double by) {
+    State less = at.state, more = at.state;
+    change(less, -by);
+    change(more, by);
+    return load.force.dot(normal(more) - normal(less)) / (2.0 * by);
+  };
+  const Vec2 here = normal(at.state);
+  Row row = at.no_slope();
+  row.dx.head(load.dx[0].size()) = -here.x() * load.dx[0] - here.y() * load.dx[1];
+  row.dlambda = -here.dot(load.dlambda);
+  if (load.force.isZero(0.0)) return row;
+  const NodeUnknowns unknowns = at.mesh.node_unknowns(end.strand, touch.position);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (const Index unknown = unknowns[i]; unknown >= 0)
+      row.dx[unknown] -= rate([unknown](State& there, double by) { there.x[unknown] += by; },
+                              i < 2 ? step * setting.body.length(end.strand) : step);
+  row.dlambda -= rate([](State& there, double by) { there.lambda += by; }, step);
+  return row;
 }
 
 std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of) {

@@ -10,9 +10,10 @@
 
 namespace arcwall::sliding {
 
-/// What the last element at an end that touches carries, the load along it included: along the obstacle's normal, as
-/// the contact and all that is put on the end push it [force].
-double carried_at_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+/// What point loads and springs put on an end that touches, into the obstacle [force]; and its derivatives by the
+/// unknowns and λ.
+double put_on_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// The closed contact of a tip with the obstacle on which a part is pressed up to there, by its number among the free
 /// ends; empty where there is none.

@@ -236,6 +236,41 @@ path = { step = 0.1, stop = { lambda = [-1.0, 3.0] } }
   test::expect_whole(traced);
 }
 
+// A uniform load q across a clamped strip brings its tip to a ceiling c above it, lays it down, and lays the strip on
+// the ceiling from there, whatever the direction of the whole. In small slopes, with EI = L = 1: q = 8 c, 72 c, and
+// from then on a⁴ = 72 c/q for the length a that is free.
+TEST(Outlines, AStripIsLaidOnASlopingCeilingAsOnALevelOne) {
+  constexpr double c = 1e-3;
+  for (const double angle : {0.0, 0.003, 0.3}) {
+    SCOPED_TRACE(angle);
+    const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "A strip laid on a ceiling"
+material.m = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 1e6, I = 1.0 }}
+point = {{ a = [0.0, 0.0], b = [{:.17g}, {:.17g}] }}
+support = {{ a = ["x", "z", "rotation"] }}
+member.c = {{ from = "a", to = "b", theory = "elastica", elements = 16, material = "m", section = "s" }}
+load = [{{ on = "c", distributed = [{:.17g}, {:.17g}] }}]
+wall = [{{ name = "ceiling", acts_on = "axis", outline = {{ type = "half-plane", point = [{:.17g}, {:.17g}], normal = [{:.17g}, {:.17g}] }} }}]
+path = {{ step = 0.2, stop = {{ lambda = [-1.0, 27.0] }} }}
+)toml",
+                                              along.x(), along.y(), 8.0 * c * across.x(), 8.0 * c * across.y(),
+                                              c * across.x(), c * across.y(), -across.x(), -across.y()));
+    const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
+    const std::vector<double> spreads = lambdas_of(traced, EventKind::contact_spreads);
+    ASSERT_EQ(touches.size(), 1u);
+    ASSERT_EQ(spreads.size(), 1u);
+    EXPECT_NEAR(touches[0], 1.0, 1e-5);
+    EXPECT_NEAR(spreads[0], 9.0, 1e-4);
+    const std::vector<RecordPoint>& points = traced.record().points;
+    EXPECT_LT(points.size(), 60u);
+    ASSERT_FALSE(points.back().forces.empty());
+    EXPECT_NEAR(points.back().forces[0].label.fraction, std::pow(1.0 / 3.0, 0.25), 1e-5);
+    test::expect_whole(traced);
+  }
+}
+
 // The least gap of this curve runs to the end of the strip: a point that follows it is given up L/1000 from there, and
 // is not inserted and given up at the same place again and again.
 TEST(Outlines, APointThatIsGivenUpAtATipIsNotInsertedAgain) {
