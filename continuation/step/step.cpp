@@ -78,12 +78,11 @@ bool leads_aside(const StepOrigin& origin, const StepEnd& end, const Direction& 
 std::optional<StepOutcome> strayed(const System& system, const StepOrigin& origin, const StepEnd& end, double s,
                                    double max_turn) {
   constexpr double over_a_kink = 1e-6;  // steps are no longer [path metric]
-  const bool at_kink = s <= over_a_kink && system.may_have_kink(origin.point().state, end.point.state);
-  if (at_kink) return std::nullopt;
-  if (end.turn > max_turn) return StepOutcome::turned;
   const Direction chord = difference(end.point.state, origin.point().state);
-  const bool near = end.turn <= max_turn && origin.metric.norm(chord) <= 2.0 * s &&
-                    angle_between(origin.metric, origin.point().tangent, chord) <= max_turn &&
+  const bool is_short = origin.metric.norm(chord) <= 2.0 * s;
+  if (is_short && s <= over_a_kink && system.may_have_kink(origin.point().state, end.point.state)) return std::nullopt;
+  if (end.turn > max_turn) return StepOutcome::turned;
+  const bool near = is_short && angle_between(origin.metric, origin.point().tangent, chord) <= max_turn &&
                     !leads_aside(origin, end, chord);
   return near ? std::nullopt : std::optional(StepOutcome::strayed);
 }
