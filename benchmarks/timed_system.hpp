@@ -109,6 +109,23 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.with_inserted_contact(from, forward, to, margin);
   }
+  std::string most_inadmissible(const State& state, double margin) const override {
+    return inner_.most_inadmissible(state, margin);
+  }
+  std::optional<Transition> with_mesh_for_landing(const State& from, const Direction& forward, const State& to,
+                                                  Index guard) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.with_mesh_for_landing(from, forward, to, guard);
+  }
+  bool passes_through(const State& from, const State& to) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.passes_through(from, to);
+  }
+  bool may_have_kink(const State& from, const State& to) const override { return inner_.may_have_kink(from, to); }
+  bool comes_behind_an_end(const State& from, const State& to) const override {
+    const ScopedTimer timer(times_.side_conditions);
+    return inner_.comes_behind_an_end(from, to);
+  }
   Piece canonical_piece(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.canonical_piece(state);

@@ -23,6 +23,9 @@ struct SlidingObstacle {
   RollerEnds roller_ends = RollerEnds::none;
   std::vector<std::uint8_t> strands{};  ///< per strand whether it concerns it
 
+  /// Of the face that looks at it from the axis, along its normal (upwards) [length].
+  double face_offset(double half_height) const { return on_face ? -sign_of(surface->side()) * half_height : 0.0; }
+
   bool concerns(Index strand) const { return strands[static_cast<std::size_t>(strand)] != 0; }
 };
 

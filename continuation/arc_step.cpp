@@ -231,6 +231,7 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.piece);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
+  // A first point that is inside an obstacle tells where a piece leads, but is none to step to.
   if (passed && passed->entered && tools.system.admissible(passed->entered->first.state, -penetration_tolerance))
     accepted.leave.known_end = std::move(passed->entered->first);
   if (passed && passed->entered && !passed->entered->values.empty()) {

@@ -479,12 +479,13 @@ std::optional<State> Model::start(std::string& reason) const {
     ++laid;
   }
   if (!tracer->end() || tracer->end()->reason != EndReason::stop) {
-    reason = "the constant loads and movements find no equilibrium: ";
-    if (state.lambda < most)
-      reason += fmt::format(
-          "their growth turns back at about {:.2g} of their value, where the structure buckles or snaps", most);
-    else
-      reason += fmt::format("their growth ends at {:.4g} of their value ({})", most, tracer->end()->detail);
+    const bool turns_back = state.lambda < most;
+    reason = "the constant loads and movements find no equilibrium: their growth";
+    if (turns_back)
+      reason += fmt::format(" turns back at about {:.2g} of their value, where the structure buckles or snaps", most);
+    if (tracer->end())
+      reason += fmt::format("{} ends at {:.4g} of {} ({})", turns_back ? ", and" : "", state.lambda,
+                            turns_back ? "it" : "their value", tracer->end()->detail);
     return std::nullopt;
   }
   if (sliding_) {

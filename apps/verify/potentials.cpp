@@ -60,17 +60,26 @@ double rate_of(const Rates& rates, Index freedom) {
   return found == rates.end() ? 0.0 : found->second;
 }
 
-using KindOf = std::function<Freedom(std::size_t local)>;
+// The kind of each local unknown, by how many a node has: x, z, then a rotation, then changes of thickness.
+Freedom kind_of(std::size_t local, std::size_t stride) {
+  constexpr Freedom kinds[] = {Freedom::x, Freedom::z, Freedom::rotation, Freedom::thickness, Freedom::thickness2};
+  return kinds[local % stride];
+}
+
+std::size_t unknowns_a_node(const MemberMesh& mesh) {
+  if (!mesh.thickness.empty()) return 5;
+  return mesh.rotations.front() ? 3 : 2;
+}
 
 // Slender elements buckle in themselves at strains of EI/(EA h²): steps change the axial force by no more than a small
 // part of EI/h². That is linear in what a step stretches, K_xi, and quadratic in what it turns the chord or an end.
-void limit_steps(double length, const KindOf& kind_of, Potential& potential) {
+void limit_steps(double length, std::size_t stride, Potential& potential) {
   constexpr double part = 0.01;
   const Vector here = potential.gradient(potential.at);
   Vector along(here.size());  // greatest change of a nodal force with each unknown
   double stretching = 0.0, bending = 0.0;
   const auto is_place = [&](Index i) {
-    const Freedom kind = kind_of(static_cast<std::size_t>(i));
+    const Freedom kind = kind_of(static_cast<std::size_t>(i), stride);
     return kind == Freedom::x || kind == Freedom::z;
   };
   for (Index i = 0; i < here.size(); ++i) {
@@ -83,7 +92,8 @@ void limit_steps(double length, const KindOf& kind_of, Potential& potential) {
     for (Index j = 0; j < change.size(); ++j)
       if (is_place(j)) along[i] = std::max(along[i], std::abs(change[j]));
     if (is_place(i)) stretching = std::max(stretching, along[i]);
-    if (kind_of(static_cast<std::size_t>(i)) == Freedom::rotation) bending = std::max(bending, std::abs(change[i]));
+    if (kind_of(static_cast<std::size_t>(i), stride) == Freedom::rotation)
+      bending = std::max(bending, std::abs(change[i]));
   }
   if (bending == 0.0 || stretching == 0.0) return;
   const double turning = std::sqrt(part * bending / stretching);  // of a place [length]
@@ -91,17 +101,6 @@ void limit_steps(double length, const KindOf& kind_of, Potential& potential) {
     const double most = is_place(i) ? turning : turning / length;
     potential.steps[i] = std::min({potential.steps[i], most, part * bending / (length * along[i])});
   }
-}
-
-// The kind of each local unknown, by how many a node has: x, z, then a rotation, then changes of thickness.
-Freedom kind_of(std::size_t local, std::size_t stride) {
-  constexpr Freedom kinds[] = {Freedom::x, Freedom::z, Freedom::rotation, Freedom::thickness, Freedom::thickness2};
-  return kinds[local % stride];
-}
-
-std::size_t unknowns_a_node(const MemberMesh& mesh) {
-  if (!mesh.thickness.empty()) return 5;
-  return mesh.rotations.front() ? 3 : 2;
 }
 
 struct LoadedElement {
@@ -141,8 +140,7 @@ Potential fixed_potential(const Structure& structure, Index e, const State& stat
   }
   potential.energy = [loaded](const Vector& u) { return loaded.energy(u); };
   potential.gradient = [loaded](const Vector& u) { return loaded.gradient(u); };
-  limit_steps(
-      length, [stride](std::size_t i) { return kind_of(i, stride); }, potential);
+  limit_steps(length, stride, potential);
   return potential;
 }
 
@@ -193,8 +191,7 @@ Potential sliding_potential(const std::shared_ptr<const SlidingElements>& of, In
       return gradient;
     });
   };
-  limit_steps(
-      length, [](std::size_t i) { return kind_of(i, 3); }, potential);
+  limit_steps(length, 3, potential);
   return potential;
 }
 

@@ -4,6 +4,8 @@
 #include <map>
 #include <tuple>
 
+#include "contact/sliding/touch.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -11,10 +13,7 @@ namespace {
 // Of an end that a support holds in z; `at`: its axis in the stress-free shape.
 bool roller_touches(const SlidingObstacle& obstacle, const AxisPlace& at, double half_height, double near) {
   if (obstacle.roller_ends != RollerEnds::clear_at_rest) return obstacle.roller_ends == RollerEnds::all;
-  const double towards = obstacle.on_face ? -sign_of(obstacle.unmoved->side()) * half_height : 0.0;
-  const double up = std::cos(at.angle) >= 0.0 ? 1.0 : -1.0;
-  const Vec2 place = at.position + up * towards * Vec2(-std::sin(at.angle), std::cos(at.angle));
-  return obstacle.unmoved->gap_slope(place, 0.0).value > near;
+  return obstacle.unmoved->gap_slope(sliding::face(obstacle.face_offset(half_height), at), 0.0).value > near;
 }
 
 }  // namespace

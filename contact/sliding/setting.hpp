@@ -70,8 +70,7 @@ struct SlidingSetting {
 
   /// Of the face that looks at an obstacle from the axis, along the obstacle's normal (upwards) [length].
   double face_offset(std::size_t obstacle, Index strand) const {
-    if (!obstacles[obstacle].on_face) return 0.0;
-    return -sign_of(obstacles[obstacle].surface->side()) * body.half_height(strand);
+    return obstacles[obstacle].face_offset(body.half_height(strand));
   }
 };
 

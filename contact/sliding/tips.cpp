@@ -256,13 +256,15 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
   const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
   const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Tail::off), length);
   std::vector<std::vector<Tail>> ways;
+  std::size_t most_ways = 0;
   for (const ClosedTip& tip : tips) {
     if (!tip.bends_with_it && tip.bend < 0.0) return {none};
     if (tip.bends_with_it && !setting.body.is_tip(tip.strand, tip.last)) return {none};
     ways.push_back(tip.bends_with_it ? tails_behind(setting, free, tip) : std::vector{Tail::off});
+    most_ways = std::max(most_ways, ways.back().size());
   }
   std::vector<Transition> transitions;
-  for (std::size_t way = 0; way < 3; ++way) {
+  for (std::size_t way = 0; way < most_ways; ++way) {
     std::vector<Tail> tails;
     for (const std::vector<Tail>& of_tip : ways) tails.push_back(of_tip[std::min(way, of_tip.size() - 1)]);
     // The gap below an arch grows with the fifth power of its length, and the angle at its ends with the fourth.
