@@ -109,6 +109,7 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.with_inserted_contact(from, forward, to, margin);
   }
+  std::string watched_place(const State& state, Index j) const override { return inner_.watched_place(state, j); }
   std::string most_inadmissible(const State& state, double margin) const override {
     return inner_.most_inadmissible(state, margin);
   }
@@ -130,9 +131,9 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.canonical_piece(state);
   }
-  std::optional<std::string> invalid_reason(const State& state) const override {
+  std::optional<std::string> invalid_place(const State& state) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.invalid_reason(state);
+    return inner_.invalid_place(state);
   }
 
  private:

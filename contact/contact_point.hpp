@@ -16,6 +16,9 @@ struct ContactLabel {
   double tributary = 0.0;  ///< part of the axis whose pressure the contact stands for; 0 if not given [length]
 };
 
+/// As messages say it: "roof at column:0.25", to four digits of the member; the member alone where there is no wall.
+std::string words_of(const ContactLabel& label);
+
 /// A contact of one state, as events, tables and pictures tell it.
 struct ContactPoint {
   ContactLabel label{};
@@ -34,8 +37,8 @@ class ContactQuery {
  public:
   virtual ~ContactQuery() = default;
 
-  /// Contact j of the state's piece, open or closed. The number of a validity bound that an event names stands for the
-  /// place that it watches: where the pressure of a part on an obstacle is least, or a clamp.
+  /// Contact j of the state's piece, open or closed. The number of a validity bound stands for the place that it
+  /// watches: where the pressure of a part on an obstacle is least, or an end.
   virtual ContactPoint contact(const State& state, Index j) const = 0;
 
   /// The force of contact j alone, 0 where it is open [force].

@@ -43,6 +43,7 @@ class MovingObstacle final : public Obstacle {
   double curvature_second(const Vec2& position, double lambda) const override;
   double along(const Vec2& position, double lambda) const override;
   const std::vector<double>& knots() const override { return at_rest_->knots(); }
+  bool is_smooth() const override { return at_rest_->is_smooth(); }
   double period() const override { return at_rest_->period(); }
   bool has_other_sides() const override { return at_rest_->has_other_sides(); }
   Vec2 seen_at_rest(const Vec2& position, double lambda) const override { return seen(position, lambda).position; }

@@ -232,9 +232,9 @@ Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Pie
   return moved;
 }
 
-std::optional<std::string> MultiplierContact::invalid_reason(const State& state) const {
+std::optional<std::string> MultiplierContact::invalid_place(const State& state) const {
   for (std::size_t j = 0; j < candidates_.size(); ++j)
-    if (state.piece[j] && !candidates_[j].faces_wall(state)) return "wall_end";
+    if (state.piece[j] && !candidates_[j].faces_wall(state)) return words_of(candidates_[j].label());
   return std::nullopt;
 }
 

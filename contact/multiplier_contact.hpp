@@ -51,6 +51,7 @@ class MultiplierContact final : public System, public ContactQuery {
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   Vector guard_rates(const State& state, const Direction& direction) const override;
+  std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
   double compliance(Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
@@ -58,7 +59,7 @@ class MultiplierContact final : public System, public ContactQuery {
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
-  std::optional<std::string> invalid_reason(const State& state) const override;
+  std::optional<std::string> invalid_place(const State& state) const override;
   bool passes_through(const State& from, const State& to) const override;
   bool may_have_kink(const State& from, const State& to) const override;
   bool comes_behind_an_end(const State& from, const State& to) const override;

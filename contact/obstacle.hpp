@@ -91,6 +91,10 @@ class Obstacle {
   /// Empty: it is straight and goes on.
   virtual const std::vector<double>& knots() const = 0;
 
+  /// Whether its curvature changes smoothly all along, so that a short part of it with one knot is like one without.
+  /// Not so of surfaces with corners, nor of arcs between lines.
+  virtual bool is_smooth() const { return false; }
+
   /// After how much of along() a closed surface begins again; 0 of one that has ends or goes on. Then knots() are those
   /// of one round, and along() jumps somewhere.
   virtual double period() const { return 0.0; }

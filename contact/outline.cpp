@@ -52,6 +52,7 @@ class CircleOutline final : public Outline {
     for (double angle = -pi; angle < pi - 0.5 * knot_turn; angle += knot_turn) angles.push_back(angle);
     return angles;
   }
+  bool is_smooth() const override { return true; }
   double period() const override { return 2.0 * pi; }
   double sharpest_hollow() const override { return sign_ < 0.0 ? 1.0 / radius_ : 0.0; }
   std::optional<Vec2> core() const override { return sign_ > 0.0 ? std::optional(centre_) : std::nullopt; }
@@ -135,6 +136,7 @@ class OutlineObstacle final : public Obstacle {
 
   double along(const Vec2& position, double) const override { return outline_->foot(position).along; }
   const std::vector<double>& knots() const override { return knots_; }
+  bool is_smooth() const override { return outline_->is_smooth(); }
   double period() const override { return outline_->period(); }
   bool has_other_sides() const override { return !knots_.empty(); }
   std::optional<Vec2> core() const override { return outline_->core(); }

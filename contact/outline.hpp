@@ -29,8 +29,9 @@ class Outline {
 
   virtual OutlineFoot foot(const Vec2& position) const = 0;
 
-  /// Obstacle::knots() and Obstacle::period().
+  /// Obstacle::knots(), Obstacle::is_smooth() and Obstacle::period().
   virtual std::vector<double> knots() const { return {}; }
+  virtual bool is_smooth() const { return false; }
   virtual double period() const { return 0.0; }
 
   /// Obstacle::curvature_rate_jumps().

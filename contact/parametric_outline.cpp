@@ -197,6 +197,8 @@ class EllipseOutline final : public ParametricOutline {
     return {.p = centre_ + arm, .first = along, .second = -arm, .third = -along, .fourth = arm};
   }
 
+  bool is_smooth() const override { return true; }
+
  private:
   Vec2 centre_, first_, second_;
 };

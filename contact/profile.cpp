@@ -38,6 +38,8 @@ class ParabolaProfile final : public Profile {
     return x;
   }
 
+  bool is_smooth() const override { return true; }
+
  private:
   Vec2 apex_;
   double curvature_;
@@ -51,8 +53,9 @@ class CircleProfile final : public Profile {
   // y = √(R² − d²):  y′ = −d/y,  y″ = −R²/y³,  y‴ = −3 R² d/y⁵,  y⁗ = −3 R² (R² + 4 d²)/y⁷
   Height at(double x) const override {
     const double d = x - centre_.x(), r2 = radius_ * radius_, y = std::sqrt(r2 - d * d);
-    return {centre_.y() + sign_ * y, -sign_ * d / y, -sign_ * r2 / (y * y * y), -3.0 * sign_ * r2 * d / std::pow(y, 5),
-            -3.0 * sign_ * r2 * (r2 + 4.0 * d * d) / std::pow(y, 7)};
+    const double y2 = y * y, y3 = y2 * y, y5 = y3 * y2, y7 = y5 * y2;
+    return {centre_.y() + sign_ * y, -sign_ * d / y, -sign_ * r2 / y3, -3.0 * sign_ * r2 * d / y5,
+            -3.0 * sign_ * r2 * (r2 + 4.0 * d * d) / y7};
   }
 
   // The arc ends where its normal is level to 1e-6: there the height says nothing about the distance any more.
@@ -65,6 +68,8 @@ class CircleProfile final : public Profile {
     for (int i = -quarter; i <= quarter; ++i) x.push_back(centre_.x() + reach() * std::sin(i * small_turn));
     return x;
   }
+
+  bool is_smooth() const override { return true; }
 
  private:
   double reach() const { return radius_ * (1.0 - 2e-6); }
@@ -161,7 +166,8 @@ class ProfileObstacle final : public Obstacle {
   // With w = 1 + ψ′² the curvature is ψ″ w^(−3/2), and d/ds = w^(−1/2) d/dx.
   double curvature_second(const Vec2& position, double) const override {
     const Height psi = profile_->at(position.x());
-    const double w = 1.0 + psi.first * psi.first, bend = psi.first * psi.second, second3 = std::pow(psi.second, 3);
+    const double w = 1.0 + psi.first * psi.first, bend = psi.first * psi.second,
+                 second3 = psi.second * psi.second * psi.second;
     const double by_x = psi.third - 3.0 * bend * psi.second / w;                        // times w^(−3/2)
     const double by_xx = psi.fourth - 9.0 * bend * psi.third / w - 3.0 * second3 / w +  // the same
                          15.0 * bend * bend * psi.second / (w * w);
@@ -170,6 +176,7 @@ class ProfileObstacle final : public Obstacle {
 
   double along(const Vec2& position, double) const override { return position.x(); }
   const std::vector<double>& knots() const override { return knots_; }
+  bool is_smooth() const override { return profile_->is_smooth(); }
 
   std::span<const CurvatureRateJump> curvature_rate_jumps() const override { return jumps_; }
 

@@ -27,6 +27,9 @@ class Profile {
   /// Obstacle::knots() of a surface whose coordinate is x.
   virtual std::vector<double> knots() const { return {}; }
 
+  /// Obstacle::is_smooth().
+  virtual bool is_smooth() const { return false; }
+
   /// Where ψ‴ jumps, by how much, and up to which distance it goes over.
   struct Jump {
     double x, of_third, half_width;

@@ -14,7 +14,6 @@
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/touch.hpp"
 #include "contact/sliding/validity_bound.hpp"
-#include "core/text.hpp"
 
 namespace arcwall {
 
@@ -43,6 +42,33 @@ const sliding::ValidityBound& bound_of(const SlidingState& at, Index guard) {
 }
 
 bool is_bound(const SlidingState& at, Index guard) { return guard >= static_cast<Index>(at.contacts()); }
+
+double guard_of_contact(const SlidingSetting& setting, const SlidingState& at, Index j) {
+  constexpr double out_of_reach = 1.0;  // of a contact that faces no wall, that lies on it without force, or at a pinch
+  const auto contact = static_cast<std::size_t>(j);
+  if (at.layout.is_pinched(contact)) return out_of_reach;
+  if (at.is_closed(contact)) return at.force(contact) / setting.scales.force;
+  if (sliding::lies_flat(setting, at.layout, contact)) return out_of_reach;
+  const double gap = sliding::face_gap(setting, sliding::touch_of_contact(setting, at.layout, contact), at);
+  return std::isfinite(gap) ? gap / setting.scales.length : out_of_reach;
+}
+
+Row guard_gradient_of_contact(const SlidingSetting& setting, const SlidingState& at, Index j) {
+  Row row = at.no_slope();
+  if (at.layout.is_pinched(static_cast<std::size_t>(j))) return row;
+  if (const auto p = at.index.force(static_cast<std::size_t>(j))) {
+    row.dx[*p] = 1.0 / setting.scales.force;
+    return row;
+  }
+  if (sliding::lies_flat(setting, at.layout, static_cast<std::size_t>(j))) return row;
+  const sliding::Touch touch = sliding::touch_of_contact(setting, at.layout, static_cast<std::size_t>(j));
+  if (!std::isfinite(sliding::face_gap(setting, touch, at))) return row;
+  const sliding::NodeFunction gap = sliding::touch_gap(setting, touch, at).gap;
+  sliding::add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), gap.gradient / setting.scales.length,
+                       row.dx);
+  row.dlambda = gap.rate / setting.scales.length;
+  return row;
+}
 
 }  // namespace
 
@@ -117,39 +143,31 @@ Index SlidingContact::guard_count(const Piece& piece) const {
 }
 
 Vector SlidingContact::guards(const State& state) const {
+  const SlidingState at(state);
   Vector guards(guard_count(state.piece));
-  for (Index j = 0; j < guards.size(); ++j) guards[j] = guard(state, j);
+  for (Index j = 0; j < guards.size(); ++j)
+    guards[j] = is_bound(at, j) ? bound_of(at, j).value(*setting_, at) : guard_of_contact(*setting_, at, j);
   return guards;
 }
 
 double SlidingContact::guard(const State& state, Index j) const {
-  constexpr double out_of_reach = 1.0;  // of a contact that faces no wall, that lies on it without force, or at a pinch
   const SlidingState at(state);
-  if (is_bound(at, j)) return bound_of(at, j).value(*setting_, at);
-  const auto contact = static_cast<std::size_t>(j);
-  if (at.layout.is_pinched(contact)) return out_of_reach;
-  if (at.is_closed(contact)) return at.force(contact) / scales().force;
-  if (sliding::lies_flat(*setting_, at.layout, contact)) return out_of_reach;
-  const double gap = sliding::face_gap(*setting_, sliding::touch_of_contact(*setting_, at.layout, contact), at);
-  return std::isfinite(gap) ? gap / scales().length : out_of_reach;
+  return is_bound(at, j) ? bound_of(at, j).value(*setting_, at) : guard_of_contact(*setting_, at, j);
 }
 
 Row SlidingContact::guard_gradient(const State& state, Index j) const {
   const SlidingState at(state);
-  if (is_bound(at, j)) return bound_of(at, j).gradient(*setting_, at);
-  Row row = at.no_slope();
-  if (at.layout.is_pinched(static_cast<std::size_t>(j))) return row;
-  if (const auto p = at.index.force(static_cast<std::size_t>(j))) {
-    row.dx[*p] = 1.0 / scales().force;
-    return row;
-  }
-  if (sliding::lies_flat(*setting_, at.layout, static_cast<std::size_t>(j))) return row;
-  const sliding::Touch touch = sliding::touch_of_contact(*setting_, at.layout, static_cast<std::size_t>(j));
-  if (!std::isfinite(sliding::face_gap(*setting_, touch, at))) return row;
-  const sliding::NodeFunction gap = sliding::touch_gap(*setting_, touch, at).gap;
-  sliding::add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), gap.gradient / scales().length, row.dx);
-  row.dlambda = gap.rate / scales().length;
-  return row;
+  return is_bound(at, j) ? bound_of(at, j).gradient(*setting_, at) : guard_gradient_of_contact(*setting_, at, j);
+}
+
+Vector SlidingContact::guard_rates(const State& state, const Direction& direction) const {
+  const SlidingState at(state);
+  const SlidingMotion motion{.at = at, .direction = direction};
+  Vector rates(guard_count(state.piece));
+  for (Index j = 0; j < rates.size(); ++j)
+    rates[j] = is_bound(at, j) ? bound_of(at, j).rate(*setting_, motion)
+                               : apply(guard_gradient_of_contact(*setting_, at, j), direction);
+  return rates;
 }
 
 Vector SlidingContact::unit_force(const State& state, Index j) const {
@@ -175,11 +193,12 @@ bool SlidingContact::leaves_stability_open(const Piece& piece) const {
   return !sliding_layout(piece).neutral_spans().empty();
 }
 
-std::optional<std::string> SlidingContact::invalid_reason(const State& state) const {
+std::optional<std::string> SlidingContact::invalid_place(const State& state) const {
   const SlidingState at(state);
   for (std::size_t j = 0; j < at.contacts(); ++j) {
     const sliding::Touch touch = sliding::touch_of_contact(*setting_, at.layout, j);
-    if (at.is_closed(j) && !std::isfinite(sliding::face_gap(*setting_, touch, at))) return "wall_end";
+    if (at.is_closed(j) && !std::isfinite(sliding::face_gap(*setting_, touch, at)))
+      return watched_place(state, static_cast<Index>(j));
   }
   return std::nullopt;
 }
@@ -201,9 +220,7 @@ std::string SlidingContact::most_inadmissible(const State& state, double margin)
   const auto deepest = sliding::deepest_unwatched(*setting_, SlidingState(state), margin);
   if (!deepest) return {};
   const auto [member, fraction] = setting_->body.label(deepest->at);
-  constexpr double shown = 1e4;  // parts of the member
-  return setting_->obstacles[deepest->obstacle].name + " at " + member + ":" +
-         round_trip(std::round(shown * fraction) / shown);
+  return words_of({.wall = setting_->obstacles[deepest->obstacle].name, .member = member, .fraction = fraction});
 }
 
 std::optional<Transition> SlidingContact::with_inserted_contact(const State& from, const Direction& forward,

@@ -49,13 +49,15 @@ class SlidingContact final : public System, public ContactQuery {
   Vector guards(const State& state) const override;
   double guard(const State& state, Index j) const override;
   Row guard_gradient(const State& state, Index j) const override;
+  Vector guard_rates(const State& state, const Direction& direction) const override;
+  std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   Vector unit_force(const State& state, Index j) const override;
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   bool is_two_sided(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales().force; }
   Vector transfer(const Vector& x, const Piece& from, const Piece& to) const override;
   bool leaves_stability_open(const Piece& piece) const override;
-  std::optional<std::string> invalid_reason(const State& state) const override;
+  std::optional<std::string> invalid_place(const State& state) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override;

@@ -9,6 +9,7 @@
 #include "continuation/branch_start.hpp"
 #include "continuation/lambda_scale.hpp"
 #include "continuation/stops.hpp"
+#include "core/text.hpp"
 
 namespace arcwall {
 
@@ -22,7 +23,8 @@ constexpr int most_insertions = 50;
 BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejected>& why) {
   const bool controlled = options.method == PathMethod::load || options.method == PathMethod::displacement;
   if (why && why->outcome == StepOutcome::obstructed)
-    return {.reason = EndReason::wall_end, .detail = "a closed contact reached the end of its wall"};
+    return {.reason = EndReason::wall_end,
+            .detail = with_place("a closed contact reached the end of its wall", why->where)};
   if (why && why->outcome == StepOutcome::behind_end)
     return {.reason = EndReason::wall_end,
             .detail =
@@ -33,13 +35,13 @@ BranchEnd end_of_attempts(const TraceOptions& options, const std::optional<Rejec
             .detail = "the controlled quantity turns back; use method = \"spherical\" to go on"};
   if (why && why->outcome == StepOutcome::penetrates)
     return {.reason = EndReason::unsupported,
-            .detail = "a wall is touched ahead where contact cannot be followed" +
-                      (why->where.empty() ? std::string() : ": " + why->where)};
+            .detail = with_place("a wall is touched ahead where contact cannot be followed", why->where)};
   if (why && why->failure == CorrectorStatus::singular)
     return {.reason = EndReason::singular, .detail = "the equations are singular ahead"};
   if (why && why->failure == CorrectorStatus::not_finite)
     return {.reason = EndReason::not_finite, .detail = "a step leads to numbers that are not finite"};
-  return {.reason = EndReason::min_step, .detail = "no step above path.min_step succeeds"};
+  return {.reason = EndReason::min_step,
+          .detail = with_place("no step above path.min_step succeeds", why ? why->where : std::string())};
 }
 
 // Of two attempts the one that says why the branch ends: one that found no equilibrium does not take back that the

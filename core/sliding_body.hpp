@@ -49,10 +49,14 @@ struct AxisPlace {
   double angle = 0.0;  ///< of the tangent, continuous along the strand [rad]
 };
 
-/// Curvature and stretch of the axis on one side of a breakpoint, with their derivatives.
+/// Curvature and stretch of the axis on one side of a node.
 struct AxisStrain {
   double curvature = 0.0;  ///< d angle / d stress-free arc length [1/length]
   double stretch = 1.0;    ///< d deformed arc length / d stress-free arc length
+};
+
+/// The same with their derivatives.
+struct AxisStrainGradient : AxisStrain {
   Vector curvature_dx{}, curvature_ds{};
   Vector stretch_dx{}, stretch_ds{};
   double curvature_dlambda = 0.0, stretch_dlambda = 0.0;  ///< of loads along the element, and of ends that are moved
@@ -109,14 +113,25 @@ class SlidingMesh {
 
   enum class At { before, behind };
 
-  /// Just before or behind breakpoint k.
-  virtual AxisStrain strain(Index k, At side, const MeshState& now) const = 0;
-
-  /// On one side of any node. Curvature has the derivatives at a place that the breakpoints do not move.
+  /// On one side of a node. The curvature's derivatives are those at a place that the breakpoints do not move.
   virtual AxisStrain node_strain(Index strand, Index position, At side, const MeshState& now) const = 0;
+  virtual AxisStrainGradient node_strain_gradient(Index strand, Index position, At side,
+                                                  const MeshState& now) const = 0;
+
+  /// Just before or behind breakpoint k, which moves along the body.
+  AxisStrain strain(Index k, At side, const MeshState& now) const {
+    const auto [strand, position] = breakpoint(k);
+    return node_strain(strand, position, side, now);
+  }
+  virtual AxisStrainGradient strain_gradient(Index k, At side, const MeshState& now) const = 0;
 
   /// At an end of a strand.
-  virtual AxisStrain end_strain(Index strand, bool last, const MeshState& now) const = 0;
+  AxisStrain end_strain(Index strand, bool last, const MeshState& now) const {
+    return node_strain(strand, last ? nodes(strand) - 1 : 0, last ? At::before : At::behind, now);
+  }
+  AxisStrainGradient end_strain_gradient(Index strand, bool last, const MeshState& now) const {
+    return node_strain_gradient(strand, last ? nodes(strand) - 1 : 0, last ? At::before : At::behind, now);
+  }
 
   /// Energy of the element behind a node, the potential of the load along it included.
   virtual double element_energy(Index strand, Index position, const MeshState& now) const = 0;

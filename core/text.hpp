@@ -13,4 +13,10 @@ std::string round_trip(double value);
 /// length).
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
+/// What happened, and where: "a stretch closes: roof at column:0.25". The place may be empty.
+inline std::string with_place(std::string_view what, std::string_view place) {
+  std::string words(what);
+  return place.empty() ? words : words.append(": ").append(place);
+}
+
 }  // namespace arcwall

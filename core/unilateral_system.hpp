@@ -46,6 +46,9 @@ class UnilateralSystem : public Equations {
     return rates;
   }
 
+  /// What guard j watches, for messages: an obstacle and a place of the structure. May be empty.
+  virtual std::string watched_place(const State&, Index /*j*/) const { return {}; }
+
   /// −∂F/∂p_j for a state on a piece where contact j is open: what its force would do to the equations, scaled so that
   /// it belongs to a change of 1 of the guard that the force is on the piece where j is closed.
   virtual Vector unit_force(const State& state, Index) const { return Vector::Zero(state.x.size()); }
@@ -73,8 +76,9 @@ class UnilateralSystem : public Equations {
   /// how many directions are unstable. What eigenvalues count there are the others.
   virtual bool leaves_stability_open(const Piece&) const { return false; }
 
-  /// Why the equations do not hold at this state although it may solve them (a wall that ends); empty if they do.
-  virtual std::optional<std::string> invalid_reason(const State&) const { return std::nullopt; }
+  /// Where the equations do not hold at this state although it may solve them: a closed contact beyond the end of its
+  /// wall, in words for messages. Empty if they hold everywhere.
+  virtual std::optional<std::string> invalid_place(const State&) const { return std::nullopt; }
 
   /// The same point on another piece of the same layout.
   State with_piece(const State& state, const Piece& piece) const {

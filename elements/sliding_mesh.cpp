@@ -411,20 +411,34 @@ double SlidingStructureMesh::energy(const MeshState& now) const {
 //
 //   curvature = κ₀ ± M/EI,   stretch = 1 + e ± N/EA,   N = f·t
 //
-// κ₀ and e with what temperatures make. The derivatives are those at a node whose material coordinate is fixed.
-AxisStrain SlidingStructureMesh::node_strain(Index strand, Index position, At side, const MeshState& now) const {
-  const bool before = side == At::before;
-  const Index e = before ? position - 1 : position, n = unknowns(), m = breakpoints();
-  const Index place = before ? 3 : 0, turn = place + 2;  // of the node among the element's freedoms
+// κ₀ and e with what temperatures make.
+AxisStrain SlidingStructureMesh::strain_of(const Response& response, Index strand, Index position, At side,
+                                           const MeshState& now) const {
+  const ElementBeside of = beside(position, side);
   const SlidingStructure::Run& described = structure_.at(strand);
-  const double sign = before ? 1.0 : -1.0;
+  const double EA = of.sign * described.section.EA(), EI = of.sign * described.section.EI();
+  const Vec2 t = unit_tangent(node(strand, position, now).angle);
+  const MaterialPoint here{.strand = strand, .s = coordinate(strand, position, now.s)};
+  const auto force = response.force.segment<2>(of.place);
+  return {.curvature = structure_.natural_curvature(here, now.lambda) + response.force[of.turn()] / EI,
+          .stretch = 1.0 + described.thermal.strain.at(now.lambda) + force.dot(t) / EA};
+}
+
+AxisStrain SlidingStructureMesh::node_strain(Index strand, Index position, At side, const MeshState& now) const {
+  const Index e = beside(position, side).element;
+  return strain_of(with_end_forces(respond(strand, e, now, false), strand, e, now), strand, position, side, now);
+}
+
+AxisStrainGradient SlidingStructureMesh::node_strain_gradient(Index strand, Index position, At side,
+                                                              const MeshState& now) const {
+  const auto [e, place, sign] = beside(position, side);
+  const Index turn = beside(position, side).turn(), n = unknowns(), m = breakpoints();
+  const SlidingStructure::Run& described = structure_.at(strand);
   const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
   const Response response = with_end_forces(respond(strand, e, now, true), strand, e, now);
   const Vec2 t = unit_tangent(node(strand, position, now).angle);
-  const MaterialPoint here{.strand = strand, .s = coordinate(strand, position, now.s)};
   const auto force = response.force.segment<2>(place);
-  AxisStrain strain{.curvature = structure_.natural_curvature(here, now.lambda) + response.force[turn] / EI,
-                    .stretch = 1.0 + described.thermal.strain.at(now.lambda) + force.dot(t) / EA};
+  AxisStrainGradient strain{strain_of(response, strand, position, side, now)};
 
   const Six curvature_dx = response.stiffness.row(turn).transpose() / EI;
   Six stretch_dx = response.stiffness.middleRows<2>(place).transpose() * t / EA;
@@ -446,19 +460,15 @@ AxisStrain SlidingStructureMesh::node_strain(Index strand, Index position, At si
   return strain;
 }
 
-AxisStrain SlidingStructureMesh::strain(Index k, At side, const MeshState& now) const {
+AxisStrainGradient SlidingStructureMesh::strain_gradient(Index k, At side, const MeshState& now) const {
   const auto [strand, position] = breakpoint(k);
   const double S = coordinate(strand, position, now.s), step = 1e-5 * structure_.at(strand).length;
   const auto natural = [&, strand = strand](double at) {
     return structure_.natural_curvature({.strand = strand, .s = at}, now.lambda);
   };
-  AxisStrain strain = node_strain(strand, position, side, now);
+  AxisStrainGradient strain = node_strain_gradient(strand, position, side, now);
   strain.curvature_ds[k] += (natural(S + step) - natural(S - step)) / (2.0 * step);
   return strain;
-}
-
-AxisStrain SlidingStructureMesh::end_strain(Index strand, bool last, const MeshState& now) const {
-  return node_strain(strand, last ? nodes(strand) - 1 : 0, last ? At::before : At::behind, now);
 }
 
 SlidingMesh::EndForces SlidingStructureMesh::end_forces(Index strand, Index position, const MeshState& now) const {

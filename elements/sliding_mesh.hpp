@@ -32,9 +32,9 @@ class SlidingStructureMesh final : public SlidingMesh {
   AxisPlace node(Index strand, Index position, const MeshState& now) const override;
   Eigen::Vector3d node_rate(Index strand, Index position) const override;
   std::pair<Index, Index> breakpoint(Index k) const override { return breakpoints_[static_cast<std::size_t>(k)]; }
-  AxisStrain strain(Index k, At side, const MeshState& now) const override;
   AxisStrain node_strain(Index strand, Index position, At side, const MeshState& now) const override;
-  AxisStrain end_strain(Index strand, bool last, const MeshState& now) const override;
+  AxisStrainGradient node_strain_gradient(Index strand, Index position, At side, const MeshState& now) const override;
+  AxisStrainGradient strain_gradient(Index k, At side, const MeshState& now) const override;
   double element_energy(Index strand, Index position, const MeshState& now) const override {
     return respond(strand, position, now, false).energy;
   }
@@ -125,6 +125,19 @@ class SlidingStructureMesh final : public SlidingMesh {
                      const MeshState& now, Response& out) const;
   void add_pressure(Index strand, Index position, const Ends& at, const MeshState& now, Response& out) const;
   Response with_end_forces(Response response, Index strand, Index position, const MeshState& now) const;
+
+  // The element on one side of a node, where the node stands among its freedoms, and the sign of what the element does
+  // to the node, by which it is stretched and bent.
+  struct ElementBeside {
+    Index element, place;
+    double sign;
+    Index turn() const { return place + 2; }
+  };
+  static ElementBeside beside(Index position, At side) {
+    return side == At::before ? ElementBeside{.element = position - 1, .place = 3, .sign = 1.0}
+                              : ElementBeside{.element = position, .place = 0, .sign = -1.0};
+  }
+  AxisStrain strain_of(const Response& response, Index strand, Index position, At side, const MeshState& now) const;
   static void add_foundation(const SlidingStructure::Run& strand, const StretchReference& stretch,
                              const Vec2& first_at_rest, const Ends& at, Response& out);
 

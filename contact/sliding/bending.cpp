@@ -17,6 +17,10 @@ AxisStrain strain_of_free_side(const SlidingState& at, std::size_t point) {
   return at.mesh.strain(static_cast<Index>(point), free_side(at.layout, point), at.now);
 }
 
+AxisStrainGradient strain_gradient_of_free_side(const SlidingState& at, std::size_t point) {
+  return at.mesh.strain_gradient(static_cast<Index>(point), free_side(at.layout, point), at.now);
+}
+
 Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
 
 }  // namespace
@@ -27,19 +31,44 @@ void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index)
   row.dlambda += factor * dlambda;
 }
 
-// ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve at the
-// face's distance from the wall, on which the axis would lie. Travel against x turns the sign of κ.
-CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
-                               const AxisStrain& strain) {
-  const AxisPlace axis = touch.axis(at);
-  const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
-  const double along = travel(obstacle, face(touch.offset, axis), axis.angle, at.now.lambda);
-  const double offset = along * touch.offset, side = sign_of(obstacle.side());
-  const LinearField wall = obstacle.curvature(face(touch.offset, axis), at.now.lambda);
-  const double shrink = 1.0 / (1.0 + touch.offset * wall.value);
-  const double parallel = wall.value * shrink;
+namespace {
 
-  CurvatureGap out{.value = side * (along * strain.curvature - strain.stretch * parallel)};
+// The wall at a touch, and the curve at the face's distance from it, on which the axis would lie.
+struct FacedWall {
+  AxisPlace axis;
+  double side, along;     // ± 1: of the wall, and of the body's travel along it
+  LinearField curvature;  // of the wall
+  double shrink;          // of the curve, for which its curvature is greater
+  double parallel() const { return curvature.value * shrink; }
+
+  FacedWall(const SlidingSetting& setting, const SlidingState& at, const Touch& touch) : axis(touch.axis(at)) {
+    const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
+    const Vec2 place = face(touch.offset, axis);
+    side = sign_of(obstacle.side());
+    along = travel(obstacle, place, axis.angle, at.now.lambda);
+    curvature = obstacle.curvature(place, at.now.lambda);
+    shrink = 1.0 / (1.0 + touch.offset * curvature.value);
+  }
+
+  // ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve. Travel
+  // against x turns the sign of κ.
+  double gap(const AxisStrain& strain) const { return side * (along * strain.curvature - strain.stretch * parallel()); }
+};
+
+}  // namespace
+
+double gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                         const AxisStrain& strain) {
+  return FacedWall(setting, at, touch).gap(strain);
+}
+
+CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                                        const AxisStrainGradient& strain) {
+  const FacedWall faced(setting, at, touch);
+  const auto& [axis, side, along, wall, shrink] = faced;
+  const double parallel = faced.parallel(), offset = along * touch.offset;
+
+  CurvatureGap out{.value = faced.gap(strain)};
   out.dx = side * (along * strain.curvature_dx - parallel * strain.stretch_dx);
   out.ds = side * (along * strain.curvature_ds - parallel * strain.stretch_ds);
   out.dlambda = side * (along * strain.curvature_dlambda - parallel * strain.stretch_dlambda);
@@ -51,13 +80,23 @@ CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState
   return out;
 }
 
-CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+double curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
   return gap_of_curvatures(setting, at, touch_of_contact(setting, at.layout, point), strain_of_free_side(at, point));
 }
 
-CurvatureGap end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+CurvatureGap curvature_gap_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
+  return gap_of_curvatures_gradient(setting, at, touch_of_contact(setting, at.layout, point),
+                                    strain_gradient_of_free_side(at, point));
+}
+
+double end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   return gap_of_curvatures(setting, at, touch_of_end(setting, at.layout, end),
                            at.mesh.end_strain(end.strand, end.last, at.now));
+}
+
+CurvatureGap end_curvature_gap_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
+  return gap_of_curvatures_gradient(setting, at, touch_of_end(setting, at.layout, end),
+                                    at.mesh.end_strain_gradient(end.strand, end.last, at.now));
 }
 
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point) {
@@ -89,6 +128,11 @@ namespace {
 // What the body has on the free side of a point, or at the first end of a strand.
 AxisStrain strain_at(const SlidingState& at, Index strand, std::optional<Index> point) {
   return point ? strain_of_free_side(at, static_cast<std::size_t>(*point)) : at.mesh.end_strain(strand, false, at.now);
+}
+
+AxisStrainGradient strain_gradient_at(const SlidingState& at, Index strand, std::optional<Index> point) {
+  return point ? strain_gradient_of_free_side(at, static_cast<std::size_t>(*point))
+               : at.mesh.end_strain_gradient(strand, false, at.now);
 }
 
 HeldAxis held_axis_of(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
@@ -184,7 +228,7 @@ Row straight_pressure_gradient(const SlidingSetting& setting, const SlidingState
   const double by_lambda = by(1.0, [](HeldAxis& there, double d) { there.lambda += d; });
 
   const Touch& touch = held.touch;
-  const AxisStrain strain = strain_at(at, touch.strand, held.point);
+  const AxisStrainGradient strain = strain_gradient_at(at, touch.strand, held.point);
   Row row = at.no_slope();
   row.dx.head(at.index.nodes) += by_stretch * strain.stretch_dx;
   row.dx.tail(at.index.points) += by_stretch * strain.stretch_ds;

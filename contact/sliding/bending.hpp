@@ -8,6 +8,19 @@ namespace arcwall::sliding {
 
 /// How much more the obstacle bends towards the body than the body does at a tracked point, where the body does not lie
 /// on the obstacle: > 0 where contact is at a point [1/length]. (8.5) of docs/theory.md.
+double curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+
+/// The same of any touch, by what the body has on one side of it.
+double gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                         const AxisStrain& strain);
+
+/// The same at an end of a strand that touches the obstacle tangentially.
+double end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+
+/// The curvature of the curve on which the axis lies whose face, by `offset` along the normal, lies on a wall.
+constexpr double parallel_curvature(double offset, double of_wall) { return of_wall / (1.0 + offset * of_wall); }
+
+/// These with their derivatives.
 struct CurvatureGap {
   double value = 0.0;
   Vector dx{}, ds{};
@@ -16,14 +29,10 @@ struct CurvatureGap {
   /// Adds a multiple to a derivative by all unknowns.
   void add_to(Row& row, double factor, const SlidingUnknowns& index) const;
 };
-CurvatureGap curvature_gap(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
-
-/// The same of any touch, by what the body has on one side of it.
-CurvatureGap gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
-                               const AxisStrain& strain);
-
-/// The same at an end of a strand that touches the obstacle tangentially.
-CurvatureGap end_curvature_gap(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
+CurvatureGap curvature_gap_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t point);
+CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
+                                        const AxisStrainGradient& strain);
+CurvatureGap end_curvature_gap_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end);
 
 /// Curvature of the obstacle at a tracked point [1/length].
 double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at, std::size_t point);

@@ -64,13 +64,13 @@ Transition with_parts(const SlidingSetting& setting, const SlidingState& at, con
 
 double parting(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   if (setting.body.is_hinged(end.strand, end.last)) return sine_from_end(setting, at, end);
-  return end_curvature_gap(setting, at, end).value * setting.scales.length;
+  return end_curvature_gap(setting, at, end) * setting.scales.length;
 }
 
 Row parting_gradient(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
   if (setting.body.is_hinged(end.strand, end.last)) return sine_from_end_gradient(setting, at, end);
   Row row = at.no_slope();
-  end_curvature_gap(setting, at, end).add_to(row, setting.scales.length, at.index);
+  end_curvature_gap_gradient(setting, at, end).add_to(row, setting.scales.length, at.index);
   return row;
 }
 

@@ -2,15 +2,9 @@
 
 #include <algorithm>
 
-#include "contact/sliding/bounds/clamp.hpp"
-#include "contact/sliding/bounds/end_stays.hpp"
-#include "contact/sliding/bounds/load.hpp"
-#include "contact/sliding/bounds/pressure.hpp"
-#include "contact/sliding/bounds/pulling_jump.hpp"
-#include "contact/sliding/clamps.hpp"
 #include "contact/sliding/pinches.hpp"
-#include "contact/sliding/pressed_part.hpp"
 #include "contact/sliding/touch.hpp"
+#include "contact/sliding/validity_bound.hpp"
 
 namespace arcwall::sliding {
 
@@ -34,20 +28,21 @@ ContactPoint at_node(const SlidingSetting& setting, const SlidingState& at, cons
   return contact;
 }
 
-// Where the pressure is least that a bound watches.
-ContactPoint at_least_pressure(const SlidingSetting& setting, const SlidingState& at, const PressureBound& bound) {
-  const SlidingContactLayout::PressedNode& node = at.layout.pressed_nodes()[bound.node()];
-  const MaterialPoint least{.strand = node.strand, .s = least_pressure(setting, at, bound.node()).s};
-  return {.label = label_of(setting, node.obstacle, least),
-          .place = face(setting.face_offset(node.obstacle, node.strand), at.mesh.place(least, at.now))};
-}
-
-// Where a load pulls a part off.
-ContactPoint at_load(const SlidingSetting& setting, const SlidingState& at, const PartLoad& load) {
-  const std::size_t obstacle = obstacle_of_part(at, load.segment);
-  const MaterialPoint here{.strand = load.strand, .s = place_of(setting, load)};
-  return {.label = label_of(setting, obstacle, here),
-          .place = face(setting.face_offset(obstacle, load.strand), at.mesh.place(here, at.now))};
+// What a bound watches.
+ContactPoint at_bound(const SlidingSetting& setting, const SlidingState& at, const ValidityBound& bound) {
+  const BoundPlace watched = bound.place(setting, at);
+  const AxisPlace axis = at.mesh.place(watched.at, at.now);
+  if (!watched.obstacle) {
+    const auto [member, fraction] = setting.body.label(watched.at);
+    return {.label = {.member = member, .fraction = fraction}, .place = axis.position};
+  }
+  const std::size_t obstacle = *watched.obstacle;
+  const Obstacle& surface = *setting.obstacles[obstacle].surface;
+  const Vec2 place = face(setting.face_offset(obstacle, watched.at.strand), axis);
+  ContactPoint contact{.label = label_of(setting, obstacle, watched.at), .place = place};
+  if (surface.faces(place, at.now.lambda))
+    contact.place -= surface.half_height() * surface.normal(place, at.now.lambda);
+  return contact;
 }
 
 // Of the two obstacles of a pinch each is told to push with what is positive of the force across the axis in its
@@ -68,22 +63,7 @@ ContactPoint at_pinch(const SlidingSetting& setting, const SlidingState& at, std
 ContactPoint contact_point(const SlidingSetting& setting, const SlidingState& at, std::size_t j) {
   if (at.layout.is_pinched(j)) return at_pinch(setting, at, j, false);
   if (j < at.contacts()) return at_node(setting, at, touch_of_contact(setting, at.layout, j), at.force(j));
-  const ValidityBound& bound = *at.layout.bounds()[j - at.contacts()];
-  if (const auto* clamp = dynamic_cast<const ClampBound*>(&bound))
-    return at_node(setting, at,
-                   touch_of_end(setting, at.layout, touched_clamp(setting, at, clamp->strand(), clamp->last()).value()),
-                   0.0);
-  if (const auto* stays = dynamic_cast<const EndStaysBound*>(&bound)) {
-    const std::size_t obstacle = at.layout.lies_on(stays->strand()).value();
-    return at_node(
-        setting, at,
-        touch_of_end(setting, at.layout, {.strand = stays->strand(), .last = stays->last(), .obstacle = obstacle}),
-        0.0);
-  }
-  if (const auto* jump = dynamic_cast<const PullingJumpBound*>(&bound))
-    return at_node(setting, at, touch_of_contact(setting, at.layout, jump->point()), 0.0);
-  if (const auto* presses = dynamic_cast<const LoadPressesBound*>(&bound)) return at_load(setting, at, presses->load());
-  return at_least_pressure(setting, at, dynamic_cast<const PressureBound&>(bound));
+  return at_bound(setting, at, *at.layout.bounds()[j - at.contacts()]);
 }
 
 std::vector<ContactPoint> closed_contacts(const SlidingSetting& setting, const SlidingState& at) {

@@ -80,13 +80,53 @@ double pressure_on_curve(const SlidingSetting& setting, const HeldPlace& held, c
   return sign_of(obstacle.side()) * held.travel * (by_bending - curvature * force - load.dot(perp(t)));
 }
 
+// Of the length of the strand, of angles and of λ: walls have ends, and arcs between lines.
+constexpr double small = 1e-5;
+
+// How fast a place and what is there moves.
+struct HeldRate {
+  Vec2 position;
+  double angle, s, stretch, lambda;
+};
+
+double by_stretch(const SlidingSetting& setting, const HeldPlace& held, const NaturalCurvature& natural) {
+  const auto stretched = [&](double d) {
+    HeldPlace there = held;
+    there.stretch += d;
+    return pressure_on_curve(setting, there, natural);
+  };
+  return derivative_by_two(stretched, small);
+}
+
+// Along the direction in which a place moves. The stretch stands apart: slender bodies change theirs by so little that
+// their force would be lost in round-off.
+double pressure_rate(const SlidingSetting& setting, const HeldPlace& held, const HeldRate& rate) {
+  const double length = setting.body.length(held.touch.strand);
+  const double of_stretch = by_stretch(setting, held, natural_curvature(setting.body, held)) * rate.stretch;
+  const double fastest = std::max({rate.position.norm() / (small * length), std::abs(rate.angle) / small,
+                                   std::abs(rate.s) / (small * length), std::abs(rate.lambda) / small});
+  if (fastest == 0.0) return of_stretch;
+  const auto moved = [&](double d) {
+    HeldPlace there = held;
+    there.position += d * rate.position;
+    there.angle += d * rate.angle;
+    there.s += d * rate.s;
+    there.lambda += d * rate.lambda;
+    return there;
+  };
+  const auto pressure = [&](double d) {
+    const HeldPlace there = moved(d);
+    return pressure_on_curve(setting, there, natural_curvature(setting.body, there));
+  };
+  return of_stretch + derivative_by_two(pressure, 1.0 / fastest);
+}
+
 struct Gradient {
   Eigen::Vector3d node = Eigen::Vector3d::Zero();  // by x and z of the axis and by its angle
   double stretch = 0.0, s = 0.0, lambda = 0.0;
 };
 
 Gradient pressure_gradient(const SlidingSetting& setting, const HeldPlace& held) {
-  constexpr double small = 1e-5;  // of the length of the strand: walls have ends, and arcs between lines
   const double length = setting.body.length(held.touch.strand);
   const NaturalCurvature natural = natural_curvature(setting.body, held);
   const auto by = [&](double step, const auto& move) {
@@ -95,14 +135,14 @@ Gradient pressure_gradient(const SlidingSetting& setting, const HeldPlace& held)
       move(there, d);
       return pressure_on_curve(setting, there, there.s == held.s ? natural : natural_curvature(setting.body, there));
     };
-    return derivative(moved, step);
+    return derivative_by_two(moved, step);
   };
   return {.node = {by(small * length, [](HeldPlace& there, double d) { there.position.x() += d; }),
                    by(small * length, [](HeldPlace& there, double d) { there.position.y() += d; }),
-                   by(difference_step, [](HeldPlace& there, double d) { there.angle += d; })},
-          .stretch = by(difference_step, [](HeldPlace& there, double d) { there.stretch += d; }),
-          .s = by(difference_step * length, [](HeldPlace& there, double d) { there.s += d; }),
-          .lambda = by(difference_step, [](HeldPlace& there, double d) { there.lambda += d; })};
+                   by(small, [](HeldPlace& there, double d) { there.angle += d; })},
+          .stretch = by_stretch(setting, held, natural),
+          .s = by(small * length, [](HeldPlace& there, double d) { there.s += d; }),
+          .lambda = by(small, [](HeldPlace& there, double d) { there.lambda += d; })};
 }
 
 HeldPlace held_place(const SlidingSetting& setting, const SlidingState& at, const Touch& touch, double s,
@@ -123,21 +163,30 @@ HeldPlace held_place(const SlidingSetting& setting, const SlidingState& at, cons
 CurvePressure::CurvePressure(const SlidingSetting& setting, const SlidingState& at, std::size_t segment)
     : setting_(setting),
       at_(at),
+      segment_(segment),
       part_(at.layout.segments()[segment]),
       obstacle_(obstacle_of_part(at, segment)),
       first_position_(part_.first_point < 0 ? 0 : at.mesh.breakpoint(part_.first_point).second) {
   std::tie(from_, to_) = at.layout.ends(setting.body, part_, at.now.s);
 }
 
-// Of the elements of the part beside a place, the mean.
-AxisStrain CurvePressure::strain(Index place) const {
+double CurvePressure::stretch(Index place) const {
   const auto of = [&](SlidingMesh::At side) {
-    return at_.mesh.node_strain(part_.strand, position(place), side, at_.now);
+    return at_.mesh.node_strain(part_.strand, position(place), side, at_.now).stretch;
   };
   if (place == 0) return of(SlidingMesh::At::behind);
-  AxisStrain strain = of(SlidingMesh::At::before);
+  if (place == part_.elements) return of(SlidingMesh::At::before);
+  return 0.5 * (of(SlidingMesh::At::before) + of(SlidingMesh::At::behind));
+}
+
+AxisStrainGradient CurvePressure::stretch_gradient(Index place) const {
+  const auto of = [&](SlidingMesh::At side) {
+    return at_.mesh.node_strain_gradient(part_.strand, position(place), side, at_.now);
+  };
+  if (place == 0) return of(SlidingMesh::At::behind);
+  AxisStrainGradient strain = of(SlidingMesh::At::before);
   if (place == part_.elements) return strain;
-  const AxisStrain behind = of(SlidingMesh::At::behind);
+  const AxisStrainGradient behind = of(SlidingMesh::At::behind);
   strain.stretch = 0.5 * (strain.stretch + behind.stretch);
   strain.stretch_dx = 0.5 * (strain.stretch_dx + behind.stretch_dx);
   strain.stretch_ds = 0.5 * (strain.stretch_ds + behind.stretch_ds);
@@ -146,12 +195,34 @@ AxisStrain CurvePressure::strain(Index place) const {
 }
 
 double CurvePressure::pressure(Index place) const {
-  const HeldPlace held = held_place(setting_, at_, touch(place), coordinate(double(place)), strain(place).stretch);
-  return pressure_on_curve(setting_, held, natural_curvature(setting_.body, held));
+  return at_.pressures.at(segment_, place, [&] {
+    const HeldPlace held = held_place(setting_, at_, touch(place), coordinate(double(place)), stretch(place));
+    return pressure_on_curve(setting_, held, natural_curvature(setting_.body, held));
+  });
+}
+
+double CurvePressure::rate(Index place, const SlidingMotion& motion) const {
+  return motion.pressure_rates.at(segment_, place, [&] {
+    const AxisStrainGradient strain = stretch_gradient(place);
+    const HeldPlace held = held_place(setting_, at_, touch(place), coordinate(double(place)), strain.stretch);
+    const Vector& dx = motion.direction.dx;
+    const auto by = [&](Index unknown) { return unknown >= 0 ? dx[unknown] : 0.0; };
+    const auto by_point = [&](Index point) { return point >= 0 ? dx[at_.index.coordinate(point)] : 0.0; };
+    const NodeUnknowns unknowns = at_.mesh.node_unknowns(part_.strand, position(place));
+    const double r = double(place) / part_.elements;
+    return pressure_rate(
+        setting_, held,
+        {.position = {by(unknowns[0]), by(unknowns[1])},
+         .angle = by(unknowns[2]),
+         .s = (1.0 - r) * by_point(part_.first_point) + r * by_point(part_.last_point),
+         .stretch = strain.stretch_dx.dot(dx.head(at_.index.nodes)) + strain.stretch_ds.dot(dx.tail(at_.index.points)) +
+                    strain.stretch_dlambda * motion.direction.dlambda,
+         .lambda = motion.direction.dlambda});
+  });
 }
 
 void CurvePressure::add_gradient(Index place, double factor, Row& row) const {
-  const AxisStrain strain = this->strain(place);
+  const AxisStrainGradient strain = stretch_gradient(place);
   const Gradient by =
       pressure_gradient(setting_, held_place(setting_, at_, touch(place), coordinate(double(place)), strain.stretch));
   row.dx.head(at_.index.nodes) += factor * by.stretch * strain.stretch_dx;

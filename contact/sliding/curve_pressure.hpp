@@ -21,6 +21,9 @@ class CurvePressure {
   /// At a place; > 0 where the obstacle presses [force per length].
   double pressure(Index place) const;
 
+  /// Its derivative along the direction in which the state moves.
+  double rate(Index place, const SlidingMotion& motion) const;
+
   /// Adds a multiple of its derivatives by all unknowns and by λ.
   void add_gradient(Index place, double factor, Row& row) const;
 
@@ -47,10 +50,13 @@ class CurvePressure {
     return std::clamp(static_cast<Index>(std::floor(place)), Index{0}, Index{part_.elements} - 1);
   }
   Index position(Index place) const { return first_position_ + place; }
-  AxisStrain strain(Index place) const;
+  // The stretch, of the elements of the part beside a place the mean.
+  double stretch(Index place) const;
+  AxisStrainGradient stretch_gradient(Index place) const;
 
   const SlidingSetting& setting_;
   const SlidingState& at_;
+  std::size_t segment_;
   const SlidingContactLayout::Segment& part_;
   std::size_t obstacle_;
   Index first_position_;

@@ -139,10 +139,12 @@ ElementBesideSurface beside_surface(const SlidingSetting& setting, const Sliding
           .to = nearest_round(surface, to, from)};
 }
 
-bool faces_knot(const ElementBesideSurface& element) {
-  bool any = false;
-  for_each_round(element, [&any](auto first, auto last, double) { any = any || first < last; });
-  return any;
+bool faces_knots(const ElementBesideSurface& element) {
+  const Obstacle& surface = *element.setting.obstacles[element.obstacle].surface;
+  const std::vector<double> faced = faced_knots(element);
+  if (faced.size() != 1 || !surface.is_smooth()) return !faced.empty();
+  const auto is_end = [&](double knot) { return faced.front() == knot && surface.period() == 0.0; };
+  return is_end(surface.knots().front()) || is_end(surface.knots().back());
 }
 
 std::vector<PlaceInElement> parallel_places(const ElementBesideSurface& element, TouchingEnds leave_out) {

@@ -26,8 +26,9 @@ struct PlaceInElement {
   double gap = 0.0;  ///< [length]
 };
 
-/// Whether the surface has a knot that is faced by the inside of the element: then its nodes do not show where it is.
-bool faces_knot(const ElementBesideSurface& element);
+/// Whether the surface has knots, faced by the inside of the element, because of which its nodes do not show where it
+/// is: an end, a place where it is not smooth, or several.
+bool faces_knots(const ElementBesideSurface& element);
 
 /// Which parts of an element are left out: up to the first knot from an end that touches the surface.
 struct TouchingEnds {

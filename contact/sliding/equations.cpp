@@ -94,7 +94,7 @@ BorderEquation border_equation(const SlidingSetting& setting, const SlidingState
   BorderEquation equation{.row = at.no_slope()};
   if (at.layout.lies_pressed(point)) {
     const double EI = setting.body.bending_stiffness(at.mesh.breakpoint(k).first);
-    const CurvatureGap bend = curvature_gap(setting, at, point);
+    const CurvatureGap bend = curvature_gap_gradient(setting, at, point);
     equation.value = EI * bend.value;
     bend.add_to(equation.row, EI, at.index);
   } else {

@@ -142,20 +142,31 @@ bool visit_by_nodes(const Element& element, Which which, const Visit& visit) {
 // Else by the surface's knots and tangents. Off the surface the gap may be least elsewhere than where the body is
 // parallel to it: neighbours of elements with knots are asked both ways, so that no place falls between them.
 template <typename Visit>
-void visit_by_surface(const ElementBesideSurface& beside, const Element& element, Which which, const Visit& visit) {
+void visit_by_surface(const ElementBesideSurface& beside, const Element& element, bool at_knot, Which which,
+                      const Visit& visit) {
   const auto& [before, after] = std::tie(element.before, element.after);
-  const bool plain = !faces_knot(beside);
-  if (plain) {
-    if (visit_by_nodes(element, which, visit) || element.watched.anywhere()) return;
+  if (!at_knot) {
     const double near = 2.0 * (after.face - before.face).norm();
-    if (!std::isfinite(before.gap) || !std::isfinite(after.gap) || std::min(before.gap, after.gap) > near) return;
+    if (element.watched.anywhere() || !std::isfinite(before.gap) || !std::isfinite(after.gap)) return;
+    if (std::min(before.gap, after.gap) > near) return;
   }
   if (element.watched.along) return;
   for (const PlaceInElement& least :
        parallel_places(beside, {.first = element.watched.at_first, .last = element.watched.at_last}))
     visit(least.fraction, least.gap);
-  if (plain || which == Which::all) return;
+  if (!at_knot || which == Which::all) return;
   for (const PlaceInElement& entered : places_entered_at_ends(beside)) visit(entered.fraction, entered.gap);
+}
+
+// The elements of a strand that face knots of an obstacle's surface.
+std::vector<bool> elements_at_knots(const SlidingSetting& setting, const SlidingState& at, Index strand,
+                                    std::size_t obstacle, const std::vector<Sample>& samples) {
+  std::vector<bool> at_knots(samples.size() - 1, false);
+  if (setting.obstacles[obstacle].surface->knots().empty()) return at_knots;
+  for (std::size_t e = 0; e < at_knots.size(); ++e)
+    at_knots[e] = faces_knots(
+        beside_surface(setting, at, strand, static_cast<Index>(e), obstacle, samples[e].face, samples[e + 1].face));
+  return at_knots;
 }
 
 // visit(LeastGap) for each place inside the elements of a strand where the gap is least.
@@ -163,26 +174,25 @@ template <typename Visit>
 void for_each_on_strand(const SlidingSetting& setting, const SlidingState& at, Index strand, std::size_t obstacle,
                         const std::vector<Placed>& nodes, Which which, const Visit& visit) {
   const double offset = setting.face_offset(obstacle, strand), lambda = at.now.lambda;
-  const Obstacle& surface = *setting.obstacles[obstacle].surface;
-  const bool curved = !surface.knots().empty();
   std::vector<Watched> watched(nodes.size());
   if (which == Which::unwatched) watched = watched_elements(setting, at, strand, obstacle);
-  Sample before = sampled(setting.obstacles[obstacle], offset, nodes[0], lambda);
+  std::vector<Sample> samples;
+  samples.reserve(nodes.size());
+  for (const Placed& node : nodes) samples.push_back(sampled(setting.obstacles[obstacle], offset, node, lambda));
+  const std::vector<bool> at_knots = elements_at_knots(setting, at, strand, obstacle, samples);
   for (std::size_t e = 0; e + 1 < nodes.size(); ++e) {
-    const Sample after = sampled(setting.obstacles[obstacle], offset, nodes[e + 1], lambda);
-    const Element element{.node = static_cast<Index>(e), .before = before, .after = after, .watched = watched[e]};
+    const Element element{
+        .node = static_cast<Index>(e), .before = samples[e], .after = samples[e + 1], .watched = watched[e]};
     const auto visit_inside = [&](double fraction, double gap) {
       const double S1 = at.mesh.coordinate(strand, element.node, at.now.s),
                    S2 = at.mesh.coordinate(strand, element.node + 1, at.now.s);
       visit(LeastGap{.obstacle = obstacle, .at = {.strand = strand, .s = S1 + fraction * (S2 - S1)}, .gap = gap});
     };
-    if (curved) {
-      visit_by_surface(beside_surface(setting, at, strand, element.node, obstacle, before.face, after.face), element,
-                       which, visit_inside);
-    } else {
-      visit_by_nodes(element, which, visit_inside);
-    }
-    before = after;
+    if (!at_knots[e] && visit_by_nodes(element, which, visit_inside)) continue;
+    const bool beside_knots = (e > 0 && at_knots[e - 1]) || (e + 1 < at_knots.size() && at_knots[e + 1]);
+    if (!at_knots[e] && !beside_knots) continue;
+    visit_by_surface(beside_surface(setting, at, strand, element.node, obstacle, samples[e].face, samples[e + 1].face),
+                     element, at_knots[e], which, visit_inside);
   }
 }
 
@@ -229,7 +239,7 @@ double least_beside_end(const SlidingSetting& setting, const SlidingState& at, c
   const Sample from = sample(outer), to = sample(inner);
   const double length = (to.face - from.face).norm();
   const double r0 = inwards * from.rate * length, r1 = inwards * to.rate * length;
-  const double bend = 0.5 * length * length * end_curvature_gap(setting, at, end).value;
+  const double bend = 0.5 * length * length * end_curvature_gap(setting, at, end);
   const double rise = to.gap - from.gap - r0 - bend, fourth = r1 - r0 - 2.0 * bend - 3.0 * rise;
   double least = to.gap;
   for (int i = 1; i < looks; ++i) {

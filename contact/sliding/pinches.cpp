@@ -47,7 +47,7 @@ void add_material_energy(const SlidingSetting& setting, const SlidingState& at, 
   const SlidingBody& body = setting.body;
   const auto k = static_cast<Index>(point);
   const Index strand = at.mesh.breakpoint(k).first;
-  const AxisStrain strain = at.mesh.strain(k, side, at.now);
+  const AxisStrainGradient strain = at.mesh.strain_gradient(k, side, at.now);
   const double EA = body.axial_stiffness(strand), EI = body.bending_stiffness(strand);
   const double N = EA * (strain.stretch - 1.0 - body.free_strain(strand, at.now.lambda).value);
   const double natural = body.natural_curvature({.strand = strand, .s = at.s(k)}, at.now.lambda);
@@ -87,7 +87,8 @@ CurvatureGap curvature_gap_beside(const SlidingSetting& setting, const SlidingSt
   const std::size_t obstacle = obstacles_at(setting, at.layout, point)[other ? 1 : 0];
   const Touch touch{
       .strand = strand, .position = position, .obstacle = obstacle, .offset = setting.face_offset(obstacle, strand)};
-  return gap_of_curvatures(setting, at, touch, at.mesh.strain(static_cast<Index>(point), side, at.now));
+  const AxisStrainGradient strain = at.mesh.strain_gradient(static_cast<Index>(point), side, at.now);
+  return gap_of_curvatures_gradient(setting, at, touch, strain);
 }
 
 namespace {

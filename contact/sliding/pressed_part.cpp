@@ -220,4 +220,17 @@ Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& a
                                                 : gradient_on_curve(setting, at, part);
 }
 
+double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& motion, std::size_t node) {
+  const PartOfNode part(motion.at.layout, node);
+  if (!part_is_on_straight(setting, motion.at, part)) {
+    const CurvePressure on(setting, motion.at, part.pressed.segment);
+    const LeastOnCurve least = least_on_curve(setting, motion.at, part, on);
+    double rate = 0.0;
+    for (Index j = 0; j < 3; ++j)
+      if (least.weights[j] != 0.0) rate += least.weights[j] * on.rate(part.node + j, motion);
+    if (!least.left) return rate;
+  }
+  return apply(least_pressure_gradient(setting, motion.at, node), motion.direction);
+}
+
 }  // namespace arcwall::sliding

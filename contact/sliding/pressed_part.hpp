@@ -24,6 +24,9 @@ LeastPressure least_pressure(const SlidingSetting& setting, const SlidingState& 
 /// Its derivatives by all unknowns and by λ.
 Row least_pressure_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t node);
 
+/// Its derivative along a direction.
+double least_pressure_rate(const SlidingSetting& setting, const SlidingMotion& motion, std::size_t node);
+
 /// Fewest elements of a part that is pressed on a straight obstacle, or on a curved one, which it has to follow.
 constexpr int fewest_pressed(bool straight) { return straight ? 2 : 8; }
 

@@ -152,7 +152,7 @@ Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at) {
   bool changed = false;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].behind != Span::flat) continue;
-    if (std::abs(curvature_gap(setting, at, k).value) * setting.scales.length <= bent) continue;
+    if (std::abs(curvature_gap(setting, at, k)) * setting.scales.length <= bent) continue;
     points[k].behind = Span::free;
     changed = true;
   }

@@ -43,7 +43,7 @@ ClosedTip closed_tip(const SlidingSetting& setting, const SlidingState& at, std:
                 .obstacle = there.obstacle,
                 .force = at.force(at.layout.points().size() + end)};
   tip.load = put_on_end(setting, at, there);
-  tip.bend = end_curvature_gap(setting, at, there).value;
+  tip.bend = end_curvature_gap(setting, at, there);
   tip.bends_with_it = std::abs(tip.bend) * setting.scales.length <= round_off;
   return tip;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "contact/sliding/layout.hpp"
 #include "core/state.hpp"
@@ -50,6 +52,20 @@ class SlidingUnknowns {
   const Piece* piece_;
 };
 
+/// Numbers at the places of segments that several bounds have in common. Each is computed when it is first asked for.
+class SharedByBounds {
+ public:
+  template <class Compute>
+  double at(std::size_t segment, Index place, const Compute& compute) {
+    const auto [known, is_new] = known_.try_emplace({segment, place}, 0.0);
+    if (is_new) known->second = compute();
+    return known->second;
+  }
+
+ private:
+  std::map<std::pair<std::size_t, Index>, double> known_;
+};
+
 /// A state of sliding contact with its unknowns by name. A view: `state` must outlive it.
 struct SlidingState {
   explicit SlidingState(const State& of)
@@ -60,7 +76,8 @@ struct SlidingState {
   const SlidingContactLayout& layout;
   const SlidingMesh& mesh;
   SlidingUnknowns index;
-  MeshState now;  ///< x, s and λ
+  MeshState now;                     ///< x, s and λ
+  mutable SharedByBounds pressures;  ///< at the places of pressed parts, see CurvePressure
 
   std::size_t contacts() const { return state.piece.size(); }
   bool is_closed(std::size_t contact) const { return state.piece[contact] != 0; }
@@ -76,6 +93,13 @@ struct SlidingState {
 
   /// A derivative that is still zero.
   Row no_slope() const { return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0}; }
+};
+
+/// A state and the direction in which it moves. A view: both must outlive it.
+struct SlidingMotion {
+  const SlidingState& at;
+  const Direction& direction;
+  mutable SharedByBounds pressure_rates{};  ///< along the direction, at the places of pressed parts
 };
 
 }  // namespace arcwall

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "contact/sliding/setting.hpp"
@@ -19,6 +20,12 @@ struct Arrival {
   const ValidityBound* at_hand = nullptr;  ///< the bound that is passed: it is reached, however near it is
 };
 
+/// What a bound watches, in words for messages and events: a place of the body, and the obstacle there.
+struct BoundPlace {
+  MaterialPoint at{};
+  std::optional<std::size_t> obstacle{};  ///< empty where none is touched
+};
+
 /// A condition without which a layout is not valid: a guard of the pieces that have the layout, with what lies behind
 /// it.
 ///
@@ -33,6 +40,14 @@ class ValidityBound {
 
   /// Derivative of the value by all unknowns.
   virtual Row gradient(const SlidingSetting& setting, const SlidingState& at) const = 0;
+
+  /// Derivative of the value along a direction.
+  virtual double rate(const SlidingSetting& setting, const SlidingMotion& motion) const {
+    return apply(gradient(setting, motion.at), motion.direction);
+  }
+
+  /// What the bound watches.
+  virtual BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const = 0;
 
   /// What may lie behind the bound, the likeliest first; where that depends on others of its kind that are reached
   /// together, for all of them.

@@ -282,9 +282,9 @@ Vector EventSystem::guard_rates(const State& state, const Direction& direction) 
   return rates;
 }
 
-std::optional<std::string> EventSystem::invalid_reason(const State& state) const {
+std::optional<std::string> EventSystem::invalid_place(const State& state) const {
   const auto member = at(state);
-  return member ? member->system->invalid_reason(member->state) : std::nullopt;
+  return member ? member->system->invalid_place(member->state) : std::nullopt;
 }
 
 // --- other meshes ---------------------------------------------------------------------------------------------------

@@ -79,7 +79,7 @@ class EventSystem final : public System {
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
   Vector guard_rates(const State& state, const Direction& direction) const override;
-  std::optional<std::string> invalid_reason(const State& state) const override;
+  std::optional<std::string> invalid_place(const State& state) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,
                                       double tolerance) const override;

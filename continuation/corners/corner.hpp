@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "continuation/corners/choice.hpp"
@@ -19,6 +20,9 @@ struct Corner {
   int without_progress = 0;    ///< changes of contacts in a row at this place
   bool begins_branch = false;  ///< the branch begins here: nothing has turned before
 };
+
+/// Why a path ends where none of the ways that it may take behind a corner has a point.
+inline constexpr std::string_view nothing_behind_change = "behind a change of contact";
 
 /// A piece that was entered behind a transition that makes a span: its first point has one of some length.
 struct EnteredPiece {

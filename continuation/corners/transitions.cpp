@@ -8,6 +8,7 @@
 #include "continuation/corners/corner.hpp"
 #include "continuation/corners/first_point.hpp"
 #include "continuation/events/branch_point.hpp"
+#include "core/text.hpp"
 
 namespace arcwall {
 
@@ -37,14 +38,14 @@ EventKind kind_of(Transition::Change change) {
   return EventKind::user;
 }
 
-// Behind none of these a point was found.
-BranchEnd end_before(const std::vector<Transition>& transitions) {
+// Behind none of these a point was found. `place`: of the bound behind which they lie.
+BranchEnd end_before(const std::vector<Transition>& transitions, const std::string& place) {
   if (transitions.empty() || leads_on(transitions.back().change))
-    return {.reason = EndReason::singular, .detail = "behind a change of contact"};
+    return {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
   const Transition& last = transitions.back();
   const bool continuum = last.change == Transition::Change::continuum;
   return {.reason = continuum ? EndReason::continuum : EndReason::unsupported,
-          .detail = last.detail,
+          .detail = with_place(last.detail, place),
           .continuum = last.continuum};
 }
 
@@ -142,7 +143,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
         tools.system.transitions(passed.at.state, passed.at.tangent, bound, tolerance);
     auto entered = enter_any(tools, transitions, passed.at, corner.before, corner.lambda_scale);
     if (!entered) {
-      passed.end = end_before(transitions);
+      passed.end = end_before(transitions, tools.system.watched_place(passed.at.state, bound));
       return passed;
     }
     if (begins_with_length(*entered->transition)) {
@@ -153,7 +154,7 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       const bool changes_count = changes_count_at_corner(corner, passed.at, begin);
       if (changes_count) pitchfork = pitchfork_at_corner(tools, corner, begin);
       if (changes_count && !pitchfork) {
-        passed.end = end_before(transitions);
+        passed.end = end_before(transitions, tools.system.watched_place(passed.at.state, bound));
         return passed;
       }
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
@@ -168,7 +169,9 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
                                     : mesh_bound_behind(tools.system, passed.at, tools.options.guard_tolerance);
     if (!next) return passed;
     if (++passed.without_progress > most_bounds_at_one_place) {
-      passed.end = {.reason = EndReason::no_ray, .detail = "the mesh keeps changing at one point; try a finer one"};
+      passed.end = {.reason = EndReason::no_ray,
+                    .detail = with_place("the mesh keeps changing at one point; try a finer one",
+                                         tools.system.watched_place(passed.at.state, *next))};
       return passed;
     }
     bound = *next;

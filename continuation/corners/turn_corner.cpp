@@ -4,6 +4,7 @@
 #include "continuation/corners/corner.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
+#include "core/text.hpp"
 
 namespace arcwall {
 
@@ -164,11 +165,14 @@ std::optional<JointWay> leave_jointly(TraceTools& tools, const Corner& corner, c
 CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> landed,
                          const std::vector<VisitedCorner>& visited) {
   CornerPassed passed{.at = corner.at, .without_progress = corner.without_progress};
+  const std::vector<Index> degenerate = degenerate_at(tools, corner, landed);
+  const std::optional<Index> first = landed || degenerate.empty() ? landed : std::optional(degenerate.front());
+  const std::string place = first ? tools.system.watched_place(corner.at.state, *first) : std::string();
   if (corner.without_progress > most_changes_at_one_place) {
-    passed.end = {.reason = EndReason::no_ray, .detail = "the contacts keep changing at one point; try a finer mesh"};
+    passed.end = {.reason = EndReason::no_ray,
+                  .detail = with_place("the contacts keep changing at one point; try a finer mesh", place)};
     return passed;
   }
-  const std::vector<Index> degenerate = degenerate_at(tools, corner, landed);
   auto ways =
       outgoing_directions(tools.system, corner.at.state, degenerate, tools.options.corner, tools.corner_workspace);
   Choice choice = choose(tools, visited, std::move(ways), corner.at, corner.before, corner.lambda_scale);
@@ -181,12 +185,13 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
       at = std::move(joint->at);
     } else if (end) {
       passed.end = *end;
+      passed.end->detail = with_place(end->detail, place);
     }
   }
   passed.visit = std::move(choice.visit);
   if (passed.end) return passed;
   if (!at) {
-    passed.end = {.reason = EndReason::singular, .detail = "behind a change of contact"};
+    passed.end = {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
     return passed;
   }
   passed.events = events_at(tools, corner, *at, std::get<ChosenDirection>(choice.result).untaken);

@@ -140,10 +140,14 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
   // none of the landings leaves all guards fulfilled to the last digit, and the best of them is the change.
   std::optional<StepEnd> nearly;
   CorrectorStatus failure = CorrectorStatus::converged;
+  std::string where;
   for (int round = 0; round < max_landings && crossing; ++round) {
     LandedStep landed = land_on(tools, origin, end, *crossing);
     failure = landed.failure;
-    if (!landed.end) break;
+    if (!landed.end) {
+      where = tools.system.watched_place(origin.point().state, crossing->guard);
+      break;
+    }
     end = std::move(*landed.end);
     const double slack = end.landing->slack;
     if (end.landing->singular) return {.end = std::move(end)};
@@ -152,7 +156,7 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
     crossing = crossing_before(end);
     if (nearly && round >= 3) break;
   }
-  return {.end = std::move(nearly), .failure = failure};
+  return {.end = std::move(nearly), .failure = failure, .where = std::move(where)};
 }
 
 }  // namespace arcwall

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "continuation/step/landed_guard.hpp"
 #include "continuation/trace_tools.hpp"
 
@@ -16,6 +18,7 @@ struct StepEnd {
 struct LandedStep {
   std::optional<StepEnd> end{};  ///< empty: no point of the path was found where contacts change
   CorrectorStatus failure = CorrectorStatus::converged;  ///< of the correction that found none
+  std::string where{};                                   ///< what that guard watches, for messages
 };
 
 /// Ends a step where a guard first vanishes inside it; a step whose guards hold stays as it is.

@@ -104,7 +104,8 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   tried.attempt.residual = result.residual;
   tried.attempt.roots = result.roots;
   if (!result.converged()) return rejected(outcome_of(result.status), result.status);
-  if (tools.system.invalid_reason(result.state)) return rejected(StepOutcome::obstructed);
+  if (auto where = tools.system.invalid_place(result.state))
+    return rejected(StepOutcome::obstructed, CorrectorStatus::converged, std::move(*where));
   if (tools.system.comes_behind_an_end(from.state, result.state)) return rejected(StepOutcome::behind_end);
 
   StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), from.tangent)};
@@ -113,7 +114,7 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
     return rejected(*outcome);
 
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
-  if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure);
+  if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure, std::move(landed.where));
   end = std::move(*landed.end);
   const auto refined = [&](Departure finer) {
     tried.attempt.outcome = StepOutcome::refined;

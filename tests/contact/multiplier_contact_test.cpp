@@ -391,7 +391,7 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
   const MultiplierContact& system = model.system();
   const Piece open(static_cast<std::size_t>(system.contact_count()), 0);
   const State rest{.x = Vector::Zero(system.size(open)), .lambda = 0.0, .piece = open};
-  EXPECT_FALSE(system.invalid_reason(rest).has_value()) << "open contacts may face nothing";
+  EXPECT_FALSE(system.invalid_place(rest).has_value()) << "open contacts may face nothing";
   // The last node stands beside the wall: its guard is large and does not move.
   const Index last = system.contact_count() - 1;
   EXPECT_FALSE(system.candidate(last).faces_wall(rest));
@@ -400,7 +400,7 @@ TEST(MultiplierContact, AClosedContactBeyondItsWallIsAnObstruction) {
   for (Index j = 0; j < system.contact_count(); ++j) {
     Piece piece = open;
     piece[static_cast<std::size_t>(j)] = 1;
-    EXPECT_EQ(system.invalid_reason(system.with_piece(rest, piece)).has_value(), !system.candidate(j).faces_wall(rest));
+    EXPECT_EQ(system.invalid_place(system.with_piece(rest, piece)).has_value(), !system.candidate(j).faces_wall(rest));
   }
 }
 

@@ -421,13 +421,14 @@ TEST(Tracer, AnEventOfAChosenKindEndsTheBranch) {
 TEST(Tracer, AWallThatEndsEndsTheBranch) {
   struct Ending final : test::LinearContactToy {
     Ending() : LinearContactToy(test::stopped_springs(2.0)) {}
-    std::optional<std::string> invalid_reason(const State& s) const override {
-      return s.piece[0] && s.lambda > 1.5 ? std::optional<std::string>("wall_end") : std::nullopt;
+    std::optional<std::string> invalid_place(const State& s) const override {
+      return s.piece[0] && s.lambda > 1.5 ? std::optional<std::string>("the post at 0.5") : std::nullopt;
     }
   };
   const Ending system;
   const Branch branch = trace(system, {.target_values = {stop_at_lambda(2.0)}});
   EXPECT_EQ(branch.end.reason, EndReason::wall_end);
+  EXPECT_EQ(branch.end.detail, "a closed contact reached the end of its wall: the post at 0.5");
   EXPECT_NEAR(branch.last().state.lambda, 1.5, 1e-6);
   EXPECT_LE(branch.last().state.lambda, 1.5);
 }

@@ -357,7 +357,7 @@ TEST(SlidingContactPath, EndsWhereAFreeEndStandsUpright) {
       SlidingModel(builder, {{.name = "floor", .side = Side::below, .profile = flat_profile(-0.225)}}, 0.05), 100.0);
   EXPECT_EQ(stands.end(), EndReason::unsupported);
   EXPECT_EQ(stands.branches.back().record.end->detail,
-            "the free end of a member stands upright against a wall: its other corner would touch");
+            "the free end of a member stands upright against a wall: its other corner would touch: floor at 0:1");
 }
 
 // A load that acts 0.02 off the axis at the left end bends the column before it buckles: it touches aside the middle,

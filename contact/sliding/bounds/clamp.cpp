@@ -23,6 +23,12 @@ Row ClampBound::gradient(const SlidingSetting& setting, const SlidingState& at) 
   return end ? parting_gradient(setting, at, *end) : at.no_slope();
 }
 
+BoundPlace ClampBound::place(const SlidingSetting& setting, const SlidingState& at) const {
+  BoundPlace place = BoundOfEnd::place(setting, at);
+  if (const auto end = touched_clamp(setting, at, strand_, last_)) place.obstacle = end->obstacle;
+  return place;
+}
+
 std::vector<Transition> ClampBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                 const Arrival& arrival) const {
   return clamps_are_left(setting, at, arrival);

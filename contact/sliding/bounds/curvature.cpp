@@ -18,7 +18,7 @@ double allowed_gap_slope(double gap) { return flatness * (1.0 + 3.0 * gap * gap 
 }  // namespace
 
 double CurvatureBound::value(const SlidingSetting& setting, const SlidingState& at) const {
-  const double bend = curvature_gap(setting, at, point_).value * setting.scales.length;
+  const double bend = curvature_gap(setting, at, point_) * setting.scales.length;
   if (at.is_closed(point_)) return bend;
   const double gap = face_gap(setting, touch_of_contact(setting, at.layout, point_), at);
   return bend - allowed_gap(gap / setting.scales.length);
@@ -26,7 +26,7 @@ double CurvatureBound::value(const SlidingSetting& setting, const SlidingState& 
 
 Row CurvatureBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = at.no_slope();
-  curvature_gap(setting, at, point_).add_to(row, setting.scales.length, at.index);
+  curvature_gap_gradient(setting, at, point_).add_to(row, setting.scales.length, at.index);
   if (at.is_closed(point_)) return row;
   const Touch touch = touch_of_contact(setting, at.layout, point_);
   const NodeFunction gap = touch_gap(setting, touch, at).gap;

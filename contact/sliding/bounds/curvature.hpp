@@ -1,24 +1,19 @@
 #pragma once
 
-#include "contact/sliding/validity_bound.hpp"
+#include "contact/sliding/placed_bound.hpp"
 
 namespace arcwall::sliding {
 
 /// The curvature gap (8.5) of a tracked point beside which the body does not lie on the wall. Closed: behind the bound
 /// the point contact becomes a line. Open: the least gap that the point follows becomes shallow, and before it vanishes
 /// the point must be given up, as nothing would say where it is.
-class CurvatureBound final : public ValidityBound {
+class CurvatureBound final : public BoundOfPoint {
  public:
-  explicit CurvatureBound(std::size_t point) : point_(point) {}
+  using BoundOfPoint::BoundOfPoint;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
-
-  std::size_t point() const { return point_; }
-
- private:
-  std::size_t point_;
 };
 
 }  // namespace arcwall::sliding

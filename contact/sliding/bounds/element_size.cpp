@@ -116,6 +116,10 @@ Row UnlikeBound::gradient(const SlidingSetting& setting, const SlidingState& at)
   return row;
 }
 
+BoundPlace UnlikeBound::place(const SlidingSetting& setting, const SlidingState& at) const {
+  return place_of_segment(setting, at, longer_);
+}
+
 std::vector<Transition> UnlikeBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                  const Arrival& arrival) const {
   const bool waits = ends_at_waiting(at, longer_) || ends_at_waiting(at, shorter_);

@@ -1,28 +1,25 @@
 #pragma once
 
-#include "contact/sliding/validity_bound.hpp"
+#include "contact/sliding/placed_bound.hpp"
 
 namespace arcwall::sliding {
 
 /// Elements of a segment that have become longer than 1.25 times what the deck asks for: behind the bound there are
 /// twice as many.
-class CoarseBound final : public ValidityBound {
+class CoarseBound final : public BoundOfSegment {
  public:
-  explicit CoarseBound(std::size_t segment) : segment_(segment) {}
+  using BoundOfSegment::BoundOfSegment;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
-
- private:
-  std::size_t segment_;
 };
 
 /// Elements of a segment that have become shorter than 0.25 times what the deck asks for: behind the bound there are
 /// half as many.
-class FineBound final : public ValidityBound {
+class FineBound final : public BoundOfSegment {
  public:
-  explicit FineBound(std::size_t segment) : segment_(segment) {}
+  using BoundOfSegment::BoundOfSegment;
 
   /// Whether a segment has this bound: not where it has one element, or where its elements are that short from the
   /// start.
@@ -33,9 +30,6 @@ class FineBound final : public ValidityBound {
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
-
- private:
-  std::size_t segment_;
 };
 
 /// Two segments with unlike numbers of elements come to be of about one length: behind the bound they have the same.
@@ -49,6 +43,7 @@ class UnlikeBound final : public ValidityBound {
 
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 

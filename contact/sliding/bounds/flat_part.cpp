@@ -57,7 +57,7 @@ double squared_half_waves(const SlidingSetting& setting, const SlidingState& at,
 Row squared_half_waves_gradient(const SlidingSetting& setting, const SlidingState& at, std::size_t segment,
                                 const Stretch& part, double sign) {
   const Index strand = at.layout.segments()[segment].strand, point = at.layout.segments()[segment].last_point;
-  const AxisStrain strain = at.mesh.strain(point, SlidingMesh::At::before, at.now);
+  const AxisStrainGradient strain = at.mesh.strain_gradient(point, SlidingMesh::At::before, at.now);
   const double EA = setting.body.axial_stiffness(strand), EI = setting.body.bending_stiffness(strand);
   const double d = part.to - part.from, factor = sign * EA / EI / (pi * pi), stretch = strain.stretch;
   const SlidingBody::FreeStrain heat = setting.body.free_strain(strand, at.now.lambda);

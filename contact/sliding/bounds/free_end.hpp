@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "contact/sliding/validity_bound.hpp"
+#include "contact/sliding/placed_bound.hpp"
 
 namespace arcwall::sliding {
 
@@ -19,34 +19,24 @@ std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setti
 
 /// How fast the gap grows from a free end on that touches: behind the bound a tip lies down on the wall, or contact
 /// moves inside. Positive where the end does not touch.
-class LiesDownBound final : public ValidityBound {
+class LiesDownBound final : public BoundOfEnd {
  public:
-  LiesDownBound(Index strand, bool last) : strand_(strand), last_(last) {}
+  using BoundOfEnd::BoundOfEnd;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
-
-  StrandEnd end() const { return {.strand = strand_, .last = last_}; }
-
- private:
-  Index strand_;
-  bool last_;
 };
 
 /// How far a free end that touches is from standing upright: behind the bound its section's other corner would touch,
 /// which is not modelled. Positive where the end does not touch.
-class UprightBound final : public ValidityBound {
+class UprightBound final : public BoundOfEnd {
  public:
-  UprightBound(Index strand, bool last) : strand_(strand), last_(last) {}
+  using BoundOfEnd::BoundOfEnd;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
-
- private:
-  Index strand_;
-  bool last_;
 };
 
 }  // namespace arcwall::sliding

@@ -2,6 +2,7 @@
 
 #include "contact/sliding/lifting.hpp"
 #include "contact/sliding/lying.hpp"
+#include "contact/sliding/placed_bound.hpp"
 #include "contact/sliding/tips.hpp"
 #include "contact/sliding/touch.hpp"
 
@@ -36,6 +37,13 @@ double HoldingMomentBound::value(const SlidingSetting& setting, const SlidingSta
 
 Row HoldingMomentBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   return is_on_curve(setting, at, tip_) ? at.no_slope() : reserve(setting, at, tip_, against_).row;
+}
+
+BoundPlace HoldingMomentBound::place(const SlidingSetting& setting, const SlidingState& at) const {
+  const SlidingContactLayout::PressedTip& tip = at.layout.pressed_tips()[tip_];
+  BoundPlace place = place_of_end(setting, at, {.strand = tip.strand, .last = tip.position > 0});
+  place.obstacle = tip.obstacle;
+  return place;
 }
 
 std::vector<Transition> HoldingMomentBound::transitions(const SlidingSetting& setting, const SlidingState& at,

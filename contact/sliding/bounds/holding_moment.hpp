@@ -16,6 +16,7 @@ class HoldingMomentBound final : public ValidityBound {
   explicit HoldingMomentBound(std::size_t tip, Against what = Against::pulling) : tip_(tip), against_(what) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 

@@ -77,6 +77,10 @@ Row LoadBehindBound::gradient(const SlidingSetting& setting, const SlidingState&
   return nearest < 0 ? at.no_slope() : apart_gradient(setting, at, strand_, load_, nearest, -1.0);
 }
 
+BoundPlace LoadBehindBound::place(const SlidingSetting& setting, const SlidingState&) const {
+  return {.at = {.strand = strand_, .s = setting.body.point_loads(strand_)[static_cast<std::size_t>(load_)]}};
+}
+
 std::vector<Transition> LoadBehindBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                      const Arrival& arrival) const {
   return {divided_evenly(setting, at, arrival.forward)};

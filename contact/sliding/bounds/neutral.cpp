@@ -4,6 +4,7 @@
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/neutral_spans.hpp"
+#include "contact/sliding/placed_bound.hpp"
 #include "contact/sliding/remeshing.hpp"
 
 namespace arcwall::sliding {
@@ -34,8 +35,7 @@ double NeutralBound::value(const SlidingSetting& setting, const SlidingState& at
   double value = 1.0 - force * force;
   for (const Index k : {span.first_point, span.last_point}) {
     if (k < 0) continue;
-    const double bent =
-        curvature_gap(setting, at, static_cast<std::size_t>(k)).value * l * l / (most_bent * 2.0 * pi * h);
+    const double bent = curvature_gap(setting, at, static_cast<std::size_t>(k)) * l * l / (most_bent * 2.0 * pi * h);
     value -= bent * bent;
   }
   return value;
@@ -51,7 +51,7 @@ Row NeutralBound::gradient(const SlidingSetting& setting, const SlidingState& at
   row.dx[force] = -2.0 * at.state.x[force] / (scale * scale);
   for (const Index k : {span.first_point, span.last_point}) {
     if (k < 0) continue;
-    const CurvatureGap bend = curvature_gap(setting, at, static_cast<std::size_t>(k));
+    const CurvatureGap bend = curvature_gap_gradient(setting, at, static_cast<std::size_t>(k));
     const double bent = bend.value * to_bent / h.value;
     bend.add_to(row, -2.0 * bent * to_bent / h.value, at.index);
     const double by_length = -4.0 * bent * bent / l;
@@ -60,6 +60,12 @@ Row NeutralBound::gradient(const SlidingSetting& setting, const SlidingState& at
     row.dlambda += 2.0 * bent * bent * h.rate / h.value;
   }
   return row;
+}
+
+BoundPlace NeutralBound::place(const SlidingSetting& setting, const SlidingState& at) const {
+  const NeutralSpan& span = span_of(at, span_);
+  if (span.first_point >= 0 || span.last_point >= 0) return place_of_point(at, span.end_point());
+  return place_of_end(setting, at, {.strand = span.strand, .last = false});
 }
 
 std::vector<Transition> NeutralBound::transitions(const SlidingSetting& setting, const SlidingState& at,

@@ -12,6 +12,7 @@ class NeutralBound final : public ValidityBound {
   explicit NeutralBound(std::size_t span) : span_(span) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 

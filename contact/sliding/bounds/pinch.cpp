@@ -1,6 +1,7 @@
 #include "contact/sliding/bounds/pinch.hpp"
 
 #include "contact/sliding/pinches.hpp"
+#include "contact/sliding/placed_bound.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/touch.hpp"
 
@@ -21,6 +22,12 @@ Row PinchBound::gradient(const SlidingSetting& setting, const SlidingState& at) 
   const double by_rotation = angle_to_flank(setting, at, point_, other_, side_).by_rotation;
   add_at_node(at.mesh.node_unknowns(touch.strand, touch.position), {0.0, 0.0, by_rotation}, row.dx);
   return row;
+}
+
+BoundPlace PinchBound::place(const SlidingSetting& setting, const SlidingState& at) const {
+  BoundPlace place = place_of_point(at, point_);
+  place.obstacle = obstacles_at(setting, at.layout, point_)[other_ ? 1 : 0];
+  return place;
 }
 
 std::vector<Transition> PinchBound::transitions(const SlidingSetting& setting, const SlidingState& at,

@@ -13,6 +13,7 @@ class PinchBound final : public ValidityBound {
   PinchBound(std::size_t point, SlidingMesh::At side, bool other) : point_(point), side_(side), other_(other) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 

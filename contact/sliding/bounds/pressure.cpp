@@ -20,6 +20,16 @@ Row PressureBound::gradient(const SlidingSetting& setting, const SlidingState& a
   return row;
 }
 
+double PressureBound::rate(const SlidingSetting& setting, const SlidingMotion& motion) const {
+  if (part_needs_no_pressure(setting, motion.at, motion.at.layout.pressed_nodes()[node_].segment)) return 0.0;
+  return least_pressure_rate(setting, motion, node_) * setting.scales.length / setting.scales.force;
+}
+
+BoundPlace PressureBound::place(const SlidingSetting& setting, const SlidingState& at) const {
+  const SlidingContactLayout::PressedNode& node = at.layout.pressed_nodes()[node_];
+  return {.at = {.strand = node.strand, .s = least_pressure(setting, at, node_).s}, .obstacle = node.obstacle};
+}
+
 std::vector<Transition> PressureBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                    const Arrival& arrival) const {
   return parts_lift_off(setting, at, arrival);

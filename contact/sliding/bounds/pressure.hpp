@@ -11,6 +11,8 @@ class PressureBound final : public ValidityBound {
   explicit PressureBound(std::size_t node) : node_(node) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  double rate(const SlidingSetting& setting, const SlidingMotion& motion) const override;
+  BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 

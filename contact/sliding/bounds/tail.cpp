@@ -1,6 +1,7 @@
 #include "contact/sliding/bounds/tail.hpp"
 
 #include "contact/sliding/clamps.hpp"
+#include "contact/sliding/placed_bound.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/spans.hpp"
 #include "contact/sliding/tips.hpp"
@@ -18,6 +19,8 @@ Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
   row.dx[at.index.coordinate(static_cast<Index>(point_))] = (last_ ? -1.0 : 1.0) / setting.scales.length;
   return row;
 }
+
+BoundPlace TailBound::place(const SlidingSetting&, const SlidingState& at) const { return place_of_point(at, point_); }
 
 std::vector<Transition> TailBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {

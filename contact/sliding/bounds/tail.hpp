@@ -12,6 +12,7 @@ class TailBound final : public ValidityBound {
   TailBound(Index strand, bool last, std::size_t point) : strand_(strand), last_(last), point_(point) {}
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
+  BoundPlace place(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
 

@@ -1,24 +1,19 @@
 #pragma once
 
-#include "contact/sliding/validity_bound.hpp"
+#include "contact/sliding/placed_bound.hpp"
 
 namespace arcwall::sliding {
 
 /// The force that is put on a tip up to which a part is pressed on an obstacle, into that: behind the bound it lifts
 /// the tip, and the part peels off from there, however little it is. The pressure beside the tip, of which its contact
 /// bears a share, does not hold it. Negative where the tip does not touch.
-class TipPressesBound final : public ValidityBound {
+class TipPressesBound final : public BoundOfEnd {
  public:
-  TipPressesBound(Index strand, bool last) : strand_(strand), last_(last) {}
-  StrandEnd end() const { return {.strand = strand_, .last = last_}; }
+  using BoundOfEnd::BoundOfEnd;
   double value(const SlidingSetting& setting, const SlidingState& at) const override;
   Row gradient(const SlidingSetting& setting, const SlidingState& at) const override;
   std::vector<Transition> transitions(const SlidingSetting& setting, const SlidingState& at,
                                       const Arrival& arrival) const override;
-
- private:
-  Index strand_;
-  bool last_;
 };
 
 }  // namespace arcwall::sliding
