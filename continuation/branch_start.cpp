@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "continuation/corners/corner.hpp"
@@ -33,7 +34,17 @@ CorrectorResult correct_start(TraceTools& tools, const Metric& metric, const Sta
   return result;
 }
 
-// Its forward tangent, and the contacts that already touch.
+// The lowest validity bound that a start has passed already and goes on from, as where constant loads have grown to
+// just behind a change of contact.
+std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance) {
+  std::optional<Index> lowest;
+  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && at.guard_rates[j] < 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]))
+      lowest = j;
+  return lowest;
+}
+
+// Its forward tangent, and the contacts that already touch or have just changed.
 BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   const double first = state.start.sense * tools.options.step.first;
   const State& start = state.start.state;
@@ -61,12 +72,31 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
     at = std::move(passed.at);
   }
   at.count = tools.counter.count(at.state, at.negative_eigenvalues);
-  begun.step_length = std::abs(first / at.tangent.dlambda);
-  begun.from.signs = signs_at(tools.detectors, at);
-  begun.from.negative_eigenvalues = at.negative_eigenvalues;
-  begun.from.count_after = at.count;
+  std::optional<EnteredPiece> entered;
+  if (const auto bound = bound_passed_at(at, tools.options.guard_tolerance)) {
+    CornerPassed passed = pass_bound(tools,
+                                     {.at = at,
+                                      .slack = -at.guards[*bound],
+                                      .signs = signs_at(tools.detectors, at),
+                                      .lambda_scale = state.lambda_scale,
+                                      .begins_branch = true},
+                                     *bound);
+    begun.end = std::move(passed.end);
+    if (begun.end) return begun;
+    std::move(passed.events.begin(), passed.events.end(), std::back_inserter(events));
+    entered = std::move(passed.entered);
+    if (!entered) at = std::move(passed.at);
+  }
   begun.arc = first_arc(at, std::move(events));
-  begun.from.point = std::move(at);
+  begun.from.point = entered ? std::move(entered->begin) : std::move(at);
+  const PathPoint& from = begun.from.point;
+  begun.step_length = std::abs(first / from.tangent.dlambda);
+  begun.from.signs = signs_at(tools.detectors, from);
+  begun.from.negative_eigenvalues = from.negative_eigenvalues;
+  begun.from.count_after = from.count;
+  // A first point that is inside an obstacle tells where a piece leads, but is none to step to.
+  if (entered && tools.system.admissible(entered->first.state, -penetration_tolerance))
+    begun.from.known_end = std::move(entered->first);
   return begun;
 }
 
