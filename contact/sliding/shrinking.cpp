@@ -11,6 +11,7 @@
 #include "contact/sliding/bounds/length.hpp"
 #include "contact/sliding/bounds/pressure.hpp"
 #include "contact/sliding/bounds/pulling_jump.hpp"
+#include "contact/sliding/curvature_jumps.hpp"
 #include "contact/sliding/pulling_jumps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
@@ -101,8 +102,9 @@ double without_pressure_at(const SlidingState& at, std::size_t gap) {
   return 0.5 * (at.s(first) + at.s(first + 1));
 }
 
-// Two pressed parts become one, or a pressed part and a point contact beside it.
-Transition joined(const SlidingSetting& setting, const SlidingState& at, const Points& gaps) {
+// Two pressed parts become one, or a pressed part and a point contact beside it, which is the part's edge then, moved
+// along the body by `moved` [length].
+Transition joined(const SlidingSetting& setting, const SlidingState& at, const Points& gaps, double moved = 0.0) {
   LayoutEdit edit = edit_of(setting.body, at);
   std::vector<double> places;
   for (const std::size_t k : gaps) places.push_back(without_pressure_at(at, k));
@@ -116,6 +118,7 @@ Transition joined(const SlidingSetting& setting, const SlidingState& at, const P
       edit.erase(*k + 1, edit.elements_behind(*k + 1) + (before ? 0 : 1));
     }
     if (before) edit.erase(*k, edit.elements_before(*k) + (behind ? edit.elements_behind(*k) : 1));
+    if (before != behind) edit.place(*k) += moved;
     if (std::find(edit.strands.begin(), edit.strands.end(), strand) != edit.strands.end()) continue;
     if (!setting.obstacles[obstacle].surface->knots().empty())
       return unsupported("a member comes to lie on a curved wall from end to end");
@@ -174,11 +177,31 @@ Transition joined_here(const SlidingSetting& setting, const SlidingState& at, st
   return transition;
 }
 
+// A part that is pressed on a line, and a point contact beside it where an arc of the wall begins. As the arch between
+// them vanishes there is no moment at the arc's beginning, and behind that the part's edge goes back along the line.
+std::optional<Transition> joined_at_jump(const SlidingSetting& setting, const SlidingState& at, std::size_t gap) {
+  constexpr double beside = 1e-4, guessed = 1e-5, beyond = 1e-9;  // of the length scale
+  const double L = setting.scales.length;
+  const bool before = at.layout.span_before(gap) == Span::pressed;
+  const bool behind = at.layout.points()[gap + 1].behind == Span::pressed;
+  if (at.layout.points()[gap].behind != Span::free || before == behind) return std::nullopt;
+  const Touch touch = touch_of_contact(setting, at.layout, before ? gap + 1 : gap);
+  const double to = before ? -1.0 : 1.0;  // from the point contact to the part
+  const auto jump = curvature_jump_beside(setting, touch, touch.axis(at), to, beside * L, at.now.lambda);
+  if (!jump) return std::nullopt;
+  Transition transition = joined(setting, at, {gap}, to * (jump->distance + guessed * L));
+  transition.quantity = std::make_shared<BeyondJump>(setting, at, touch, *jump, to, gap);
+  transition.value = beyond * L;
+  transition.contacts = {static_cast<Index>(gap)};
+  return transition;
+}
+
 }  // namespace
 
 std::vector<Transition> neighbours_vanish(const SlidingSetting& setting, const SlidingState& at,
                                           const Direction& forward, std::size_t point) {
   std::vector<Transition> transitions;
+  if (auto transition = joined_at_jump(setting, at, point)) transitions.push_back(std::move(*transition));
   if (const auto first = half_pressed_stretch(setting, at, forward, point))
     transitions.push_back(gathered(setting, at, {*first, *first + 1}));
   const bool before = at.layout.span_before(point) == Span::pressed;

@@ -236,6 +236,64 @@ path = { step = 0.1, stop = { lambda = [-1.0, 3.0] } }
   test::expect_whole(traced);
 }
 
+// A beam that a load presses up to the corner of a roof is drawn off it by another. The place where it is nearest
+// slides along the corner's arc until that goes over into a line, from which the beam turns away: there is no such
+// place behind it. What follows is the beam's without a roof.
+TEST(Outlines, APointThatHasLeftARoundedCornerIsGivenUpAtItsEnd) {
+  const auto drawn_off = [](const std::string& wall) {
+    return test::TracedDeck(R"toml(
+title = "Drawn off a rounded corner"
+material.m = { E = 100.0 }
+section.s = { shape = "general", A = 40000.0, I = 1.0, height = 0.75 }
+point = { A = [0.0, 0.0], B = [25.0, 0.0] }
+support = { A = ["x", "z", "rotation"], B = ["z"] }
+member.c = { from = "A", to = "B", theory = "elastica", elements = 16, material = "m", section = "s" }
+load = [{ at = "c:0.4375", force = [0.0, -0.75] }, { at = "c:0.4375", force = [0.0, 1.2], constant = true }]
+path = { step = 0.03, stop = { lambda = [-0.5, 3.0] } }
+monitor = [{ name = "z", at = "c:0.4375", component = "z" }]
+)toml" + wall);
+  };
+  const test::TracedDeck roofed = drawn_off(
+      "wall = [{ name = \"roof\", corner_radius = 1.25, outline = { type = \"polyline\", x = [32.6, 15.6, -7.5], "
+      "z = [1.17, 0.75, 2.87] } }]");
+  EXPECT_EQ(test::events_of(roofed, EventKind::contact_opens).size(), 1u);
+  const RecordPoint& last = roofed.record().points.back();
+  EXPECT_EQ(last.lambda, 3.0);
+  EXPECT_NEAR(last.monitors[0], drawn_off("").record().points.back().monitors[0], 1e-9);
+  test::expect_whole(roofed);
+}
+
+// A beam of a frame is pressed up to a roof, on one side of the roof's rounded corner and at the corner. The arch
+// between vanishes, and the edge of the pressed part goes back along the roof: from then on it does not matter where
+// the corner is.
+TEST(Outlines, APartJoinsThePointAtARoundedCorner) {
+  const auto beside = [](const std::string& corner) {
+    return test::TracedDeck(R"toml(
+title = "A part beside a rounded corner"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1.76e5, I = 1.0, height = 0.465 }
+point = { a = [0.0, 0.0], e = [0.0, 12.7], f = [15.5, 12.7], b = [15.5, 0.0] }
+support = { a = ["x", "z", "rotation"], b = ["x", "z"] }
+member.c = { from = "a", to = "e", theory = "classic", material = "m", section = "s", elements = 16 }
+member.d = { from = "e", to = "f", theory = "classic", material = "m", section = "s", elements = 16 }
+member.g = { from = "f", to = "b", theory = "classic", material = "m", section = "s", elements = 16 }
+load = [{ at = "e", moment = 0.1386 }, { on = "d", distributed = [0.0, 0.003818], constant = true }, { at = "d:0.125", force = [0.0, 0.02842], constant = true }]
+path = { step = 0.1, stop = { lambda = [-0.5, 3.0] } }
+monitor = [{ name = "z", at = "d:0.125", component = "z" }]
+wall = [{ name = "roof", corner_radius = 0.8, outline = { type = "polyline", )toml" +
+                            corner + " } }]\n");
+  };
+  const test::TracedDeck near = beside("x = [20.0, 6.2, -4.6], z = [14.85, 13.2, 13.65]");
+  const test::TracedDeck far = beside("x = [20.0, 7.0, -4.6], z = [15.2, 13.166666666666666, 13.65]");
+  const auto gathers = EventKind::contact_gathers;
+  EXPECT_LT(test::event_of(far, EventKind::contact_closes, 2).lambda,
+            test::event_of(near, EventKind::contact_closes, 2).lambda);
+  EXPECT_NEAR(test::event_of(near, gathers).lambda, test::event_of(far, gathers).lambda, 1e-10);
+  EXPECT_EQ(near.record().points.back().lambda, 3.0);
+  EXPECT_NEAR(near.record().points.back().monitors[0], far.record().points.back().monitors[0], 1e-10);
+  test::expect_whole(near);
+}
+
 // A uniform load q across a clamped strip brings its tip to a ceiling c above it, lays it down, and lays the strip on
 // the ceiling from there, whatever the direction of the whole. In small slopes, with EI = L = 1: q = 8 c, 72 c, and
 // from then on a⁴ = 72 c/q for the length a that is free.

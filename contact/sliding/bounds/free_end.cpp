@@ -22,13 +22,6 @@ std::optional<FreeEnd> touching_end(const SlidingSetting& setting, const Sliding
   return setting.free_ends[*nearest].seen_from(of);
 }
 
-// Whether an end is the first of those that are one place to the obstacle.
-bool is_first(const SlidingSetting& setting, const FreeEnd& seen) {
-  return std::any_of(setting.free_ends.begin(), setting.free_ends.end(), [&](const FreeEnd& end) {
-    return end.obstacle == seen.obstacle && end.strand == seen.strand && end.last == seen.last;
-  });
-}
-
 }  // namespace
 
 double sine_from_end(const SlidingSetting& setting, const SlidingState& at, const FreeEnd& end) {
@@ -79,7 +72,7 @@ std::vector<Transition> LiesDownBound::transitions(const SlidingSetting& setting
 
 double UprightBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto touching = touching_end(setting, at, {.strand = strand_, .last = last_});
-  if (!touching || touching->travel == 0.0 || !is_first(setting, *touching)) return out_of_reach;
+  if (!touching || touching->travel == 0.0 || !touching->joined.empty()) return out_of_reach;
   const Touch touch = touch_of_end(setting, at.layout, *touching);
   if (touch.offset == 0.0) return out_of_reach;
   return touching->travel * std::cos(touch.axis(at).angle) - nearly_upright;
@@ -88,7 +81,7 @@ double UprightBound::value(const SlidingSetting& setting, const SlidingState& at
 Row UprightBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {
   Row row = at.no_slope();
   const auto touching = touching_end(setting, at, {.strand = strand_, .last = last_});
-  if (!touching || !is_first(setting, *touching)) return row;
+  if (!touching || !touching->joined.empty()) return row;
   const Touch touch = touch_of_end(setting, at.layout, *touching);
   if (touch.offset == 0.0) return row;
   const double turned = -touching->travel * std::sin(touch.axis(at).angle);

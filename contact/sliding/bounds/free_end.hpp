@@ -29,7 +29,7 @@ class LiesDownBound final : public BoundOfEnd {
 };
 
 /// How far a free end that touches is from standing upright: behind the bound its section's other corner would touch,
-/// which is not modelled. Positive where the end does not touch.
+/// which is not modelled. Positive where the end does not touch, and at a joint in line, which has no such corner.
 class UprightBound final : public BoundOfEnd {
  public:
   using BoundOfEnd::BoundOfEnd;
