@@ -1,12 +1,16 @@
 #pragma once
 
+#include "core/types.hpp"
+
 namespace arcwall {
 
 /// Scales that make guards of order 1, and what is none beside them.
 struct ContactScales {
   double length = 1.0;  ///< of gaps [length]
   double force = 1.0;   ///< of contact forces [force]
-  double slack = 0.0;   ///< a force that is none: what springs that hold loose bodies may exert [force]
+  double driven =
+      infinity;        ///< of forces that λ brings, where it is less: round-off of slender members is more [force]
+  double slack = 0.0;  ///< a force that is none: what springs that hold loose bodies may exert [force]
 };
 
 }  // namespace arcwall

@@ -30,7 +30,10 @@ StepTried step_to_known_end(TraceTools& tools, const StepOrigin& origin) {
     if (landed.end->landing->singular) landed.end->point.negative_eigenvalues.reset();
     return {.result = std::move(*landed.end)};
   }
-  if (guards.minCoeff() >= -mesh_error) return {.result = std::move(end)};
+  bool holds = true;
+  for (Index j = 0; j < guards.size(); ++j)
+    holds = holds && guards[j] >= -tools.options.mesh_error_of(end.point.state.piece, j);
+  if (holds) return {.result = std::move(end)};
   return {.result = Rejected{.outcome = StepOutcome::not_landed, .failure = landed.failure}};
 }
 
@@ -231,9 +234,7 @@ Accepted accept(TraceTools& tools, const TracerState& state, const StepOrigin& o
   if (!accepted.end && new_contacts) accepted.end = stop_at_contacts(tools.options, end.point.state.piece);
   if (!accepted.end) accepted.end = stop_at_events(tools.options, accepted.arc.events);
   begin_next(origin, passed && passed->entered ? passed->entered->begin : end.point, smooth, accepted.leave);
-  // A first point that is inside an obstacle tells where a piece leads, but is none to step to.
-  if (passed && passed->entered && tools.system.admissible(passed->entered->first.state, -penetration_tolerance))
-    accepted.leave.known_end = std::move(passed->entered->first);
+  if (passed && passed->entered) accepted.leave.known_end = std::move(passed->entered->first);
   if (passed && passed->entered && !passed->entered->values.empty()) {
     accepted.leave.values_ahead = std::move(passed->entered->values);
     accepted.leave.begin = std::exchange(accepted.leave.point, end.point);

@@ -94,9 +94,7 @@ BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   begun.from.signs = signs_at(tools.detectors, from);
   begun.from.negative_eigenvalues = from.negative_eigenvalues;
   begun.from.count_after = from.count;
-  // A first point that is inside an obstacle tells where a piece leads, but is none to step to.
-  if (entered && tools.system.admissible(entered->first.state, -penetration_tolerance))
-    begun.from.known_end = std::move(entered->first);
+  if (entered) begun.from.known_end = std::move(entered->first);
   return begun;
 }
 

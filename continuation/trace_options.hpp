@@ -9,6 +9,7 @@
 #include "continuation/corners/corner_options.hpp"
 #include "continuation/events/event_detector.hpp"
 #include "continuation/path_point.hpp"
+#include "continuation/path_tolerances.hpp"
 #include "continuation/step/corrector_options.hpp"
 #include "continuation/step/path_constraint.hpp"
 #include "continuation/step/step_attempt.hpp"
@@ -52,7 +53,16 @@ struct TraceOptions {
   std::vector<EventDetector> detectors{};  ///< besides limit points and watched monitors
   bool node_contacts = false;      ///< contacts cannot slide along the body: branch points with closed ones are marked
   double guard_tolerance = 1e-12;  ///< guards above −this are fulfilled, those within it degenerate
-  double localisation = 1e-12;     ///< bracket of an event as a part of its step
+  /// What the error of a mesh may make of the force of a closed contact that is zero [scale of guards]. Less than of
+  /// other guards where round-off makes the scale greater than forces are.
+  double mesh_error_of_forces = mesh_error;
+
+  /// The same of any guard of a piece.
+  double mesh_error_of(const Piece& piece, Index guard) const {
+    const bool is_force = guard < static_cast<Index>(piece.size()) && piece[static_cast<std::size_t>(guard)];
+    return is_force ? mesh_error_of_forces : mesh_error;
+  }
+  double localisation = 1e-12;           ///< bracket of an event as a part of its step
   std::optional<double> lambda_scale{};  ///< λ₀ of the metric, where the branch's start has none; else by its tangent
   int max_points = 5000;
   bool every_direction = false;  ///< report a change of contacts that several directions leave as a branch point also

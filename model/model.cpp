@@ -57,8 +57,16 @@ ContactScales contact_scales(const deck::Deck& deck, const Structure& structure,
   constexpr double steps = 10.0;
   const double tolerance = TraceOptions{}.guard_tolerance;
   const double force = std::max({structure.force_scale(), force_of_movements(held), force_of_walls(deck, structure)});
+  const double driven = std::max(steps * force * std::abs(first_step), 1e-300);
   return {.length = structure.length_scale(),
-          .force = std::max({steps * force * std::abs(first_step), structure.force_roundoff() / tolerance, 1e-300})};
+          .force = std::max(driven, structure.force_roundoff() / tolerance),
+          .driven = driven};
+}
+
+// See TraceOptions. No less than a force is known to.
+double mesh_error_of_forces(const ContactScales& scales) {
+  const double known = 10.0 * TraceOptions{}.guard_tolerance;
+  return std::max(mesh_error * std::min(1.0, scales.driven / scales.force), known);
 }
 
 bool moves_something(const Structure& structure) {
@@ -286,6 +294,10 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
     options_.corner.max_enumerated = 0;
   }
 
+  if (contact_) {
+    const ContactScales& scales = sliding_ ? sliding_->scales() : contact_->scales();
+    options_.mesh_error_of_forces = mesh_error_of_forces(scales);
+  }
   for (const std::string& name : deck_->path.watch)
     watched_.push_back({.quantity = deck::find(monitors_, name)->quantity, .label = name});
   explore_.policy = deck_->path.branches;
@@ -443,6 +455,7 @@ std::optional<State> Model::start(std::string& reason) const {
   // What is constant grows from nothing along a path of their own, contacts included.
   TraceOptions options;
   options.step.first = 0.1;
+  options.mesh_error_of_forces = options_.mesh_error_of_forces;
   options.max_points = 2000;
   options.events = EventSearch::none;
   options.target_values.push_back(

@@ -27,7 +27,7 @@ inline constexpr std::string_view nothing_behind_change = "behind a change of co
 /// A piece that was entered behind a transition that makes a span: its first point has one of some length.
 struct EnteredPiece {
   PathPoint begin{};  ///< on the same piece with a small part of that length: where the step to the first point begins
-  PathPoint first{};
+  std::optional<PathPoint> first{};  ///< empty: it only tells where the piece leads, and does not hold itself
   std::vector<ValuePoint> values{};  ///< between the corner and `begin`, in their order
 };
 

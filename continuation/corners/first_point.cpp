@@ -110,14 +110,20 @@ bool is_beyond_mesh(const System& system, const PathPoint& at, double tolerance)
   return false;
 }
 
-// Whether the side conditions hold at the first point of a piece, but for bounds of its mesh.
-bool holds(const System& system, const Transition& transition, const State& state, const Direction& forward) {
-  if (!system.admissible(state, -penetration_tolerance)) return false;
-  if (transition.change == Transition::Change::remeshed) return true;
-  const Vector guards = system.guards(state);
-  for (Index j = 0; j < guards.size(); ++j)
-    if (guards[j] < -mesh_error && !is_of_mesh(system, state, forward, j, mesh_error)) return false;
+// Whether the guards hold within the error of the mesh, but for bounds of the mesh.
+bool guards_hold(const TraceTools& tools, const State& state, const Direction& forward, const Vector& guards) {
+  for (Index j = 0; j < guards.size(); ++j) {
+    const double error = tools.options.mesh_error_of(state.piece, j);
+    if (guards[j] < -error && !is_of_mesh(tools.system, state, forward, j, error)) return false;
+  }
   return true;
+}
+
+// Whether the side conditions hold at the first point behind a transition; behind one of the mesh they are the same.
+bool holds(const TraceTools& tools, const Transition& transition, const State& state, const Direction& forward) {
+  if (!tools.system.admissible(state, -penetration_tolerance)) return false;
+  return transition.change == Transition::Change::remeshed ||
+         guards_hold(tools, state, forward, tools.system.guards(state));
 }
 
 // What the corrector arrived at, with its count.
@@ -206,6 +212,11 @@ bool value_lies_behind_turn(const std::vector<TargetValue>& targets, const PathP
 
 }  // namespace
 
+bool holds_at(const TraceTools& tools, const PathPoint& at) {
+  return tools.system.admissible(at.state, -penetration_tolerance) &&
+         guards_hold(tools, at.state, at.tangent, at.guards);
+}
+
 Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPoint& first, const PathPoint& from,
                    double lambda_scale) {
   constexpr double shortest = 1.0 / 16.0, tiny = 1e-5;  // of the first length
@@ -248,7 +259,7 @@ std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, 
                                double lambda_scale, Effort effort) {
   const Ahead ahead = ahead_of(tools, transition, lambda_scale);
   CorrectorResult result = arrive(tools, transition, from, ahead, effort);
-  if (!result.converged() || !holds(tools.system, transition, result.state, ahead.along)) return std::nullopt;
+  if (!result.converged() || !holds(tools, transition, result.state, ahead.along)) return std::nullopt;
   return entered_point(tools, transition, ahead, std::move(result), from.arc);
 }
 
@@ -272,9 +283,11 @@ namespace {
 
 // Whether a guard is below zero at a point and sinks: the piece is none of the path's, however little that is. Of a
 // part pressed on a wall that has hardly any length the pressure is hardly any, too, where the wall would have to pull.
-bool sinks(const System& system, const PathPoint& at, double tolerance) {
+// `error`: what the error of a mesh may make of guard j.
+template <typename Error>
+bool sinks(const System& system, const PathPoint& at, const Error& error) {
   for (Index j = 0; j < at.guards.size(); ++j)
-    if (at.guards[j] < -tolerance && at.guard_rates[j] < 0.0 && !is_of_mesh(system, at.state, at.tangent, j, tolerance))
+    if (at.guards[j] < -error(j) && at.guard_rates[j] < 0.0 && !is_of_mesh(system, at.state, at.tangent, j, error(j)))
       return true;
   return false;
 }
@@ -318,13 +331,14 @@ bool agrees_with_counts(const StabilityCount& before, const PathPoint& from, con
 
 // On another mesh the path's direction tells its sense; where a change of contact is known on neither side but by its
 // state, the counts do. What sinks below its bound in that sense is not the path's. Empty then.
-std::optional<PathPoint> in_sense_of_counts(const System& system, const StabilityCount& before, const PathPoint& from,
-                                            PathPoint at, double tolerance) {
+std::optional<PathPoint> in_sense_of_counts(const TraceTools& tools, const StabilityCount& before,
+                                            const PathPoint& from, PathPoint at) {
   if (!agrees_with_counts(before, from, at)) {
     at.tangent = reversed(std::move(at.tangent));
     at.guard_rates = -at.guard_rates;
   }
-  return sinks(system, at, tolerance) ? std::nullopt : std::optional(std::move(at));
+  const auto error = [&](Index j) { return tools.options.mesh_error_of(at.state.piece, j); };
+  return sinks(tools.system, at, error) ? std::nullopt : std::optional(std::move(at));
 }
 
 // Whether a change of contact is known on neither side but by its state.
@@ -358,8 +372,7 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
       if (!at && effort == Effort::usual)
         if (auto entered = early(transition, 1.0)) return entered;
       if (!at) continue;
-      if (is_known_by_state(transition))
-        at = in_sense_of_counts(tools.system, before, from, std::move(*at), mesh_error);
+      if (is_known_by_state(transition)) at = in_sense_of_counts(tools, before, from, std::move(*at));
       if (!at) continue;
       Entered entered{.transition = &transition, .at = std::move(*at)};
       const bool is_gathered = transition.change == Transition::Change::gathers && transition.quantity;
@@ -369,7 +382,8 @@ std::optional<Entered> enter_any(TraceTools& tools, const std::vector<Transition
         entered.begin = begin_of(tools, transition, entered.at, from, lambda_scale);
       if (leaves_mesh && (!entered.begin || is_beyond_mesh(tools.system, entered.begin->at, mesh_error))) continue;
       const bool leaps = entered.begin && transition.least > 0.0 && entered.begin->ends_there;
-      if (leaps || (has_length && sinks(tools.system, entered.at, tools.options.guard_tolerance)) ||
+      if (leaps ||
+          (has_length && sinks(tools.system, entered.at, [&](Index) { return tools.options.guard_tolerance; })) ||
           ((has_length || is_gathered) && !agrees_with_counts(before, from, entered.at))) {
         if (!doubtful) doubtful = std::move(entered);
         continue;

@@ -40,6 +40,9 @@ Beginning begin_of(TraceTools& tools, const Transition& transition, const PathPo
 std::optional<PathPoint> enter(TraceTools& tools, const Transition& transition, const PathPoint& from,
                                double lambda_scale, Effort effort = Effort::usual);
 
+/// Whether the side conditions hold at the first point of a piece, but for bounds of its mesh.
+bool holds_at(const TraceTools& tools, const PathPoint& at);
+
 /// By how much λ of a change that is known on the piece ahead by a quantity differs where it is sought from beside:
 /// what round-off makes of the forces, and with them of the quantity. 0 of other changes.
 double scatter_of(TraceTools& tools, const Entered& entered, double lambda_scale);

@@ -159,7 +159,8 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
       }
       add_events(tools, corner, passed.at, *entered, begin, passed.events);
       if (pitchfork) add_pitchfork(passed.at, begin, std::move(*pitchfork), passed.events);
-      passed.entered = EnteredPiece{.begin = std::move(begin), .first = std::move(entered->at)};
+      passed.entered = EnteredPiece{.begin = std::move(begin)};
+      if (holds_at(tools, entered->at)) passed.entered->first = std::move(entered->at);
       return passed;
     }
     add_events(tools, corner, passed.at, *entered, entered->at, passed.events);

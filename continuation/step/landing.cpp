@@ -26,22 +26,27 @@ double unsure_at_start(const StepOrigin& origin, double tolerance) {
 
 // A piece may be entered a little before one of its validity bounds, on the way to where it is valid; and where the
 // mesh is drawn anew just behind a change of contact the guard that was zero there is so within the error of the mesh.
-bool rises_from_below(const PathPoint& from, const PathPoint& to, Index guard, double unsure) {
+bool rises_from_below(const TraceOptions& options, const PathPoint& from, const PathPoint& to, Index guard,
+                      double unsure) {
   const bool is_contact = guard < static_cast<Index>(to.state.piece.size());
   const double v = from.guards[guard];
-  return v < -unsure && (!is_contact || v >= -mesh_error) && from.guard_rates[guard] > 0.0 && to.guards[guard] > v;
+  const double error = options.mesh_error_of(to.state.piece, guard);
+  return v < -unsure && (!is_contact || v >= -error) && from.guard_rates[guard] > 0.0 && to.guards[guard] > v;
 }
 
 // By how much guards are violated that were not before.
-double slack_at(const StepOrigin& origin, double tolerance, const PathPoint& at) {
+double slack_at(const TraceOptions& options, const StepOrigin& origin, const PathPoint& at) {
+  const double tolerance = options.guard_tolerance;
   double slack = 0.0;
   for (Index j = 0; j < at.guards.size(); ++j)
-    if (!rises_from_below(origin.point(), at, j, unsure_at_start(origin, tolerance)))
+    if (!rises_from_below(options, origin.point(), at, j, unsure_at_start(origin, tolerance)))
       slack = std::max(slack, -at.guards[j]);
   return slack;
 }
 
-std::optional<GuardCrossing> first_crossing(const StepOrigin& origin, double tolerance, const Segment& segment) {
+std::optional<GuardCrossing> first_crossing(const TraceOptions& options, const StepOrigin& origin,
+                                            const Segment& segment) {
+  const double tolerance = options.guard_tolerance;
   const PathPoint &from = segment.from(), &to = segment.to();
   const double L = segment.length();
   const double unsure = unsure_at_start(origin, tolerance);
@@ -49,7 +54,7 @@ std::optional<GuardCrossing> first_crossing(const StepOrigin& origin, double tol
   for (Index j = 0; j < to.guards.size(); ++j) {
     const double v0 = from.guards[j], r0 = from.guard_rates[j], v1 = to.guards[j], r1 = to.guard_rates[j];
     const bool touches = v0 <= tolerance && v0 >= -unsure;
-    if (rises_from_below(from, to, j, unsure)) continue;
+    if (rises_from_below(options, from, to, j, unsure)) continue;
     if (v1 >= -tolerance && least_cubic_value(touches ? 0.0 : v0, r0 * L, v1, r1 * L) >= -tolerance) continue;
     const double t = segment.first_zero(v0, r0, v1, r1, tolerance).value_or(0.0);
     if (!first || t < first->t) first = GuardCrossing{.guard = j, .t = t};
@@ -88,7 +93,7 @@ LandedStep land_on(TraceTools& tools, const StepOrigin& origin, const StepEnd& e
   CorrectedPoint at = correct_onto(tools, origin, GuardConstraint(tools.system, crossing.guard), segment, crossing.t);
   if (!at.point || lands_where_it_began(origin, tolerance, *at.point, crossing.guard))
     return {.end = std::nullopt, .failure = at.status};
-  Landing landing{.guard = crossing.guard, .slack = slack_at(origin, tolerance, *at.point)};
+  Landing landing{.guard = crossing.guard, .slack = slack_at(tools.options, origin, *at.point)};
   landing.singular = is_singular_change(tools, *at.point, landing);
   if (landing.singular && segment.length() > coincidence_tolerance)
     at.point->tangent = tangent_from(origin.metric, origin.point(), *at.point);
@@ -123,7 +128,7 @@ LandedStep land_on_first_guard(TraceTools& tools, const StepOrigin& origin, Step
   const double tolerance = tools.options.guard_tolerance;
   const auto crossing_before = [&](const StepEnd& last) {
     return last.point.guards.size() > 0
-               ? first_crossing(origin, tolerance, Segment(origin.metric, origin.point(), last.point))
+               ? first_crossing(tools.options, origin, Segment(origin.metric, origin.point(), last.point))
                : std::nullopt;
   };
   const auto dips = [&](StepEnd& last) {
