@@ -48,6 +48,13 @@ class Face {
     return out;
   }
 
+  // Whether the body may come to the surface between two places and turn back: it does so by a small part of the
+  // element.
+  bool is_near(const FacePlace& a, const FacePlace& b) const {
+    constexpr double part = 0.05;
+    return std::min(a.gap, b.gap) < part * (coordinate(1) - coordinate(0));
+  }
+
   // The fraction at which the element faces a place of the surface; such a place lies between its ends.
   double facing(double along_there) const {
     constexpr double enough = 1e-12;  // of the element
@@ -66,6 +73,9 @@ class Face {
  private:
   AxisPlace axis(double fraction) const {
     return element_.at.mesh.inside(element_.strand, element_.node, fraction, element_.at.now);
+  }
+  double coordinate(Index end) const {
+    return element_.at.mesh.coordinate(element_.strand, element_.node + end, element_.at.now.s);
   }
   double lambda() const { return element_.at.now.lambda; }
   double middle() const { return 0.5 * (element_.from + element_.to); }
@@ -124,6 +134,30 @@ FacePlace parallel_between(const Face& face, FacePlace a, FacePlace b) {
   return -a.rate < b.rate ? a : b;
 }
 
+// Pairs of places between two cuts from one to the next of which the rate goes over from − to +. Where it has one sign
+// at both the body may turn away and back between, as beside a contact at a rounded corner whose flank comes near: then
+// three places between them are looked at, too.
+std::vector<std::pair<FacePlace, FacePlace>> brackets(const Face& face, const FacePlace& from, const FacePlace& to) {
+  std::vector<std::pair<FacePlace, FacePlace>> found;
+  const auto take = [&](const FacePlace& a, const FacePlace& b) {
+    if (!std::isfinite(a.gap) || !std::isfinite(b.gap)) return;
+    if (a.rate <= 0.0 && b.rate >= 0.0 && a.rate != b.rate) found.emplace_back(a, b);
+  };
+  if (!face.is_near(from, to) || (from.rate > 0.0) != (to.rate > 0.0)) {
+    take(from, to);
+    return found;
+  }
+  constexpr int parts = 4;
+  FacePlace a = from;
+  for (int i = 1; i <= parts; ++i) {
+    const FacePlace b =
+        i == parts ? to : face.place(from.fraction + (to.fraction - from.fraction) * double(i) / double(parts));
+    take(a, b);
+    a = b;
+  }
+  return found;
+}
+
 }  // namespace
 
 ElementBesideSurface beside_surface(const SlidingSetting& setting, const SlidingState& at, Index strand, Index node,
@@ -157,13 +191,11 @@ std::vector<PlaceInElement> parallel_places(const ElementBesideSurface& element,
 
   std::vector<PlaceInElement> found;
   const std::size_t first = leave_out.first ? 1 : 0, last = cuts.size() - (leave_out.last ? 2 : 1);
-  for (std::size_t i = first; i < last; ++i) {
-    const FacePlace &a = cuts[i], &b = cuts[i + 1];
-    if (!std::isfinite(a.gap) || !std::isfinite(b.gap)) continue;
-    if (a.rate > 0.0 || b.rate < 0.0 || a.rate == b.rate) continue;
-    const FacePlace least = parallel_between(face, a, b);
-    found.push_back({.fraction = least.fraction, .gap = least.gap});
-  }
+  for (std::size_t i = first; i < last; ++i)
+    for (const auto& [a, b] : brackets(face, cuts[i], cuts[i + 1])) {
+      const FacePlace least = parallel_between(face, a, b);
+      found.push_back({.fraction = least.fraction, .gap = least.gap});
+    }
   return found;
 }
 

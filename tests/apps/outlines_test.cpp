@@ -263,6 +263,33 @@ monitor = [{ name = "z", at = "c:0.4375", component = "z" }]
   test::expect_whole(roofed);
 }
 
+// A beam is pressed up to the rounded corner of a roof, and to a flank of it beside the corner: one element has both.
+// Its gap opens from the corner on, and closes again before the next node. References: shot from end to end with an
+// 8th-order method (1e-12), extensible elastica of EA L²/EI = 1e5, tangent to the arc and to the flank.
+TEST(Outlines, AFlankIsTouchedBesideItsCorner) {
+  for (const int elements : {20, 40}) {
+    SCOPED_TRACE(elements);
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "A corner and its flank"
+material.m = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 1e5, I = 1.0, height = 0.02 }}
+point = {{ a = [0.0, 0.0], b = [1.0, 0.0] }}
+support = {{ a = ["x", "z"], b = ["z"] }}
+member.c = {{ from = "a", to = "b", theory = "elastica", elements = {}, material = "m", section = "s" }}
+load = [{{ at = "c:0.65", force = [0.0, 1.0] }}, {{ at = "b", moment = -0.159 }}]
+wall = [{{ name = "roof", corner_radius = 0.1, outline = {{ type = "polyline", x = [1.5, 0.5868302681222064, -0.5], z = [0.059694341712240626, 0.02, 0.21139200880436135] }} }}]
+path = {{ step = 0.1, stop = {{ lambda = [-0.5, 6.0] }} }}
+)toml",
+                                              elements));
+    const RecordEvent& touches = test::event_of(traced, EventKind::contact_closes, 2);
+    const double error = elements == 20 ? 1e-5 : 1e-8;
+    EXPECT_NEAR(touches.lambda, 5.254083423357, error);
+    ASSERT_EQ(touches.contacts.size(), 1u);
+    EXPECT_NEAR(touches.contacts[0].label.fraction, 0.6254357201, error);
+    test::expect_whole(traced);
+  }
+}
+
 // A beam of a frame is pressed up to a roof, on one side of the roof's rounded corner and at the corner. The arch
 // between vanishes, and the edge of the pressed part goes back along the roof: from then on it does not matter where
 // the corner is.

@@ -19,7 +19,7 @@ constexpr double flatness = 0.5, far_off = 0.003;
 double allowed_gap(double gap) { return flatness * gap * (1.0 + gap * gap / (far_off * far_off)); }
 double allowed_gap_slope(double gap) { return flatness * (1.0 + 3.0 * gap * gap / (far_off * far_off)); }
 
-constexpr double reach = 1e-3;  // of the length scale, beside a jump of the wall's curvature
+constexpr double reach = 1e-4;  // of the length scale, beside a jump of the wall's curvature
 
 // What an open point loses of its curvature gap behind a jump of the wall's curvature beside it, as where an arc goes
 // over into a line: bit by bit as it comes there.
