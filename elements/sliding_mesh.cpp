@@ -431,10 +431,10 @@ AxisStrain SlidingStructureMesh::node_strain(Index strand, Index position, At si
 
 AxisStrainGradient SlidingStructureMesh::node_strain_gradient(Index strand, Index position, At side,
                                                               const MeshState& now) const {
-  const auto [e, place, sign] = beside(position, side);
-  const Index turn = beside(position, side).turn(), n = unknowns(), m = breakpoints();
+  const ElementBeside of = beside(position, side);
+  const Index e = of.element, place = of.place, turn = of.turn(), n = unknowns(), m = breakpoints();
   const SlidingStructure::Run& described = structure_.at(strand);
-  const double EA = sign * described.section.EA(), EI = sign * described.section.EI();
+  const double EA = of.sign * described.section.EA(), EI = of.sign * described.section.EI();
   const Response response = with_end_forces(respond(strand, e, now, true), strand, e, now);
   const Vec2 t = unit_tangent(node(strand, position, now).angle);
   const auto force = response.force.segment<2>(place);
