@@ -76,9 +76,9 @@ class TimedSystem final : public System {
     const ScopedTimer timer(times_.side_conditions);
     return inner_.guard_gradient(state, j);
   }
-  Vector guard_rates(const State& state, const Direction& direction) const override {
+  GuardsAlong guards_along(const State& state, const Direction& direction) const override {
     const ScopedTimer timer(times_.side_conditions);
-    return inner_.guard_rates(state, direction);
+    return inner_.guards_along(state, direction);
   }
   double guard(const State& state, Index j) const override {
     const ScopedTimer timer(times_.side_conditions);

@@ -8,8 +8,8 @@ namespace arcwall {
 struct ContactScales {
   double length = 1.0;  ///< of gaps [length]
   double force = 1.0;   ///< of contact forces [force]
-  double driven =
-      infinity;        ///< of forces that λ brings, where it is less: round-off of slender members is more [force]
+  /// Of forces that λ brings [force], where that is less than `force`: round-off of slender members may make that more.
+  double driven = infinity;
   double slack = 0.0;  ///< a force that is none: what springs that hold loose bodies may exert [force]
 };
 

@@ -193,8 +193,9 @@ Row MultiplierContact::guard_gradient(const State& state, Index j) const {
   return row;
 }
 
-Vector MultiplierContact::guard_rates(const State& state, const Direction& direction) const {
-  Vector rates = Vector::Zero(contact_count());
+GuardsAlong MultiplierContact::guards_along(const State& state, const Direction& direction) const {
+  GuardsAlong along{.values = guards(state), .rates = Vector::Zero(contact_count())};
+  Vector& rates = along.rates;
   const Index n = inner_.size({});
   for (Index j = 0; j < rates.size(); ++j)
     if (!state.piece[static_cast<std::size_t>(j)] && !has_opposite(j))
@@ -203,7 +204,7 @@ Vector MultiplierContact::guard_rates(const State& state, const Direction& direc
     if (const auto contact = static_cast<Index>(j); !has_opposite(contact))
       rates[contact] = direction.dx[n + k] / scales_.force;
   });
-  return rates;
+  return along;
 }
 
 Vector MultiplierContact::unit_force(const State& state, Index j) const {

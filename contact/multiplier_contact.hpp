@@ -50,7 +50,7 @@ class MultiplierContact final : public System, public ContactQuery {
   Index contact_count() const { return static_cast<Index>(candidates_.size()); }
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
-  Vector guard_rates(const State& state, const Direction& direction) const override;
+  GuardsAlong guards_along(const State& state, const Direction& direction) const override;
   std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;

@@ -53,6 +53,16 @@ double guard_of_contact(const SlidingSetting& setting, const SlidingState& at, I
   return std::isfinite(gap) ? gap / setting.scales.length : out_of_reach;
 }
 
+double guard_of(const SlidingSetting& setting, const SlidingState& at, Index j) {
+  return is_bound(at, j) ? bound_of(at, j).value(setting, at) : guard_of_contact(setting, at, j);
+}
+
+Vector guards_of(const SlidingSetting& setting, const SlidingState& at) {
+  Vector guards(static_cast<Index>(at.contacts() + at.layout.bounds().size()));
+  for (Index j = 0; j < guards.size(); ++j) guards[j] = guard_of(setting, at, j);
+  return guards;
+}
+
 Row guard_gradient_of_contact(const SlidingSetting& setting, const SlidingState& at, Index j) {
   Row row = at.no_slope();
   if (at.layout.is_pinched(static_cast<std::size_t>(j))) return row;
@@ -142,32 +152,24 @@ Index SlidingContact::guard_count(const Piece& piece) const {
   return static_cast<Index>(piece.size() + sliding_layout(piece).bounds().size());
 }
 
-Vector SlidingContact::guards(const State& state) const {
-  const SlidingState at(state);
-  Vector guards(guard_count(state.piece));
-  for (Index j = 0; j < guards.size(); ++j)
-    guards[j] = is_bound(at, j) ? bound_of(at, j).value(*setting_, at) : guard_of_contact(*setting_, at, j);
-  return guards;
-}
+Vector SlidingContact::guards(const State& state) const { return guards_of(*setting_, SlidingState(state)); }
 
-double SlidingContact::guard(const State& state, Index j) const {
-  const SlidingState at(state);
-  return is_bound(at, j) ? bound_of(at, j).value(*setting_, at) : guard_of_contact(*setting_, at, j);
-}
+double SlidingContact::guard(const State& state, Index j) const { return guard_of(*setting_, SlidingState(state), j); }
 
 Row SlidingContact::guard_gradient(const State& state, Index j) const {
   const SlidingState at(state);
   return is_bound(at, j) ? bound_of(at, j).gradient(*setting_, at) : guard_gradient_of_contact(*setting_, at, j);
 }
 
-Vector SlidingContact::guard_rates(const State& state, const Direction& direction) const {
-  const SlidingState at(state);
+GuardsAlong SlidingContact::guards_along(const State& state, const Direction& direction) const {
+  const SlidingState at(state);  // what bounds share is found once for both
   const SlidingMotion motion{.at = at, .direction = direction};
-  Vector rates(guard_count(state.piece));
+  GuardsAlong along{.values = guards_of(*setting_, at), .rates = Vector(guard_count(state.piece))};
+  Vector& rates = along.rates;
   for (Index j = 0; j < rates.size(); ++j)
     rates[j] = is_bound(at, j) ? bound_of(at, j).rate(*setting_, motion)
                                : apply(guard_gradient_of_contact(*setting_, at, j), direction);
-  return rates;
+  return along;
 }
 
 Vector SlidingContact::unit_force(const State& state, Index j) const {

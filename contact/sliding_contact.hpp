@@ -49,7 +49,7 @@ class SlidingContact final : public System, public ContactQuery {
   Vector guards(const State& state) const override;
   double guard(const State& state, Index j) const override;
   Row guard_gradient(const State& state, Index j) const override;
-  Vector guard_rates(const State& state, const Direction& direction) const override;
+  GuardsAlong guards_along(const State& state, const Direction& direction) const override;
   std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   Vector unit_force(const State& state, Index j) const override;
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;

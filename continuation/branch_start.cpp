@@ -34,17 +34,8 @@ CorrectorResult correct_start(TraceTools& tools, const Metric& metric, const Sta
   return result;
 }
 
-// The lowest validity bound that a start has passed already and goes on from, as where constant loads have grown to
-// just behind a change of contact.
-std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance) {
-  std::optional<Index> lowest;
-  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
-    if (at.guards[j] < -tolerance && at.guard_rates[j] < 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]))
-      lowest = j;
-  return lowest;
-}
-
-// Its forward tangent, and the contacts that already touch or have just changed.
+// Its forward tangent, and the contacts that already touch or have just changed. Where constant loads have grown to
+// just behind such a change, the start itself has passed a validity bound.
 BranchBegun begin_at_state(TraceTools& tools, const TracerState& state) {
   const double first = state.start.sense * tools.options.step.first;
   const State& start = state.start.state;

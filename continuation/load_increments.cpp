@@ -85,8 +85,8 @@ std::optional<LoadIncrements::Increment> LoadIncrements::solve_on(const Piece& p
 
 // The worst first.
 std::vector<Index> LoadIncrements::violated(const Increment& increment) const {
-  const Vector guards =
-      system_.guards(increment.from) + system_.guard_rates(increment.from, {.dx = increment.dx, .dlambda = 0.0});
+  const auto [now, change] = system_.guards_along(increment.from, {.dx = increment.dx, .dlambda = 0.0});
+  const Vector guards = now + change;
   std::vector<Index> wrong;
   for (Index j = 0; j < guards.size(); ++j)
     if (guards[j] < -side_tolerance) wrong.push_back(j);

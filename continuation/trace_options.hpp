@@ -62,6 +62,7 @@ struct TraceOptions {
     const bool is_force = guard < static_cast<Index>(piece.size()) && piece[static_cast<std::size_t>(guard)];
     return is_force ? mesh_error_of_forces : mesh_error;
   }
+
   double localisation = 1e-12;           ///< bracket of an event as a part of its step
   std::optional<double> lambda_scale{};  ///< λ₀ of the metric, where the branch's start has none; else by its tangent
   int max_points = 5000;

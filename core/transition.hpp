@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/deferred.hpp"
 #include "core/observable.hpp"
 #include "core/state.hpp"
 
@@ -35,8 +36,8 @@ struct Transition {
   std::optional<Continuum> continuum{};
   /// That change: in the piece behind; of `gathers`, of `joins`, and of `splits` without a quantity in the piece ahead.
   std::vector<Index> contacts{};
-  State guess{};        ///< on the piece ahead, near the first point there
-  Direction forward{};  ///< there, roughly
+  Deferred<State> guess{};  ///< on the piece ahead, near the first point there; made where the transition is tried
+  Direction forward{};      ///< there, roughly; without entries: not known
   /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
   /// through the guess across `forward`.
   std::shared_ptr<const Observable> quantity{};

@@ -9,6 +9,11 @@
 
 namespace arcwall {
 
+/// Guards of a piece at a state that moves: their values, and their derivatives along its direction.
+struct GuardsAlong {
+  Vector values{}, rates{};
+};
+
 /// The second of three levels of a system: equations with unilateral side conditions.
 ///
 /// There are as many contacts as a piece has entries. Contact j is open (its gap g_j ≥ 0, its force 0) or closed (its
@@ -18,7 +23,7 @@ namespace arcwall {
 ///
 /// Must be overridden by a system with contacts: open_piece, guards, guard_gradient, unit_force, multiplier_index and
 /// transfer, and of the equations multiplier_count. Must hold: guard_gradient() is the derivative of guards(), and
-/// guard() and guard_rates() agree with both; a force enters the equations by the gradient of its gap, so that K stays
+/// guard() and guards_along() agree with both; a force enters the equations by the gradient of its gap, so that K stays
 /// symmetric; transfer() from a piece to another and back gives the same x where the forces that are left out are zero.
 class UnilateralSystem : public Equations {
  public:
@@ -39,11 +44,11 @@ class UnilateralSystem : public Equations {
     return {.dx = Vector::Zero(state.x.size()), .dlambda = 0.0};
   }
 
-  /// Derivatives of all guards along a direction.
-  virtual Vector guard_rates(const State& state, const Direction& direction) const {
-    Vector rates(guard_count(state.piece));
-    for (Index j = 0; j < rates.size(); ++j) rates[j] = apply(guard_gradient(state, j), direction);
-    return rates;
+  /// All guards, and how they change along a direction.
+  virtual GuardsAlong guards_along(const State& state, const Direction& direction) const {
+    GuardsAlong along{.values = guards(state), .rates = Vector(guard_count(state.piece))};
+    for (Index j = 0; j < along.rates.size(); ++j) along.rates[j] = apply(guard_gradient(state, j), direction);
+    return along;
   }
 
   /// What guard j watches, for messages: an obstacle and a place of the structure. May be empty.

@@ -28,7 +28,7 @@ std::vector<Index> vanishing_guards(const System& system, const FoundEvent& foun
   for (Index j = 0; j < guards.size(); ++j)
     if (std::abs(guards[j]) <= vanishing) list.push_back(j);
   if (found.arc.to.tangent.dx.size() != state.x.size() || list.size() < 2) return list;
-  const Vector rates = system.guard_rates(state, found.arc.to.tangent).cwiseAbs();
+  const Vector rates = system.guards_along(state, found.arc.to.tangent).rates.cwiseAbs();
   std::stable_sort(list.begin(), list.end(), [&](Index a, Index b) { return rates[a] > rates[b]; });
   return list;
 }

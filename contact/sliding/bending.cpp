@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/sliding/differences.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall::sliding {
 
@@ -21,8 +22,6 @@ AxisStrainGradient strain_gradient_of_free_side(const SlidingState& at, std::siz
   return at.mesh.strain_gradient(static_cast<Index>(point), free_side(at.layout, point), at.now);
 }
 
-Vec2 normal(double angle) { return {-std::sin(angle), std::cos(angle)}; }
-
 }  // namespace
 
 void CurvatureGap::add_to(Row& row, double factor, const SlidingUnknowns& index) const {
@@ -38,8 +37,7 @@ struct FacedWall {
   AxisPlace axis;
   double side, along;     // ± 1: of the wall, and of the body's travel along it
   LinearField curvature;  // of the wall
-  double shrink;          // of the curve, for which its curvature is greater
-  double parallel() const { return curvature.value * shrink; }
+  double parallel;        // curvature of the curve
 
   FacedWall(const SlidingSetting& setting, const SlidingState& at, const Touch& touch) : axis(touch.axis(at)) {
     const Obstacle& obstacle = *setting.obstacles[touch.obstacle].surface;
@@ -47,12 +45,12 @@ struct FacedWall {
     side = sign_of(obstacle.side());
     along = travel(obstacle, place, axis.angle, at.now.lambda);
     curvature = obstacle.curvature(place, at.now.lambda);
-    shrink = 1.0 / (1.0 + touch.offset * curvature.value);
+    parallel = parallel_curvature(touch.offset, curvature.value);
   }
 
   // ± (κ − Λ κ̂): κ the body's curvature and Λ its stretch by stress-free length, κ̂ the curvature of the curve. Travel
   // against x turns the sign of κ.
-  double gap(const AxisStrain& strain) const { return side * (along * strain.curvature - strain.stretch * parallel()); }
+  double gap(const AxisStrain& strain) const { return side * (along * strain.curvature - strain.stretch * parallel); }
 };
 
 }  // namespace
@@ -65,8 +63,8 @@ double gap_of_curvatures(const SlidingSetting& setting, const SlidingState& at, 
 CurvatureGap gap_of_curvatures_gradient(const SlidingSetting& setting, const SlidingState& at, const Touch& touch,
                                         const AxisStrainGradient& strain) {
   const FacedWall faced(setting, at, touch);
-  const auto& [axis, side, along, wall, shrink] = faced;
-  const double parallel = faced.parallel(), offset = along * touch.offset;
+  const auto& [axis, side, along, wall, parallel] = faced;
+  const double offset = along * touch.offset, shrink = 1.0 / (1.0 + touch.offset * wall.value);
 
   CurvatureGap out{.value = faced.gap(strain)};
   out.dx = side * (along * strain.curvature_dx - parallel * strain.stretch_dx);
@@ -107,7 +105,7 @@ double obstacle_curvature(const SlidingSetting& setting, const SlidingState& at,
 namespace {
 
 Vec2 place_ahead(const AxisPlace& axis, double stretch, double ahead) {
-  return axis.position + ahead * stretch * Vec2(std::cos(axis.angle), std::sin(axis.angle));
+  return axis.position + ahead * stretch * unit_tangent(axis.angle);
 }
 
 }  // namespace
@@ -182,7 +180,7 @@ double straight_pressure(const SlidingSetting& setting, const HeldAxis& held, do
   const MaterialPoint here{.strand = held.touch.strand, .s = held.s + ahead};
   const double bending = body.bending_stiffness(here.strand) * body.natural_curvature_second(here) / held.stretch;
   const double side = sign_of(setting.obstacles[held.touch.obstacle].surface->side());
-  return -side * held.travel * (bending + load_on(setting, held, ahead).dot(normal(held.angle)));
+  return -side * held.travel * (bending + load_on(setting, held, ahead).dot(perp(unit_tangent(held.angle))));
 }
 
 // ± [EI (κ̂″ − κ₀″/Λ) + P κ̂ − q·n]. Its sign says whether the body lies on the wall there, its vanishing that it does
@@ -282,7 +280,7 @@ Vector border_rates(const SlidingSetting& setting, const SlidingState& at) {
     const Touch touch = touch_of_contact(setting, at.layout, point);
     const AxisStrain strain = strain_of_free_side(at, point);
     const AxisPlace axis = touch.axis(at);
-    const Vec2 along = strain.stretch * Vec2(std::cos(axis.angle), std::sin(axis.angle));
+    const Vec2 along = strain.stretch * unit_tangent(axis.angle);
     const double rate =
         touch_gap(setting, touch, at).tilt.gradient.dot(Eigen::Vector3d(along.x(), along.y(), strain.curvature));
     const Obstacle& surface = *setting.obstacles[touch.obstacle].surface;

@@ -110,7 +110,7 @@ std::optional<Transition> with_inserted_contact(const SlidingSetting& setting, c
                         undivided, undivided);
     divide_beside_waiting(edit);
   });
-  if (is_unfit(setting, transition.guess, point)) return std::nullopt;
+  if (is_unfit(setting, transition.guess.get(), point)) return std::nullopt;
   return transition;
 }
 

@@ -148,7 +148,7 @@ std::optional<Transition> lifted(const SlidingSetting& setting, const SlidingSta
     first = *begins_behind;
   }
   return up_to(length, std::make_shared<SpanLength>(first), Transition::Change::splits,
-               mapped_onto(setting, at, edit, layout_of(edit)));
+               mapped_when_tried(setting, at, edit));
 }
 
 // The lengths in which a free span inside a part is tried, from the shortest.
@@ -221,10 +221,10 @@ std::optional<Transition> strands_leave(const SlidingSetting& setting, const Sli
   }
   Transition transition =
       up_to(0.0, nullptr, Transition::Change::splits, mapped_onto(setting, at, edit, layout_of(edit)));
+  transition.forward = {.dx = Vector::Zero(transition.guess.get().x.size()), .dlambda = arrival.forward.dlambda};
   transition.forward.dx.head(at.index.nodes) = arrival.forward.dx.head(at.index.nodes);
-  transition.forward.dlambda = arrival.forward.dlambda;
   for (const auto& [strand, obstacle] : leaving)
-    name_ends(setting, transition.guess.piece, strand, obstacle, transition.contacts);
+    name_ends(setting, transition.guess.get().piece, strand, obstacle, transition.contacts);
   return transition;
 }
 

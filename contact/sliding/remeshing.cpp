@@ -35,6 +35,12 @@ State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const L
   return out;
 }
 
+Deferred<State> mapped_when_tried(const SlidingSetting& setting, const SlidingState& at, LayoutEdit edit) {
+  return Deferred<State>([&setting, from = at.state, edit = std::move(edit)] {
+    return mapped_onto(setting, SlidingState(from), edit, layout_of(edit));
+  });
+}
+
 Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const Direction& forward,
                     const EditLayout& edit) {
   constexpr double step = 1e-6;  // [path metric]
@@ -48,7 +54,7 @@ Transition remeshed(const SlidingSetting& setting, const SlidingState& at, const
   Transition transition{.change = Transition::Change::remeshed, .guess = mapped_onto(setting, at, here, on)};
   const State moved_on = moved(at.state, forward, step);
   const SlidingState ahead(moved_on);
-  transition.forward = difference(mapped_onto(setting, ahead, edited(ahead), on), transition.guess);
+  transition.forward = difference(mapped_onto(setting, ahead, edited(ahead), on), transition.guess.get());
   transition.forward.dx /= step;
   transition.forward.dlambda /= step;
   // Where a point slides fast along a body that hardly moves, little but the error of the mesh is left.
@@ -83,10 +89,10 @@ Transition without_point(const SlidingSetting& setting, const SlidingState& at, 
   });
 }
 
-Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change, State guess) {
+Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change,
+                 Deferred<State> guess) {
   Transition transition{};
   transition.change = change;
-  transition.forward = {.dx = Vector::Zero(guess.x.size()), .dlambda = 0.0};
   transition.guess = std::move(guess);
   transition.quantity = std::move(quantity);
   transition.value = value;

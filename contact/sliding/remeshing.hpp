@@ -14,6 +14,9 @@ namespace arcwall::sliding {
 State mapped_onto(const SlidingSetting& setting, const SlidingState& at, const LayoutEdit& edit,
                   const std::shared_ptr<const SlidingContactLayout>& on);
 
+/// The same, with the layout of the edit, made when it is asked for: `setting` must outlive it.
+Deferred<State> mapped_when_tried(const SlidingSetting& setting, const SlidingState& at, LayoutEdit edit);
+
 /// The same point of a path on an edited layout, entered in the plane across the path's direction `forward`. The edit
 /// is asked for the point itself and for a state a little way on, so that what it takes from the state moves along.
 using EditLayout = std::function<void(LayoutEdit&, const SlidingState&)>;
@@ -36,7 +39,8 @@ Transition without_point(const SlidingSetting& setting, const SlidingState& at, 
                          std::size_t point);
 
 /// A transition whose first point is where the quantity has the value.
-Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change, State guess);
+Transition up_to(double value, std::shared_ptr<const Observable> quantity, Transition::Change change,
+                 Deferred<State> guess);
 
 /// A transition to what is not modelled, or was not found.
 Transition unsupported(std::string what);

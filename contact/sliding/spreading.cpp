@@ -91,7 +91,7 @@ std::string why_none_spreads(const SlidingSetting& setting, const SlidingState& 
 Transition with_spans(const SlidingSetting& setting, const SlidingState& at, const Points& points,
                       const LayoutEdit& edit, double length) {
   Transition transition = up_to(length, std::make_shared<SpanLength>(points.front()), Transition::Change::spreads,
-                                mapped_onto(setting, at, edit, layout_of(edit)));
+                                mapped_when_tried(setting, at, edit));
   for (const std::size_t k : points) transition.contacts.push_back(static_cast<Index>(k));
   return transition;
 }

@@ -99,7 +99,7 @@ Transition with_points_inside(const SlidingSetting& setting, const SlidingState&
 // How the body may run behind a tip that bends as its obstacle does, by what would hold it there. Where the obstacle
 // would have to pull it off its own shape, the shape lifts the tip off or, as that bends towards the obstacle, arches.
 std::vector<Tail> tails_behind(const SlidingSetting& setting, const Transition& free, const ClosedTip& tip) {
-  const SlidingState guess(free.guess);
+  const SlidingState guess(free.guess.get());
   const std::size_t point = guess.layout.point_at_end(tip.strand, tip.last).value();
   if (lies_by_itself(setting, guess, point)) return {Tail::flat};
   const bool lifts_off = holding_pressure(setting, guess, point) < 0.0;

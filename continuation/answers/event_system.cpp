@@ -270,16 +270,20 @@ Row EventSystem::guard_gradient(const State& state, Index j) const {
   return row;
 }
 
-Vector EventSystem::guard_rates(const State& state, const Direction& direction) const {
-  Vector rates = Vector::Zero(guard_count(state.piece));
+GuardsAlong EventSystem::guards_along(const State& state, const Direction& direction) const {
+  const Index count = guard_count(state.piece);
   const auto member = at(state);
-  if (!member || rates.size() == 0) return rates;
-  rates = member->system->guard_rates(member->state, base_direction(direction, layout_of(state.piece).base_size));
+  if (!member || count == 0) return {.values = Vector::Ones(count), .rates = Vector::Zero(count)};
+  GuardsAlong along =
+      member->system->guards_along(member->state, base_direction(direction, layout_of(state.piece).base_size));
   if (direction.dlambda != 0.0)
     for (const WeightedMember& sample : samples(in_common_terms(state), state.lambda))
-      rates += direction.dlambda * sample.weight * sample.member.system->guards(sample.member.state);
-  for (const Index j : event_.guards) rates[j] = 0.0;
-  return rates;
+      along.rates += direction.dlambda * sample.weight * sample.member.system->guards(sample.member.state);
+  for (const Index j : event_.guards) {
+    along.values[j] = 1.0;
+    along.rates[j] = 0.0;
+  }
+  return along;
 }
 
 std::optional<std::string> EventSystem::invalid_place(const State& state) const {
@@ -294,21 +298,20 @@ std::optional<std::string> EventSystem::invalid_place(const State& state) const 
 std::optional<Transition> EventSystem::remeshed(const State& from, const SystemFamily::Member& at,
                                                 const Transition& transition, const Direction& forward) const {
   if (transition.change != Transition::Change::remeshed || transition.quantity) return std::nullopt;
-  const auto event = family_.in_common_terms(transition.guess);
+  const auto event = family_.in_common_terms(transition.guess.get());
   if (!event) return std::nullopt;
-  const SystemFamily::Member ahead{.system = at.system, .state = transition.guess, .turning = at.turning};
+  const SystemFamily::Member ahead{.system = at.system, .state = transition.guess.get(), .turning = at.turning};
   const Index count = ahead.system->guard_count(ahead.state.piece);
   for (const Index j : event_.guards)
     if (j >= count || std::abs(ahead.system->guard(ahead.state, j)) > still_zero) return std::nullopt;
   auto border = event_border(event_.criterion, ahead, metric_of(ahead), make_);
   if (!border) return std::nullopt;
-  Transition found{.change = Transition::Change::remeshed};
-  found.guess = extended(ahead, *event, from.lambda, std::move(*border), &from);
+  State guess = extended(ahead, *event, from.lambda, std::move(*border), &from);
   const Index n = event->x.size();
-  found.forward = {.dx = Vector::Zero(found.guess.x.size()), .dlambda = forward.dlambda};
-  found.forward.dx.head(n) = transition.forward.dx;
-  found.forward.dx[n] = transition.forward.dlambda;
-  return found;
+  Direction on = {.dx = Vector::Zero(guess.x.size()), .dlambda = forward.dlambda};
+  on.dx.head(n) = transition.forward.dx;
+  on.dx[n] = transition.forward.dlambda;
+  return Transition{.change = Transition::Change::remeshed, .guess = std::move(guess), .forward = std::move(on)};
 }
 
 std::vector<Transition> EventSystem::transitions(const State& state, const Direction& forward, Index bound,

@@ -78,7 +78,7 @@ class EventSystem final : public System {
   Index guard_count(const Piece& piece) const override;
   Vector guards(const State& state) const override;
   Row guard_gradient(const State& state, Index j) const override;
-  Vector guard_rates(const State& state, const Direction& direction) const override;
+  GuardsAlong guards_along(const State& state, const Direction& direction) const override;
   std::optional<std::string> invalid_place(const State& state) const override;
 
   std::vector<Transition> transitions(const State& state, const Direction& forward, Index bound,

@@ -52,6 +52,10 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
 /// Passes a validity bound of a piece (spreading, gathering, …), `bound` among its guards.
 CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound);
 
+/// The lowest of the validity bounds that a point has passed, if one has been. A span that has just begun may still be
+/// shorter than its bound, and grows: that one is not passed.
+std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance);
+
 /// λ or a monitor turns between the signs before a corner and a point behind it: an event each, like `event`.
 void add_turns(const TraceTools& tools, const std::vector<int>& signs_before, const PathPoint& behind, Event event,
                std::vector<Event>& events);

@@ -44,9 +44,10 @@ struct Ahead {
 };
 
 Ahead ahead_of(const TraceTools& tools, const Transition& transition, double lambda_scale) {
-  const State& guess = transition.guess;
+  const State& guess = transition.guess.get();
   Ahead ahead{.metric = tools.metric_on(guess.piece, lambda_scale), .along = transition.forward};
-  if (ahead.metric.norm(transition.forward) == 0.0) ahead.along = {.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
+  const bool is_known = transition.forward.dx.size() > 0 && ahead.metric.norm(transition.forward) > 0.0;
+  if (!is_known) ahead.along = {.dx = Vector::Zero(guess.x.size()), .dlambda = 1.0};
   return ahead;
 }
 
@@ -83,7 +84,7 @@ CorrectorResult arrive(TraceTools& tools, const Transition& transition, const Pa
                ? tools.corrector.correct_patiently(guess, constraint, ahead.metric, ahead.along, distance)
                : tools.corrector.correct(guess, constraint, ahead.metric, ahead.along, distance);
   };
-  const State& guess = transition.guess;
+  const State& guess = transition.guess.get();
   const auto in_plane = [&] { return corrected(guess, PlaneConstraint(ahead.metric, guess, ahead.along, 0.0)); };
   const auto with_value = [&](const State& near) {
     return corrected(near, ValueConstraint(*transition.quantity, transition.value));
@@ -173,11 +174,12 @@ bool is_of_length(const Row& guard) {
 }
 
 // The bound of the length that a new span has, which is the lowest of those that tell nothing but that; empty where
-// there is none.
-std::optional<double> bound_of_span(const System& system, const Observable& length, const PathPoint& at) {
+// there is none below `most`.
+std::optional<double> bound_of_span(const System& system, const Observable& length, const PathPoint& at, double most) {
   const Vector of_length = length.gradient(at.state).dx;
   std::optional<double> lowest;
   for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j) {
+    if (at.guards[j] >= most) continue;
     const Row row = system.guard_gradient(at.state, j);
     const bool is_of_span =
         is_of_length(row) && std::abs(row.dx.dot(of_length)) > 0.999 * row.dx.norm() * of_length.norm();
@@ -191,7 +193,7 @@ std::optional<double> bound_of_span(const System& system, const Observable& leng
 bool begins_within(const System& system, const Observable& length, const PathPoint& begin, double tolerance) {
   constexpr double as_long = 1e-6;  // in the scale of guards
   if (begin.guards.size() == 0 || begin.guards.minCoeff() >= -tolerance) return true;
-  const std::optional<double> of_span = bound_of_span(system, length, begin);
+  const std::optional<double> of_span = bound_of_span(system, length, begin, as_long - tolerance);
   for (Index j = 0; j < begin.guards.size(); ++j) {
     if (begin.guards[j] >= -tolerance) continue;
     const bool grows = of_span && std::abs(begin.guards[j] - *of_span) <= as_long && begin.guard_rates[j] > 0.0 &&

@@ -49,17 +49,6 @@ BranchEnd end_before(const std::vector<Transition>& transitions, const std::stri
           .continuum = last.continuum};
 }
 
-// Bounds that are reached together are passed one after the other, and those behind the first may have been shifted
-// past their zero by the new mesh: the lowest one. A span that has just begun may still be shorter than its bound, and
-// grows.
-std::optional<Index> shifted_bound(const PathPoint& at, double tolerance) {
-  std::optional<Index> lowest;
-  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
-    if (at.guards[j] < -tolerance && at.guard_rates[j] <= 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]))
-      lowest = j;
-  return lowest;
-}
-
 // A bound of the mesh alone that another transition has left behind.
 std::optional<Index> mesh_bound_behind(const System& system, const PathPoint& at, double tolerance) {
   for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
@@ -134,6 +123,14 @@ void add_pitchfork(const PathPoint& at, const PathPoint& begin, BranchPoint poin
 
 }  // namespace
 
+std::optional<Index> bound_passed_at(const PathPoint& at, double tolerance) {
+  std::optional<Index> lowest;
+  for (auto j = static_cast<Index>(at.state.piece.size()); j < at.guards.size(); ++j)
+    if (at.guards[j] < -tolerance && at.guard_rates[j] <= 0.0 && (!lowest || at.guards[j] < at.guards[*lowest]))
+      lowest = j;
+  return lowest;
+}
+
 CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
   CornerPassed passed{.at = std::move(corner.at), .without_progress = corner.without_progress};
   double tolerance = std::max(tools.options.guard_tolerance, 2.0 * corner.slack);
@@ -166,7 +163,9 @@ CornerPassed pass_bound(TraceTools& tools, Corner corner, Index bound) {
     add_events(tools, corner, passed.at, *entered, entered->at, passed.events);
     passed.at = std::move(entered->at);
     only_remeshed = only_remeshed && entered->transition->change == Transition::Change::remeshed;
-    const auto next = only_remeshed ? shifted_bound(passed.at, tools.options.guard_tolerance)
+    // Bounds that are reached together are passed one after the other: the new mesh may have shifted those behind the
+    // first past their zero.
+    const auto next = only_remeshed ? bound_passed_at(passed.at, tools.options.guard_tolerance)
                                     : mesh_bound_behind(tools.system, passed.at, tools.options.guard_tolerance);
     if (!next) return passed;
     if (++passed.without_progress > most_bounds_at_one_place) {

@@ -167,10 +167,12 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
   CornerPassed passed{.at = corner.at, .without_progress = corner.without_progress};
   const std::vector<Index> degenerate = degenerate_at(tools, corner, landed);
   const std::optional<Index> first = landed || degenerate.empty() ? landed : std::optional(degenerate.front());
-  const std::string place = first ? tools.system.watched_place(corner.at.state, *first) : std::string();
+  const auto with_its_place = [&](std::string_view what) {
+    return with_place(what, first ? tools.system.watched_place(corner.at.state, *first) : std::string());
+  };
   if (corner.without_progress > most_changes_at_one_place) {
     passed.end = {.reason = EndReason::no_ray,
-                  .detail = with_place("the contacts keep changing at one point; try a finer mesh", place)};
+                  .detail = with_its_place("the contacts keep changing at one point; try a finer mesh")};
     return passed;
   }
   auto ways =
@@ -185,13 +187,13 @@ CornerPassed turn_corner(TraceTools& tools, Corner corner, std::optional<Index> 
       at = std::move(joint->at);
     } else if (end) {
       passed.end = *end;
-      passed.end->detail = with_place(end->detail, place);
+      passed.end->detail = with_its_place(end->detail);
     }
   }
   passed.visit = std::move(choice.visit);
   if (passed.end) return passed;
   if (!at) {
-    passed.end = {.reason = EndReason::singular, .detail = with_place(nothing_behind_change, place)};
+    passed.end = {.reason = EndReason::singular, .detail = with_its_place(nothing_behind_change)};
     return passed;
   }
   passed.events = events_at(tools, corner, *at, std::get<ChosenDirection>(choice.result).untaken);

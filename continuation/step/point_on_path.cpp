@@ -15,8 +15,9 @@ PathPoint path_point(const System& system, const Metric& metric, CorrectorResult
   point.residual = result.residual;
   point.unsettled = result.unsettled;
   point.nearest = std::move(result.nearest);
-  point.guards = system.guards(point.state);
-  point.guard_rates = system.guard_rates(point.state, point.tangent);
+  GuardsAlong guards = system.guards_along(point.state, point.tangent);
+  point.guards = std::move(guards.values);
+  point.guard_rates = std::move(guards.rates);
   return point;
 }
 

@@ -147,7 +147,7 @@ TEST(MultiplierContact, DerivativesAreConsistentWhereSupportsMove) {
       const State state = random_state(system, piece, numbers);
       EXPECT_LE(check_derivatives(system, state).worst(), 1e-9);
       const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
-      const Vector rates = system.guard_rates(state, direction);
+      const Vector rates = system.guards_along(state, direction).rates;
       for (Index j = 0; j < rates.size(); ++j)
         EXPECT_NEAR(rates[j], apply(system.guard_gradient(state, j), direction), 1e-14 * (1.0 + std::abs(rates[j])));
     }
@@ -301,7 +301,7 @@ TEST(MultiplierContact, GuardRatesAreGradientsAppliedToADirection) {
   Numbers numbers(64);
   const State state = random_state(system, closed_every(system.contact_count(), 3), numbers);
   const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
-  const Vector rates = system.guard_rates(state, direction);
+  const Vector rates = system.guards_along(state, direction).rates;
   for (Index j = 0; j < rates.size(); ++j)
     EXPECT_NEAR(rates[j], apply(system.guard_gradient(state, j), direction), 1e-14 * (1.0 + std::abs(rates[j])));
 }

@@ -109,7 +109,7 @@ TEST(Tangents, KnowTheRatesOfWallsThatMove) {
         EXPECT_LE(report.F_lambda, 1e-9);
         EXPECT_LE(report.guard_gradient, 1e-9);
         const Direction direction{.dx = numbers.vector(state.x.size()), .dlambda = numbers()};
-        const Vector rates = system.guard_rates(state, direction);
+        const Vector rates = system.guards_along(state, direction).rates;
         for (Index j = 0; j < rates.size(); ++j)
           EXPECT_NEAR(rates[j], apply(system.guard_gradient(state, j), direction), 1e-12 * (1.0 + std::abs(rates[j])));
       }

@@ -101,7 +101,6 @@ class SpreadingToy final : public LayoutToy {
       to.guess = state_on(0, s.x.head(1), s.lambda);
       to.quantity = std::make_shared<Room>();
     }
-    to.forward = {.dx = Vector::Zero(to.guess.x.size()), .dlambda = 0.0};
     return {to};
   }
 
