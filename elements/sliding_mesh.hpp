@@ -6,6 +6,7 @@
 
 #include "core/algebra/assembly.hpp"
 #include "elements/distributed_load.hpp"
+#include "elements/heated_beam.hpp"
 #include "elements/sliding_beam_lanes.hpp"
 #include "elements/sliding_structure.hpp"
 
@@ -184,6 +185,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   // visit(beam) with the beam of a stretch, by value, as warm as it is at λ.
   template <typename Visit>
   void with_beam(Index strand, const StretchReference& stretch, double lambda, const Visit& visit) const;
+  // visit(k, rate of the element's force by breakpoint k) for each that moves an end of the element.
   template <typename Visit>
   void for_each_rate(Index strand, Index position, const Response& response, const Visit& visit) const;
 
@@ -199,5 +201,25 @@ class SlidingStructureMesh final : public SlidingMesh {
   Vector weights_;
   double displacement_weight_ = 0.0, rotation_weight_ = 0.0;
 };
+
+template <typename Visit>
+void SlidingStructureMesh::with_beam(Index strand, const StretchReference& stretch, double lambda,
+                                     const Visit& visit) const {
+  const SlidingStructure::Run& described = structure_.at(strand);
+  if (described.thermal.is_zero()) return with_slender_beam(stretch, described.slender(), 1.0, visit);
+  const HeatedStretch hot = heated(stretch, described.thermal, lambda);
+  with_slender_beam(hot.reference, described.slender(), hot.stiffer, visit);
+}
+
+template <typename Visit>
+void SlidingStructureMesh::for_each_rate(Index strand, Index position, const Response& response,
+                                         const Visit& visit) const {
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Coordinate& place = mesh_of(strand).nodes[static_cast<std::size_t>(position) + end];
+    for (std::size_t j = 0; j < 2; ++j)
+      if (place.breakpoint[j] != held && place.weight[j] != 0.0)
+        visit(place.breakpoint[j], Six(place.weight[j] * response.force_rate[end]));
+  }
+}
 
 }  // namespace arcwall

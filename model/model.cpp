@@ -10,37 +10,15 @@
 #include "model/build_contact.hpp"
 #include "model/build_path.hpp"
 #include "model/build_structure.hpp"
+#include "model/deck_checks.hpp"
 #include "model/deck_mesh.hpp"
+#include "model/deck_scales.hpp"
 #include "model/event_curve.hpp"
 #include "model/sensitivities.hpp"
 
 namespace arcwall {
 
 namespace {
-
-// The greatest force by which supports that λ moves begin to move the structure, moments over its length [force].
-double force_of_movements(const Structure& structure) {
-  if (structure.squared_motion_by_lambda({}) == 0.0) return 0.0;
-  const auto start = Tracer(structure, {.x = Vector::Zero(structure.size({}))}, {}).next();
-  if (!start) return 0.0;
-  const Direction& tangent = start->to.tangent;
-  double greatest = 0.0;
-  structure.nodal_terms().for_each_moved_support([&](Index freedom, double) {
-    const Row row = structure.reaction_gradient(start->to.state, freedom);
-    const double rate = std::abs(row.dx.dot(tangent.dx) / tangent.dlambda + row.dlambda);
-    const bool turns = structure.meaning_of_freedom(freedom).freedom == Freedom::rotation;
-    greatest = std::max(greatest, turns ? rate / structure.length_scale() : rate);
-  });
-  return greatest;
-}
-
-// The force that the most flexible member has against a wall that λ moves [force].
-double force_of_walls(const deck::Deck& deck, const Structure& structure) {
-  double speed = 0.0;
-  for (const deck::Wall& wall : deck.walls)
-    speed = std::max(speed, obstacle_of(wall)->greatest_speed(structure.length_scale()));
-  return speed > 0.0 ? softest_stiffness(deck, structure) * speed : 0.0;
-}
 
 bool moves_walls(const deck::Deck& deck) {
   return std::any_of(deck.walls.begin(), deck.walls.end(),
@@ -49,65 +27,6 @@ bool moves_walls(const deck::Deck& deck) {
 
 // By so many times the structure's size loose bodies may move before they count as adrift: a wall may be that far.
 constexpr int farthest = 20;
-
-// Forces below the tolerance times this scale count as zero: small against what λ brings in a step, above the round-off
-// of the mesh. `held` is the structure with supports for what nothing but contact holds.
-ContactScales contact_scales(const deck::Deck& deck, const Structure& structure, const Structure& held,
-                             double first_step) {
-  constexpr double steps = 10.0;
-  const double tolerance = TraceOptions{}.guard_tolerance;
-  const double force = std::max({structure.force_scale(), force_of_movements(held), force_of_walls(deck, structure)});
-  const double driven = std::max(steps * force * std::abs(first_step), 1e-300);
-  return {.length = structure.length_scale(),
-          .force = std::max(driven, structure.force_roundoff() / tolerance),
-          .driven = driven};
-}
-
-// See TraceOptions. No less than a force is known to.
-double mesh_error_of_forces(const ContactScales& scales) {
-  const double known = 10.0 * TraceOptions{}.guard_tolerance;
-  return std::max(mesh_error * std::min(1.0, scales.driven / scales.force), known);
-}
-
-bool moves_something(const Structure& structure) {
-  if (structure.size({}) == 0) return false;
-  if (structure.squared_motion_by_lambda({}) > 0.0) return true;
-  Linearization now;
-  structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
-  return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
-}
-
-void report_nothing_moves(const deck::Deck& deck, std::size_t stage, bool all_is_held, DeckProblems& problems) {
-  std::string key = deck.loads.empty() ? "prescribed" : "load";
-  deck::Position position;
-  if (!deck.stages.empty()) {
-    key = "stage.drives";
-    position = deck.stages[stage].position;
-  } else if (!deck.loads.empty()) {
-    position = deck.loads.front().position;
-  } else if (!deck.prescribed.empty()) {
-    position = deck.prescribed.front().position;
-  }
-  if (all_is_held)
-    return problems.add(position, key, "every direction is held: nothing is left to move",
-                        "leave a direction free, or divide the members more finely");
-  problems.add(position, key, "what λ multiplies acts on directions that are held: nothing moves",
-               "load a free direction");
-}
-
-// How the path begins to leave the bounds of λ where it starts; empty if it does not.
-std::string start_outside_bounds(const deck::Path& path) {
-  const auto bounds = std::find_if(path.stop.bounds.begin(), path.stop.bounds.end(),
-                                   [](const deck::StopBounds& one) { return one.name == "lambda"; });
-  if (bounds == path.stop.bounds.end()) return {};
-  const std::string between = "stop.lambda = [" + round_trip(bounds->low) + ", " + round_trip(bounds->high) + "]";
-  if (bounds->low > 0.0 || bounds->high < 0.0)
-    return "λ begins at 0, outside of " + between + ": the path ends where it comes to either bound";
-  const bool leaves = (bounds->low == 0.0 && path.step < 0.0) || (bounds->high == 0.0 && path.step > 0.0);
-  if (!leaves) return {};
-  return "λ begins at 0 and leaves " + between + " at once, since step = " + round_trip(path.step) +
-         ": the path ends where it comes back";
-}
 
 bool has_interference(const deck::Deck& deck) {
   return std::any_of(deck.walls.begin(), deck.walls.end(),
@@ -120,108 +39,11 @@ std::vector<Theory> theories_of(const deck::Deck& deck) {
   return theories;
 }
 
-bool increments_of(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
-
-bool may_slide(const deck::Deck& deck, const StructureBuilder& builder) {
-  return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::sliding &&
-         deck.contact.method == ContactLaw::Method::rigid && !increments_of(deck) && builder.can_slide();
-}
-
-// A node that is a contact touches a wall once.
-void check_hollow_corners(const deck::Deck& deck, DeckProblems& problems) {
-  for (const deck::Wall& wall : deck.walls)
-    if (parts_of(wall).size() > 1)
-      problems.add(
-          wall.position, "wall.outline",
-          "the outline has hollow corners that are sharp: what touches in one touches two lines at once, which "
-          "contact at nodes does not know",
-          "give a corner_radius, or make a wall of each line");
-}
-
-// Whether contact points slide, which springs, increments and members of other theories do not allow.
-bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
-            DeckProblems& problems) {
-  const auto held = std::find_if(candidates.begin(), candidates.end(),
-                                 [](const Candidate& candidate) { return candidate.opposite().has_value(); });
-  if (held != candidates.end() && increments_of(deck))
-    problems.add({}, "path.method",
-                 "method \"incremental\" knows no member that walls hold from both sides without clearance, as " +
-                     held->label().wall + " does",
-                 "use \"spherical\", or leave a clearance");
-  if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
-  if (held != candidates.end()) {
-    problems.add({}, "contact.points",
-                 "points = \"sliding\" knows no member that walls hold from both sides without clearance, as " +
-                     held->label().wall + " does",
-                 "use \"nodes\", or leave a clearance");
-    return false;
-  }
-  if (may_slide(deck, builder)) return true;
-  problems.add({}, "contact.points",
-               "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
-               "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
-               "use \"nodes\"");
-  return false;
-}
-
-// What is inside a wall at the start though none of its nodes is: a wall may be narrower than an element.
-void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, DeckProblems& problems) {
-  const double round_off = 1e-9 * contact.scales().length;
-  const auto entered = contact.entered(contact.rest(), round_off);
-  if (!entered) return;
-  const deck::Wall& wall = *deck::find(deck.walls, entered->label.wall);
-  problems.add(wall.position, "wall." + wall.name,
-               fmt::format("member \"{}\" is inside the wall at the start: at {}:{:.4g}, between nodes, by {:.4g}",
-                           entered->label.member, entered->label.member, entered->label.fraction, entered->depth),
-               "move the wall or the member apart");
-}
-
-// What is greatest along a member turns in a kink where its place jumps. An event there would have no derivatives.
-void check_watched(const deck::Deck& deck, DeckProblems& problems) {
-  for (const std::string& name : deck.path.watch) {
-    const deck::Monitor& monitor = *deck::find(deck.monitors, name);
-    const bool moment = monitor.component == deck::Component::greatest_moment;
-    if (moment || monitor.component == deck::Component::greatest_pressure)
-      problems.add(deck.path.position, "path.watch",
-                   "\"" + name + "\" is what is greatest along a member, which may turn where its place jumps",
-                   moment ? "watch the moment at a place, as in at = \"MEMBER:0.5\", component = \"moment\""
-                          : "watch the displacement of a place, as in at = \"MEMBER:0.5\", component = \"z\"");
-  }
-}
-
 // What is looked for beside the path is looked for on the deck's mesh.
 void check_search(const Model& model, DeckProblems& problems) {
   if (model.deck().path.search && !DeckMesh(model).is_complete())
     problems.add(model.deck().path.position, "path.search", "the deck's mesh has unknowns that its contact does not",
                  "leave out search, or write contact.points = \"nodes\"");
-}
-
-// Whether increments can be taken where the deck wants them.
-bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
-  if (!increments_of(deck)) return false;
-  const bool possible = structure.can_be_updated();
-  if (!possible)
-    problems.add(deck.path.position, "path.method",
-                 "method \"incremental\" needs members of theory \"classic\" or \"essenburg\" throughout",
-                 "use \"spherical\"");
-  for (const deck::Load& load : deck.loads)
-    if (load.constant)
-      problems.add(load.position, "load", "method \"incremental\" has no constant loads",
-                   "multiply all loads by lambda, or use method \"spherical\"");
-  for (const deck::Load& load : deck.loads)
-    if (std::holds_alternative<deck::Heat>(load.action))
-      problems.add(load.position, "load", "method \"incremental\" knows no temperatures", "use method \"spherical\"");
-  for (const deck::Load& load : deck.loads)
-    if (std::holds_alternative<deck::Pressure>(load.action))
-      problems.add(load.position, "load", "method \"incremental\" knows no pressure that follows the axis",
-                   "use method \"spherical\"");
-  for (const deck::Prescribed& moved : deck.prescribed)
-    problems.add(moved.position, "prescribed", "method \"incremental\" moves no supports", "use method \"spherical\"");
-  for (const deck::Wall& wall : deck.walls)
-    if (wall.interference > 0.0)
-      problems.add(wall.position, "wall.interference", "method \"incremental\" pushes no walls to their places",
-                   "use method \"spherical\"");
-  return possible;
 }
 
 }  // namespace
@@ -309,7 +131,7 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
     warnings_.push_back("nothing in [path.stop] ends the path: it goes on to path.max_points = " +
                         std::to_string(deck_->path.max_points) +
                         ", the default, whatever λ is then; give bounds, as stop = { lambda = [-1.0, 10.0] }");
-  if (const std::string warning = start_outside_bounds(deck_->path); !warning.empty() && !increments_of(*deck_))
+  if (const std::string warning = start_outside_bounds(deck_->path); !warning.empty() && !wants_increments(*deck_))
     warnings_.push_back(warning);
   options_.node_contacts =
       contact_ && !sliding_ && std::any_of(structure_->members().begin(), structure_->members().end(), turns);

@@ -1,0 +1,144 @@
+#include "model/deck_checks.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include "core/text.hpp"
+#include "model/build_contact.hpp"
+
+namespace arcwall {
+
+bool moves_something(const Structure& structure) {
+  if (structure.size({}) == 0) return false;
+  if (structure.squared_motion_by_lambda({}) > 0.0) return true;
+  Linearization now;
+  structure.linearize({.x = Vector::Zero(structure.size({}))}, now);
+  return now.F_lambda.size() > 0 && now.F_lambda.cwiseAbs().maxCoeff() > 0.0;
+}
+
+void report_nothing_moves(const deck::Deck& deck, std::size_t stage, bool all_is_held, DeckProblems& problems) {
+  std::string key = deck.loads.empty() ? "prescribed" : "load";
+  deck::Position position;
+  if (!deck.stages.empty()) {
+    key = "stage.drives";
+    position = deck.stages[stage].position;
+  } else if (!deck.loads.empty()) {
+    position = deck.loads.front().position;
+  } else if (!deck.prescribed.empty()) {
+    position = deck.prescribed.front().position;
+  }
+  if (all_is_held)
+    return problems.add(position, key, "every direction is held: nothing is left to move",
+                        "leave a direction free, or divide the members more finely");
+  problems.add(position, key, "what λ multiplies acts on directions that are held: nothing moves",
+               "load a free direction");
+}
+
+std::string start_outside_bounds(const deck::Path& path) {
+  const auto bounds = std::find_if(path.stop.bounds.begin(), path.stop.bounds.end(),
+                                   [](const deck::StopBounds& one) { return one.name == "lambda"; });
+  if (bounds == path.stop.bounds.end()) return {};
+  const std::string between = "stop.lambda = [" + round_trip(bounds->low) + ", " + round_trip(bounds->high) + "]";
+  if (bounds->low > 0.0 || bounds->high < 0.0)
+    return "λ begins at 0, outside of " + between + ": the path ends where it comes to either bound";
+  const bool leaves = (bounds->low == 0.0 && path.step < 0.0) || (bounds->high == 0.0 && path.step > 0.0);
+  if (!leaves) return {};
+  return "λ begins at 0 and leaves " + between + " at once, since step = " + round_trip(path.step) +
+         ": the path ends where it comes back";
+}
+
+bool wants_increments(const deck::Deck& deck) { return deck.path.method == deck::PathMethod::incremental; }
+
+bool may_slide(const deck::Deck& deck, const StructureBuilder& builder) {
+  return !deck.walls.empty() && points_of_contact(deck).points == deck::ContactPoints::sliding &&
+         deck.contact.method == ContactLaw::Method::rigid && !wants_increments(deck) && builder.can_slide();
+}
+
+void check_hollow_corners(const deck::Deck& deck, DeckProblems& problems) {
+  for (const deck::Wall& wall : deck.walls)
+    if (parts_of(wall).size() > 1)
+      problems.add(
+          wall.position, "wall.outline",
+          "the outline has hollow corners that are sharp: what touches in one touches two lines at once, which "
+          "contact at nodes does not know",
+          "give a corner_radius, or make a wall of each line");
+}
+
+bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
+            DeckProblems& problems) {
+  const auto held = std::find_if(candidates.begin(), candidates.end(),
+                                 [](const Candidate& candidate) { return candidate.opposite().has_value(); });
+  if (held != candidates.end() && wants_increments(deck))
+    problems.add({}, "path.method",
+                 "method \"incremental\" knows no member that walls hold from both sides without clearance, as " +
+                     held->label().wall + " does",
+                 "use \"spherical\", or leave a clearance");
+  if (deck.walls.empty() || points_of_contact(deck).points == deck::ContactPoints::nodes) return false;
+  if (held != candidates.end()) {
+    problems.add({}, "contact.points",
+                 "points = \"sliding\" knows no member that walls hold from both sides without clearance, as " +
+                     held->label().wall + " does",
+                 "use \"nodes\", or leave a clearance");
+    return false;
+  }
+  if (may_slide(deck, builder)) return true;
+  problems.add({}, "contact.points",
+               "points = \"sliding\" needs members whose contact forces are point forces, theory \"classic\" or "
+               "\"elastica\" throughout, method \"multiplier\", and a path that is not incremental",
+               "use \"nodes\"");
+  return false;
+}
+
+void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, DeckProblems& problems) {
+  const double round_off = 1e-9 * contact.scales().length;
+  const auto entered = contact.entered(contact.rest(), round_off);
+  if (!entered) return;
+  const deck::Wall& wall = *deck::find(deck.walls, entered->label.wall);
+  problems.add(wall.position, "wall." + wall.name,
+               fmt::format("member \"{}\" is inside the wall at the start: at {}:{:.4g}, between nodes, by {:.4g}",
+                           entered->label.member, entered->label.member, entered->label.fraction, entered->depth),
+               "move the wall or the member apart");
+}
+
+void check_watched(const deck::Deck& deck, DeckProblems& problems) {
+  for (const std::string& name : deck.path.watch) {
+    const deck::Monitor& monitor = *deck::find(deck.monitors, name);
+    const bool moment = monitor.component == deck::Component::greatest_moment;
+    if (moment || monitor.component == deck::Component::greatest_pressure)
+      problems.add(deck.path.position, "path.watch",
+                   "\"" + name + "\" is what is greatest along a member, which may turn where its place jumps",
+                   moment ? "watch the moment at a place, as in at = \"MEMBER:0.5\", component = \"moment\""
+                          : "watch the displacement of a place, as in at = \"MEMBER:0.5\", component = \"z\"");
+  }
+}
+
+bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems) {
+  if (!wants_increments(deck)) return false;
+  const bool possible = structure.can_be_updated();
+  if (!possible)
+    problems.add(deck.path.position, "path.method",
+                 "method \"incremental\" needs members of theory \"classic\" or \"essenburg\" throughout",
+                 "use \"spherical\"");
+  for (const deck::Load& load : deck.loads)
+    if (load.constant)
+      problems.add(load.position, "load", "method \"incremental\" has no constant loads",
+                   "multiply all loads by lambda, or use method \"spherical\"");
+  for (const deck::Load& load : deck.loads)
+    if (std::holds_alternative<deck::Heat>(load.action))
+      problems.add(load.position, "load", "method \"incremental\" knows no temperatures", "use method \"spherical\"");
+  for (const deck::Load& load : deck.loads)
+    if (std::holds_alternative<deck::Pressure>(load.action))
+      problems.add(load.position, "load", "method \"incremental\" knows no pressure that follows the axis",
+                   "use method \"spherical\"");
+  for (const deck::Prescribed& moved : deck.prescribed)
+    problems.add(moved.position, "prescribed", "method \"incremental\" moves no supports", "use method \"spherical\"");
+  for (const deck::Wall& wall : deck.walls)
+    if (wall.interference > 0.0)
+      problems.add(wall.position, "wall.interference", "method \"incremental\" pushes no walls to their places",
+                   "use method \"spherical\"");
+  return possible;
+}
+
+}  // namespace arcwall

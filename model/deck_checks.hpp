@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/candidate.hpp"
+#include "contact/sliding_contact.hpp"
+#include "elements/structure.hpp"
+#include "model/build_structure.hpp"
+#include "model/deck/deck.hpp"
+
+namespace arcwall {
+
+/// Whether a deck's path is followed in increments, which update the mesh.
+bool wants_increments(const deck::Deck& deck);
+
+/// Whether it is and can be. Adds why it cannot to `problems`, and what of the deck increments do not know.
+bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckProblems& problems);
+
+/// Whether contact points of a deck may slide along its members as far as these are concerned.
+bool may_slide(const deck::Deck& deck, const StructureBuilder& builder);
+
+/// Whether they do, which members that walls hold from both sides do not allow either. Adds to `problems` where the
+/// deck asks for what is not possible.
+bool slides(const deck::Deck& deck, const StructureBuilder& builder, const std::vector<Candidate>& candidates,
+            DeckProblems& problems);
+
+/// Whether λ moves a structure.
+bool moves_something(const Structure& structure);
+
+/// Adds that nothing moves in a stage; `all_is_held`: since nothing is left that could.
+void report_nothing_moves(const deck::Deck& deck, std::size_t stage, bool all_is_held, DeckProblems& problems);
+
+/// Adds walls with sharp hollow corners, in which a node that is a contact would touch two lines at once.
+void check_hollow_corners(const deck::Deck& deck, DeckProblems& problems);
+
+/// Adds what is inside a wall at the start though none of its nodes is: a wall may be narrower than an element.
+void check_between_nodes(const deck::Deck& deck, const SlidingContact& contact, DeckProblems& problems);
+
+/// Adds watched monitors that are greatest along a member: they turn in a kink where their place jumps, and an event
+/// there would have no derivatives.
+void check_watched(const deck::Deck& deck, DeckProblems& problems);
+
+/// How a path begins to leave the bounds of λ where it starts; empty if it does not.
+std::string start_outside_bounds(const deck::Path& path);
+
+}  // namespace arcwall
