@@ -291,6 +291,11 @@ std::optional<std::string> EventSystem::invalid_place(const State& state) const 
   return member ? member->system->invalid_place(member->state) : std::nullopt;
 }
 
+std::string EventSystem::watched_place(const State& state, Index j) const {
+  const auto member = at(state);
+  return member ? member->system->watched_place(member->state, j) : std::string();
+}
+
 // --- other meshes ---------------------------------------------------------------------------------------------------
 
 // What a transition of the system for κ, `at`, makes of a point of the curve; empty if the event is not on the new
@@ -339,6 +344,11 @@ bool EventSystem::admissible(const State& state, double margin) const {
   return border_fits(*member, layout_of(state.piece).border, metric_of(*member), make_) >= least_fit;
 }
 
+std::string EventSystem::most_inadmissible(const State& state, double margin) const {
+  const auto member = at(state);
+  return member ? member->system->most_inadmissible(member->state, margin) : std::string();
+}
+
 std::optional<Transition> EventSystem::with_inserted_contact(const State& from, const Direction& forward,
                                                              const State& to, double margin) const {
   const Index n = layout_of(from.piece).base_size;
@@ -360,6 +370,20 @@ std::optional<Transition> EventSystem::with_inserted_contact(const State& from, 
   same.guess = extended(*here, start, from.lambda, std::move(*border), &from);
   same.forward = forward;
   return same;
+}
+
+std::optional<Transition> EventSystem::with_mesh_for_landing(const State& from, const Direction& forward,
+                                                             const State& to, Index guard) const {
+  const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
+  if (!begin || !end) return std::nullopt;
+  const auto suited = end->system->with_mesh_for_landing(
+      begin->state, base_direction(forward, layout_of(from.piece).base_size), end->state, guard);
+  return suited ? remeshed(from, *begin, *suited, forward) : std::nullopt;
+}
+
+bool EventSystem::may_have_kink(const State& from, const State& to) const {
+  const auto begin = family_.at(to.lambda, in_common_terms(from)), end = at(to);
+  return begin && end && end->system->may_have_kink(begin->state, end->state);
 }
 
 bool EventSystem::passes_through(const State& from, const State& to) const {

@@ -341,6 +341,18 @@ TEST(EventCurve, IsRefusedWithASentence) {
             std::string::npos);
 }
 
+// Over a gap of less than 0.1997 a contact at five sixths of the length opens before the second touch.
+TEST(EventCurve, NamesWallAndPlaceWhereItEnds) {
+  const EventCurve curve =
+      curve_of(test::pressed_column_in_channel(20, "stop = { lambda = [-1.0, 10.0] }") +
+               "[curve]\nevent = { kind = \"contact-closes\", number = 2 }\nover = \"wall.upper.profile.z\"\n"
+               "range = [0.18, 0.22]\n");
+  const auto begins = std::find_if(curve.specials.begin(), curve.specials.end(),
+                                   [](const CurveSpecial& one) { return one.kind == CurveSpecialKind::begins; });
+  ASSERT_NE(begins, curve.specials.end());
+  EXPECT_NE(begins->why.find("opens there: upper at column:0."), std::string::npos) << begins->why;
+}
+
 TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   const std::string text =
       channel("event = { kind = \"contact-closes\" }\nover = \"wall.upper.profile.z\"\nrange = [0.19, 0.21]\n");
