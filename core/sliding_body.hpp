@@ -240,14 +240,20 @@ class SlidingBody {
   /// other ends.
   virtual std::optional<StrandEnd> joined_end(Index strand, bool last) const = 0;
 
-  /// Whether contact that comes to an end of a strand is one of the end itself, be it a tip or such a joint.
-  bool takes_contact(Index strand, bool last) const { return is_tip(strand, last) || joined_end(strand, last); }
+  /// Whether contact that comes to an end of a strand is one of the end itself, be it a tip, one on a roller or such a
+  /// joint.
+  bool takes_contact(Index strand, bool last) const {
+    return is_tip(strand, last) || is_on_roller(strand, last) || joined_end(strand, last);
+  }
 
   /// Whether supports hold an end of a strand in z and its rotation.
   virtual bool is_clamped(Index strand, bool last) const = 0;
 
   /// Whether supports hold an end of a strand in z and leave its rotation to it, with no other strand at it.
   virtual bool is_hinged(Index strand, bool last) const = 0;
+
+  /// Whether an end of a strand is hinged and may move in x.
+  virtual bool is_on_roller(Index strand, bool last) const = 0;
 
   /// Words for messages: member and fraction of its length.
   virtual std::pair<std::string, double> label(const MaterialPoint& point) const = 0;

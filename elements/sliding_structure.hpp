@@ -56,6 +56,9 @@ class SlidingStructure final : public SlidingBody {
     return nodal_.is_held(end.freedom[1]) && nodal_.is_held(end.freedom[2]);
   }
   bool is_hinged(Index strand, bool last) const override;
+  bool is_on_roller(Index strand, bool last) const override {
+    return is_hinged(strand, last) && !nodal_.is_held(at(strand).ends[last ? 1 : 0].freedom[0]);
+  }
   std::pair<std::string, double> label(const MaterialPoint& point) const override;
   std::shared_ptr<const SlidingMesh> mesh(const ElementsPerSegment& cut) const override;
   Vector rest(const SlidingMesh& mesh, const Vector& s) const override;

@@ -91,12 +91,14 @@ std::optional<FreeEnd> touched_clamp(const SlidingSetting& setting, const Slidin
 
 std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const Clamps clamps = reached<ClampBound>(setting, at, arrival);
+  const Transition none =
+      unsupported("a member comes to lie on a wall from a held end on, and no equilibrium was found that lies there");
+  if (clamps.empty()) return {none};  // an end on a roller that is tangent to a curved wall, and bends as that does
   const double length = 2.0 * shortest_span(setting.body, clamps.front()->strand());
   std::vector<Transition> transitions;
   for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
     transitions.push_back(with_parts(setting, at, clamps, factor * length));
-  transitions.push_back(
-      unsupported("a member comes to lie on a wall from a held end on, and no equilibrium was found that lies there"));
+  transitions.push_back(none);
   return transitions;
 }
 
@@ -104,7 +106,7 @@ std::vector<Transition> parts_gather_at_clamps(const SlidingSetting& setting, co
                                                const Arrival& arrival) {
   std::vector<const TailBound*> parts;
   for (const TailBound* bound : reached<TailBound>(setting, at, arrival))
-    if (!setting.body.takes_contact(bound->strand(), bound->last())) parts.push_back(bound);
+    if (bound->gathers_at_support(setting, at)) parts.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
     const std::size_t point = (*part)->point();

@@ -11,6 +11,7 @@
 #include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/bounds/tail.hpp"
 #include "contact/sliding/bounds/tip_presses.hpp"
+#include "contact/sliding/clamps.hpp"
 #include "contact/sliding/remeshing.hpp"
 #include "contact/sliding/span_length.hpp"
 #include "contact/sliding/spans.hpp"
@@ -247,11 +248,12 @@ std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const 
 
 std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const std::vector<ClosedTip> tips = tangent_tips(setting, at, arrival);
-  const bool all_tips = std::all_of(tips.begin(), tips.end(),
-                                    [&](const ClosedTip& tip) { return setting.body.is_tip(tip.strand, tip.last); });
+  const auto has_joint = std::any_of(tips.begin(), tips.end(), [&](const ClosedTip& tip) {
+    return setting.body.joined_end(tip.strand, tip.last).has_value();
+  });
   const Transition none =
-      unsupported(all_tips ? "the free end of a member lies down on a wall, and no equilibrium was found there"
-                           : "a joint of members lies down on a wall, and no equilibrium was found there");
+      unsupported(has_joint ? "a joint of members lies down on a wall, and no equilibrium was found there"
+                            : "the end of a member lies down on a wall, and no equilibrium was found there");
   if (tips.empty()) return {none};
   const double length = 2.0 * shortest_tail(setting.body, tips.front().strand);
   const Transition free = with_points_inside(setting, at, tips, std::vector(tips.size(), Tail::off), length);
@@ -259,6 +261,7 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
   std::size_t most_ways = 0;
   for (const ClosedTip& tip : tips) {
     if (!tip.bends_with_it && tip.bend < 0.0) return {none};
+    if (tip.bends_with_it && setting.body.is_hinged(tip.strand, tip.last)) return clamps_are_left(setting, at, arrival);
     if (tip.bends_with_it && !setting.body.is_tip(tip.strand, tip.last)) return {none};
     ways.push_back(tip.bends_with_it ? tails_behind(setting, free, tip) : std::vector{Tail::off});
     most_ways = std::max(most_ways, ways.back().size());
@@ -280,8 +283,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
                                               const Arrival& arrival) {
   std::vector<const TailBound*> tails;
   for (const TailBound* bound : reached<TailBound>(setting, at, arrival))
-    if (at.is_closed(bound->point()) && setting.body.takes_contact(bound->strand(), bound->last()))
-      tails.push_back(bound);
+    if (at.is_closed(bound->point()) && !bound->gathers_at_support(setting, at)) tails.push_back(bound);
   LayoutEdit edit = edit_of(setting.body, at);
   std::vector<std::size_t> ends;
   bool lay = false, is_pressed = false;
@@ -291,10 +293,13 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
     const Span inner = last ? at.layout.span_before(point) : at.layout.points()[point].behind;
     lay = lay || at.layout.span_at_end(strand, last) != Span::free;
     const StrandEnd of{.strand = strand, .last = last};
-    std::size_t end = 0;
-    while (!setting.free_ends[end].is_of(of) || setting.free_ends[end].obstacle != at.layout.points()[point].obstacle)
-      ++end;
-    const FreeEnd there = setting.free_ends[end].seen_from(of);
+    const auto found = std::find_if(setting.free_ends.begin(), setting.free_ends.end(), [&](const FreeEnd& contact) {
+      return contact.is_of(of) && contact.obstacle == at.layout.points()[point].obstacle;
+    });
+    if (found == setting.free_ends.end())
+      return {unsupported("a contact point reached a supported end of its member, which the wall does not touch")};
+    const auto end = static_cast<std::size_t>(found - setting.free_ends.begin());
+    const FreeEnd there = found->seen_from(of);
     if (auto why = what_hinders(setting, at, there, inner)) return {unsupported(std::move(*why))};
     ends.push_back(end);
     edit.end_forces[end] += edit.forces[point];

@@ -106,7 +106,7 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   for (Index strand = 0; strand < body.strands(); ++strand)
     for (const bool last : {false, true}) {
       const bool free = !body.end_is_held(strand, last);
-      add_if<LiesDownBound>(free, bounds, strand, last);
+      add_if<LiesDownBound>(free || body.is_on_roller(strand, last), bounds, strand, last);
       add_if<UprightBound>(free, bounds, strand, last);
       add_if<EndStaysBound>(!free && on.lies_on(strand).has_value(), bounds, strand, last);
       add_if<StraightEndBound>(on.lies_on(strand).has_value(), bounds, strand, last);

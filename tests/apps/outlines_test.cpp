@@ -149,68 +149,6 @@ TEST(Outlines, AFloorMayStandUprightSlow) {
   }
 }
 
-// A bar of length 2 and stiffness EA = 10 is pushed by λ against an upright stop 0.1 beyond its end, or 0.1 beyond what
-// is half its height off it: the stop is met at λ = EA 0.1/2, and bears all that is more.
-TEST(Outlines, AnUprightStopTakesTheRest) {
-  for (const bool on_face : {false, true})
-    for (const std::string theory : {"classic", "elastica", "truss"}) {
-      if (on_face && theory == "truss") continue;
-      const test::TracedDeck traced(fmt::format(R"toml(
-title = "A bar against a stop"
-material.m = {{ E = 10.0 }}
-section.s = {{ shape = "general", A = 1.0, I = 100.0, height = 0.2 }}
-point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
-member.bar = {{ from = "A", to = "B", theory = "{}", material = "m", section = "s", elements = 1 }}
-support = {{ A = ["x", "z"{}], B = ["z"] }}
-load = [{{ at = "B", force = [1.0, 0.0] }}]
-wall = [{{ name = "stop", acts_on = "{}", outline = {{ type = "half-plane", point = [{}, 7.0], normal = [-1.0, 0.0] }} }}]
-monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
-contact = {{ points = "{}" }}
-path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
-)toml",
-                                                theory, theory == "truss" ? "" : ", \"rotation\"",
-                                                on_face ? "face" : "axis", on_face ? 2.2 : 2.1,
-                                                theory == "elastica" ? "sliding" : "nodes"));
-      const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
-      ASSERT_EQ(touches.size(), 1u);
-      const double expected = theory == "truss" ? 10.0 * 1.05 * 0.5 * (1.05 * 1.05 - 1.0) : 0.5;  // Green's strain
-      EXPECT_NEAR(touches[0], expected, 1e-10);
-      EXPECT_NEAR(traced.record().points.back().monitors[0], expected - 2.0, 1e-10);
-      test::expect_whole(traced);
-    }
-}
-
-// The same bar, whose end runs along z = 0 into what is not upright but crosses that line at x = 2.1: a peg, a bore, a
-// rounded corner and a floor that rises. The support bears what is across.
-TEST(Outlines, ARollerTouchesWhateverCrossesItsWay) {
-  const std::string peg = R"(outline = { type = "circle", centre = [2.265831239517769, -0.25], radius = 0.3 })";
-  const std::string bore =
-      R"(outline = { type = "circle", centre = [0.0, 0.25], radius = 2.1148285982556614, keep = "inside" })";
-  const std::string corner =
-      R"(outline = { type = "polyline", x = [1.0, 2.0, 2.2], z = [-0.1, -0.1, 0.1] }, corner_radius = 0.05)";
-  const std::string rise = R"(side = "below", profile = { type = "line", z = -0.42, slope = 0.2 })";
-  for (const std::string& wall : {peg, bore, corner, rise}) {
-    const test::TracedDeck traced(fmt::format(R"toml(
-title = "A bar against what crosses its way"
-material.m = {{ E = 10.0 }}
-section.s = {{ shape = "general", A = 1.0, I = 100.0 }}
-point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
-member.bar = {{ from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 2 }}
-support = {{ A = ["x", "z", "rotation"], B = ["z"] }}
-load = [{{ at = "B", force = [1.0, 0.0] }}]
-wall = [{{ name = "stop", acts_on = "axis", {} }}]
-monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
-path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
-)toml",
-                                              wall));
-    const std::vector<double> touches = lambdas_of(traced, EventKind::contact_closes);
-    ASSERT_EQ(touches.size(), 1u) << wall;
-    EXPECT_NEAR(touches[0], 0.5, 1e-10) << wall;
-    EXPECT_NEAR(traced.record().points.back().monitors[0], 0.5 - 2.0, 1e-10) << wall;
-    test::expect_whole(traced);
-  }
-}
-
 // A moment at its right end bends a beam against a rounded corner above it. The contact leaves the arc at λ = 1.1536
 // and slides along the line behind it, where the path has a kink of 0.8 rad. Reference: extensible elastica shot from B
 // with an 8th-order method (1e-12) for the place and angle at a contact on the line, and at the clamp.

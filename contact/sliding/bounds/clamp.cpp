@@ -1,7 +1,9 @@
 #include "contact/sliding/bounds/clamp.hpp"
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/clamps.hpp"
+#include "contact/sliding/tips.hpp"
 
 namespace arcwall::sliding {
 
@@ -31,7 +33,8 @@ BoundPlace ClampBound::place(const SlidingSetting& setting, const SlidingState& 
 
 std::vector<Transition> ClampBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                 const Arrival& arrival) const {
-  return clamps_are_left(setting, at, arrival);
+  const bool is_on_roller = end_nearest_to_lying_down(setting, at, {.strand = strand_, .last = last_}).has_value();
+  return is_on_roller ? tips_lie_down(setting, at, arrival) : clamps_are_left(setting, at, arrival);
 }
 
 }  // namespace arcwall::sliding

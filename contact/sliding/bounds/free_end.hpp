@@ -17,8 +17,8 @@ Row sine_from_end_gradient(const SlidingSetting& setting, const SlidingState& at
 std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setting, const SlidingState& at,
                                                      const StrandEnd& of);
 
-/// How fast the gap grows from a free end on that touches: behind the bound a tip lies down on the wall, or contact
-/// moves inside. Positive where the end does not touch.
+/// How fast the gap grows from a free end, or one on a roller, on that touches: behind the bound a tip lies down on the
+/// wall, or contact moves inside. Positive where the end does not touch.
 class LiesDownBound final : public BoundOfEnd {
  public:
   using BoundOfEnd::BoundOfEnd;

@@ -22,9 +22,15 @@ Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
 
 BoundPlace TailBound::place(const SlidingSetting&, const SlidingState& at) const { return place_of_point(at, point_); }
 
+bool TailBound::gathers_at_support(const SlidingSetting& setting, const SlidingState& at) const {
+  if (!setting.body.takes_contact(strand_, last_)) return true;
+  return setting.body.end_is_held(strand_, last_) &&
+         at.layout.span_at_end(strand_, last_) != SlidingContactLayout::Span::free;
+}
+
 std::vector<Transition> TailBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                const Arrival& arrival) const {
-  if (!setting.body.takes_contact(strand_, last_)) return parts_gather_at_clamps(setting, at, arrival);
+  if (gathers_at_support(setting, at)) return parts_gather_at_clamps(setting, at, arrival);
   if (at.layout.points()[point_].is_pinched())
     return {unsupported("the end of a member slides out from between the walls that hold it")};
   if (!at.is_closed(point_)) return {without_point(setting, at, arrival.forward, point_)};

@@ -4,9 +4,9 @@
 
 namespace arcwall::sliding {
 
-/// The length of a strand between a tracked point and a tip, or a clamp up to which the body lies on the wall. Behind
-/// the bound the contact has passed to the tip, or the stretch on the wall has gathered at the end; an open point
-/// beside a tip is given up, as the tip watches on.
+/// The length of a strand between a tracked point and an end that takes contact, or one that does not up to which the
+/// body lies on the wall. Behind the bound the contact has passed to the end, or the stretch on the wall has gathered
+/// there; an open point beside an end that takes contact is given up, as the end watches on.
 class TailBound final : public ValidityBound {
  public:
   TailBound(Index strand, bool last, std::size_t point) : strand_(strand), last_(last), point_(point) {}
@@ -18,6 +18,10 @@ class TailBound final : public ValidityBound {
 
   Index strand() const { return strand_; }
   bool last() const { return last_; }
+
+  /// Whether what becomes short is a stretch on the wall up to a support, at which it gathers.
+  bool gathers_at_support(const SlidingSetting& setting, const SlidingState& at) const;
+
   std::size_t point() const { return point_; }
 
  private:

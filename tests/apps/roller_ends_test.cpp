@@ -1,0 +1,150 @@
+// Ends on rollers that come to walls across their way.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/apps/traced_deck.hpp"
+#include "tests/apps/verify/expect_whole.hpp"
+
+namespace arcwall::roller_ends_test {
+
+namespace {
+
+// Values of λ at which contacts close.
+std::vector<double> touches_of(const test::TracedDeck& traced) {
+  std::vector<double> found;
+  for (const RecordEvent& event : events_of(traced, EventKind::contact_closes)) found.push_back(event.lambda);
+  return found;
+}
+
+// A strip of length 10 (EI = 1, EA = 1e4) whose left end is pushed to the right by λ/2, while a moment λ/10 turns its
+// right end down, towards which a ceiling falls.
+std::string strip_under_a_ceiling(const std::string& path) {
+  return R"toml(
+title = "A strip that is pushed under a falling ceiling"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1e4, I = 1.0 }
+point = { a = [0.0, 0.0], b = [10.0, 0.0] }
+support = { a = ["z"], b = ["z"] }
+prescribed = [{ at = "a", x = 0.5 }]
+load = [{ at = "b", moment = -0.1 }]
+member.strip = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 20 }
+monitor = [{ name = "end", at = "b", component = "x" }, { name = "turn", at = "b", component = "rotation" }]
+[[wall]]
+name = "ceiling"
+side = "above"
+acts_on = "axis"
+profile = { type = "parabola", apex = [0.0, 2.02005], curvature = -0.04 }
+[path]
+step = 0.02
+)toml" + path;
+}
+
+// λ at which the end touches and at which it is tangent to the ceiling, and there behind what contact inside gives for
+// λ = 0.65: extensible elastica shot from the left end with an 8th-order method (1e-12), for the end's place, and for
+// the place and angle at a contact inside.
+constexpr double touches_at = 0.102326901310, tangent_at = 0.559474043741, at_last = 0.65;
+constexpr double place = 0.9856903406, force = 0.2146184410, turn = -0.3850052523, way = 0.0495893587;
+
+}  // namespace
+
+// A bar of length 2 and stiffness EA = 10 is pushed by λ against an upright stop 0.1 beyond its end, or 0.1 beyond what
+// is half its height off it: the stop is met at λ = EA 0.1/2, and bears all that is more.
+TEST(RollerEnds, AnUprightStopTakesTheRest) {
+  for (const bool on_face : {false, true})
+    for (const std::string theory : {"classic", "elastica", "truss"}) {
+      if (on_face && theory == "truss") continue;
+      const test::TracedDeck traced(fmt::format(R"toml(
+title = "A bar against a stop"
+material.m = {{ E = 10.0 }}
+section.s = {{ shape = "general", A = 1.0, I = 100.0, height = 0.2 }}
+point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
+member.bar = {{ from = "A", to = "B", theory = "{}", material = "m", section = "s", elements = 1 }}
+support = {{ A = ["x", "z"{}], B = ["z"] }}
+load = [{{ at = "B", force = [1.0, 0.0] }}]
+wall = [{{ name = "stop", acts_on = "{}", outline = {{ type = "half-plane", point = [{}, 7.0], normal = [-1.0, 0.0] }} }}]
+monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
+contact = {{ points = "{}" }}
+path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
+)toml",
+                                                theory, theory == "truss" ? "" : ", \"rotation\"",
+                                                on_face ? "face" : "axis", on_face ? 2.2 : 2.1,
+                                                theory == "elastica" ? "sliding" : "nodes"));
+      const std::vector<double> touches = touches_of(traced);
+      ASSERT_EQ(touches.size(), 1u);
+      const double expected = theory == "truss" ? 10.0 * 1.05 * 0.5 * (1.05 * 1.05 - 1.0) : 0.5;  // Green's strain
+      EXPECT_NEAR(touches[0], expected, 1e-10);
+      EXPECT_NEAR(traced.record().points.back().monitors[0], expected - 2.0, 1e-10);
+      test::expect_whole(traced);
+    }
+}
+
+// The same bar, whose end runs along z = 0 into what is not upright but crosses that line at x = 2.1: a peg, a bore, a
+// rounded corner and a floor that rises. The support bears what is across.
+TEST(RollerEnds, TouchWhateverCrossesTheirWay) {
+  const std::string peg = R"(outline = { type = "circle", centre = [2.265831239517769, -0.25], radius = 0.3 })";
+  const std::string bore =
+      R"(outline = { type = "circle", centre = [0.0, 0.25], radius = 2.1148285982556614, keep = "inside" })";
+  const std::string corner =
+      R"(outline = { type = "polyline", x = [1.0, 2.0, 2.2], z = [-0.1, -0.1, 0.1] }, corner_radius = 0.05)";
+  const std::string rise = R"(side = "below", profile = { type = "line", z = -0.42, slope = 0.2 })";
+  for (const std::string& wall : {peg, bore, corner, rise}) {
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "A bar against what crosses its way"
+material.m = {{ E = 10.0 }}
+section.s = {{ shape = "general", A = 1.0, I = 100.0 }}
+point = {{ A = [0.0, 0.0], B = [2.0, 0.0] }}
+member.bar = {{ from = "A", to = "B", theory = "elastica", material = "m", section = "s", elements = 2 }}
+support = {{ A = ["x", "z", "rotation"], B = ["z"] }}
+load = [{{ at = "B", force = [1.0, 0.0] }}]
+wall = [{{ name = "stop", acts_on = "axis", {} }}]
+monitor = [{{ name = "force", wall = "stop", component = "force-x" }}]
+path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
+)toml",
+                                              wall));
+    const std::vector<double> touches = touches_of(traced);
+    ASSERT_EQ(touches.size(), 1u) << wall;
+    EXPECT_NEAR(touches[0], 0.5, 1e-10) << wall;
+    EXPECT_NEAR(traced.record().points.back().monitors[0], 0.5 - 2.0, 1e-10) << wall;
+    test::expect_whole(traced);
+  }
+}
+
+// Behind the place where the end has turned into the ceiling's direction contact lies inside.
+TEST(RollerEnds, PassContactInsideWhereTheyBecomeTangent) {
+  const test::TracedDeck traced(strip_under_a_ceiling("stop = { lambda = [-0.1, 0.65] }\n"));
+  EXPECT_NEAR(event_of(traced, EventKind::contact_closes).lambda, touches_at, 1e-10);
+  EXPECT_NEAR(event_of(traced, EventKind::contact_passes).lambda, tangent_at, 1e-9);
+  const RecordPoint& last = traced.record().points.back();
+  ASSERT_DOUBLE_EQ(last.state.lambda, at_last);
+  EXPECT_NEAR(last.monitors[0], way, 1e-9);
+  EXPECT_NEAR(last.monitors[1], turn, 1e-9);
+  const std::vector<ContactPoint> contacts = traced.model().contacts()->closed_contacts(last.state);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(contacts[0].label.fraction, place, 1e-9);
+  EXPECT_NEAR(contacts[0].force, force, 1e-8);
+  test::expect_whole(traced);
+}
+
+// Pulled back, it takes contact over from inside at the same place, and lifts off.
+TEST(RollerEnds, TakeContactBackFromInside) {
+  const test::TracedDeck traced(strip_under_a_ceiling(R"toml(
+[[stage]]
+name = "push"
+drives = ["prescribed.0", "load.0"]
+stop = { lambda = [-0.1, 0.65] }
+[[stage]]
+name = "back"
+drives = ["prescribed.0", "load.0"]
+step = -0.02
+stop = { lambda = [-0.65, 0.1] }
+)toml"));
+  EXPECT_NEAR(event_of(traced, EventKind::contact_passes, 2).lambda, tangent_at - at_last, 1e-9);
+  EXPECT_NEAR(event_of(traced, EventKind::contact_opens).lambda, touches_at - at_last, 1e-10);
+  EXPECT_DOUBLE_EQ(traced.last().lambda, -at_last);
+  test::expect_whole(traced);
+}
+
+}  // namespace arcwall::roller_ends_test
