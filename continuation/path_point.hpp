@@ -34,7 +34,7 @@ enum class EventKind {
   contact_opens,
   contact_spreads,  ///< a point contact becomes a line
   contact_gathers,  ///< a line becomes a point contact
-  contact_passes,   ///< a contact moves from a tip or a joint to the inside of a member, or back
+  contact_passes,   ///< a contact moves from the end of a member to its inside, or back
   limit_point,
   contact_limit_point,
   displacement_limit,

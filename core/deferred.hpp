@@ -6,7 +6,8 @@
 
 namespace arcwall {
 
-/// A value that is made when it is first asked for: of several that are offered, most may never be.
+/// A value that is made when it is first asked for: of several that are offered, most may never be. Copies from before
+/// that make their own.
 template <typename Value>
 class Deferred {
  public:
@@ -18,12 +19,12 @@ class Deferred {
 
   /// Not from several threads at a time.
   const Value& get() const {
-    if (!value_) value_ = make_();
+    if (!value_) value_ = std::exchange(make_, nullptr)();
     return *value_;
   }
 
  private:
-  std::function<Value()> make_{};
+  mutable std::function<Value()> make_{};  // none once there is a value
   mutable std::optional<Value> value_{};
 };
 

@@ -240,10 +240,10 @@ class SlidingBody {
   /// other ends.
   virtual std::optional<StrandEnd> joined_end(Index strand, bool last) const = 0;
 
-  /// Whether contact that comes to an end of a strand is one of the end itself, be it a tip, one on a roller or such a
-  /// joint.
-  bool takes_contact(Index strand, bool last) const {
-    return is_tip(strand, last) || is_on_roller(strand, last) || joined_end(strand, last);
+  /// Whether contact may come up to an end of a strand: a tip, a hinged end or such a joint. There it is a contact of
+  /// the end itself; of a hinged one only on a roller, with walls that cross its way.
+  bool lets_contact_come(Index strand, bool last) const {
+    return is_tip(strand, last) || is_hinged(strand, last) || joined_end(strand, last);
   }
 
   /// Whether supports hold an end of a strand in z and its rotation.

@@ -24,7 +24,7 @@ struct Transition {
     spreads,      ///< a point contact becomes a line
     gathers,      ///< a line becomes a point contact; the place is known on the piece ahead alone
     splits,       ///< a part on a wall lifts off inside
-    passes,       ///< a contact at a tip or a joint moves inside, or one that has come to it stays there
+    passes,       ///< a contact at the end of a member moves inside, or one that has come to it stays there
     joins,        ///< the reverse, or a whole tail is touched; the place is known on the piece ahead alone
     remeshed,     ///< the same point in other unknowns
     continuum,    ///< a continuum of equilibria with the same load and energy
@@ -36,7 +36,7 @@ struct Transition {
   std::optional<Continuum> continuum{};
   /// That change: in the piece behind; of `gathers`, of `joins`, and of `splits` without a quantity in the piece ahead.
   std::vector<Index> contacts{};
-  Deferred<State> guess{};  ///< on the piece ahead, near the first point there; made where the transition is tried
+  Deferred<State> guess{};  ///< on the piece ahead, near the first point there; may be made when it is tried
   Direction forward{};      ///< there, roughly; without entries: not known
   /// Has `value` at the first point of the piece ahead and grows along it. Null: the first point lies in the plane
   /// through the guess across `forward`.

@@ -38,4 +38,11 @@ std::size_t bound_number(const SlidingContactLayout& on, const Holds& holds) {
   return static_cast<std::size_t>(found - on.bounds().begin());
 }
 
+/// An arrival at another bound of the same end, which vanishes together with the one that was passed.
+template <class Bound>
+Arrival at_bound_of_end(const SlidingState& at, const Arrival& arrival, const StrandEnd& end) {
+  const std::size_t number = bound_number<Bound>(at.layout, [&](const Bound& bound) { return bound.end() == end; });
+  return {.forward = arrival.forward, .tolerance = arrival.tolerance, .at_hand = at.layout.bounds()[number].get()};
+}
+
 }  // namespace arcwall::sliding

@@ -91,14 +91,12 @@ std::optional<FreeEnd> touched_clamp(const SlidingSetting& setting, const Slidin
 
 std::vector<Transition> clamps_are_left(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival) {
   const Clamps clamps = reached<ClampBound>(setting, at, arrival);
-  const Transition none =
-      unsupported("a member comes to lie on a wall from a held end on, and no equilibrium was found that lies there");
-  if (clamps.empty()) return {none};  // an end on a roller that is tangent to a curved wall, and bends as that does
   const double length = 2.0 * shortest_span(setting.body, clamps.front()->strand());
   std::vector<Transition> transitions;
   for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0})
     transitions.push_back(with_parts(setting, at, clamps, factor * length));
-  transitions.push_back(none);
+  transitions.push_back(
+      unsupported("a member comes to lie on a wall from a held end on, and no equilibrium was found that lies there"));
   return transitions;
 }
 

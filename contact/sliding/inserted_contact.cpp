@@ -61,8 +61,8 @@ bool are_divided_alike(const LayoutEdit& one, const LayoutEdit& other) {
 }
 
 // Whether an inserted point would be given up at once: its least gap is shallow, or it is cramped beside the end of the
-// member, a load or a contact with another wall. What has been given up near a tip must not be inserted there again,
-// where another mesh has it a little farther away.
+// member, a load or a contact with another wall. What has been given up near a free or hinged end must not be inserted
+// there again, where another mesh has it a little farther away.
 bool is_unfit(const SlidingSetting& setting, const State& state, std::size_t point) {
   constexpr double between_meshes = 1e-5;  // of the length scale
   const SlidingState at(state);

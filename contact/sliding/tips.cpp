@@ -7,6 +7,7 @@
 
 #include "contact/sliding/bending.hpp"
 #include "contact/sliding/bound_value.hpp"
+#include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/bounds/tail.hpp"
@@ -125,6 +126,13 @@ std::vector<ClosedTip> tangent_tips(const SlidingSetting& setting, const Sliding
   std::vector<ClosedTip> tips;
   for (const auto& [end, there] : by_contact) tips.push_back(closed_tip(setting, at, end, there.end));
   return tips;
+}
+
+// Whether an end on a roller comes to lie on a straight obstacle with what is beside it, as any hinged end does.
+bool lies_down_from_hinge(const SlidingSetting& setting, const SlidingState& at, const ClosedTip& tip) {
+  if (!setting.body.is_hinged(tip.strand, tip.last)) return false;
+  const auto clamp = touched_clamp(setting, at, tip.strand, tip.last);
+  return clamp && clamp->obstacle == tip.obstacle;
 }
 
 // What the face of a strand that touches comes to at an end.
@@ -261,7 +269,8 @@ std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const Slidi
   std::size_t most_ways = 0;
   for (const ClosedTip& tip : tips) {
     if (!tip.bends_with_it && tip.bend < 0.0) return {none};
-    if (tip.bends_with_it && setting.body.is_hinged(tip.strand, tip.last)) return clamps_are_left(setting, at, arrival);
+    if (tip.bends_with_it && lies_down_from_hinge(setting, at, tip))
+      return clamps_are_left(setting, at, at_bound_of_end<ClampBound>(at, arrival, {tip.strand, tip.last}));
     if (tip.bends_with_it && !setting.body.is_tip(tip.strand, tip.last)) return {none};
     ways.push_back(tip.bends_with_it ? tails_behind(setting, free, tip) : std::vector{Tail::off});
     most_ways = std::max(most_ways, ways.back().size());
@@ -297,7 +306,7 @@ std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, con
       return contact.is_of(of) && contact.obstacle == at.layout.points()[point].obstacle;
     });
     if (found == setting.free_ends.end())
-      return {unsupported("a contact point reached a supported end of its member, which the wall does not touch")};
+      return {unsupported("a contact point reached a hinged end of its member, where contact is the support's")};
     const auto end = static_cast<std::size_t>(found - setting.free_ends.begin());
     const FreeEnd there = found->seen_from(of);
     if (auto why = what_hinders(setting, at, there, inner)) return {unsupported(std::move(*why))};

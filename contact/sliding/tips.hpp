@@ -19,12 +19,12 @@ Row put_on_end_gradient(const SlidingSetting& setting, const SlidingState& at, c
 /// ends; empty where there is none.
 std::optional<std::size_t> pressed_contact(const SlidingSetting& setting, const SlidingState& at, const StrandEnd& of);
 
-/// What may lie behind a state where tips or joints that touch become tangent to their obstacles, the likeliest first:
-/// all that do so together. Contact moves inside, and the tip lifts off, where the body bends away
+/// What may lie behind a state where ends on rollers, tips or joints that touch become tangent to their obstacles, the
+/// likeliest first: all that do so together. Contact moves inside, and the tip lifts off, where the body bends away
 /// from the obstacle there; where it bends with it, it lies on the obstacle up to the tip.
 std::vector<Transition> tips_lie_down(const SlidingSetting& setting, const SlidingState& at, const Arrival& arrival);
 
-/// The reverse, where points have come to tips or joints: the contact there is at the end.
+/// The reverse, where points have come to such ends: the contact there is at the end.
 std::vector<Transition> contacts_come_to_tips(const SlidingSetting& setting, const SlidingState& at,
                                               const Arrival& arrival);
 

@@ -33,7 +33,7 @@ void add_if(bool there_is_one, Bounds& to, Place... place) {
 // Whether the part between an end of a strand and the point nearest to it may become as short as a tail.
 bool has_tail(const SlidingBody& body, const SlidingContactLayout& on, Index strand, bool last) {
   return on.point_at_end(strand, last) &&
-         (body.takes_contact(strand, last) || on.span_at_end(strand, last) != Span::free);
+         (body.lets_contact_come(strand, last) || on.span_at_end(strand, last) != Span::free);
 }
 
 void add_of_segment(const SlidingBody& body, const SlidingContactLayout& on, std::size_t i, Bounds& to) {

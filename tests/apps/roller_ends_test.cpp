@@ -19,34 +19,51 @@ std::vector<double> touches_of(const test::TracedDeck& traced) {
   return found;
 }
 
+// A ceiling, and what is known of the path under it.
+struct Ceiling {
+  std::string profile;
+  double tangent_at = 0.0;                                 // λ where the end is tangent to it
+  double place = 0.0, force = 0.0, turn = 0.0, way = 0.0;  // at λ = 0.65: of the contact, and of the end
+};
+
 // A strip of length 10 (EI = 1, EA = 1e4) whose left end is pushed to the right by λ/2, while a moment λ/10 turns its
-// right end down, towards which a ceiling falls.
-std::string strip_under_a_ceiling(const std::string& path) {
-  return R"toml(
+// right end down, towards which a ceiling falls. `reversed`: it runs from right to left.
+std::string strip_under(const Ceiling& ceiling, bool reversed, const std::string& path) {
+  return fmt::format(R"toml(
 title = "A strip that is pushed under a falling ceiling"
-material.m = { E = 1.0 }
-section.s = { shape = "general", A = 1e4, I = 1.0 }
-point = { a = [0.0, 0.0], b = [10.0, 0.0] }
-support = { a = ["z"], b = ["z"] }
-prescribed = [{ at = "a", x = 0.5 }]
-load = [{ at = "b", moment = -0.1 }]
-member.strip = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 20 }
-monitor = [{ name = "end", at = "b", component = "x" }, { name = "turn", at = "b", component = "rotation" }]
-[[wall]]
-name = "ceiling"
-side = "above"
-acts_on = "axis"
-profile = { type = "parabola", apex = [0.0, 2.02005], curvature = -0.04 }
+material.m = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 1e4, I = 1.0 }}
+point = {{ a = [0.0, 0.0], b = [10.0, 0.0] }}
+support = {{ a = ["z"], b = ["z"] }}
+prescribed = [{{ at = "a", x = 0.5 }}]
+load = [{{ at = "b", moment = -0.1 }}]
+member.strip = {{ from = "{}", to = "{}", theory = "elastica", material = "m", section = "s", elements = 20 }}
+monitor = [{{ name = "end", at = "b", component = "x" }}, {{ name = "turn", at = "b", component = "rotation" }}]
+wall = [{{ name = "ceiling", side = "above", acts_on = "axis", profile = {} }}]
 [path]
 step = 0.02
-)toml" + path;
+{})toml",
+                     reversed ? "b" : "a", reversed ? "a" : "b", ceiling.profile, path);
 }
 
-// λ at which the end touches and at which it is tangent to the ceiling, and there behind what contact inside gives for
-// λ = 0.65: extensible elastica shot from the left end with an 8th-order method (1e-12), for the end's place, and for
-// the place and angle at a contact inside.
-constexpr double touches_at = 0.102326901310, tangent_at = 0.559474043741, at_last = 0.65;
-constexpr double place = 0.9856903406, force = 0.2146184410, turn = -0.3850052523, way = 0.0495893587;
+// A parabola, and a line that is there at the same place. Extensible elastica shot from the left end with an 8th-order
+// method (1e-12): for the end's place, and for the place and angle at a contact inside.
+constexpr double touches_at = 0.102326901310, at_last = 0.65;
+
+std::vector<Ceiling> ceilings() {
+  return {{.profile = "{ type = \"parabola\", apex = [0.0, 2.02005], curvature = -0.04 }",
+           .tangent_at = 0.559474043741,
+           .place = 0.9856903406,
+           .force = 0.2146184410,
+           .turn = -0.3850052523,
+           .way = 0.0495893587},
+          {.profile = "{ type = \"line\", z = 4.02, slope = -0.4 }",
+           .tangent_at = 0.555812724589,
+           .place = 0.9862223325,
+           .force = 0.2102997111,
+           .turn = -0.3877117218,
+           .way = 0.0487717775}};
+}
 
 }  // namespace
 
@@ -114,23 +131,29 @@ path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
 
 // Behind the place where the end has turned into the ceiling's direction contact lies inside.
 TEST(RollerEnds, PassContactInsideWhereTheyBecomeTangent) {
-  const test::TracedDeck traced(strip_under_a_ceiling("stop = { lambda = [-0.1, 0.65] }\n"));
-  EXPECT_NEAR(event_of(traced, EventKind::contact_closes).lambda, touches_at, 1e-10);
-  EXPECT_NEAR(event_of(traced, EventKind::contact_passes).lambda, tangent_at, 1e-9);
-  const RecordPoint& last = traced.record().points.back();
-  ASSERT_DOUBLE_EQ(last.state.lambda, at_last);
-  EXPECT_NEAR(last.monitors[0], way, 1e-9);
-  EXPECT_NEAR(last.monitors[1], turn, 1e-9);
-  const std::vector<ContactPoint> contacts = traced.model().contacts()->closed_contacts(last.state);
-  ASSERT_EQ(contacts.size(), 1u);
-  EXPECT_NEAR(contacts[0].label.fraction, place, 1e-9);
-  EXPECT_NEAR(contacts[0].force, force, 1e-8);
-  test::expect_whole(traced);
+  for (const Ceiling& ceiling : ceilings())
+    for (const bool reversed : {false, true}) {
+      SCOPED_TRACE(ceiling.profile + (reversed ? " reversed" : ""));
+      const test::TracedDeck traced(strip_under(ceiling, reversed, "stop = { lambda = [-0.1, 0.65] }\n"));
+      EXPECT_NEAR(event_of(traced, EventKind::contact_closes).lambda, touches_at, 1e-10);
+      EXPECT_NEAR(event_of(traced, EventKind::contact_passes).lambda, ceiling.tangent_at, 1e-9);
+      const RecordPoint& last = traced.record().points.back();
+      ASSERT_DOUBLE_EQ(last.state.lambda, at_last);
+      EXPECT_NEAR(last.monitors[0], ceiling.way, 1e-9);
+      EXPECT_NEAR(last.monitors[1], ceiling.turn, 1e-9);
+      const std::vector<ContactPoint> contacts = traced.model().contacts()->closed_contacts(last.state);
+      ASSERT_EQ(contacts.size(), 1u);
+      EXPECT_NEAR(contacts[0].label.fraction, reversed ? 1.0 - ceiling.place : ceiling.place, 1e-9);
+      EXPECT_NEAR(contacts[0].force, ceiling.force, 1e-8);
+      test::expect_whole(traced);
+    }
 }
 
 // Pulled back, it takes contact over from inside at the same place, and lifts off.
 TEST(RollerEnds, TakeContactBackFromInside) {
-  const test::TracedDeck traced(strip_under_a_ceiling(R"toml(
+  for (const Ceiling& ceiling : ceilings()) {
+    SCOPED_TRACE(ceiling.profile);
+    const test::TracedDeck traced(strip_under(ceiling, false, R"toml(
 [[stage]]
 name = "push"
 drives = ["prescribed.0", "load.0"]
@@ -141,10 +164,11 @@ drives = ["prescribed.0", "load.0"]
 step = -0.02
 stop = { lambda = [-0.65, 0.1] }
 )toml"));
-  EXPECT_NEAR(event_of(traced, EventKind::contact_passes, 2).lambda, tangent_at - at_last, 1e-9);
-  EXPECT_NEAR(event_of(traced, EventKind::contact_opens).lambda, touches_at - at_last, 1e-10);
-  EXPECT_DOUBLE_EQ(traced.last().lambda, -at_last);
-  test::expect_whole(traced);
+    EXPECT_NEAR(event_of(traced, EventKind::contact_passes, 2).lambda, ceiling.tangent_at - at_last, 1e-9);
+    EXPECT_NEAR(event_of(traced, EventKind::contact_opens).lambda, touches_at - at_last, 1e-10);
+    EXPECT_DOUBLE_EQ(traced.last().lambda, -at_last);
+    test::expect_whole(traced);
+  }
 }
 
 }  // namespace arcwall::roller_ends_test

@@ -107,6 +107,27 @@ TEST(Lying, AHumpIsPressedFlatFromItsHingedEnds) {
   EXPECT_NEAR(run.points().back().monitors[0], 0.0, 1e-12);
 }
 
+// The same where the left end is on the roller and has come to a stop across its way, by the thrust of which nearly
+// nothing changes: it touches that, and lies down on the floor.
+TEST(Lying, AHumpIsPressedFlatBesideAStop) {
+  const double k = pi / length, gone = EI * hump * std::pow(k, 4);
+  const std::string stop =
+      "{ name = \"stop\", acts_on = \"axis\", outline = { type = \"half-plane\", point = [-1e-6, 0.0], normal = [1.0, "
+      "0.0] } }";
+  const Session run = traced(
+      beam(load_down + "path = { step = 0.05, stop = { lambda = [-1.0, " + round_trip(1.5 * gone) + "] } }"),
+      {humped, "support = { a = [\"z\"], b = [\"x\", \"z\"] }",
+       "wall = [{ name = \"floor\", side = \"below\", acts_on = \"axis\", profile = { type = \"flat\", z = 0.0 } }, " +
+           stop + "]"});
+  expect_stop(run);
+  const auto spreads = loads_of(run, EventKind::contact_spreads), closes = loads_of(run, EventKind::contact_closes);
+  ASSERT_EQ(spreads.size(), 1U);
+  ASSERT_EQ(closes.size(), 2U);
+  EXPECT_LT(closes[0], spreads[0]);
+  EXPECT_NEAR(spreads[0], 24.0 / std::pow(pi, 3) * gone, 1e-3 * gone);
+  EXPECT_NEAR(closes[1], gone, 1e-3 * gone);
+}
+
 // A rail that its weight has pressed flat stays so under any thrust: its straight axis gets shorter by P/EA of its
 // stress-free length L (1 + (k A)²/4).
 TEST(Lying, ARailThatItsWeightPressesFlatBearsThrust) {

@@ -411,8 +411,8 @@ SlidingModel column_that_snaps(int elements) {
 
 }  // namespace
 
-// It touches the upper wall, comes off and snaps to the lower one. On coarse meshes a place of least gap that is
-// followed comes within half an element of the support before that, and is given up: nothing happens there.
+// It touches the upper wall, comes off and snaps to the lower one. A place of least gap that is followed comes to the
+// support before that, and is given up: nothing happens there.
 TEST(SlidingContactPath, GivesUpALeastGapThatReachesASupportSlow) {
   const Path fine = path_of(column_that_snaps(80), 9.2);
   ASSERT_EQ(fine.end(), EndReason::stop);

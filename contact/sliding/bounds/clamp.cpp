@@ -1,6 +1,7 @@
 #include "contact/sliding/bounds/clamp.hpp"
 
 #include "contact/sliding/bending.hpp"
+#include "contact/sliding/bound_value.hpp"
 #include "contact/sliding/bounds/free_end.hpp"
 #include "contact/sliding/clamps.hpp"
 #include "contact/sliding/tips.hpp"
@@ -33,8 +34,11 @@ BoundPlace ClampBound::place(const SlidingSetting& setting, const SlidingState& 
 
 std::vector<Transition> ClampBound::transitions(const SlidingSetting& setting, const SlidingState& at,
                                                 const Arrival& arrival) const {
-  const bool is_on_roller = end_nearest_to_lying_down(setting, at, {.strand = strand_, .last = last_}).has_value();
-  return is_on_roller ? tips_lie_down(setting, at, arrival) : clamps_are_left(setting, at, arrival);
+  const auto clamp = touched_clamp(setting, at, strand_, last_);
+  const auto touching = end_nearest_to_lying_down(setting, at, end());
+  const bool is_touched = clamp && touching && setting.free_ends[*touching].obstacle == clamp->obstacle;
+  if (!is_touched) return clamps_are_left(setting, at, arrival);
+  return tips_lie_down(setting, at, at_bound_of_end<LiesDownBound>(at, arrival, end()));
 }
 
 }  // namespace arcwall::sliding

@@ -13,7 +13,7 @@ namespace arcwall::sliding {
 namespace {
 
 constexpr double out_of_reach = 1.0;     // value of the bounds of an end that does not touch
-constexpr double nothing_will = 10.0;    // and of one that no obstacle may touch
+constexpr double far = 10.0;             // so that steps need not be short for it: the gap of the end is watched, too
 constexpr double nearly_upright = 0.02;  // cosine: beyond 0 the section's other corner touches, and nothing is smooth
 
 // The contact of an end of a strand to which it is nearest to lying down, seen from that end.
@@ -58,10 +58,7 @@ std::optional<std::size_t> end_nearest_to_lying_down(const SlidingSetting& setti
 
 double LiesDownBound::value(const SlidingSetting& setting, const SlidingState& at) const {
   const auto touching = touching_end(setting, at, end());
-  if (touching) return sine_from_end(setting, at, *touching);
-  const bool may_touch = std::any_of(setting.free_ends.begin(), setting.free_ends.end(),
-                                     [&](const FreeEnd& contact) { return contact.is_of(end()); });
-  return may_touch ? out_of_reach : nothing_will;
+  return touching ? sine_from_end(setting, at, *touching) : far;
 }
 
 Row LiesDownBound::gradient(const SlidingSetting& setting, const SlidingState& at) const {

@@ -4,8 +4,9 @@
 
 namespace arcwall::sliding {
 
-/// The room between a tracked point and the end of its strand, or a contact with another obstacle: half an element.
-/// What touches beyond is another kind of contact, which is not modelled; an open point is given up.
+/// The room between a tracked point and a clamped end of its strand, or one at several others, or a contact with
+/// another obstacle: half an element. What touches beyond is another kind of contact, which is not modelled; an open
+/// point is given up.
 class RoomBound final : public BoundOfSegment {
  public:
   using BoundOfSegment::BoundOfSegment;

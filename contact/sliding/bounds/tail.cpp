@@ -23,7 +23,7 @@ Row TailBound::gradient(const SlidingSetting& setting, const SlidingState& at) c
 BoundPlace TailBound::place(const SlidingSetting&, const SlidingState& at) const { return place_of_point(at, point_); }
 
 bool TailBound::gathers_at_support(const SlidingSetting& setting, const SlidingState& at) const {
-  if (!setting.body.takes_contact(strand_, last_)) return true;
+  if (!setting.body.lets_contact_come(strand_, last_)) return true;
   return setting.body.end_is_held(strand_, last_) &&
          at.layout.span_at_end(strand_, last_) != SlidingContactLayout::Span::free;
 }
