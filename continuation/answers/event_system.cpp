@@ -298,20 +298,20 @@ std::string EventSystem::watched_place(const State& state, Index j) const {
 
 // --- other meshes ---------------------------------------------------------------------------------------------------
 
-// What a transition of the system for κ, `at`, makes of a point of the curve; empty if the event is not on the new
-// mesh.
-std::optional<Transition> EventSystem::remeshed(const State& from, const SystemFamily::Member& at,
-                                                const Transition& transition, const Direction& forward) const {
+// What a transition of one of the family's systems, with the event's state at `from`, makes of that point of the curve;
+// empty if the event is not on the new mesh.
+std::optional<Transition> EventSystem::remeshed(const State& from, const Transition& transition,
+                                                const Direction& forward) const {
   if (transition.change != Transition::Change::remeshed || transition.quantity) return std::nullopt;
   const auto event = family_.in_common_terms(transition.guess.get());
-  if (!event) return std::nullopt;
-  const SystemFamily::Member ahead{.system = at.system, .state = transition.guess.get(), .turning = at.turning};
-  const Index count = ahead.system->guard_count(ahead.state.piece);
+  const auto ahead = event ? family_.at(from.lambda, *event) : std::nullopt;
+  if (!ahead) return std::nullopt;
+  const Index count = ahead->system->guard_count(ahead->state.piece);
   for (const Index j : event_.guards)
-    if (j >= count || std::abs(ahead.system->guard(ahead.state, j)) > still_zero) return std::nullopt;
-  auto border = event_border(event_.criterion, ahead, metric_of(ahead), make_);
+    if (j >= count || std::abs(ahead->system->guard(ahead->state, j)) > still_zero) return std::nullopt;
+  auto border = event_border(event_.criterion, *ahead, metric_of(*ahead), make_);
   if (!border) return std::nullopt;
-  State guess = extended(ahead, *event, from.lambda, std::move(*border), &from);
+  State guess = extended(*ahead, *event, from.lambda, std::move(*border), &from);
   const Index n = event->x.size();
   Direction on = {.dx = Vector::Zero(guess.x.size()), .dlambda = forward.dlambda};
   on.dx.head(n) = transition.forward.dx;
@@ -328,7 +328,7 @@ std::vector<Transition> EventSystem::transitions(const State& state, const Direc
     const auto ahead = member->system->transitions(
         member->state, base_direction(forward, layout_of(state.piece).base_size), bound, tolerance);
     if (!ahead.empty())
-      if (auto same_event = remeshed(state, *member, ahead.front(), forward)) return {std::move(*same_event)};
+      if (auto same_event = remeshed(state, ahead.front(), forward)) return {std::move(*same_event)};
   }
   Transition end{.change = Transition::Change::unsupported};
   end.detail = bound < contacts
@@ -358,7 +358,7 @@ std::optional<Transition> EventSystem::with_inserted_contact(const State& from, 
   if (!end->system->admissible(end->state, margin)) {
     const auto inserted =
         end->system->with_inserted_contact(begin->state, base_direction(forward, n), end->state, margin);
-    return inserted ? remeshed(from, *begin, *inserted, forward) : std::nullopt;
+    return inserted ? remeshed(from, *inserted, forward) : std::nullopt;
   }
   // The border alone is due: the same unknowns.
   const auto here = family_.at(from.lambda, start);
@@ -378,7 +378,7 @@ std::optional<Transition> EventSystem::with_mesh_for_landing(const State& from, 
   if (!begin || !end) return std::nullopt;
   const auto suited = end->system->with_mesh_for_landing(
       begin->state, base_direction(forward, layout_of(from.piece).base_size), end->state, guard);
-  return suited ? remeshed(from, *begin, *suited, forward) : std::nullopt;
+  return suited ? remeshed(from, *suited, forward) : std::nullopt;
 }
 
 bool EventSystem::may_have_kink(const State& from, const State& to) const {

@@ -107,8 +107,7 @@ class EventSystem final : public System {
   std::optional<std::vector<EventEquation>> equations(const SystemFamily::Member& at, const EventBorder& border,
                                                       Linearization& here, std::vector<WeightedMember>& samples) const;
   bool vanishes(Index guard) const;
-  std::optional<Transition> remeshed(const State& from, const SystemFamily::Member& at, const Transition& transition,
-                                     const Direction& forward) const;
+  std::optional<Transition> remeshed(const State& from, const Transition& transition, const Direction& forward) const;
 
   const SystemFamily& family_;
   FollowedEvent event_;
