@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/output/own_folder.hpp"
 #include "core/error.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
 #include "model/regular_file.hpp"
@@ -54,12 +55,9 @@ constexpr std::array output_names{"atlas.json",       "path.csv",        "contac
                                   "shapes.pvd",       "steps.jsonl",     "checkpoint",   "probe",
                                   "convergence.json", "convergence.txt", "curve.json",   "curve.csv"};
 
-// Whether a file is one that a killed process was writing, see StagedFile, or its lock.
-bool is_leftover(const fs::path& file) {
+// Whether the name is that of a file that a killed process was writing, see StagedFile, or of its lock.
+bool is_name_of_leftover(const std::string& name) {
   static const std::regex hidden(R"(\.(.+)\.[0-9]+)"), shape(R"(([0-9]+|walls)\.vtu)");
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return false;
-  const std::string name = file.filename().string();
   std::smatch parts;
   if (name == folder_lock_name) return true;
   if (!std::regex_match(name, parts, hidden)) return false;
@@ -68,16 +66,27 @@ bool is_leftover(const fs::path& file) {
          std::regex_match(target, shape);
 }
 
+bool is_leftover(const fs::directory_entry& entry) {
+  std::error_code ignored;
+  return is_name_of_leftover(entry.path().filename().string()) && !entry.is_symlink(ignored) &&
+         entry.is_regular_file(ignored);
+}
+
 void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (is_leftover(entry.path()) && entry.path().filename() != folder_lock_name) fs::remove(entry.path(), ignored);
+    if (is_leftover(entry) && entry.path().filename() != folder_lock_name) fs::remove(entry.path(), ignored);
+}
+
+void remove_leftovers(const OwnFolder& folder) {
+  for (const std::string& name : folder.names())
+    if (is_name_of_leftover(name) && folder.has_file(name)) folder.remove(name);
 }
 
 // Whether nothing but leftovers is in a folder.
 bool holds_nothing(const fs::path& folder, std::error_code& error) {
   const fs::directory_iterator entries(folder, error);
-  return std::all_of(begin(entries), end(entries), [](const auto& entry) { return is_leftover(entry.path()); });
+  return std::all_of(begin(entries), end(entries), [](const auto& entry) { return is_leftover(entry); });
 }
 
 }  // namespace
@@ -85,7 +94,7 @@ bool holds_nothing(const fs::path& folder, std::error_code& error) {
 StagedFile::StagedFile(fs::path target)
     : target_(std::move(target)),
       path_(target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()))),
-      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) give_up(errno);
 }
 
@@ -199,8 +208,9 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
 }
 
 void OutputFolder::take() {
+  const auto shapes = OwnFolder::open(folder_ / "shapes");
   remove_leftovers(folder_);
-  remove_leftovers(folder_ / "shapes");
+  if (shapes) remove_leftovers(*shapes);
   const StagedFile probe(folder_ / "probe");
 }
 

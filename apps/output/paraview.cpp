@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "apps/output/own_folder.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "model/build_contact.hpp"
@@ -252,27 +253,24 @@ std::string collection(std::size_t points, bool walls) {
 }
 
 // Files of an earlier run that this one has not written: 12345.vtu, walls.vtu. What else is there is somebody's own.
-void remove_others(const fs::path& folder, const std::set<std::string>& written) {
+void remove_others(const OwnFolder& folder, const std::set<std::string>& written) {
   const auto is_ours = [](const std::string& name) {
     const std::string stem = name.substr(0, name.find('.'));
     return name == walls_name ||
            (name == stem + ".vtu" && stem.size() >= 4 && stem.find_first_not_of("0123456789") == std::string::npos);
   };
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    if (is_ours(name) && !written.contains(name)) fs::remove(at->path(), error);
-  }
-  if (error) throw OutputError(folder.string() + ": files of an earlier run stay: " + error.message());
+  for (const std::string& name : folder.names())
+    if (is_ours(name) && !written.contains(name)) folder.remove(name);
 }
 
 }  // namespace
 
 void remove_shapes(const OutputFolder& folder) {
   const fs::path shapes = folder.path() / "shapes";
+  const auto folder_of_shapes = OwnFolder::open(shapes);
+  if (!folder_of_shapes) return;
+  remove_others(*folder_of_shapes, {});
   std::error_code error;
-  if (!fs::is_directory(shapes, error)) return;
-  remove_others(shapes, {});
   fs::remove(shapes, error);  // fails if something is left in it, as it should
 }
 
@@ -281,6 +279,8 @@ void write_shapes(const OutputFolder& folder, const Model& model, const Record& 
   std::error_code error;
   fs::create_directories(shapes, error);
   if (error) throw OutputError(shapes.string() + ": cannot be made: " + error.message());
+  const auto folder_of_shapes = OwnFolder::open(shapes);
+  if (!folder_of_shapes) throw OutputError(shapes.string() + ": cannot be made: another process has removed it");
   std::set<std::string> written;
   const auto write = [&](const std::string& name, const std::string& text) {
     write_whole(shapes / name, text);
@@ -294,7 +294,7 @@ void write_shapes(const OutputFolder& folder, const Model& model, const Record& 
     write(name_of_point(i), shape_vtu(here, point, known != nullptr ? *known : shape_of(here, point.state)));
   }
   folder.write_whole("shapes.pvd", collection(record.points.size(), record.has_walls));
-  remove_others(shapes, written);
+  remove_others(*folder_of_shapes, written);
 }
 
 }  // namespace arcwall

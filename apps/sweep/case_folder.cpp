@@ -1,6 +1,5 @@
 #include "apps/sweep/case_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -12,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "apps/output/own_folder.hpp"
 #include "core/error.hpp"
 
 namespace arcwall::sweep {
@@ -31,7 +31,7 @@ std::string folder_name(int number) { return fmt::format("{:05}", number); }
 bool is_named(int descriptor, const fs::path& path) {
   struct stat held {
   }, named{};
-  return ::fstat(descriptor, &held) == 0 && ::stat(path.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
+  return ::fstat(descriptor, &held) == 0 && ::lstat(path.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
          held.st_ino == named.st_ino;
 }
 
@@ -98,9 +98,9 @@ std::optional<CaseDraft> CaseDraft::claim(const fs::path& sweep_folder, int numb
   std::error_code error;
   fs::create_directories(path, error);
   if (error) fail(path, "cannot be made", error.message());
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0 && errno == ENOENT) return std::nullopt;
-  if (descriptor < 0) fail(path, "cannot be opened", std::generic_category().message(errno));
+  auto folder = OwnFolder::open(path);
+  if (!folder) return std::nullopt;
+  const int descriptor = folder->release();
   const bool held_by_another = !lock(descriptor);
   CaseDraft draft(path, target, descriptor);
   if (held_by_another || !is_named(descriptor, path)) {
@@ -123,11 +123,9 @@ CaseDraft::~CaseDraft() {
 }
 
 void CaseDraft::clear() const {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(path_, error)) {
-    fs::remove_all(entry.path(), error);
-    if (error) fail(entry.path(), "cannot be removed", error.message());
-  }
+  const auto folder = OwnFolder::open(path_);
+  if (!folder) return;
+  for (const std::string& name : folder->names()) folder->remove(name);
 }
 
 void CaseDraft::publish() {

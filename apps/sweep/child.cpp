@@ -31,7 +31,7 @@ struct Prepared {
   // The parent may have ended before prctl() was called.
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != prepared.parent) ::_exit(not_started);
   const int nothing = ::open("/dev/null", O_RDWR);
-  const int messages = ::open(prepared.messages, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  const int messages = ::open(prepared.messages, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, 0666);
   if (nothing < 0 || messages < 0 || ::dup2(nothing, STDIN_FILENO) < 0 || ::dup2(nothing, STDOUT_FILENO) < 0 ||
       ::dup2(messages, STDERR_FILENO) < 0)
     ::_exit(not_started);

@@ -125,5 +125,33 @@ TEST_F(FaultsTest, MemoryThatRunsOutHasASentenceAndAStatusSlow) {
   expect_in("trace-path resume", outcome.err);
 }
 
+TEST_F(FaultsTest, ALinkInPlaceOfTheFolderOfACaseIsNotFollowed) {
+  plan_study();
+  ASSERT_EQ(shell("mkdir -p precious/deep study/cases; echo mine >precious/thesis.tex; echo mine >precious/deep/data; "
+                  "ln -s ../../precious study/cases/.00000")
+                .status,
+            0);
+  expect_file_error("sweep run study --quiet", "study/cases/.00000: is a link");
+  EXPECT_EQ(names_in(work() / "precious"), (std::set<std::string>{"deep", "thesis.tex"}));
+  EXPECT_EQ(content(work() / "precious" / "deep" / "data"), "mine\n");
+  ASSERT_EQ(
+      shell("rm study/cases/.00000; mkdir study/cases/.00000; ln -s ../../../precious study/cases/.00000/old").status,
+      0);
+  EXPECT_EQ(run_soon("sweep run study --quiet").status, 0);
+  EXPECT_EQ(names_in(work() / "precious"), (std::set<std::string>{"deep", "thesis.tex"}))
+      << "what is emptied may have links in it";
+}
+
+TEST_F(FaultsTest, ALinkInPlaceOfTheFolderOfShapesIsNotFollowed) {
+  ASSERT_EQ(shell("mkdir -p precious truss; echo mine >precious/0000.vtu; echo mine >precious/9999.vtu; "
+                  "ln -s ../precious truss/shapes")
+                .status,
+            0);
+  for (const char* pictures : {"", " --no-pictures"})
+    expect_file_error("run truss.toml --force --quiet" + std::string(pictures), "truss/shapes: is a link");
+  EXPECT_EQ(content(work() / "precious" / "0000.vtu"), "mine\n");
+  EXPECT_EQ(names_in(work() / "precious"), (std::set<std::string>{"0000.vtu", "9999.vtu"}));
+}
+
 }  // namespace
 }  // namespace arcwall::faults_test
