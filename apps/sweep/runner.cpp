@@ -135,7 +135,9 @@ class Pool {
       ++counts_.busy;
       return;
     }
-    RunningCase& added = running_.emplace_back(RunningCase{.one = std::move(one), .draft = std::move(*draft)});
+    // Among those that run once its process is there, and not before: what follows may throw.
+    std::list<RunningCase> being_added;
+    RunningCase& added = being_added.emplace_back(RunningCase{.one = std::move(one), .draft = std::move(*draft)});
     const ChildCommand anew = command(added.one, added.draft);
     const std::string text = Json(anew.arguments).dump(-1, ' ', false, Json::error_handler_t::replace);
     const bool goes_on = can_go_on(added.draft.path(), text);
@@ -145,6 +147,7 @@ class Pool {
     }
     added.child = start(with_limits(goes_on ? resuming(anew, added.draft) : anew));
     if (request_.most_seconds) added.deadline = after(*request_.most_seconds + request_.patience);
+    running_.splice(running_.end(), being_added);
   }
 
   // Without pictures: they are many times as large as the rest, and `trace-path report` draws those of a case. The
@@ -243,9 +246,12 @@ class Pool {
         ++one;
         continue;
       }
-      end(*one, {.status = WIFEXITED(status) ? WEXITSTATUS(status) : 0,
-                 .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0});
-      one = running_.erase(one);
+      // Its number may be another process's from now on, whatever keeping its results throws.
+      std::list<RunningCase> ended;
+      ended.splice(ended.end(), running_, one++);
+      end(ended.front(), {.status = WIFEXITED(status) ? WEXITSTATUS(status) : 0,
+                          .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0});
+      ended.clear();
       progress_(counts_);
     }
   }

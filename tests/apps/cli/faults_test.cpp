@@ -153,5 +153,17 @@ TEST_F(FaultsTest, ALinkInPlaceOfTheFolderOfShapesIsNotFollowed) {
   EXPECT_EQ(names_in(work() / "precious"), (std::set<std::string>{"0000.vtu", "9999.vtu"}));
 }
 
+// A limit of no bytes for files stands for a full disk. The shell is in the group of the program.
+TEST_F(FaultsTest, ACaseThatCannotBeWrittenEndsNoOtherProcess) {
+  plan_study();
+  for (const char* how : {"", " --records"}) {
+    const Outcome outcome =
+        shell("timeout 20 setsid -w bash -c 'trap \"\" XFSZ; ulimit -f 0; \"$1\" sweep run study --quiet" +
+              std::string(how) + "; exit $((10 + $?))' bash \"$PROGRAM\"");
+    EXPECT_EQ(outcome.status, 15) << "the shell goes on behind the program\n" << outcome.err;
+  }
+  EXPECT_EQ(run_soon("sweep run study --quiet").status, 0);
+}
+
 }  // namespace
 }  // namespace arcwall::faults_test
