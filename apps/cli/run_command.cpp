@@ -19,13 +19,15 @@ struct RunRequest {
   CallOptions call{};
 };
 
+// One after the other: where a later initialiser of an aggregate throws, g++ destroys members of an inner one twice.
 RunRequest request_from(const Options& options) {
-  RunRequest request{.run = {.deck = options.words().front(),
-                             .assignments = options.texts("set"),
-                             .units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown,
-                             .ledger = options.has("verbose") ? StepLedger::kept : StepLedger::none},
-                     .foreign = options.has("force") ? Foreign::overwrite : Foreign::refuse,
-                     .call = call_options(options)};
+  RunRequest request;
+  request.call = call_options(options);
+  request.foreign = options.has("force") ? Foreign::overwrite : Foreign::refuse;
+  request.run.deck = options.words().front();
+  request.run.assignments = options.texts("set");
+  request.run.units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown;
+  request.run.ledger = options.has("verbose") ? StepLedger::kept : StepLedger::none;
   request.folder = options.text("out").value_or(std::filesystem::path(request.run.deck).stem().string());
   request.run.deck_text = deck::read_text_file(request.run.deck);
   return request;

@@ -165,5 +165,14 @@ TEST_F(FaultsTest, ACaseThatCannotBeWrittenEndsNoOtherProcess) {
   EXPECT_EQ(run_soon("sweep run study --quiet").status, 0);
 }
 
+// g++ destroys members twice where a later initialiser of an aggregate throws.
+TEST_F(FaultsTest, AWrongOptionBesideOneThatIsRightIsRefusedInWords) {
+  for (const char* wrong : {"--max-time 0", "--max-points 0", "--max-points x", "--checkpoint-pause -1"}) {
+    const Outcome outcome = run("run truss.toml --set path.step=1.0 " + std::string(wrong));
+    EXPECT_EQ(outcome.status, 2) << wrong << "\n" << outcome.err;
+    expect_in(std::string(wrong).substr(0, std::string(wrong).find(' ')), outcome.err);
+  }
+}
+
 }  // namespace
 }  // namespace arcwall::faults_test
