@@ -21,6 +21,7 @@ enum class Traced {
 struct RunDescription {
   std::string deck{};  ///< file, as the user named it
   std::string deck_text{};
+  std::string deck_path{};                 ///< that of the file, whole; empty where the text is not from one
   std::vector<std::string> assignments{};  ///< of --set
   UnitLabels units = UnitLabels::shown;
   StepLedger ledger = StepLedger::none;
@@ -32,7 +33,7 @@ struct RunDescription {
     bool shown = units == UnitLabels::shown;
     bool kept = ledger == StepLedger::kept;
     bool of_curve = traced == Traced::curve;
-    archive(deck, deck_text, assignments, shown, kept, of_curve);
+    archive(deck, deck_text, deck_path, assignments, shown, kept, of_curve);
     traced = of_curve ? Traced::curve : Traced::path;
     ledger = kept ? StepLedger::kept : StepLedger::none;
     units = shown ? UnitLabels::shown : UnitLabels::left_out;

@@ -62,14 +62,17 @@ ExitStatus converge(const Options& options) {
   study.stopped = [&interrupts] { return interrupts.interrupted(); };
   const std::filesystem::path out = options.text("out").value_or(std::filesystem::path(file).stem().string());
   require_other_than_input(out, file);
-  const OutputFolder folder(out, std::filesystem::path(file).filename().string(),
-                            options.has("force") ? Foreign::overwrite : Foreign::refuse);
+  const DeckIdentity identity(std::filesystem::path(file).filename().string(), whole_path(file), crc32_text(text));
+  const std::string replaced = note_of_replaced(out, identity);
+  const OutputFolder folder(out, identity, options.has("force") ? Foreign::overwrite : Foreign::refuse);
+  if (!replaced.empty()) std::cerr << "note: " << replaced << "\n";
   const auto found = arcwall::converge(deck, study);
   if (!found) return ExitStatus::interrupted;
   FileSet files(folder);
   files.write("convergence.txt", convergence_text(*found));
   files.write("convergence.json",
-              to_text(convergence_json(*found, {.text = text, .assignments = assignments}), JsonLayout::lines));
+              to_text(convergence_json(*found, {.text = text, .path = identity.path, .assignments = assignments}),
+                      JsonLayout::lines));
   files.put_in_place();
   if (!quiet) std::cout << convergence_text(*found);
   return status_of(*found);

@@ -25,7 +25,7 @@ ExitStatus worst(const deck::Deck& deck, const RunDescription& of, const OutputF
   const WorstCombination found = worst_combination(deck, [&] { return interrupts.interrupted(); });
   if (!found.problem.empty()) throw InputError(fmt::format("{}: curve.worst: {}", of.deck, found.problem));
   FileSet files(folder);
-  files.write("curve.json", to_text(worst_json(deck, found, of.deck_text, of.assignments), JsonLayout::lines));
+  files.write("curve.json", to_text(worst_json(deck, found, of), JsonLayout::lines));
   files.put_in_place();
   if (call.report == CallOptions::Report::table) std::cout << worst_text(deck, found);
   if (interrupts.interrupted()) return ExitStatus::interrupted;
@@ -55,6 +55,7 @@ ExitStatus curve(const Options& options) {
                     .units = options.has("no-units") ? UnitLabels::left_out : UnitLabels::shown,
                     .traced = Traced::curve};
   of.deck_text = deck::read_text_file(of.deck);
+  of.deck_path = whole_path(of.deck);
   const deck::Deck deck = deck::read_deck_text(of.deck_text, of.deck, of.assignments);
   if (!deck.curve)
     throw InputError(
@@ -65,11 +66,20 @@ ExitStatus curve(const Options& options) {
   require_other_than_input(out, of.deck);
   const Foreign foreign = options.has("force") ? Foreign::overwrite : Foreign::refuse;
   require_no_run(out, foreign);
-  const std::string name = fs::path(of.deck).filename().string();
+  const DeckIdentity identity = identity_of(of);
+  const std::string replaced = note_of_replaced(out, identity);
+  const auto say_replaced = [&] {
+    if (!replaced.empty()) std::cerr << "note: " << replaced << "\n";
+  };
   const CallOptions call = call_options(options);
-  if (deck.curve->over.empty()) return worst(deck, of, OutputFolder(out, name, foreign), call);
+  if (deck.curve->over.empty()) {
+    const OutputFolder folder(out, identity, foreign);
+    say_replaced();
+    return worst(deck, of, folder, call);
+  }
   CurveSession session(std::move(of));
-  const OutputFolder folder(out, name, foreign);
+  const OutputFolder folder(out, identity, foreign);
+  say_replaced();
   say_what_is_replaced(out, session.description());
   return trace_curve_and_write(session, folder, call);
 }

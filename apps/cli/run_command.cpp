@@ -30,11 +30,15 @@ RunRequest request_from(const Options& options) {
   request.run.ledger = options.has("verbose") ? StepLedger::kept : StepLedger::none;
   request.folder = options.text("out").value_or(std::filesystem::path(request.run.deck).stem().string());
   request.run.deck_text = deck::read_text_file(request.run.deck);
+  request.run.deck_path = whole_path(request.run.deck);
   return request;
 }
 
 ExitStatus dry_run(const RunRequest& request, const Session& run) {
-  require_usable(request.folder, run.record().deck, request.foreign);
+  const DeckIdentity identity = identity_of(request.run);
+  require_usable(request.folder, identity, request.foreign);
+  if (const std::string replaced = note_of_replaced(request.folder, identity); !replaced.empty())
+    std::cerr << "note: " << replaced << "\n";
   if (request.call.report != CallOptions::Report::table) return ExitStatus::success;
   std::cout << summary(run.model()) << "\nwould write into " << request.folder.string() << ": path.csv, "
             << (run.record().has_walls ? "contacts.csv, " : "")
@@ -66,7 +70,10 @@ ExitStatus run(const Options& options) {
   for (const std::string& warning : run.model().warnings()) std::cerr << "warning: " << warning << "\n";
   if (options.has("dry-run")) return dry_run(request, run);
 
-  const OutputFolder folder(request.folder, run.record().deck, request.foreign);
+  const DeckIdentity identity = identity_of(request.run);
+  const std::string replaced = note_of_replaced(request.folder, identity);
+  const OutputFolder folder(request.folder, identity, request.foreign);
+  if (!replaced.empty()) std::cerr << "note: " << replaced << "\n";
   say_what_is_replaced(request);
   if (!run.begin()) {
     std::cerr << "error: there is no equilibrium at the start: " << run.problem() << "\n";

@@ -36,7 +36,7 @@ void write_files(const CurveSession& session, const EventCurve& curve, const Out
   const RunDescription& of = session.description();
   FileSet files(folder, options.scratch ? Flush::left_to_the_system : Flush::to_the_disk);
   const std::vector<LoadText> loads = driven_by_lambda(session.deck());
-  for (const auto& [name, content] : curve_files(curve, loads, of.units, of.deck_text, of.assignments))
+  for (const auto& [name, content] : curve_files(curve, loads, of.units, of))
     if (pictures || name != "report.html") files.write(name, content);
   files.put_in_place();
   std::error_code error;

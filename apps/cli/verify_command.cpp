@@ -73,7 +73,7 @@ ExitStatus verify_run(const Session& run, const std::filesystem::path& folder, c
                                   .result_json = text_of(folder / "result.json"),
                                   .deck_toml = text_of(folder / "deck.toml")};
   verify::Verdict verdict = verify::verify(run.model(), run.record(), files, "checkpoint");
-  verify::check_copies(run.model(), run.record(), run.description().deck_text, files, verdict.findings);
+  verify::check_copies(run.model(), run.record(), run.description(), files, verdict.findings);
   if (!tell(verdict, folder, options.has("quiet"))) return ExitStatus::not_confirmed;
   return options.has("again") ? trace_again(run, folder.string(), options.has("quiet")) : ExitStatus::success;
 }

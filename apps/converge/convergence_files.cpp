@@ -28,7 +28,11 @@ OrderedJson number(const std::optional<double>& value) {
 }
 
 OrderedJson deck_json(const Convergence& study, const StudiedDeck& of) {
-  return {{"file", study.deck}, {"title", study.title}, {"crc32", crc32_text(of.text)}, {"set", of.assignments}};
+  return {{"file", study.deck},
+          {"title", study.title},
+          {"path", path_json(of.path)},
+          {"crc32", crc32_text(of.text)},
+          {"set", of.assignments}};
 }
 
 OrderedJson mesh_json(const Convergence& study, const MeshRun& mesh) {

@@ -13,6 +13,7 @@ namespace arcwall {
 /// Which deck a study is of: its text, and what `--set` changed.
 struct StudiedDeck {
   std::string_view text{};
+  std::string path{};  ///< whole; empty where the text is not from a file
   const std::vector<std::string>& assignments;
 };
 

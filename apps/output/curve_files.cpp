@@ -75,10 +75,13 @@ std::string curve_csv(const EventCurve& curve, UnitLabels labels) {
   return text;
 }
 
-OrderedJson curve_json(const EventCurve& curve, std::string_view deck_text,
-                       const std::vector<std::string>& assignments) {
+OrderedJson curve_json(const EventCurve& curve, const RunDescription& run) {
   OrderedJson json;
-  json["deck"] = {{"file", curve.deck}, {"title", curve.title}, {"crc32", crc32_text(deck_text)}, {"set", assignments}};
+  json["deck"] = {{"file", curve.deck},
+                  {"title", curve.title},
+                  {"path", path_json(run.deck_path)},
+                  {"crc32", crc32_text(run.deck_text)},
+                  {"set", run.assignments}};
   json["version"] = program_version();
   json["event"] = {{"kind", to_text(curve.event)}, {"number", curve.number}};
   json["over"] = curve.key;
@@ -91,10 +94,10 @@ OrderedJson curve_json(const EventCurve& curve, std::string_view deck_text,
 }
 
 NamedTexts curve_files(const EventCurve& curve, const std::vector<LoadText>& loads, UnitLabels labels,
-                       std::string_view deck_text, const std::vector<std::string>& assignments) {
+                       const RunDescription& run) {
   return {{"curve.csv", curve_csv(curve, labels)},
           {"report.html", curve_html(curve, loads)},
-          {"curve.json", to_text(curve_json(curve, deck_text, assignments), JsonLayout::lines)}};
+          {"curve.json", to_text(curve_json(curve, run), JsonLayout::lines)}};
 }
 
 void require_no_run(const std::filesystem::path& folder, Foreign foreign) {
@@ -111,11 +114,14 @@ std::string curve_text(const EventCurve& curve) {
                     special_rows(curve));
 }
 
-OrderedJson worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,
-                       const std::vector<std::string>& assignments) {
+OrderedJson worst_json(const deck::Deck& deck, const WorstCombination& worst, const RunDescription& run) {
   const std::string file = deck.source.file.substr(deck.source.file.rfind('/') + 1);
   OrderedJson json;
-  json["deck"] = {{"file", file}, {"title", deck.title}, {"crc32", crc32_text(deck_text)}, {"set", assignments}};
+  json["deck"] = {{"file", file},
+                  {"title", deck.title},
+                  {"path", path_json(run.deck_path)},
+                  {"crc32", crc32_text(run.deck_text)},
+                  {"set", run.assignments}};
   json["version"] = program_version();
   json["event"] = {{"kind", to_text(deck.curve->event)}, {"number", deck.curve->number}};
   json["radius"] = *deck.curve->radius;

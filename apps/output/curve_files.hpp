@@ -20,14 +20,13 @@ namespace arcwall {
 std::string curve_csv(const EventCurve& curve, UnitLabels labels);
 
 /// curve.json: what was followed, and the special points. `deck_text`: the bytes of the deck's file.
-nlohmann::ordered_json curve_json(const EventCurve& curve, std::string_view deck_text,
-                                  const std::vector<std::string>& assignments);
+nlohmann::ordered_json curve_json(const EventCurve& curve, const RunDescription& run);
 
 /// The files of a curve by their names, in the order in which they are written: curve.csv, report.html, curve.json.
 /// `loads`: what λ multiplies.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 NamedTexts curve_files(const EventCurve& curve, const std::vector<LoadText>& loads, UnitLabels labels,
-                       std::string_view deck_text, const std::vector<std::string>& assignments);
+                       const RunDescription& run);
 
 /// Throws OutputError if a folder is that of a run, whose report.html the curve's would replace, and that is to be
 /// refused.
@@ -40,8 +39,7 @@ std::string curve_text(const EventCurve& curve);
 std::string followed_event(const EventCurve& curve);
 
 /// curve.json of the worst combination of numbers, and what the command shows of it.
-nlohmann::ordered_json worst_json(const deck::Deck& deck, const WorstCombination& worst, std::string_view deck_text,
-                                  const std::vector<std::string>& assignments);
+nlohmann::ordered_json worst_json(const deck::Deck& deck, const WorstCombination& worst, const RunDescription& run);
 std::string worst_text(const deck::Deck& deck, const WorstCombination& worst);
 
 /// The status of a curve by the reasons of its ends.

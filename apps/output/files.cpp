@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "apps/output/own_folder.hpp"
+#include "apps/output/result_json.hpp"
 #include "core/error.hpp"
 #include "model/checkpoint/checkpoint_file.hpp"
 #include "model/regular_file.hpp"
@@ -34,20 +35,34 @@ std::string bytes_if_any(const fs::path& file) {
   return fs::is_regular_file(file, ignored) ? bytes_of_regular_file(file) : std::string();
 }
 
-// The deck that filled a folder, by its result.json, or of a run that has not ended by its checkpoint; empty if that
-// cannot be told.
-std::string filled_by(const fs::path& folder) {
+// The deck that filled a folder, by its result.json, or of a run that has not ended by its checkpoint; without a name
+// if that cannot be told.
+DeckIdentity filled_by(const fs::path& folder) {
   std::error_code ignored;
   const std::array<const char*, 3> files{"result.json", "convergence.json", "curve.json"};
   const auto first =
       std::find_if(files.begin(), files.end(), [&](const char* name) { return fs::exists(folder / name, ignored); });
-  if (first == files.end()) return deck_of_checkpoint(bytes_if_any(folder / "checkpoint"));
-  const std::string text = bytes_if_any(folder / *first);
-  const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
-  const auto file = nlohmann::json::json_pointer("/deck/file");
-  if (!result.is_object() || !result.contains(file) || !result.at(file).is_string()) return {};
-  return result.at(file).get<std::string>();
+  if (first == files.end()) {
+    const DeckOfCheckpoint deck = deck_of_checkpoint(bytes_if_any(folder / "checkpoint"));
+    return {deck.file, deck.path, crc32_text(deck.text)};
+  }
+  const nlohmann::json result = nlohmann::json::parse(bytes_if_any(folder / *first), nullptr, false);
+  const auto text = [&](const char* pointer) {
+    const auto at = nlohmann::json::json_pointer(pointer);
+    return result.is_object() && result.contains(at) && result.at(at).is_string() ? result.at(at).get<std::string>()
+                                                                                  : std::string();
+  };
+  return {text("/deck/file"), text("/deck/path"), text("/deck/crc32")};
 }
+
+// Where the place or the text of one of them is not known, the name has to do.
+bool is_same(const DeckIdentity& a, const DeckIdentity& b) {
+  if (a.file != b.file) return false;
+  const bool known = !a.path.empty() && !b.path.empty() && !a.crc32.empty() && !b.crc32.empty();
+  return !known || a.path == b.path || a.crc32 == b.crc32;
+}
+
+const std::string& shown_path(const DeckIdentity& deck) { return deck.path.empty() ? deck.file : deck.path; }
 
 // What is written into the folder of a run or of a study of meshes, besides shapes.
 constexpr std::array output_names{"atlas.json",       "path.csv",        "contacts.csv", "events.json",
@@ -171,7 +186,32 @@ void require_other_than_input(const fs::path& folder, const fs::path& input) {
   }
 }
 
-void require_usable(const fs::path& folder, const std::string& deck, Foreign foreign) {
+DeckIdentity identity_of(const RunDescription& run) {
+  return {fs::path(run.deck).filename().string(), run.deck_path, crc32_text(run.deck_text)};
+}
+
+std::string whole_path(const fs::path& file) {
+  std::error_code error;
+  const fs::path found = fs::canonical(file, error);
+  return (error ? fs::absolute(file).lexically_normal() : found).string();
+}
+
+std::optional<DeckIdentity> results_of_another(const fs::path& folder, const DeckIdentity& deck) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return std::nullopt;
+  DeckIdentity there = filled_by(folder);
+  if (there.file.empty() || is_same(there, deck)) return std::nullopt;
+  return there;
+}
+
+std::string note_of_replaced(const fs::path& folder, const DeckIdentity& deck) {
+  const auto other = results_of_another(folder, deck);
+  return other ? folder.string() + ": the results of " + shown_path(*other) + " are replaced by those of " +
+                     shown_path(deck)
+               : std::string();
+}
+
+void require_usable(const fs::path& folder, const DeckIdentity& deck, Foreign foreign) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) {
@@ -183,14 +223,14 @@ void require_usable(const fs::path& folder, const std::string& deck, Foreign for
   const bool empty = holds_nothing(folder, error);
   if (error) fail(folder, "cannot be read", error.message());
   if (empty) return;
-  const std::string other = filled_by(folder);
-  if (other == deck) return;
-  fail(folder, other.empty() ? "is not empty, and not filled by this program" : "was filled by another deck, " + other,
-       "name another folder with --out, or write over it with --force");
+  const std::string cure = "name another folder with --out, or write over it with --force";
+  if (const auto other = results_of_another(folder, deck))
+    fail(folder, "was filled by another deck, " + shown_path(*other), cure);
+  if (filled_by(folder).file.empty()) fail(folder, "is not empty, and not filled by this program", cure);
 }
 
 // Whether the folder can be used is asked a second time when no other process can fill it any more.
-OutputFolder::OutputFolder(fs::path folder, const std::string& deck, Foreign foreign) : folder_(std::move(folder)) {
+OutputFolder::OutputFolder(fs::path folder, const DeckIdentity& deck, Foreign foreign) : folder_(std::move(folder)) {
   require_usable(folder_, deck, foreign);
   std::error_code error;
   made_ = fs::create_directories(folder_, error);

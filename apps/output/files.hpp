@@ -5,9 +5,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/output/folder_lock.hpp"
+#include "model/run_description.hpp"
 
 namespace arcwall {
 
@@ -56,10 +58,35 @@ void require_other_than_input(const std::filesystem::path& folder, const std::fi
 /// What is done with a folder that something other than the same deck filled.
 enum class Foreign { refuse, overwrite };
 
-/// Throws OutputError if `folder` is no folder, or is foreign and to be refused: it is not empty and its result.json,
-/// or without one its convergence.json or curve.json, does not name `deck`, a file name without folder. Changes
-/// nothing.
-void require_usable(const std::filesystem::path& folder, const std::string& deck, Foreign foreign);
+/// Which deck results are of.
+struct DeckIdentity {
+  DeckIdentity() = default;
+  DeckIdentity(std::string name) : file(std::move(name)) {}
+  DeckIdentity(const char* name) : file(name) {}
+  DeckIdentity(std::string name, std::string whole, std::string crc)
+      : file(std::move(name)), path(std::move(whole)), crc32(std::move(crc)) {}
+
+  std::string file{};   ///< its name without folder
+  std::string path{};   ///< the whole path; empty if it is not known
+  std::string crc32{};  ///< of its text; empty if it is not known
+};
+
+/// That of the deck of a run.
+DeckIdentity identity_of(const RunDescription& run);
+
+/// The path of a file from the root on, without links.
+std::string whole_path(const std::filesystem::path& file);
+
+/// Of which other deck results are in the folder; empty if none are, or those of this one: a deck is the same while its
+/// file has the same name and place, whatever has been changed in it, or the same name and text, wherever it lies.
+std::optional<DeckIdentity> results_of_another(const std::filesystem::path& folder, const DeckIdentity& deck);
+
+/// What `--force` takes away, as a note; empty if nothing.
+std::string note_of_replaced(const std::filesystem::path& folder, const DeckIdentity& deck);
+
+/// Throws OutputError if `folder` is no folder, or is foreign and to be refused: it is not empty, and its result.json,
+/// or without one its convergence.json, curve.json or checkpoint, is not of this deck. Changes nothing.
+void require_usable(const std::filesystem::path& folder, const DeckIdentity& deck, Foreign foreign);
 
 /// The folder that a run writes its files into, and no other process meanwhile.
 class OutputFolder {
@@ -67,7 +94,7 @@ class OutputFolder {
   /// Makes the folder and its parents if they are not there, and sees that a file can be written into it. Files that a
   /// killed process has left half written are removed. Throws OutputError, also where another process is writing into
   /// the folder; require_usable() holds.
-  OutputFolder(std::filesystem::path folder, const std::string& deck, Foreign foreign);
+  OutputFolder(std::filesystem::path folder, const DeckIdentity& deck, Foreign foreign);
 
   /// The same of a folder that is there, whatever filled it.
   explicit OutputFolder(std::filesystem::path folder);

@@ -17,6 +17,8 @@ std::string crc32_text(std::string_view text) {
   return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
+OrderedJson path_json(const std::string& path) { return path.empty() ? OrderedJson(nullptr) : OrderedJson(path); }
+
 namespace {
 
 constexpr int schema_version = 1;
@@ -39,7 +41,7 @@ OrderedJson counts(const Record& record) {
 
 }  // namespace
 
-OrderedJson result_json(const Model& model, std::string_view deck_text, const Record& record, const RunSeconds& seconds,
+OrderedJson result_json(const Model& model, const RunDescription& run, const Record& record, const RunSeconds& seconds,
                         int status) {
   OrderedJson libraries = OrderedJson::object();
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
@@ -51,7 +53,8 @@ OrderedJson result_json(const Model& model, std::string_view deck_text, const Re
   json["schema"] = schema_version;
   json["deck"] = {{"file", record.deck},
                   {"title", record.title},
-                  {"crc32", crc32_text(deck_text)},
+                  {"path", path_json(run.deck_path)},
+                  {"crc32", crc32_text(run.deck_text)},
                   {"set", model.deck().source.assignments}};
   json["program"] = {{"name", "trace-path"}, {"version", program_version()}};
   json["libraries"] = std::move(libraries);

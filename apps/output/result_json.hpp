@@ -6,6 +6,7 @@
 
 #include "model/model.hpp"
 #include "model/record.hpp"
+#include "model/run_description.hpp"
 
 namespace arcwall {
 
@@ -15,10 +16,12 @@ struct RunSeconds {
   double tracing = 0.0;
 };
 
-/// result.json: what was run, with which program, and how it ended. `deck_text`: the bytes of the deck's file;
-/// `status`: the exit status.
-nlohmann::ordered_json result_json(const Model& model, std::string_view deck_text, const Record& record,
+/// result.json: what was run, with which program, and how it ended. `status`: the exit status.
+nlohmann::ordered_json result_json(const Model& model, const RunDescription& run, const Record& record,
                                    const RunSeconds& seconds, int status);
+
+/// The place of a deck's file as JSON; null where the deck is not from one.
+nlohmann::ordered_json path_json(const std::string& path);
 
 /// The checksum by which a deck's text is known again.
 std::string crc32_text(std::string_view text);

@@ -121,11 +121,11 @@ void check_json(const std::string& check, const std::string& text, Json expected
   JsonComparison(check, findings).compare(stored, expected, "");
 }
 
-void check_copies(const Model& model, const Record& record, std::string_view deck_text, const StoredFiles& files,
+void check_copies(const Model& model, const Record& record, const RunDescription& run, const StoredFiles& files,
                   Findings& findings) {
   check_events_json(files.events_json, record, findings);
   const int status = static_cast<int>(exit_status(record));
-  check_result_json(files.result_json, result_json(model, deck_text, record, {}, status), findings);
+  check_result_json(files.result_json, result_json(model, run, record, {}, status), findings);
   findings.at("deck.toml", 0, 0);
   findings.require("deck.toml is the deck", files.deck_toml == deck::to_toml(model.whole_deck()),
                    "it is not the deck of the checkpoint with its defaults");

@@ -46,8 +46,8 @@ class CurveVerifier {
       check_row(i);
     }
     verdict_.findings.at("curve.json", -1, 0);
-    check_json("curve.json repeats the curve", files.curve_json,
-               curve_json(curve_, description_.deck_text, description_.assignments), {"version"}, verdict_.findings);
+    check_json("curve.json repeats the curve", files.curve_json, curve_json(curve_, description_), {"version"},
+               verdict_.findings);
     add_what_is_not_checked();
     return std::move(verdict_);
   }

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr std::string_view any_version = "arcwall checkpoint ", first_line = "arcwall checkpoint 20\n";
+constexpr std::string_view any_version = "arcwall checkpoint ", first_line = "arcwall checkpoint 21\n";
 constexpr std::size_t length_bytes = 8, crc_bytes = 4, head_bytes = first_line.size() + length_bytes + crc_bytes;
 
 // Little-endian whatever the machine.
@@ -110,11 +110,17 @@ Json from_checkpoint(std::string_view bytes, const std::string& file) {
   }
 }
 
-std::string deck_of_checkpoint(std::string_view bytes) try {
+DeckOfCheckpoint deck_of_checkpoint(std::string_view bytes) try {
   const Json content = from_checkpoint(bytes, "");
-  const auto deck = Json::json_pointer("/1/0");
-  if (!content.contains(deck) || !content.at(deck).is_string()) return {};
-  return std::filesystem::path(content.at(deck).get<std::string>()).filename().string();
+  const auto text = [&](const char* pointer) {
+    const auto at = Json::json_pointer(pointer);
+    return content.contains(at) && content.at(at).is_string() ? content.at(at).get<std::string>() : std::string();
+  };
+  DeckOfCheckpoint deck;
+  deck.file = std::filesystem::path(text("/1/0")).filename().string();
+  deck.text = text("/1/1");
+  deck.path = text("/1/2");
+  return deck;
 } catch (const OutputError&) {
   return {};
 }

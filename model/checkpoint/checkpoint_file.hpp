@@ -14,8 +14,13 @@ std::string to_checkpoint(const nlohmann::json& content);
 /// change of one bit and no truncation is taken.
 nlohmann::json from_checkpoint(std::string_view bytes, const std::string& file);
 
-/// The file name, without folder, of the deck of a checkpoint; empty for other bytes.
-std::string deck_of_checkpoint(std::string_view bytes);
+/// The deck that a checkpoint is of; all empty for other bytes.
+struct DeckOfCheckpoint {
+  std::string file{};  ///< its name, without folder
+  std::string path{};  ///< whole; empty where the deck is not from a file
+  std::string text{};
+};
+DeckOfCheckpoint deck_of_checkpoint(std::string_view bytes);
 
 /// The content of CBOR bytes. Throws BadArchive for others, also for such as nest deeper than a checkpoint does.
 nlohmann::json from_cbor(std::string_view bytes);

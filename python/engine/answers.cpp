@@ -111,8 +111,9 @@ py::tuple event_curve(const std::string& file, const std::string& text, const As
   const EventCurve curve = without_lock([&](const auto& stopped) { return trace_event_curve(deck, stopped); });
   if (!curve.problem.empty()) raise("NoAnswer", curve.problem);
   const std::vector<LoadText> loads = driven_by_lambda(deck);
-  return py::make_tuple(to_python(curve_json(curve, text, assignments)), columns(curve), shapes(curve),
-                        files_dict(curve_files(curve, loads, UnitLabels::shown, text, assignments)), curve_text(curve),
+  const RunDescription of{.deck = file, .deck_text = text, .assignments = assignments};
+  return py::make_tuple(to_python(curve_json(curve, of)), columns(curve), shapes(curve),
+                        files_dict(curve_files(curve, loads, UnitLabels::shown, of)), curve_text(curve),
                         curve_picture(curve, loads));
 }
 
@@ -122,7 +123,9 @@ py::tuple worst(const std::string& file, const std::string& text, const Assignme
   require(deck, Question::worst);
   const WorstCombination found = without_lock([&](const auto& stopped) { return worst_combination(deck, stopped); });
   if (!found.problem.empty()) raise("NoAnswer", found.problem);
-  return py::make_tuple(to_python(worst_json(deck, found, text, assignments)), worst_text(deck, found));
+  return py::make_tuple(
+      to_python(worst_json(deck, found, {.deck = file, .deck_text = text, .assignments = assignments})),
+      worst_text(deck, found));
 }
 
 // --- what belongs to them -------------------------------------------------------------------------------------------

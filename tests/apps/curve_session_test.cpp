@@ -57,8 +57,7 @@ CurveSession traced(const std::string& deck) {
 verify::StoredCurve files_of(const CurveSession& session) {
   const RunDescription& of = session.description();
   const EventCurve curve = session.tracing().curve();
-  return {.curve_csv = curve_csv(curve, of.units),
-          .curve_json = curve_json(curve, of.deck_text, of.assignments).dump()};
+  return {.curve_csv = curve_csv(curve, of.units), .curve_json = curve_json(curve, of).dump()};
 }
 
 bool holds(const CurveSession& session, const verify::StoredCurve& files) {

@@ -361,7 +361,7 @@ TEST(EventCurve, IsWrittenAsATableAPageAndSpecialPoints) {
   const EventCurve curve = curve_of(text);
   const std::string csv = curve_csv(curve, UnitLabels::left_out);
   EXPECT_TRUE(csv.starts_with("point,arc,key,lambda,mid,slope,unstable_before,unstable_after,contacts\n0,0,0.19,"));
-  const auto json = curve_json(curve, text, {});
+  const auto json = curve_json(curve, {.deck_text = text});
   EXPECT_EQ(json["specials"].front()["kind"], "begins");
   EXPECT_EQ(json["specials"].back()["kind"], "ends");
   EXPECT_EQ(json["specials"].back()["reason"], "stop");

@@ -41,7 +41,7 @@ void write(const Session& run) {
   contacts_csv(run.record(), UnitLabels::shown);
   to_text(events_json(run.record()), JsonLayout::lines);
   events_text(run.record());
-  to_text(result_json(run.model(), run.description().deck_text, run.record(), {}, 0), JsonLayout::lines);
+  to_text(result_json(run.model(), run.description(), run.record(), {}, 0), JsonLayout::lines);
 }
 
 void follow(const std::string& text) {

@@ -356,6 +356,46 @@ TEST_F(ProgramTest, AFolderOfAnotherDeckIsKept) {
   EXPECT_EQ(Json::parse(content(work() / "results" / "result.json"))["deck"]["file"], "other.toml");
 }
 
+// A deck is known by its place and its text.
+TEST_F(ProgramTest, AnotherDeckWithTheSameFileNameDoesNotReplaceResults) {
+  ASSERT_EQ(shell("mkdir a b moved; cp truss.toml a/deck.toml; (cat truss.toml; echo '# other') >b/deck.toml; "
+                  "cp a/deck.toml moved/deck.toml")
+                .status,
+            0);
+  ASSERT_EQ(run("run a/deck.toml --out results --quiet").status, 0);
+  const Json of_a = Json::parse(content(work() / "results" / "result.json"))["deck"];
+  EXPECT_EQ(of_a["path"], fs::canonical(work() / "a" / "deck.toml").string());
+
+  for (const char* dry : {"", " --dry-run"}) {
+    const Outcome refused = run("run b/deck.toml --out results --quiet" + std::string(dry));
+    EXPECT_EQ(refused.status, 5) << refused.err;
+    expect_in(of_a["path"], refused.err);
+    expect_in("--out", refused.err);
+    expect_in("--force", refused.err);
+  }
+  EXPECT_EQ(Json::parse(content(work() / "results" / "result.json"))["deck"], of_a);
+
+  const Outcome again = run("run a/deck.toml --out results --quiet");
+  EXPECT_EQ(again.status, 0);
+  EXPECT_EQ(again.err.find("replaced"), std::string::npos) << again.err;
+  EXPECT_EQ(run("run moved/deck.toml --out results --quiet").status, 0) << "the same text elsewhere";
+  EXPECT_EQ(run("run a/deck.toml --out results --quiet").status, 0);
+  ASSERT_EQ(shell("echo '# edited' >>a/deck.toml").status, 0);
+  EXPECT_EQ(run("run a/deck.toml --out results --quiet").status, 0) << "the same file, edited";
+
+  const Outcome forced = run("run b/deck.toml --out results --quiet --force");
+  EXPECT_EQ(forced.status, 0);
+  expect_in("note: results: the results of " + of_a["path"].get<std::string>() + " are replaced", forced.err);
+}
+
+TEST_F(ProgramTest, ARunThatHasNotEndedIsKnownByTheDeckOfItsCheckpoint) {
+  ASSERT_EQ(shell("mkdir a b; cp truss.toml a/deck.toml; (cat truss.toml; echo '# other') >b/deck.toml").status, 0);
+  ASSERT_EQ(run("run a/deck.toml --out results --quiet --max-points 3").status, 6);
+  ASSERT_EQ(shell("find results -type f ! -name checkpoint -delete").status, 0);
+  EXPECT_EQ(run("run b/deck.toml --out results --quiet").status, 5);
+  EXPECT_EQ(run("run a/deck.toml --out results --quiet").status, 0);
+}
+
 TEST_F(ProgramTest, WhatCannotBeWrittenGivesStatus5) {
   EXPECT_EQ(run("truss.toml --out truss.toml/results").status, 5);
   EXPECT_EQ(run("truss.toml --out truss.toml").status, 5);

@@ -46,7 +46,7 @@ TEST(RunWarnings, AnUnstableStartUnderConstantLoadsIsTold) {
   EXPECT_NE(warning_of_start(above.model(), above.record()).find("a state with 1 unstable direction:"),
             std::string::npos);
   EXPECT_NE(warning_of_start(far_above.model(), far_above.record()).find("2 unstable directions:"), std::string::npos);
-  const auto result = result_json(above.model(), "", above.record(), {}, 0);
+  const auto result = result_json(above.model(), {}, above.record(), {}, 0);
   EXPECT_EQ(result["warnings"].back(), warning_of_start(above.model(), above.record()));
 }
 
@@ -82,7 +82,7 @@ max_points = 5
       warning_of_units(soft.model(), soft.record())
           .starts_with("a first step of λ as the deck has it would move the structure by 5.0e+07 times its size"))
       << warning_of_units(soft.model(), soft.record());
-  const auto result = result_json(still.model(), "", still.record(), {}, 0);
+  const auto result = result_json(still.model(), {}, still.record(), {}, 0);
   EXPECT_EQ(result["warnings"].back(), warning_of_units(still.model(), still.record()));
 }
 
