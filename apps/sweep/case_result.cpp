@@ -68,6 +68,18 @@ void add_end(const Json& result, CaseResult& target) {
   }
 }
 
+// Throws Json::exception for what is no event: it has a text `kind`, and its λ and monitors are numbers or not known.
+void add_event(const Json& event, CaseResult& target) {
+  const auto require_number_if_known = [](const Json& value) {
+    if (!value.is_null() && !value.is_number()) static_cast<void>(value.get_ref<const Json::number_float_t&>());
+  };
+  static_cast<void>(event.at("kind").get_ref<const std::string&>());
+  require_number_if_known(event.value("lambda", Json()));
+  for (const auto& [name, value] : event.at("monitors").get_ref<const Json::object_t&>())
+    require_number_if_known(value);
+  target.events.push_back(event);
+}
+
 std::string signal_text(int signal) {
   const char* description = ::sigdescr_np(signal);
   return "signal " + std::to_string(signal) + (description == nullptr ? "" : " (" + std::string(description) + ")");
@@ -152,12 +164,12 @@ void read_curve(const fs::path& folder, CaseResult& result) {
   if (curve.contains("worst")) {
     result.reason = to_text(EndReason::stop);
     result.counts = {{"points", curve.at("runs")}};
-    result.events.push_back({{"kind", "worst"}, {"lambda", curve.at("lambda")}, {"monitors", Json::object()}});
+    add_event({{"kind", "worst"}, {"lambda", curve.at("lambda")}, {"monitors", Json::object()}}, result);
     return;
   }
   result.counts = {{"points", curve.at("points")}};
   add_end_of_curve(curve, result);
-  for (const Json& special : curve.at("specials")) result.events.push_back(special);
+  for (const Json& special : curve.at("specials")) add_event(special, result);
   result.curve = curve_points(content(folder / "curve.csv"));
 }
 
@@ -176,7 +188,7 @@ CaseResult read_folder(const fs::path& folder, const CaseEnd& end) {
     result.counts = outputs.at("counts");
     add_end(outputs, result);
     const Json record_of_events = parsed(folder / "events.json");
-    for (const Json& event : record_of_events.at("events")) result.events.push_back(event);
+    for (const Json& event : record_of_events.at("events")) add_event(event, result);
   } else {
     result.reason = reason_without_results(*result.status);
     result.detail = first_line(content(folder / messages_file_name));
@@ -208,7 +220,7 @@ CaseResult result_of_record(const Json& record) {
                     .detail = record.at("detail").get<std::string>(),
                     .counts = record.at("counts")};
   if (!record.at("status").is_null()) result.status = record.at("status").get<int>();
-  for (const Json& event : record.at("events")) result.events.push_back(event);
+  for (const Json& event : record.at("events")) add_event(event, result);
   if (record.contains("curve")) result.curve = record.at("curve").get<std::vector<std::pair<double, double>>>();
   return result;
 }

@@ -174,5 +174,28 @@ TEST_F(FaultsTest, AWrongOptionBesideOneThatIsRightIsRefusedInWords) {
   }
 }
 
+TEST_F(FaultsTest, OddEventsOfACaseAreDamageAndNoDefectOfTheProgram) {
+  plan_study();
+  ASSERT_EQ(run("sweep run study --quiet").status, 0);
+  const fs::path file = work() / "study" / "cases" / "00000" / "events.json";
+  const Json whole = Json::parse(content(file));
+  for (const Json& odd : {Json(), Json(true), Json(7), Json("text"), Json::array({1}), Json::object()}) {
+    std::vector<Json> wrong(1, whole);
+    wrong.back()["events"][0] = odd;
+    for (const char* key : {"kind", "lambda", "monitors"}) {
+      if (std::string(key) == "lambda" ? odd.is_number() || odd.is_null()
+                                       : std::string(key) == "kind" && odd.is_string())
+        continue;
+      if (std::string(key) == "monitors" && odd.is_object()) continue;
+      wrong.push_back(whole);
+      wrong.back()["events"][0][key] = odd;
+    }
+    for (const Json& json : wrong) {
+      std::ofstream(file) << json.dump();
+      expect_file_error("sweep collect study", "is damaged");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace arcwall::faults_test
