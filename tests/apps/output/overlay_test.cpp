@@ -48,5 +48,19 @@ TEST(Overlay, MeasuredPointsThatAreNoneAreRefusedWithTheirLine) {
   EXPECT_NE(refusal("").find("is empty"), std::string::npos);
 }
 
+// RFC 4180.
+TEST(Overlay, MeasuredPointsMayStandInQuotes) {
+  const Overlay overlay = measured_points(
+      "lambda,\"mid [a,b]\",\"re\"\"mark\" \r\n\"0.1\", \"0.01\",\"two\nlines, \"\"quoted\"\"\"\r\n0.2,0.02,\"\"\n",
+      "test.csv", columns);
+  EXPECT_EQ(overlay.values.at("lambda"), (std::vector<double>{0.1, 0.2}));
+  EXPECT_EQ(overlay.values.at("mid"), (std::vector<double>{0.01, 0.02}));
+  EXPECT_NE(refusal("mid,lambda\n\"1\n2\",\"3\n4").find("test.csv:3: has a cell whose quotes are not closed"),
+            std::string::npos);
+  EXPECT_NE(refusal("mid,lambda\n\"1\"x,2\n").find("test.csv:2: has a quote within a cell"), std::string::npos);
+  EXPECT_NE(refusal("mid,lambda,note\n1,2,\"a\nb\"\n1,two,3\n").find("test.csv:4: \"two\" is no number"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace arcwall::overlay_test
