@@ -1,8 +1,19 @@
 #include "apps/output/csv.hpp"
 
+#include <string_view>
+
 namespace arcwall {
 
+namespace {
+
+bool is_formula(const std::string& text) {
+  return !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+}
+
+}  // namespace
+
 std::string csv_cell(const std::string& text) {
+  if (is_formula(text)) return csv_cell("'" + text);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {

@@ -13,7 +13,10 @@ namespace arcwall::sweep {
 namespace {
 
 // Empty for what is not known.
-std::string cell(const Json& value) { return value.is_null() ? "" : csv_cell(label(value)); }
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  return value.is_number() ? label(value) : csv_cell(label(value));
+}
 
 std::string cell(const std::optional<double>& value) { return value ? round_trip(*value) : ""; }
 

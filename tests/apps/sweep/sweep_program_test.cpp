@@ -362,5 +362,16 @@ TEST_F(SweepProgramTest, DamagedFoldersAreErrors) {
   expect_in("cases.jsonl:2: is not the line of case 1", list.err);
 }
 
+// Of a text a spreadsheet would make a formula; numbers stay numbers.
+TEST_F(SweepProgramTest, TextsInTablesAreNoFormulas) {
+  plan(
+      "title = \"t\"\ndeck = \"truss.toml\"\n[grid]\ntitle = [\"=1+1\", \"+a\", \"-b\", \"@c\"]\nload.0.force.0 = "
+      "[-1.5]\n");
+  ASSERT_EQ(run("sweep run study --quiet").status, 0);
+  ASSERT_EQ(run("sweep collect study").status, 0);
+  const std::string cases = content(study() / "cases.csv");
+  for (const char* row : {"\n0,'=1+1,-1.5,", "\n1,'+a,-1.5,", "\n2,'-b,-1.5,", "\n3,'@c,-1.5,"}) expect_in(row, cases);
+}
+
 }  // namespace
 }  // namespace arcwall::sweep::sweep_program_test
