@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 #include "apps/output/text_table.hpp"
 #include "core/printable.hpp"
@@ -35,8 +36,11 @@ void to_terminal(const std::string& text) {
 
 }  // namespace
 
+// A dumb terminal obeys no escapes, and its users do not want any; so with NO_COLOR.
 Progress progress_wanted() {
-  const bool wanted = ::isatty(STDERR_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
+  const char* const terminal = std::getenv("TERM");
+  const bool obeys = terminal == nullptr || std::string_view(terminal) != "dumb";
+  const bool wanted = obeys && ::isatty(STDERR_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
   return wanted ? Progress::shown : Progress::hidden;
 }
 

@@ -125,6 +125,18 @@ TEST_F(FaultsTest, MemoryThatRunsOutHasASentenceAndAStatusSlow) {
   expect_in("trace-path resume", outcome.err);
 }
 
+// A limit of no bytes for files stands for a full disk. The shell is in the group of the program.
+TEST_F(FaultsTest, ACaseThatCannotBeWrittenEndsNoOtherProcess) {
+  plan_study();
+  for (const char* how : {"", " --records"}) {
+    const Outcome outcome =
+        shell("timeout 20 setsid -w bash -c 'trap \"\" XFSZ; ulimit -f 0; \"$1\" sweep run study --quiet" +
+              std::string(how) + "; exit $((10 + $?))' bash \"$PROGRAM\"");
+    EXPECT_EQ(outcome.status, 15) << "the shell goes on behind the program\n" << outcome.err;
+  }
+  EXPECT_EQ(run_soon("sweep run study --quiet").status, 0);
+}
+
 TEST_F(FaultsTest, ALinkInPlaceOfTheFolderOfACaseIsNotFollowed) {
   plan_study();
   ASSERT_EQ(shell("mkdir -p precious/deep study/cases; echo mine >precious/thesis.tex; echo mine >precious/deep/data; "
@@ -151,18 +163,6 @@ TEST_F(FaultsTest, ALinkInPlaceOfTheFolderOfShapesIsNotFollowed) {
     expect_file_error("run truss.toml --force --quiet" + std::string(pictures), "truss/shapes: is a link");
   EXPECT_EQ(content(work() / "precious" / "0000.vtu"), "mine\n");
   EXPECT_EQ(names_in(work() / "precious"), (std::set<std::string>{"0000.vtu", "9999.vtu"}));
-}
-
-// A limit of no bytes for files stands for a full disk. The shell is in the group of the program.
-TEST_F(FaultsTest, ACaseThatCannotBeWrittenEndsNoOtherProcess) {
-  plan_study();
-  for (const char* how : {"", " --records"}) {
-    const Outcome outcome =
-        shell("timeout 20 setsid -w bash -c 'trap \"\" XFSZ; ulimit -f 0; \"$1\" sweep run study --quiet" +
-              std::string(how) + "; exit $((10 + $?))' bash \"$PROGRAM\"");
-    EXPECT_EQ(outcome.status, 15) << "the shell goes on behind the program\n" << outcome.err;
-  }
-  EXPECT_EQ(run_soon("sweep run study --quiet").status, 0);
 }
 
 // g++ destroys members twice where a later initialiser of an aggregate throws.
@@ -195,6 +195,20 @@ TEST_F(FaultsTest, OddEventsOfACaseAreDamageAndNoDefectOfTheProgram) {
       expect_file_error("sweep collect study", "is damaged");
     }
   }
+}
+
+// Nothing is written to a terminal that obeys no escapes; `script` makes one.
+TEST_F(FaultsTest, ADumbTerminalGetsNoEscapes) {
+  if (shell("command -v script").status != 0) GTEST_SKIP() << "there is no `script`";
+  const auto escapes = [&](const std::string& setting) {
+    const Outcome outcome = shell("env -u NO_COLOR PROGRAM=\"$PROGRAM\" " + setting +
+                                  " script -qec '\"$PROGRAM\" run truss.toml --force' /dev/null");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out.find('\x1b') != std::string::npos;
+  };
+  EXPECT_TRUE(escapes("TERM=xterm"));
+  EXPECT_FALSE(escapes("TERM=dumb"));
+  EXPECT_FALSE(escapes("TERM=xterm NO_COLOR=1"));
 }
 
 }  // namespace
