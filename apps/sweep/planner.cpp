@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/output/files.hpp"
+#include "model/deck/numbers.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"
 #include "model/deck/value.hpp"
@@ -113,20 +114,44 @@ void check(const Plan& plan, const deck::Deck& deck) {
   require_curve(deck);
 }
 
-std::vector<Diagnostic> problems_of_base(const Plan& plan, const std::string& deck_file) {
+// Of two names of one value the later one would be set behind the other, which would have no effect.
+void refuse_second_names(const Plan& plan, const deck::Value& root) {
+  std::vector<Key> keys = plan.sweep.keys;
+  for (const Tie& tie : plan.sweep.ties) keys.push_back(tie.key);
+  std::map<std::string, std::string> names;
+  for (const Key& key : keys) {
+    const auto [first, is_new] = names.try_emplace(deck::written_key(root, key.name), key.name);
+    if (!is_new)
+      fail(deck::diagnostic_at(plan.sweep.source, key.position, key.name,
+                               "is another name of " + first->second + ", which is varied, too",
+                               "vary the value under one name"));
+  }
+}
+
+std::vector<Diagnostic> problems_of_base(const Plan& plan, const deck::Value& root, const std::string& deck_file) {
   try {
-    check(plan, deck::read_deck_text(plan.deck_text, deck_file));
+    check(plan, deck::read_deck_value(root, deck_file));
   } catch (const InputError& error) {
     return error.diagnostics();
   }
   return {};
 }
 
+// The deck's text is taken apart once.
 void check_cases(const Plan& plan, const std::string& deck_file) {
-  Complaints complaints(plan.sweep, problems_of_base(plan, deck_file));
+  deck::Value root;
+  try {
+    root = deck::parse_toml(plan.deck_text, deck_file);
+  } catch (const InputError& error) {
+    Complaints complaints(plan.sweep, error.diagnostics());
+    for (const Case& one : plan.cases) complaints.add(one, error);
+    complaints.throw_if_any();
+  }
+  refuse_second_names(plan, root);
+  Complaints complaints(plan.sweep, problems_of_base(plan, root, deck_file));
   for (const Case& one : plan.cases) {
     try {
-      check(plan, deck::read_deck_text(plan.deck_text, deck_file, assignments(one)));
+      check(plan, deck::read_deck_value(root, deck_file, assignments(one)));
     } catch (const InputError& error) {
       complaints.add(one, error);
     }

@@ -113,12 +113,15 @@ std::string power(const std::string& unit, int exponent) {
 
 bool DeclaredKey::is(const std::string& key) const { return is_meant(parts_of(path()), parts_of(key)); }
 
-std::vector<DeclaredKey> declared_keys() {
-  std::vector<DeclaredKey> list;
-  Deck nothing;
-  KeyList root(list, {});
-  declare_keys(root, nothing);
-  return list;
+const std::vector<DeclaredKey>& declared_keys() {
+  static const std::vector<DeclaredKey> all = [] {
+    std::vector<DeclaredKey> list;
+    Deck nothing;
+    KeyList root(list, {});
+    declare_keys(root, nothing);
+    return list;
+  }();
+  return all;
 }
 
 std::string beginning(const DeclaredKey& part) {

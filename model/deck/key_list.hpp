@@ -35,8 +35,8 @@ struct DeclaredKey {
   bool is(const std::string& key) const;
 };
 
-/// All keys of a deck, in the order of a deck that is written.
-std::vector<DeclaredKey> declared_keys();
+/// All keys of a deck, in the order of a deck that is written. They are put together once.
+const std::vector<DeclaredKey>& declared_keys();
 
 /// A part of the root as a deck begins it: `title`, `[contact]`, `[[load]]`, `[member.NAME]`.
 std::string beginning(const DeclaredKey& part);

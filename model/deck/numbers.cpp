@@ -78,6 +78,17 @@ std::variant<DeckPart, NoNumber> part_of(const Value& root, const std::string& k
   return DeckPart{.value = at, .key = written};
 }
 
+std::string written_key(const Value& root, const std::string& key) {
+  const Value* at = &root;
+  std::string written;
+  for (const std::string& part : split_at_dots(key)) {
+    const Step next = at == nullptr ? Step() : step_into(*at, part);
+    at = next.to;
+    written += (written.empty() ? "" : ".") + (at == nullptr ? part : next.written);
+  }
+  return written;
+}
+
 std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key) {
   const Value root = parse_toml(to_toml(deck), deck.source.file);
   const auto part = part_of(root, key);

@@ -29,6 +29,9 @@ struct DeckPart {
 /// The part of a document behind a key as in `--set`, as far as the document has it.
 std::variant<DeckPart, NoNumber> part_of(const Value& root, const std::string& key);
 
+/// The one way to write a key as in `--set`: parts of arrays by their indices, as far as the document has them.
+std::string written_key(const Value& root, const std::string& key);
+
 /// The number behind a key as in `--set`, also where the deck's text leaves it to its default.
 std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/deck/deck.hpp"
+#include "model/deck/value.hpp"
 
 namespace arcwall::deck {
 
@@ -15,5 +16,8 @@ Deck read_deck(const std::string& file, const std::vector<std::string>& assignme
 /// The same for a deck in memory; `file_name` is only named in messages.
 Deck read_deck_text(std::string_view text, const std::string& file_name,
                     const std::vector<std::string>& assignments = {});
+
+/// The same of a document that has been read: many decks that differ in their assignments are read sooner.
+Deck read_deck_value(Value root, const std::string& file_name, const std::vector<std::string>& assignments = {});
 
 }  // namespace arcwall::deck

@@ -362,6 +362,21 @@ TEST_F(SweepProgramTest, DamagedFoldersAreErrors) {
   expect_in("cases.jsonl:2: is not the line of case 1", list.err);
 }
 
+TEST_F(SweepProgramTest, OneKeyUnderTwoNamesIsRefusedWithBoth) {
+  ASSERT_EQ(run("examples channel --out channel.toml").status, 0);
+  const Outcome refused = plan_wrong(
+      "title = \"t\"\ndeck = \"channel.toml\"\n[grid]\nwall.0.profile.z = [0.2, 0.21]\nwall.upper.profile.z = "
+      "[0.22]\n");
+  EXPECT_EQ(refused.status, 2);
+  expect_in("sweep.toml:5", refused.err);
+  expect_in("wall.upper.profile.z: is another name of wall.0.profile.z", refused.err);
+  const Outcome tied = plan_wrong(
+      "title = \"t\"\ndeck = \"channel.toml\"\n[grid]\nwall.0.profile.z = [0.2, 0.21]\n[tie]\nwall.upper.profile.z = { "
+      "to = \"wall.0.profile.z\" }\n");
+  EXPECT_EQ(tied.status, 2);
+  expect_in("is another name of wall.0.profile.z", tied.err);
+}
+
 // Of a text a spreadsheet would make a formula; numbers stay numbers.
 TEST_F(SweepProgramTest, TextsInTablesAreNoFormulas) {
   plan(
