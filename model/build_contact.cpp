@@ -241,8 +241,10 @@ void hold_rotations(const deck::Deck& deck, const deck::Member& member, const Me
 
 void hold_between_walls(const deck::Deck& deck, StructureBuilder& builder) {
   if (deck.contact.method == ContactLaw::Method::penalty) return;
-  for (const deck::Wall& under : deck.walls)
-    for (const deck::Wall& over : deck.walls) {
+  const deck::WallsWithoutClearance without_clearance(deck);
+  for (std::size_t i = 0; i < deck.walls.size(); ++i)
+    for (const std::size_t k : without_clearance.beside(i)) {
+      const deck::Wall &under = deck.walls[i], &over = deck.walls[k];
       const auto line = under.side == Side::below ? line_without_clearance(deck, under, over) : std::nullopt;
       if (!line) continue;
       for (std::size_t m = 0; m < deck.members.size(); ++m) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <limits>
+#include <unordered_map>
+
 #include "apps/output/load_text.hpp"
 #include "apps/output/text_table.hpp"
 #include "model/deck/words.hpp"
@@ -25,27 +28,33 @@ class Lines {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// The least gap of a wall in the stress-free state, and where.
-std::string first_gap(const Model& model, const deck::Wall& wall) {
-  if (model.contact() == nullptr) return "no candidates";
-  const MultiplierContact& contact = *model.contact();
-  const State at_rest{.x = Vector::Zero(model.structure().size({}))};
-  Index count = 0;
-  const Candidate* nearest_one = nullptr;
-  double least = infinity;
+// The candidates of a wall, and its least gap in the stress-free state with its place.
+struct FirstGap {
+  Index candidates = 0;
+  double gap = infinity;
+  const Candidate* at = nullptr;
+};
+
+// By the names of the walls.
+std::unordered_map<std::string, FirstGap> first_gaps(const MultiplierContact& contact, const State& at_rest) {
+  std::unordered_map<std::string, FirstGap> gaps;
   for (Index j = 0; j < contact.contact_count(); ++j) {
     const Candidate& candidate = contact.candidate(j);
-    if (candidate.label().wall != wall.name) continue;
-    ++count;
+    FirstGap& first = gaps[candidate.label().wall];
+    ++first.candidates;
     const double gap = candidate.gap(at_rest) + 0.0;  // no −0
-    if (gap >= least) continue;
-    least = gap;
-    nearest_one = &candidate;
+    if (gap >= first.gap) continue;
+    first.gap = gap;
+    first.at = &candidate;
   }
-  std::string text = fmt::format("{} candidates", count);
-  if (nearest_one == nullptr) return text + ", none faces it";
-  const ContactLabel& label = nearest_one->label();
-  return text + ", first gap " + with_unit(fmt::format("{:.6g}", least), model.whole_deck().units.length) +
+  return gaps;
+}
+
+std::string text_of(const FirstGap& first, const deck::Deck& deck) {
+  const std::string text = fmt::format("{} candidates", first.candidates);
+  if (first.at == nullptr) return text + ", none faces it";
+  const ContactLabel& label = first.at->label();
+  return text + ", first gap " + with_unit(fmt::format("{:.6g}", first.gap), deck.units.length) +
          fmt::format(" at {}:{:.4g}", label.member, label.fraction);
 }
 
@@ -67,6 +76,16 @@ std::string where_it_is(const deck::Wall& wall) {
   };
   if (wall.outline) return std::visit(Words{wall.corner_radius}, *wall.outline);
   return deck::text_of(deck::side_words, wall.side) + " the structure";
+}
+
+void add_walls(const Model& model, Lines& lines) {
+  const deck::Deck& deck = model.whole_deck();
+  const MultiplierContact* const contact = model.contact();
+  const State at_rest{.x = Vector::Zero(model.structure().size({}))};
+  auto gaps = contact == nullptr ? std::unordered_map<std::string, FirstGap>() : first_gaps(*contact, at_rest);
+  for (const deck::Wall& wall : deck.walls)
+    lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall),
+                                   contact == nullptr ? "no candidates" : text_of(gaps[wall.name], deck)));
 }
 
 void add_model(const Model& model, Lines& lines) {
@@ -91,8 +110,7 @@ void add_model(const Model& model, Lines& lines) {
     lines.add("loads", load_text(load, deck.units).text + (load.constant ? ", constant" : ", times λ"));
   }
   for (const deck::Spring& spring : deck.springs) lines.add("springs", spring_text(spring, deck.units));
-  for (const deck::Wall& wall : deck.walls)
-    lines.add("walls", fmt::format("{}: {}, {}", wall.name, where_it_is(wall), first_gap(model, wall)));
+  add_walls(model, lines);
 }
 
 // Where contact is looked for, and what that means for the loads.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -139,14 +140,45 @@ bool have_a_member_in_common(const Wall& a, const Wall& b) {
 
 }  // namespace
 
+namespace {
+
+constexpr double no_clearance = 1e-12;  // of the structure's size, as where it touches at the start
+
+}  // namespace
+
 std::optional<LineProfile> line_without_clearance(const Deck& deck, const Wall& a, const Wall& b) {
-  constexpr double roundoff = 1e-12;  // of the structure's size, as where it touches at the start
   const auto line = line_of(a), other = line_of(b);
   if (!line || !other || a.side == b.side || a.acts_on != ActsOn::axis || b.acts_on != ActsOn::axis)
     return std::nullopt;
-  const bool meet =
-      std::abs(line->z - other->z) <= roundoff * size_of(deck) && std::abs(line->slope - other->slope) <= roundoff;
+  const bool meet = std::abs(line->z - other->z) <= no_clearance * size_of(deck) &&
+                    std::abs(line->slope - other->slope) <= no_clearance;
   return meet ? line : std::nullopt;
+}
+
+WallsWithoutClearance::WallsWithoutClearance(const Deck& deck) : deck_(deck), reach_(no_clearance * size_of(deck)) {
+  for (std::size_t i = 0; i < deck.walls.size(); ++i) {
+    const Wall& wall = deck.walls[i];
+    const auto line = line_of(wall);
+    if (line && wall.acts_on == ActsOn::axis)
+      (wall.side == Side::below ? below_ : above_).push_back({.z = line->z, .slope = line->slope, .wall = i});
+  }
+  for (auto* of_side : {&below_, &above_}) std::stable_sort(of_side->begin(), of_side->end(), is_lower);
+}
+
+std::vector<std::size_t> WallsWithoutClearance::beside(std::size_t wall) const {
+  std::vector<std::size_t> found;
+  const Wall& one = deck_.walls[wall];
+  const auto line = line_of(one);
+  if (!line || one.acts_on != ActsOn::axis) return found;
+  const std::vector<Line>& others = one.side == Side::below ? above_ : below_;
+  // Wider by far more than the rounding of a difference, which is what decides.
+  const double wide = 2.0 * reach_ + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(line->z);
+  auto at = std::lower_bound(others.begin(), others.end(), Line{.z = line->z - wide}, is_lower);
+  for (; at != others.end() && at->z <= line->z + wide; ++at)
+    if (std::abs(line->z - at->z) <= reach_ && std::abs(line->slope - at->slope) <= no_clearance)
+      found.push_back(at->wall);
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 std::string driven_thing(const std::string& kind, std::size_t which) { return kind + "." + std::to_string(which); }
@@ -196,9 +228,10 @@ PointsOfContact points_of_contact(const Deck& deck) {
       return {.points = ContactPoints::nodes,
               .why = "contact slides along members of theory classic or elastica, and member " + member.name +
                      " is of theory " + text_of(theory_words, member.theory)};
-  for (const Wall& a : deck.walls)
-    for (const Wall& b : deck.walls)
-      if (line_without_clearance(deck, a, b) && have_a_member_in_common(a, b))
+  const WallsWithoutClearance without_clearance(deck);
+  for (std::size_t i = 0; i < deck.walls.size(); ++i)
+    for (const std::size_t k : without_clearance.beside(i))
+      if (const Wall& a = deck.walls[i], &b = deck.walls[k]; have_a_member_in_common(a, b))
         return {.points = ContactPoints::nodes,
                 .why = "walls " + a.name + " and " + b.name + " leave no clearance between them"};
   return {.points = ContactPoints::sliding, .why = "the default where all members are of theory classic or elastica"};

@@ -480,6 +480,26 @@ PointsOfContact points_of_contact(const Deck& deck);
 /// the structure; empty for other walls.
 std::optional<LineProfile> line_without_clearance(const Deck& deck, const Wall& a, const Wall& b);
 
+/// The same for all pairs of a deck's walls, each without a look at all others. The deck must outlive it.
+class WallsWithoutClearance {
+ public:
+  explicit WallsWithoutClearance(const Deck& deck);
+
+  /// Indices of the walls that leave no clearance beside this one, in their order.
+  std::vector<std::size_t> beside(std::size_t wall) const;
+
+ private:
+  struct Line {
+    double z = 0.0, slope = 0.0;
+    std::size_t wall = 0;
+  };
+  static bool is_lower(const Line& a, const Line& b) { return a.z < b.z; }
+
+  const Deck& deck_;
+  double reach_;
+  std::vector<Line> below_{}, above_{};  // walls of a side that axes touch, by their heights
+};
+
 /// Whether nothing but the default of max_points ends the path.
 bool is_unbounded(const Path& path);
 

@@ -79,5 +79,19 @@ TEST_F(ScaleTest, VerifyTakesMemoryInProportionToTheElementsSlow) {
   }
 }
 
+// Each wall was held against each other one, and looked for among all candidates: 10 000 walls took 17 s.
+TEST_F(ScaleTest, WallsAreFoundByTheirNamesAndHeightsSlow) {
+  put_column(10, "sliding");
+  std::ofstream deck(work() / "column.toml", std::ios::app);
+  for (int i = 0; i < 20000; ++i)
+    deck << "[[wall]]\nname = \"w" << i
+         << "\"\nside = \"below\"\nacts_on = \"axis\"\nprofile = { type = \"flat\", z = " << -2 - 1e-4 * i << " }\n";
+  deck.close();
+  for (const char* points : {"", " --set contact={}"}) {
+    const Outcome outcome = shell("ulimit -t 6; \"$PROGRAM\" check column.toml" + std::string(points));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace arcwall::scale_test
