@@ -1,6 +1,7 @@
 // Walls and the treatment of contact.
 #include <algorithm>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "core/text.hpp"
@@ -52,11 +53,12 @@ void profile_keys(Keys& keys, Wall& wall) {
   keys.one_of("type", wall.profile, "ψ", flat, line, circle, parabola, spline);
 }
 
-void name_key(Keys& keys, const Deck& deck, Wall& wall) {
+// `taken`: the names of the walls before it.
+void name_key(Keys& keys, std::unordered_set<std::string>& taken, Wall& wall) {
   if (!keys.text("name", wall.name, "its name in the events")) return;
   if (!is_name(wall.name)) {
     keys.report("name", in_quotes(wall.name, 60) + " is no name", "use letters, digits, _ and - only");
-  } else if (find(deck.walls, wall.name) != nullptr) {
+  } else if (!taken.insert(wall.name).second) {
     keys.report("name", in_quotes(wall.name) + " is the name of another wall", "give each wall its own");
   }
 }
@@ -90,8 +92,8 @@ void check_faces(Keys& keys, const Deck& deck, const Wall& wall) {
       "give the section a height, or write acts_on = \"axis\"");
 }
 
-void wall_keys(Keys& keys, Wall& wall, const Deck& deck) {
-  name_key(keys, deck, wall);
+void wall_keys(Keys& keys, Wall& wall, std::unordered_set<std::string>& taken, const Deck& deck) {
+  name_key(keys, taken, wall);
   const bool has_outline = keys.reads() ? keys.has("outline") : wall.outline.has_value();
   if (keys.applies(!has_outline, "side", "belongs to a profile: an outline itself says on which side the body is",
                    "remove it"))
@@ -139,7 +141,8 @@ void contact_keys(Keys& keys, const Deck& deck, Contact& contact) {
 }  // namespace
 
 bool declare_walls(Keys& root, Deck& deck) {
-  const auto keys_of_wall = [&](Keys& keys, Wall& wall) { wall_keys(keys, wall, deck); };
+  std::unordered_set<std::string> taken;
+  const auto keys_of_wall = [&](Keys& keys, Wall& wall) { wall_keys(keys, wall, taken, deck); };
   const bool all_right = root.tables(optional("wall"), deck.walls, keys_of_wall, "");
   root.table(
       optional("contact"), Form::header, [&](Keys& keys) { contact_keys(keys, deck, deck.contact); }, "");
