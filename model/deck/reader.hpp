@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "model/deck/deck.hpp"
-#include "model/deck/value.hpp"
 
 namespace arcwall::deck {
+
+struct Value;
 
 /// Reads and checks a deck; `assignments` are the texts of `--set key=value`, applied in their order. Everything that
 /// is wrong is in one InputError: file, line, column, key, the value found and what would be right.
