@@ -85,7 +85,7 @@ class TimedSystem final : public System {
     return inner_.guard(state, j);
   }
   Vector unit_force(const State& state, Index j) const override { return inner_.unit_force(state, j); }
-  double compliance(Index j) const override { return inner_.compliance(j); }
+  double compliance(const Piece& piece, Index j) const override { return inner_.compliance(piece, j); }
   bool is_two_sided(const Piece& piece, Index j) const override { return inner_.is_two_sided(piece, j); }
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override {
     return inner_.multiplier_index(piece, j);

@@ -47,7 +47,7 @@ bool MultiplierContact::has_force(const Piece& piece, std::size_t j) const {
 template <typename Visit>
 void MultiplierContact::for_each_force(const Piece& piece, const Visit& visit) const {
   Index k = 0;
-  for (std::size_t j = 0; j < piece.size(); ++j)
+  for (std::size_t j = 0; j < piece.contacts(); ++j)
     if (has_force(piece, j)) visit(j, k++);
 }
 
@@ -224,7 +224,7 @@ Vector MultiplierContact::transfer(const Vector& x, const Piece& from, const Pie
   Vector moved = Vector::Zero(size(to));
   moved.head(n) = x.head(n);
   Index source = n, target = n;
-  for (std::size_t j = 0; j < to.size(); ++j) {
+  for (std::size_t j = 0; j < to.contacts(); ++j) {
     const bool before = has_force(from, j), behind = has_force(to, j);
     if (before && behind) moved[target] = x[source];
     source += before ? 1 : 0;

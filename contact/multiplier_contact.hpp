@@ -54,7 +54,8 @@ class MultiplierContact final : public System, public ContactQuery {
   std::string watched_place(const State& state, Index j) const override { return words_of(contact(state, j).label); }
   double guard(const State& state, Index j) const override;
   Vector unit_force(const State& state, Index j) const override;
-  double compliance(Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
+  Index guard_count(const Piece&) const override { return contact_count(); }
+  double compliance(const Piece&, Index j) const override { return springs_at(j).c * scales_.force / scales_.length; }
   bool is_two_sided(const Piece&, Index j) const override { return has_opposite(j); }
   std::optional<Index> multiplier_index(const Piece& piece, Index j) const override;
   double multiplier_scale() const override { return scales_.force; }

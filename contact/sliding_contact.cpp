@@ -149,7 +149,7 @@ double SlidingContact::energy(const State& state) const { return mesh_of(state).
 // --- side conditions ------------------------------------------------------------------------------------------------
 
 Index SlidingContact::guard_count(const Piece& piece) const {
-  return static_cast<Index>(piece.size() + sliding_layout(piece).bounds().size());
+  return static_cast<Index>(piece.contacts() + sliding_layout(piece).bounds().size());
 }
 
 Vector SlidingContact::guards(const State& state) const { return guards_of(*setting_, SlidingState(state)); }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ class Layout {
 };
 
 /// Which contacts are closed, per contact 0 (open) or 1 (closed), and what the unknowns mean. The equations are smooth
-/// on one piece.
+/// on one piece. Behind the contacts stand the *kinks* of laws of straight pieces: 0 up to a kink, 1 beyond it.
 class Piece {
  public:
   Piece() = default;
@@ -37,16 +38,39 @@ class Piece {
   /// Null where the unknowns always mean the same.
   const std::shared_ptr<const Layout>& layout() const { return layout_; }
 
-  /// The same layout with no contact closed.
-  Piece all_open() const { return {size(), 0, layout_}; }
+  /// The same layout with no contact closed and all kinks ahead.
+  Piece all_open() const {
+    Piece piece(size(), 0, layout_);
+    piece.kinks_ = kinks_;
+    return piece;
+  }
+
+  /// Number of kinks, which stand last, and of what stands before them.
+  std::size_t kinks() const { return kinks_; }
+  std::size_t contacts() const { return size() - kinks_; }
+
+  /// The same contacts and layout with these statuses of kinks behind them.
+  Piece with_kinks(std::span<const std::uint8_t> status) const {
+    Piece piece = *this;
+    piece.closed_.resize(contacts());
+    piece.closed_.insert(piece.closed_.end(), status.begin(), status.end());
+    piece.kinks_ = status.size();
+    return piece;
+  }
+  Piece with_kinks_of(const Piece& other) const {
+    return with_kinks(std::span(other.closed_).subspan(other.contacts()));
+  }
 
   /// Number of closed contacts.
-  Index closed_count() const { return std::count(begin(), end(), std::uint8_t{1}); }
+  Index closed_count() const {
+    return std::count(begin(), begin() + static_cast<std::ptrdiff_t>(contacts()), std::uint8_t{1});
+  }
 
   bool operator==(const Piece&) const = default;
 
  private:
   std::vector<std::uint8_t> closed_;
+  std::size_t kinks_ = 0;
   std::shared_ptr<const Layout> layout_;
 };
 

@@ -21,6 +21,9 @@ struct GuardsAlong {
 /// force of a closed one, each over a scale of the implementation's choice, so that guards are of order 1. Where a
 /// guard vanishes the path has come to the end of the piece.
 ///
+/// A kink of a law of straight pieces is a contact that gives way: its gap is the stretch that is left up to the kink,
+/// its force the stretch beyond it, its compliance 1. No multiplier stands for it (multiplier_index).
+///
 /// Must be overridden by a system with contacts: open_piece, guards, guard_gradient, unit_force, multiplier_index and
 /// transfer, and of the equations multiplier_count. Must hold: guard_gradient() is the derivative of guards(), and
 /// guard() and guards_along() agree with both; a force enters the equations by the gradient of its gap, so that K stays
@@ -60,7 +63,7 @@ class UnilateralSystem : public Equations {
 
   /// How far a closed contact gives way for its force, both in the scale of the guards: its gap is −compliance times
   /// its force. Zero for rigid obstacles.
-  virtual double compliance(Index) const { return 0.0; }
+  virtual double compliance(const Piece&, Index) const { return 0.0; }
 
   /// Whether a contact of a piece holds in both senses: it is closed all along a path, whatever the sign of its force,
   /// and holds without one, too. Its guard never vanishes.

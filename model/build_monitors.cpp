@@ -129,10 +129,10 @@ std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Pla
   if (component == deck::Component::axial_force || component == deck::Component::moment)
     return member_force(from, at, component);
   if (const auto freedom = reaction_freedom(component)) {
-    if (*freedom != Freedom::rotation) return from.body.reaction(structure.freedom(node.node, *freedom));
+    if (*freedom != Freedom::rotation) return reaction_of(from, structure.freedom(node.node, *freedom));
     for (const End& end : at)
       if (const auto rotation = end.mesh->rotations[end.position]; rotation && !structure.unknown(*rotation))
-        return from.body.reaction(*rotation);
+        return reaction_of(from, *rotation);
     return nullptr;
   }
   for (const End& end : at)
@@ -194,8 +194,7 @@ double moment_at(const MemberStretch& stretch, double xi) { return stretch.momen
 SectionQuantity pressure_of(const deck::Foundation& foundation) {
   FoundationLaw law(Vec2(foundation.x, foundation.z));
   if (foundation.law)
-    law.add(foundation.law->direction == Freedom::x ? 0 : 1,
-            std::make_shared<const SpringLaw>(foundation.law->displacement, foundation.law->force));
+    law.add(foundation.law->direction == Freedom::x ? 0 : 1, std::make_shared<const SpringLaw>(foundation.law->law()));
   return [law = std::move(law)](const MemberStretch& stretch, double xi) {
     return law.at(stretch.now.position(xi) - stretch.rest.position(xi)).force.norm();
   };
@@ -233,9 +232,21 @@ std::shared_ptr<const Observable> motion_in(const Measured& from, const deck::Pl
 }
 
 SpringForce::Law law_of(const std::optional<deck::TableLaw>& law, const deck::Stiffness& stiffness, Freedom direction) {
-  if (law) return std::make_shared<const SpringLaw>(law->displacement, law->force);
+  if (law) return std::make_shared<const SpringLaw>(law->law());
   if (direction == Freedom::rotation) return stiffness.rotation;
   return direction == Freedom::x ? stiffness.x : stiffness.z;
+}
+
+// Of a spring at points that has a law, among those of the structure.
+std::size_t law_spring_number(const deck::Deck& deck, const deck::Spring& spring) {
+  std::size_t before = 0;
+  for (const deck::Spring& other : deck.springs) {
+    if (&other == &spring) break;
+    const auto* ground = std::get_if<deck::GroundSpring>(&other.kind);
+    const auto* between = std::get_if<deck::PointToPointSpring>(&other.kind);
+    before += (ground != nullptr && ground->law) || (between != nullptr && between->law) ? 1 : 0;
+  }
+  return before;
 }
 
 std::shared_ptr<const Observable> spring_force(const deck::Deck& deck, const Measured& from,
@@ -254,7 +265,11 @@ std::shared_ptr<const Observable> spring_force(const deck::Deck& deck, const Mea
     second = first ? motion_in(from, {.name = between->points[1]}, direction) : nullptr;
     law = law_of(between->law, between->stiffness, direction);
   }
-  return second ? std::make_shared<SpringForce>(*law, first, second) : nullptr;
+  if (!second) return nullptr;
+  auto force = std::make_shared<SpringForce>(*law, first, second);
+  if (from.kinked == nullptr || !std::holds_alternative<std::shared_ptr<const SpringLaw>>(*law)) return force;
+  return std::make_shared<KinkedForce>(*from.kinked, std::move(force),
+                                       std::vector<KinkedForce::Part>{{law_spring_number(deck, spring), 1.0}});
 }
 
 // --- all of them ----------------------------------------------------------------------------------------------------
@@ -320,6 +335,17 @@ void add_reactions_of_movements(const deck::Deck& deck, const Measured& from, st
 }
 
 }  // namespace
+
+std::shared_ptr<const Observable> reaction_of(const Measured& from, Index freedom) {
+  auto reaction = from.body.reaction(freedom);
+  if (from.kinked == nullptr) return reaction;
+  std::vector<KinkedForce::Part> parts;
+  const auto& springs = from.structure.nodal_terms().law_springs();
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    if (springs[i].joins(freedom)) parts.push_back({.spring = i, .sign = springs[i].sign(freedom)});
+  if (parts.empty()) return reaction;
+  return std::make_shared<KinkedForce>(*from.kinked, std::move(reaction), std::move(parts));
+}
 
 std::vector<MonitorColumn> monitor_columns(const deck::Deck& deck, const Measured& from, DeckProblems& problems) {
   std::vector<MonitorColumn> columns;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "elements/kinked_springs.hpp"
 #include "model/build_structure.hpp"
 #include "model/model.hpp"
 
@@ -15,7 +16,11 @@ struct Measured {
   const Places& places;
   const ContactQuery* contacts = nullptr;    ///< of the system's states; null where there are none
   const UnilateralSystem* system = nullptr;  ///< what is traced
+  const KinkedSprings* kinked = nullptr;     ///< the same where laws have kinks; else null
 };
+
+/// What a support exerts on a freedom of a joint.
+std::shared_ptr<const Observable> reaction_of(const Measured& from, Index freedom);
 
 /// What a component of a place is read from; null if the place has no such component.
 std::shared_ptr<const Observable> shown_at(const Measured& from, const deck::Place& place, deck::Component component);

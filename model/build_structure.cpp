@@ -378,7 +378,7 @@ std::optional<Index> freedom_in(const NodeFreedoms& freedoms, Freedom direction)
 
 // What moves without strain depends on how the spring begins alone.
 void add_law(const deck::TableLaw& table, std::optional<Index> first, Index second, bool coarse, StructureOfDeck& out) {
-  auto law = std::make_shared<const SpringLaw>(table.displacement, table.force);
+  auto law = std::make_shared<const SpringLaw>(table.law());
   if (!coarse) return out.builder.add_spring(first, second, std::move(law));
   const double stiffness = law->at(0.0).stiffness;
   if (stiffness <= 0.0) return;
@@ -435,7 +435,7 @@ void add_foundation(const deck::Deck& deck, const deck::Spring& spring, const de
         "use theory \"classic\" or \"elastica\", or springs at its ends");
   Vec2 stiffness(foundation.x, foundation.z);
   if (foundation.law) {
-    auto law = std::make_shared<const SpringLaw>(foundation.law->displacement, foundation.law->force);
+    auto law = std::make_shared<const SpringLaw>(foundation.law->law());
     if (!coarse) return out.builder.add_foundation(member->second, foundation.law->direction, std::move(law));
     stiffness[foundation.law->direction == Freedom::x ? 0 : 1] = law->at(0.0).stiffness;
   }

@@ -38,7 +38,7 @@ std::vector<RecordStretch> stretches_that_slide(const SlidingContact& contact, c
   const SlidingContactLayout& layout = sliding_layout(state.piece);
   std::vector<RecordStretch> stretches;
   std::vector<std::size_t> of_point(layout.points().size());
-  for (std::size_t k = 0; k < state.piece.size(); ++k) {
+  for (std::size_t k = 0; k < state.piece.contacts(); ++k) {
     if (state.piece[k] == 0) continue;
     const ContactPoint here = contact.contact(state, static_cast<Index>(k));
     const bool is_point = k < layout.points().size();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <variant>
 
@@ -139,6 +140,32 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
       problems.add(wall.position, "wall.interference", "method \"incremental\" pushes no walls to their places",
                    "use method \"spherical\"");
   return possible;
+}
+
+std::string smoothed_law(const deck::Spring& spring) {
+  constexpr int parts = 32;  // of an interval, between which the difference is read off
+  const auto law_of = [](const auto& kind) { return kind.law ? &*kind.law : nullptr; };
+  const deck::TableLaw* const law = std::visit(law_of, spring.kind);
+  if (law == nullptr || law->interpolation) return {};
+  const SpringLaw smooth = law->law();
+  const SpringLaw straight(law->displacement, law->force, SpringLaw::Interpolation::linear);
+  double off = 0.0, at = 0.0, greatest = 0.0;
+  for (const double force : law->force) greatest = std::max(greatest, std::abs(force));
+  for (std::size_t i = 0; i + 1 < law->displacement.size(); ++i)
+    for (int k = 1; k < parts; ++k) {
+      const double u = std::lerp(law->displacement[i], law->displacement[i + 1], double(k) / parts);
+      const double difference = std::abs(smooth.at(u).force - straight.at(u).force);
+      if (difference <= off) continue;
+      off = difference;
+      at = u;
+    }
+  return fmt::format(
+      "the law of {} is smooth between its points: at displacement {:.4g} it is {:.2g} % of its greatest force off a "
+      "straight line; write interpolation = {}",
+      spring.name.empty() ? "a spring" : "spring \"" + spring.name + "\"", at, 100.0 * off / greatest,
+      std::holds_alternative<deck::Foundation>(spring.kind)
+          ? "\"smooth\" if this is meant, or give points closer together"
+          : "\"linear\" for straight pieces, or \"smooth\" if this is meant");
 }
 
 }  // namespace arcwall

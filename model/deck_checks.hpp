@@ -44,4 +44,7 @@ void check_watched(const deck::Deck& deck, DeckProblems& problems);
 /// How a path begins to leave the bounds of λ where it starts; empty if it does not.
 std::string start_outside_bounds(const deck::Path& path);
 
+/// Says how far a law whose interpolation was not asked for is from straight pieces; empty where it was.
+std::string smoothed_law(const deck::Spring& spring);
+
 }  // namespace arcwall

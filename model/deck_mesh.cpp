@@ -269,7 +269,7 @@ std::vector<State> DeckMesh::in_path_formulation(const State& equilibrium) const
         contacts.push_back(given(nodes, strands[static_cast<std::size_t>(nodes.strand)], reading));
       if (std::find(guessed.begin(), guessed.end(), contacts) != guessed.end()) continue;
       guessed.push_back(contacts);
-      guesses.push_back(model_.sliding()->with_given_contacts(open, contacts));
+      guesses.push_back(model_.with_kinks(model_.sliding()->with_given_contacts(open, contacts)));
     }
   }
   return guesses;

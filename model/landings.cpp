@@ -265,7 +265,7 @@ class Falls {
 
   // The same stable state in the path's own formulation.
   std::optional<State> in_path_formulation(const State& rest) const {
-    if (model_.sliding() == nullptr) return rest;
+    if (model_.sliding() == nullptr) return model_.with_kinks(rest);
     const Vector x = rest.x.head(mesh_.size());
     for (const State& guess : mesh_.in_path_formulation(rest)) {
       const auto found = equilibrium_at_lambda(model_.system(), guess, model_.options());

@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "model/build_contact.hpp"
+#include "model/build_monitors.hpp"
 #include "model/build_path.hpp"
 #include "model/build_structure.hpp"
 #include "model/deck_checks.hpp"
@@ -97,14 +98,17 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
     check_between_nodes(*deck_, sliding_ramp_ ? *sliding_ramp_ : *sliding_, problems);
   body_ = sliding ? body_of(*structure_, *sliding_structure_)
                   : body_of(*structure_, theories_of(*deck_), incremental_structure_.get());
+  make_kinks();
   const Measured read_off{.structure = *structure_,
                           .body = *body_,
                           .places = described.places,
                           .contacts = contacts(),
-                          .system = &system()};
+                          .system = &system(),
+                          .kinked = kinked_.get()};
   monitors_ = monitor_columns(*deck_, read_off, problems);
-  structure_->nodal_terms().for_each_moved_support(
-      [&](Index freedom, double rate) { moved_.push_back({.rate = rate, .reaction = body_->reaction(freedom)}); });
+  structure_->nodal_terms().for_each_moved_support([&](Index freedom, double rate) {
+    moved_.push_back({.rate = rate, .reaction = reaction_of(read_off, freedom)});
+  });
   options_ = trace_options(*deck_, read_off, monitors_, problems);
   check_watched(*deck_, problems);
   if (problems.empty()) check_search(*this, problems);
@@ -126,6 +130,9 @@ Model::Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional
   explore_.depth = deck_->path.depth;
   for (const MonitorColumn& monitor : monitors_)
     if (!monitor.is_place) explore_.preference.push_back(monitor.raw);
+  if (stage_ == 0)
+    for (const deck::Spring& spring : deck_->springs)
+      if (std::string warning = smoothed_law(spring); !warning.empty()) warnings_.push_back(std::move(warning));
   const auto turns = [](const MemberMesh& mesh) { return mesh.rotations.front().has_value(); };
   if (is_unbounded(deck_->path))
     warnings_.push_back("nothing in [path.stop] ends the path: it goes on to path.max_points = " +
@@ -253,7 +260,31 @@ std::unique_ptr<SlidingStructure> Model::sliding_structure(const StructureBuilde
   });
 }
 
+// What is traced, with the pieces that laws of springs consist of.
+void Model::make_kinks() {
+  const auto& springs = structure_->nodal_terms().law_springs();
+  const auto has_kinks = [](const NodalTerms::LawSpring& spring) { return !spring.law->kinks().empty(); };
+  if (incremental_structure_ || std::none_of(springs.begin(), springs.end(), has_kinks)) return;
+  const auto on = [&](const System& inner, const Body& body) {
+    std::vector<KinkedSprings::Spring> kinked;
+    for (const NodalTerms::LawSpring& spring : springs)
+      kinked.push_back({.law = spring.law,
+                        .first = spring.first ? body.motion(*spring.first) : nullptr,
+                        .second = body.motion(spring.second)});
+    return std::make_unique<KinkedSprings>(inner, kinked);
+  };
+  kinked_ = on(system(), *body_);
+  if (!ramp_structure_) return;
+  ramp_body_ = sliding_ramp_ ? body_of(*ramp_structure_, *sliding_ramp_structure_)
+                             : body_of(*ramp_structure_, theories_of(*deck_), nullptr);
+  const System* ramp = ramp_structure_.get();
+  if (ramp_contact_) ramp = ramp_contact_.get();
+  if (sliding_ramp_) ramp = sliding_ramp_.get();
+  kinked_ramp_ = on(*ramp, *ramp_body_);
+}
+
 const System& Model::system() const {
+  if (kinked_) return *kinked_;
   if (sliding_) return *sliding_;
   if (contact_) return *contact_;
   if (incremental_structure_) return *incremental_structure_;
@@ -273,7 +304,7 @@ std::optional<State> Model::start(std::string& reason) const {
   State state{.x = {}, .lambda = 0.0, .piece = contact_ ? contact_->open_piece() : Piece()};
   state.x = Vector::Zero(contact_ ? contact_->size(state.piece) : structure_->size({}));
   if (sliding_) state = sliding_->start(deck_->path.step);
-  if (!ramp_structure_) return state;
+  if (!ramp_structure_) return with_kinks(std::move(state));
   // What is constant grows from nothing along a path of their own, contacts included.
   TraceOptions options;
   options.step.first = 0.1;
@@ -291,6 +322,10 @@ std::optional<State> Model::start(std::string& reason) const {
   if (sliding_ramp_) {
     ramp = sliding_ramp_.get();
     state = sliding_ramp_->start(1.0);
+  }
+  if (kinked_ramp_) {
+    ramp = kinked_ramp_.get();
+    state = kinked_ramp_->with_kinks(std::move(state));
   }
   constexpr int most_laid = 20;  // so often: what is laid down may peel off again
   int laid = 0;
@@ -310,6 +345,7 @@ std::optional<State> Model::start(std::string& reason) const {
     const bool falls = sliding_ramp_ && !loose_holds_.empty() && state.lambda != 1.0 && laid < most_laid;
     auto lying = falls ? sliding_ramp_->with_strands_come_to_lie(state, 1.0) : std::nullopt;
     if (!lying) continue;
+    lying->piece = lying->piece.with_kinks_of(state.piece);
     tracer.emplace(*ramp, std::move(*lying), options);
     ++laid;
   }
@@ -335,7 +371,9 @@ std::optional<State> Model::start(std::string& reason) const {
 // λ goes from 0 on in the direction of the first step.
 State Model::begun_from(const State& state) const {
   if (!sliding_) return state;
-  return sliding_->with_flat_parts_loaded(sliding_->adopted(state), deck_->path.step);
+  State begun = sliding_->with_flat_parts_loaded(sliding_->adopted(state), deck_->path.step);
+  begun.piece = begun.piece.with_kinks_of(state.piece);
+  return begun;
 }
 
 State Model::taken_over(const State& last) const {

@@ -11,6 +11,7 @@
 #include "continuation/load_increments.hpp"
 #include "continuation/path_point.hpp"
 #include "elements/incremental_structure.hpp"
+#include "elements/kinked_springs.hpp"
 #include "elements/sliding_structure.hpp"
 #include "model/body.hpp"
 #include "model/deck/deck.hpp"
@@ -67,6 +68,9 @@ class Model {
   /// Contact points that slide; null where contact is tied to nodes.
   const SlidingContact* sliding() const { return sliding_.get(); }
 
+  /// The state with what the piece of the system says of laws with kinks: by the stretches, where it does not.
+  State with_kinks(State state) const { return kinked_ ? kinked_->with_kinks(std::move(state)) : state; }
+
   /// The structure of those; null likewise.
   const SlidingStructure* sliding_structure() const { return sliding_structure_.get(); }
 
@@ -113,6 +117,7 @@ class Model {
 
  private:
   State begun_from(const State& state) const;
+  void make_kinks();
   // `progress`: of what λ drives, before the stage; empty where nothing has gone before it.
   Model(std::shared_ptr<const deck::Deck> whole, Index stage, std::optional<std::vector<DrivenThing>> progress);
   bool hold_loose_bodies();
@@ -138,6 +143,8 @@ class Model {
   std::unique_ptr<SlidingStructure> sliding_structure_, sliding_ramp_structure_;
   std::unique_ptr<SlidingContact> sliding_, sliding_ramp_;
   std::unique_ptr<Body> body_;
+  std::unique_ptr<KinkedSprings> kinked_, kinked_ramp_;  // where laws of springs have kinks
+  std::unique_ptr<Body> ramp_body_;                      // whose stretches those of the ramp are
   std::vector<MonitorColumn> monitors_;
   struct MovedFreedom {
     double rate;                                 // by λ

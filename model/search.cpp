@@ -189,7 +189,8 @@ class SearchAt {
     constexpr int roots = 3;  // with the contacts of a guess: those that pull or enter obstacles are none of the path
     std::vector<CountedState> found;
     const bool slides = model_.sliding() != nullptr;
-    for (const State& guess : slides ? mesh_.in_path_formulation(nodes) : std::vector<State>{nodes}) {
+    for (const State& guess :
+         slides ? mesh_.in_path_formulation(nodes) : std::vector<State>{model_.with_kinks(nodes)}) {
       DeflatedNewton newton(model_.system(), DeflatedNewton::Contacts::keep, model_.options().factorization);
       for (int i = 0; i < roots; ++i) {
         const DeflatedResult root = newton.from(guess);

@@ -109,7 +109,7 @@ Touch node_touch(const NodeContacts& all, Index j) {
 // What two walls without clearance exert is one unknown, of either sign, which stands where the first of them does.
 void read_forces(const Model& model, const State& state, Touches& touches) {
   Index next = model.structure().size({});
-  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+  for (std::size_t j = 0; j < state.piece.contacts(); ++j) {
     Touch& touch = touches.all[j];
     touch.closed = state.piece[j] != 0;
     const auto opposite = model.contact()->candidate(static_cast<Index>(j)).opposite();
@@ -144,7 +144,7 @@ void find_opposite(double length, std::vector<Touch>& touches) {
 Touches node_touches(const Model& model, const std::vector<PlainWall>& walls, const State& state) {
   Touches touches;
   const NodeContacts contacts{.model = model, .walls = walls, .state = state};
-  for (std::size_t j = 0; j < state.piece.size(); ++j)
+  for (std::size_t j = 0; j < state.piece.contacts(); ++j)
     touches.all.push_back(node_touch(contacts, static_cast<Index>(j)));
   read_forces(model, state, touches);
   find_opposite(model.structure().length_scale(), touches.all);

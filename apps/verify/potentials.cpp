@@ -268,9 +268,62 @@ double table_energy(const deck::TableLaw& law, double stretch) {
   return stretch < 0.0 ? -sum : sum;
 }
 
+// The slope of straight pieces before point i of the table, beyond its ends 0.
+double slope_before(const deck::TableLaw& law, std::size_t i) {
+  if (i == 0 || i == law.displacement.size()) return 0.0;
+  return (law.force[i] - law.force[i - 1]) / (law.displacement[i] - law.displacement[i - 1]);
+}
+
+bool is_kink(const deck::TableLaw& law, std::size_t i) {
+  constexpr double same = 1e-12;  // relative
+  const double before = slope_before(law, i), behind = slope_before(law, i + 1);
+  return std::abs(behind - before) > same * std::max(std::abs(behind), std::abs(before));
+}
+
+// A law as the straight piece on which a stretch is, carried on: at a kink the state's piece says which of two that is.
+struct StraightPiece {
+  double from = 0.0, force = 0.0, slope = 0.0, energy = 0.0;
+
+  double force_at(double u) const { return force + slope * (u - from); }
+  double energy_at(double u) const { return energy + (u - from) * (force + 0.5 * slope * (u - from)); }
+};
+
+StraightPiece straight_piece(const deck::TableLaw& law, double stretch, const State& state, std::size_t first_kink) {
+  constexpr double at_kink = 1e-9;  // of the table's width
+  const auto& u = law.displacement;
+  const double near = at_kink * (u.back() - u.front());
+  std::size_t piece = 0, kink = state.piece.contacts() + first_kink;  // points of the table that are passed
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    bool passed = stretch >= u[i];
+    const bool kinked = is_kink(law, i);
+    if (kinked && state.piece.kinks() > 0 && std::abs(stretch - u[i]) <= near)
+      passed = (state.piece[kink] != 0) == (u[i] >= 0.0);
+    kink += kinked ? 1 : 0;
+    if (passed) piece = i + 1;
+  }
+  const std::size_t point = piece == 0 ? 0 : piece - 1;
+  return {.from = u[point],
+          .force = law.force[point],
+          .slope = slope_before(law, piece),
+          .energy = table_energy(law, u[point])};
+}
+
+// How many kinks of laws stand before those of a spring.
+std::size_t kinks_before(const deck::Deck& deck, const deck::Spring& spring) {
+  std::size_t kinks = 0;
+  for (const deck::Spring& other : deck.springs) {
+    if (&other == &spring) break;
+    if (std::holds_alternative<deck::Foundation>(other.kind)) continue;
+    const auto* const law = std::visit([](const auto& kind) { return kind.law ? &*kind.law : nullptr; }, other.kind);
+    if (law == nullptr || law->interpolation != SpringLaw::Interpolation::linear) continue;
+    for (std::size_t i = 0; i < law->displacement.size(); ++i) kinks += is_kink(*law, i) ? 1 : 0;
+  }
+  return kinks;
+}
+
 // The potential of a spring between two freedoms, or of one to the ground, by its stretch: ½ k s² or that of a law.
 Potential spring_potential(const Model& model, const State& state, double k, const deck::TableLaw* law,
-                           const std::vector<Index>& freedoms, Freedom which) {
+                           std::size_t first_kink, const std::vector<Index>& freedoms, Freedom which) {
   const auto n = static_cast<Index>(freedoms.size());
   Potential potential{.at = Vector(n),
                       .steps = Vector::Constant(n, step_of(which, model.structure().length_scale())),
@@ -287,6 +340,16 @@ Potential spring_potential(const Model& model, const State& state, double k, con
                                       : model.structure().value(state, freedom);
   }
   const auto stretch = [n](const Vector& u) { return n == 1 ? u[0] : u[1] - u[0]; };
+  if (law != nullptr && law->interpolation == SpringLaw::Interpolation::linear) {
+    const StraightPiece piece = straight_piece(*law, stretch(potential.at), state, first_kink);
+    potential.energy = [=](const Vector& u) { return piece.energy_at(stretch(u)); };
+    potential.gradient = [=](const Vector& u) {
+      Vector gradient = Vector::Constant(n, piece.force_at(stretch(u)));
+      if (n == 2) gradient[0] = -gradient[0];
+      return gradient;
+    };
+    return potential;
+  }
   potential.energy = [=](const Vector& u) {
     return law != nullptr ? table_energy(*law, stretch(u)) : 0.5 * k * stretch(u) * stretch(u);
   };
@@ -320,7 +383,7 @@ std::optional<Potential> spring_potential(const Model& model, const State& state
     if (const auto freedom = freedom_of(model.structure(), model.deck(), place, which)) freedoms.push_back(*freedom);
   const bool acts = law != nullptr ? law->direction == which : k > 0.0;
   if (!acts || places.empty() || freedoms.size() != places.size()) return std::nullopt;
-  return spring_potential(model, state, k, law, freedoms, which);
+  return spring_potential(model, state, k, law, kinks_before(model.deck(), spring), freedoms, which);
 }
 
 void add_springs(const Model& model, const State& state, std::vector<Potential>& to) {
@@ -362,8 +425,8 @@ void add_pressed_ends(const Model& model, const State& state, std::vector<Potent
 
 }  // namespace
 
-// The force of a law by a stretch: between two points of the table Hermite's cubic, with the slopes of Fritsch and
-// Butland, 0 at the ends.
+// The force of a law by a stretch: between two points of the table a straight line, or Hermite's cubic, with the slopes
+// of Fritsch and Butland, 0 at the ends.
 double table_force(const deck::TableLaw& law, double stretch) {
   const auto& u = law.displacement;
   const auto& force = law.force;
@@ -371,6 +434,8 @@ double table_force(const deck::TableLaw& law, double stretch) {
   if (stretch >= u.back()) return force.back();
   std::size_t i = 0;
   while (u[i + 1] < stretch) ++i;
+  if (law.interpolation == SpringLaw::Interpolation::linear)
+    return (force[i] * (u[i + 1] - stretch) + force[i + 1] * (stretch - u[i])) / (u[i + 1] - u[i]);
   const auto slope = [&](std::size_t at) {
     if (at == 0 || at + 1 == u.size()) return 0.0;
     const double h0 = u[at] - u[at - 1], h1 = u[at + 1] - u[at];

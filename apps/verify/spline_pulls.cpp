@@ -18,7 +18,7 @@ struct Part {
 std::vector<Part> parts_of(const Sliding& at) {
   std::vector<Part> parts;
   const auto& nodes = at.on.pressed_nodes();
-  const auto closed = std::count_if(at.state.piece.begin(), at.state.piece.end(), [](auto is) { return is != 0; });
+  const auto closed = at.state.piece.closed_count();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (i > 0 && nodes[i].segment == nodes[i - 1].segment) {
       parts.back().last = nodes[i].position;

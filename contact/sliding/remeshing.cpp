@@ -147,9 +147,9 @@ std::shared_ptr<const SlidingContactLayout> checked_layout(const SlidingSetting&
 }
 
 Piece with_layout(const Piece& piece, std::shared_ptr<const SlidingContactLayout> on) {
-  Piece out(piece.size(), 0, std::move(on));
-  for (std::size_t j = 0; j < piece.size(); ++j) out[j] = piece[j];
-  return out;
+  Piece out(piece.contacts(), 0, std::move(on));
+  for (std::size_t j = 0; j < piece.contacts(); ++j) out[j] = piece[j];
+  return out.with_kinks_of(piece);
 }
 
 Piece canonical_piece(const SlidingSetting& setting, const SlidingState& at) {

@@ -79,7 +79,7 @@ struct SlidingState {
   MeshState now;                     ///< x, s and λ
   mutable SharedByBounds pressures;  ///< at the places of pressed parts, see CurvePressure
 
-  std::size_t contacts() const { return state.piece.size(); }
+  std::size_t contacts() const { return state.piece.contacts(); }
   bool is_closed(std::size_t contact) const { return state.piece[contact] != 0; }
   double s(Index point) const { return now.s[point]; }
 

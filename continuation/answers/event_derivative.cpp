@@ -62,6 +62,15 @@ bool is_at_change_of_contact(const Arc& arc) {
   });
 }
 
+// Whether λ turns because a law of straight pieces comes to a kink.
+bool turns_at_kink(const UnilateralSystem& system, const Event& event) {
+  const Piece& piece = event.state.piece;
+  if (event.kind != EventKind::contact_limit_point || piece.kinks() == 0) return false;
+  const Vector guards = system.guards(event.state);
+  const auto kinks = guards.segment(static_cast<Index>(piece.contacts()), static_cast<Index>(piece.kinks()));
+  return kinks.cwiseAbs().minCoeff() <= vanishing;
+}
+
 // The branch point on the smooth arc's end; null if there is none.
 const BranchPoint* crossing_at(const Arc& arc) {
   for (const Event& event : arc.events)
@@ -164,7 +173,7 @@ EventDerivatives::EventDerivatives(const System& system, const Arc& arc, const E
       state_(event.state),
       turning_(turning) {
   const BranchPoint* const crossing = crossing_at(arc);
-  const bool corner = is_at_change_of_contact(arc);
+  const bool corner = is_at_change_of_contact(arc) || turns_at_kink(system, event);
   if (event.suspected) {
     why_none_ = "the event is only suspected";
   } else if (corner) {

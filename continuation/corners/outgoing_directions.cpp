@@ -35,7 +35,7 @@ bool add_gap_rates(const UnilateralSystem& system, const std::vector<Index>& deg
     const Row gap = system.guard_gradient(problem.open, contact);
     problem.a[i] = apply(gap, problem.free_rate);
     for (Index j = 0; j < w; ++j) problem.M(i, j) = apply(gap, problem.response[static_cast<std::size_t>(j)]);
-    problem.M(i, i) += system.compliance(contact);
+    problem.M(i, i) += system.compliance(problem.open.piece, contact);
   }
   return problem.a.allFinite() && problem.M.allFinite();
 }

@@ -55,7 +55,7 @@ std::vector<Event> events_at(const TraceTools& tools, const Corner& corner, cons
   for (const EventKind kind : {EventKind::contact_closes, EventKind::contact_opens}) {
     event.kind = kind;
     event.guards.clear();
-    for (std::size_t j = 0; j < now.size(); ++j)
+    for (std::size_t j = 0; j < now.contacts(); ++j)  // a kink of a law is no event
       if (old[j] != now[j] && (now[j] != 0) == (kind == EventKind::contact_closes))
         event.guards.push_back(static_cast<Index>(j));
     if (!event.guards.empty()) events.push_back(event);

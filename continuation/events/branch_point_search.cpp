@@ -72,9 +72,10 @@ PathPoint point_at(TraceTools& tools, const StepOrigin& origin, const SingularPl
 bool made_by_nodes(const TraceTools& tools, const State& state) {
   if (!tools.options.node_contacts) return false;
   const System& system = tools.system;
-  for (std::size_t j = 0; j < state.piece.size(); ++j) {
+  for (std::size_t j = 0; j < state.piece.contacts(); ++j) {
     const auto contact = static_cast<Index>(j);
-    if (state.piece[j] && !(system.is_two_sided(state.piece, contact) && system.compliance(contact) > 0.0)) return true;
+    if (state.piece[j] && !(system.is_two_sided(state.piece, contact) && system.compliance(state.piece, contact) > 0.0))
+      return true;
   }
   return false;
 }

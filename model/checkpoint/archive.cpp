@@ -127,7 +127,11 @@ Piece ArchiveReader::piece(const Json& json) {
   const Json::binary_t& closed = json[0].get_binary();
   Piece piece(closed.size(), 0, json.size() == 2 ? layout(json[1]) : nullptr);
   for (std::size_t j = 0; j < closed.size(); ++j) piece[j] = closed[j];
-  return piece;
+  const std::size_t kinks = model().system ? model().system->open_piece().kinks() : 0;
+  if (kinks == 0 || closed.size() < kinks) return piece;
+  Piece contacts(closed.size() - kinks, 0, piece.layout());
+  for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j] = closed[j];
+  return contacts.with_kinks(std::span(closed).last(kinks));
 }
 
 std::shared_ptr<const Layout> ArchiveReader::layout(const Json& json) {

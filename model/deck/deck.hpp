@@ -231,11 +231,16 @@ struct Stiffness {
   bool operator==(const Stiffness&) const = default;
 };
 
-/// The force of a spring in one direction by its displacement: C¹ through these points, constant beyond them.
+/// The force of a spring in one direction by its displacement: C¹ or by straight pieces through these points, constant
+/// beyond them.
 struct TableLaw {
-  Freedom direction = Freedom::z;      ///< x, z or rotation
-  std::vector<double> displacement{};  ///< strictly increasing, at least 2, with 0
-  std::vector<double> force{};         ///< as many, 0 at 0
+  using Interpolation = SpringLaw::Interpolation;
+  Freedom direction = Freedom::z;                ///< x, z or rotation
+  std::vector<double> displacement{};            ///< strictly increasing, at least 2, with 0
+  std::vector<double> force{};                   ///< as many, 0 at 0
+  std::optional<Interpolation> interpolation{};  ///< empty: smooth, which was not asked for
+
+  SpringLaw law() const { return {displacement, force, interpolation.value_or(Interpolation::smooth)}; }
 
   bool operator==(const TableLaw&) const = default;
 };

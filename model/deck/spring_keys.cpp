@@ -30,7 +30,8 @@ std::optional<TableLaw>* law_of(Spring& spring) {
 }
 
 void check_law(Keys& keys, const TableLaw& law) {
-  const auto& [direction, u, force] = law;
+  const auto& u = law.displacement;
+  const auto& force = law.force;
   if (u.size() != force.size() || u.size() < 2)
     return keys.report(
         "force",
@@ -61,11 +62,14 @@ void law_keys(Keys& keys, TableLaw& law) {
         of.word("direction", law.direction, spring_direction_words, "");
         const bool u = of.numbers("displacement", law.displacement, unit::none, "");
         const bool force = of.numbers("force", law.force, unit::none, "");
+        of.word(optional("interpolation", "smooth"), law.interpolation, interpolation_words, "");
         if (of.reads() && u && force) check_law(of, law);
       },
       "instead of `stiffness` or `foundation`, in one `direction` (`\"x\"`, `\"z\"`, `\"rotation\"`; a foundation in x "
       "or z): `force` [force, force length; of a foundation force/length] by `displacement` [length, rad], "
-      "through these points with a continuous slope, constant beyond the first and the last");
+      "through these points, constant beyond the first and the last; `interpolation`: `\"smooth\"`, the default, with "
+      "a "
+      "continuous slope, or `\"linear\"`, straight pieces, for springs at points");
 }
 
 void stiffness_key(Keys& keys, Stiffness& stiffness) {
@@ -104,6 +108,10 @@ void foundation_law_key(Keys& keys, Foundation& foundation) {
     law_keys(keys, law);
     if (keys.reads() && law.direction == Freedom::rotation)
       keys.report("law", "a foundation resists no rotation", "give direction = \"x\" or \"z\"");
+    if (keys.reads() && law.interpolation == SpringLaw::Interpolation::linear)
+      keys.report(
+          "law", "the law of a foundation cannot be linear: each of its places would come to a kink by itself",
+          "give interpolation = \"smooth\" and a point close to either side of each kink, or springs at points");
   });
 }
 

@@ -52,6 +52,8 @@ inline constexpr Words<Theory, 5> theory_words{{{"classic", Theory::classic},
                                                 {"truss", Theory::truss}}};
 inline constexpr Words<Freedom, 3> spring_direction_words{
     {{"x", Freedom::x}, {"z", Freedom::z}, {"rotation", Freedom::rotation}}};
+inline constexpr Words<SpringLaw::Interpolation, 2> interpolation_words{
+    {{"smooth", SpringLaw::Interpolation::smooth}, {"linear", SpringLaw::Interpolation::linear}}};
 inline constexpr Words<LoadFrame, 2> frame_words{{{"global", LoadFrame::global}, {"member", LoadFrame::member}}};
 inline constexpr Words<QuadraticTerm, 2> along_words{
     {{"fixed", QuadraticTerm::fixed}, {"director", QuadraticTerm::director}}};

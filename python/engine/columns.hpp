@@ -52,7 +52,8 @@ void bind_record(Class& bound) {
           "state",
           [](const Self& self, std::size_t point) {
             const State& state = self.record().points.at(point).state;
-            std::vector<bool> closed(state.piece.begin(), state.piece.end());
+            const auto contacts = static_cast<std::ptrdiff_t>(state.piece.contacts());
+            std::vector<bool> closed(state.piece.begin(), state.piece.begin() + contacts);
             return py::make_tuple(to_frozen_array(state.x), state.lambda, closed);
           },
           py::arg("point"));

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/derivative_check.hpp"
+#include "elements/kinked_springs.hpp"
+#include "elements/member_point.hpp"
 #include "elements/structure.hpp"
 #include "tests/support/beam_theories.hpp"
 #include "tests/support/dense.hpp"
@@ -94,6 +96,89 @@ TEST(SpringLaw, BelongsToAStructure) {
       return structure->reaction(moved, held);
     };
     EXPECT_NEAR((at(step) - at(-step)) / (2.0 * step), i < state.x.size() ? row.dx[i] : row.dlambda, 1e-4);
+  }
+}
+
+// Straight pieces through the same points: forces and the areas below them by hand.
+TEST(SpringLaw, MayBeStraightPieces) {
+  const SpringLaw straight({-0.3, -0.1, 0.0, 0.2, 0.5, 0.6}, {-1.0, -0.9, 0.0, 0.7, 0.2, 0.2},
+                           SpringLaw::Interpolation::linear);
+  EXPECT_NEAR(straight.at(0.1).force, 0.35, 1e-15);
+  EXPECT_NEAR(straight.at(0.1).energy, 0.0175, 1e-15);
+  EXPECT_NEAR(straight.at(0.1).stiffness, 3.5, 1e-14);
+  EXPECT_NEAR(straight.at(0.35).force, 0.45, 1e-15);
+  EXPECT_NEAR(straight.at(0.35).energy, 0.07 + 0.15 * 0.575, 1e-15);
+  EXPECT_NEAR(straight.at(-0.2).force, -0.95, 1e-15);
+  EXPECT_NEAR(straight.at(-0.2).energy, 0.045 + 0.0925, 1e-15);
+  EXPECT_EQ(straight.at(9.0).force, 0.2);
+  EXPECT_NEAR(straight.at(1.0).energy, 0.07 + 0.135 + 0.1, 1e-15);
+  EXPECT_EQ(straight.at(-9.0).stiffness, 0.0);
+  const std::vector<double> stretches{-0.3, -0.1, 0.0, 0.2, 0.5}, jumps{0.5, 8.5, -5.5, -3.5 - 5.0 / 3.0, 5.0 / 3.0};
+  const auto kinks = straight.kinks();  // none at 0.6: the law is constant before it, too
+  ASSERT_EQ(kinks.size(), stretches.size());
+  for (std::size_t i = 0; i < kinks.size(); ++i) {
+    EXPECT_EQ(kinks[i].stretch, stretches[i]);
+    EXPECT_NEAR(kinks[i].jump, jumps[i], 1e-13);
+  }
+  EXPECT_TRUE(uneven.kinks().empty());
+  EXPECT_TRUE(SpringLaw({-0.1, 0.0, 0.3}, {-0.2, 0.0, 0.6}, SpringLaw::Interpolation::linear).kinks().size() == 2)
+      << "points on a line have no kink but at the ends";
+}
+
+// On a piece a law goes on straight, wherever the stretch is: F, K and the energy belong together on every piece, and
+// what kinks are among contacts holds.
+TEST(KinkedSprings, AreSmoothOnEachPiece) {
+  test::Numbers numbers(7);
+  StructureBuilder builder;
+  builder.add_joint({0.0, 0.0});
+  builder.add_joint({1.0, 0.0});
+  builder.add_joint({2.0, 0.3});
+  for (Index m = 0; m < 2; ++m)
+    builder.add_member(
+        {.name = m == 0 ? "a" : "b",
+         .from = m,
+         .to = m + 1,
+         .axis = straight_axis(m == 0 ? Vec2(0.0, 0.0) : Vec2(1.0, 0.0), m == 0 ? Vec2(1.0, 0.0) : Vec2(2.0, 0.3)),
+         .section = test::section_of(20.0, 1.0),
+         .elements = 2});
+  for (const Freedom which : {Freedom::x, Freedom::z}) builder.fix(builder.freedom(0, which));
+  builder.fix(builder.freedom(2, Freedom::z), {.proportional = 0.3});
+  const Index middle = builder.freedom(1, Freedom::z), end = builder.freedom(2, Freedom::z);
+  const auto law = std::make_shared<const SpringLaw>(std::vector<double>{-0.05, -0.02, 0.0, 0.02, 0.05},
+                                                     std::vector<double>{-0.5, -0.4, 0.0, 0.2, 0.1},
+                                                     SpringLaw::Interpolation::linear);
+  builder.add_spring(std::nullopt, middle, law);
+  builder.add_spring(middle, end, law);
+  const auto structure = builder.build();
+  const auto motion = [&](Index freedom) { return std::make_shared<FreedomObservable>(*structure, freedom); };
+  const KinkedSprings system(*structure, {{.law = law, .first = nullptr, .second = motion(middle)},
+                                          {.law = law, .first = motion(middle), .second = motion(end)}});
+  const Piece open = system.open_piece();
+  ASSERT_EQ(open.kinks(), 10u);
+  EXPECT_EQ(open.contacts(), 0u);
+  for (int i = 0; i < 20; ++i) {
+    State state{.x = 0.05 * numbers.vector(structure->size({})), .lambda = 0.2, .piece = open};
+    Vector F(state.x.size()), of_structure(state.x.size());
+    const State by_stretch = system.with_kinks({.x = state.x, .lambda = state.lambda, .piece = {}});
+    EXPECT_GE(system.guards(by_stretch).minCoeff(), 0.0);
+    system.residual(by_stretch, F);
+    structure->residual(by_stretch, of_structure);
+    EXPECT_EQ(F, of_structure);
+    for (std::size_t j = 0; j < state.piece.size(); ++j) state.piece[j] = numbers() < 0.0 ? 1 : 0;
+    EXPECT_LE(check_derivatives(system, state).worst(), 1e-6);
+    for (Index j = 0; j < system.guard_count(open); ++j) {
+      EXPECT_DOUBLE_EQ(system.guard(state, j), system.guards(state)[j]);
+      // By the force of one more guard the equations of a piece become those of the next.
+      Piece off = state.piece, on = state.piece;
+      off[static_cast<std::size_t>(j)] = 0;
+      on[static_cast<std::size_t>(j)] = 1;
+      const State without = system.with_piece(state, off), with = system.with_piece(state, on);
+      Vector F_off(state.x.size()), F_on(state.x.size());
+      system.residual(without, F_off);
+      system.residual(with, F_on);
+      EXPECT_LE((F_on - F_off + system.guard(with, j) * system.unit_force(without, j)).norm(), 1e-13);
+      EXPECT_NEAR(system.guard(without, j), -system.compliance(on, j) * system.guard(with, j), 1e-15);
+    }
   }
 }
 

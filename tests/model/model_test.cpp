@@ -270,4 +270,20 @@ monitor = [{ name = "w", at = "beam:0.5", component = "z" }]
     EXPECT_TRUE(warnings(bounded).empty()) << bounded;
 }
 
+// Between two points Hermite's cubic 2 (s + s² − s³) is off the line 2 s by 2 s² (1 − s): 8/27 at s = 2/3.
+TEST(Model, WarnsOfALawThatIsSmoothUnasked) {
+  const auto warned = [](const std::string& interpolation) {
+    const std::string law =
+        "[[spring]]\nname = \"bed\"\nat = \"B\"\nlaw = { direction = \"x\", displacement = "
+        "[-0.1, 0.0, 0.1], force = [-2.0, 0.0, 2.0]" +
+        interpolation + " }\n[path]\nstop = { lambda = [-1.0, 1.0] }\n";
+    const auto warnings = Model(deck::read_deck_text(std::string(deck::column_deck) + law, "odd.toml", {})).warnings();
+    return warnings.empty() ? "" : warnings.front();
+  };
+  EXPECT_NE(warned("").find("the law of spring \"bed\" is smooth between its points"), std::string::npos) << warned("");
+  EXPECT_NE(warned("").find("it is 15 % of its greatest force off"), std::string::npos) << warned("");
+  EXPECT_EQ(warned(", interpolation = \"smooth\""), "");
+  EXPECT_EQ(warned(", interpolation = \"linear\""), "");
+}
+
 }  // namespace arcwall::model_test

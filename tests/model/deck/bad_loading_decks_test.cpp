@@ -137,6 +137,10 @@ TEST(BadLoadingDecks, LawsOfSprings) {
   EXPECT_NE(said("[0.5, 1.0]", "[0.0, 1.0]").find("not without force at displacement 0"), std::string::npos);
   EXPECT_NE(said("[0.0, nan]", "[0.0, 1.0]").find("not a finite number"), std::string::npos);
   EXPECT_NE(said("[0.0, \"1\"]", "[0.0, 1.0]").find("wrong type"), std::string::npos);
+  EXPECT_EQ(said("[0.0, 1.0]", "[0.0, 1.0], interpolation = \"linear\""), "");
+  const std::string unknown = said("[0.0, 1.0]", "[0.0, 1.0], interpolation = \"cubic\"");
+  EXPECT_NE(unknown.find("law.interpolation"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("known are smooth, linear"), std::string::npos) << unknown;
 }
 
 TEST(BadLoadingDecks, LawsOfFoundations) {
@@ -152,6 +156,9 @@ TEST(BadLoadingDecks, LawsOfFoundations) {
   EXPECT_NE(said(replaced(law, "[0.0, 1.0] }", "[0.0, 0.0] }")).find("spring.2.law.force: the spring has no force"),
             std::string::npos);
   EXPECT_NE(said(law + "\nstiffness = { z = 3.0 }").find("spring.2.stiffness"), std::string::npos);
+  EXPECT_NE(said(replaced(law, "[0.0, 1.0] }", "[0.0, 1.0], interpolation = \"linear\" }"))
+                .find("the law of a foundation cannot be linear"),
+            std::string::npos);
 }
 
 TEST(BadLoadingDecks, StagesThatDoNothing) {
