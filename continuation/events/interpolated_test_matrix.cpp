@@ -28,10 +28,9 @@ std::optional<Matrix> flexibility(const SegmentSamples& on, const PathSample& sa
 
 // The modes at the sample reached last whose eigenvalues, with Q of (1), are near zero.
 Matrix critical_modes(const SegmentSamples& on, const PathSample& sample) {
-  constexpr Index nearest = 4;
   constexpr double near = 50.0;  // times the least eigenvalue
   // (1) holds for any modes near these.
-  const auto pairs = on.corrector.near_null(sample.state, on.metric.weights(), nearest, Convergence::loose);
+  const auto pairs = on.corrector.near_null(sample.state, on.metric.weights(), on.pairs, Convergence::loose);
   if (!pairs || pairs->vectors->cols() == 0 || !pairs->vectors->allFinite()) return {};
   const auto inverse = flexibility(on, sample, *pairs->vectors);
   if (!inverse) return {};
@@ -59,8 +58,7 @@ std::optional<Matrix> test_matrix(const SegmentSamples& on, const PathSample& sa
                                   Matrix& modes) {
   if (what == Vanishing::turning) return Matrix::Constant(1, 1, sample.tangent.dlambda / on.metric.lambda_scale());
   if (on.corrector.factorized().equations().B.cols() > 0) {
-    constexpr Index nearest = 4;
-    const auto eigen = on.corrector.near_null(sample.state, on.metric.weights(), nearest);
+    const auto eigen = on.corrector.near_null(sample.state, on.metric.weights(), on.pairs);
     const auto value =
         eigen && sample.negative ? eigenvalue_of_order(eigen->values, *sample.negative, order) : std::nullopt;
     return value ? std::optional(Matrix(Matrix::Constant(1, 1, *value))) : std::nullopt;

@@ -31,6 +31,7 @@ struct SegmentSamples {
   const Segment& segment;
   const Metric& metric;
   std::vector<PathSample> seen{};
+  Index pairs = 4;  ///< eigenpairs nearest zero that a test matrix is made of, at most
 };
 
 /// The path across the segment's chord at t, which is remembered. Empty where there is none, and where it lies so far

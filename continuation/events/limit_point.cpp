@@ -164,14 +164,15 @@ SingularSearch find_limit_point(TraceTools& tools, const StepOrigin& origin, con
       locate(tools, origin, {.what = EventPlace::What::detector, .which = 0, .t = 0.5, .half_width = 0.0}, to);
   if (!limit.point) return {.clear = false, .failure = limit.failure};
   const double L = segment.length();
-  if (const Index whole = count_after - count_before; std::abs(whole) == 1) {
+  const Index whole = count_after - count_before;
+  Sides sides = sides_of(tools, origin, segment, limit.place.t);
+  if (sides.before && *sides.before->negative_eigenvalues != count_before)
+    return find_branch_points(tools, origin, *sides.before);
+  if (std::abs(whole) == 1) {
     const int expected = change_at_limit(tools, origin, *limit.point);
     if (expected == -whole && L > shortest_telling_step) return {.clear = false};
     return {.points = {{.place = limit.place, .at = std::move(*limit.point), .change = whole}}};
   }
-  Sides sides = sides_of(tools, origin, segment, limit.place.t);
-  if (sides.before && *sides.before->negative_eigenvalues != count_before)
-    return find_branch_points(tools, origin, *sides.before);
   SingularPoint point{.place = limit.place, .at = std::move(*limit.point), .change = sides.change};
   if (std::abs(sides.change) == 1) return {.points = {std::move(point)}};
   if ((!sides.before || !sides.after) && L <= shortest_telling_step) sides = sides_beyond(tools, origin, segment);

@@ -22,6 +22,9 @@ struct CountBracket {
   Index before, after;
 
   double middle() const { return 0.5 * (from + to); }
+
+  /// How many eigenvalues change their sign.
+  Index changes() const { return std::abs(after - before); }
 };
 
 // Halves a bracket once more; false where no sample or no count is to be had.
@@ -137,16 +140,55 @@ Lies lies(SegmentSamples& on, const PathPoint& point) {
   return residual <= std::max(on_the_path, as_converged * converged) ? Lies::doubtful : Lies::off;
 }
 
+// The end of a bracket as a point of the path.
+PathPoint point_at(const SegmentSamples& on, double t) {
+  if (t == 0.0) return on.segment.from();
+  if (t == 1.0) return on.segment.to();
+  const auto sample = std::find_if(on.seen.begin(), on.seen.end(), [t](const PathSample& seen) { return seen.t == t; });
+  return {.state = sample->state, .tangent = sample->tangent, .residual = sample->residual};
+}
+
+// Places of a bracket as fractions of the segment that it is a part of.
+std::vector<SingularPlace> on_whole_segment(const SegmentSamples& on, const CountBracket& bracket,
+                                            std::vector<SingularPlace> places) {
+  const Direction chord = on.segment.chord();
+  const double squared = on.metric.inner(chord, chord), part = bracket.to - bracket.from;
+  for (SingularPlace& place : places) {
+    place.t = on.metric.inner(difference(place.point.state, on.segment.from().state), chord) / squared;
+    place.half_width *= part;
+    place.rate /= part;
+  }
+  return places;
+}
+
+// Whether the counts right before and right behind the places, where they can be told, differ by what changes there,
+// and that is the bracket's whole change.
+bool explain(SegmentSamples& on, const CountBracket& bracket, const std::vector<SingularPlace>& places) {
+  constexpr double beside = 1e-3;  // of the bracket
+  Index change = 0;
+  for (const SingularPlace& place : places) change += place.change;
+  if (change != bracket.after - bracket.before) return false;
+  const double distance = beside * (bracket.to - bracket.from);
+  const auto counts = [&](double t, Index expected) {
+    if (t <= bracket.from || t >= bracket.to) return true;
+    const auto sample = sample_at(on, t);
+    return !sample || !sample->negative || *sample->negative == expected;
+  };
+  return counts(places.front().t - distance, bracket.before) && counts(places.back().t + distance, bracket.after);
+}
+
 }  // namespace
 
 // Newton's method is at a loss on the branch point itself, where K is singular, and the nearer the less sure. So S is
-// interpolated from points at a distance, which shrinks from one matrix to the next as long as all goes well.
+// interpolated from points at a distance, which shrinks from one matrix to the next as long as all goes well. Where
+// counts contradict what S shows, the bracket is searched as a segment of its own.
 std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segment& segment, const Metric& metric,
                                               Index before, Index after) {
   SegmentSamples on{.corrector = corrector, .segment = segment, .metric = metric};
   const auto bracket = bisect(on, before, after);
   // No point of the path between the ends: they may lie on different branches, which shorter steps will show.
   if (!bracket) return {};
+  on.pairs = std::max(on.pairs, bracket->changes() + 1);
   const bool falls = bracket->after > bracket->before;  // below zero
   const Index order = falls ? bracket->before + 1 : bracket->before;
   double t = bracket->middle(), half_width = 0.5 * (bracket->to - bracket->from);
@@ -162,12 +204,20 @@ std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segmen
   }
   const Lies there = found.empty() || half_width > 0.01 ? Lies::off : lies(on, found.front().point);
   const bool telling = segment.length() > short_segment;
-  if (there == Lies::off && telling) return {};
+  const bool agrees = !found.empty() && explain(on, *bracket, found);
+  const bool several = bracket->changes() > 1 || !found.empty();
+  if (telling && !agrees && several && bracket->to - bracket->from < 1.0) {
+    const PathPoint first = point_at(on, bracket->from), last = point_at(on, bracket->to);
+    return on_whole_segment(
+        on, *bracket,
+        find_count_changes(corrector, Segment(metric, first, last), metric, bracket->before, bracket->after));
+  }
+  if ((there == Lies::off || !agrees) && telling) return {};
   const Joined sides = joined(on, *bracket);
   if (sides == Joined::no || (sides == Joined::unknown && there != Lies::on_path)) return {};
   // Where the path bends too sharply to be interpolated, shorter steps show more, and at last the nearest of its own
   // points has to do.
-  if (there == Lies::off) return nearest_sample(on.seen, *bracket);
+  if (there == Lies::off || !agrees) return nearest_sample(on.seen, *bracket);
   for (SingularPlace& place : found) place.half_width = half_width;
   return found;
 }
