@@ -181,7 +181,8 @@ bool explain(SegmentSamples& on, const CountBracket& bracket, const std::vector<
 
 // Newton's method is at a loss on the branch point itself, where K is singular, and the nearer the less sure. So S is
 // interpolated from points at a distance, which shrinks from one matrix to the next as long as all goes well. Where
-// counts contradict what S shows, the bracket is searched as a segment of its own.
+// counts contradict what S shows, and where the bracket begins with the segment, so that it is long beside the place's
+// distance from there, it is searched as a segment of its own.
 std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segment& segment, const Metric& metric,
                                               Index before, Index after) {
   SegmentSamples on{.corrector = corrector, .segment = segment, .metric = metric};
@@ -205,8 +206,9 @@ std::vector<SingularPlace> find_count_changes(Corrector& corrector, const Segmen
   const Lies there = found.empty() || half_width > 0.01 ? Lies::off : lies(on, found.front().point);
   const bool telling = segment.length() > short_segment;
   const bool agrees = !found.empty() && explain(on, *bracket, found);
-  const bool several = bracket->changes() > 1 || !found.empty();
-  if (telling && !agrees && several && bracket->to - bracket->from < 1.0) {
+  const bool contradicted = !agrees && (bracket->changes() > 1 || !found.empty());
+  const bool near_start = bracket->from == 0.0;
+  if (telling && (contradicted || near_start) && bracket->to - bracket->from < 1.0) {
     const PathPoint first = point_at(on, bracket->from), last = point_at(on, bracket->to);
     return on_whole_segment(
         on, *bracket,
