@@ -25,6 +25,10 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME arcwall)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# What the program loads by name when it needs it, which dpkg-shlibdeps does not see.
+if(ARCWALL_STATIC_LIBRARIES)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libblas3 | libblas.so.3, liblapack3 | liblapack.so.3, libmetis5")
+endif()
 # Else Debian takes the reference BLAS.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libopenblas0-serial | libopenblas0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "bash-completion, libarcwall-dev, parallel")

@@ -10,6 +10,7 @@
 #include "apps/output/events_json.hpp"
 #include "apps/output/events_text.hpp"
 #include "apps/output/files.hpp"
+#include "apps/output/result_json.hpp"
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "model/deck/toml_source.hpp"

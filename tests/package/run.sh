@@ -25,9 +25,14 @@ has() {
   [[ -e $scratch/root$1 ]] || fail "the packages have no $1"
 }
 
+# depends_on PACKAGE PATTERN
+depends_on() {
+  dpkg-deb --field "$scratch/$1.deb" Depends | grep -q -- "$2"
+}
+
 # depends PACKAGE ON
 depends() {
-  dpkg-deb --field "$scratch/$1.deb" Depends | grep -qF -- "$2" || fail "$1 does not depend on $2"
+  depends_on "$1" "$2" || fail "$1 does not depend on $2"
 }
 
 make_packages() {
@@ -63,9 +68,14 @@ look_at_packages() {
       $6 !~ "^./usr/" || $6 ~ "^./usr/local" { print; wrong = 1 } END { exit wrong }' || fail "wrong owner, mode or place"
   done
   depends arcwall libc6
-  # SuiteSparse brings BLAS, LAPACK and METIS.
-  depends arcwall libcholmod3
-  depends arcwall libumfpack5
+  # SuiteSparse is inside, or brings these.
+  if grep -q '^ARCWALL_STATIC_LIBRARIES:BOOL=ON' "$build/CMakeCache.txt"; then
+    for name in libblas3 liblapack3 libmetis5; do depends arcwall "$name"; done
+    if depends_on arcwall 'libcholmod\|libumfpack\|libstdc++'; then fail "arcwall depends on libraries that it has inside"; fi
+  else
+    depends arcwall libcholmod3
+    depends arcwall libumfpack5
+  fi
   dpkg-deb --field "$scratch/arcwall.deb" Recommends | grep -qF libopenblas0 || fail "arcwall does not recommend OpenBLAS"
   depends libarcwall-dev libsuitesparse-dev
   depends libarcwall-dev libeigen3-dev
