@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "apps/verify/verify.hpp"
+#include "model/run_description.hpp"
 
 namespace arcwall::verify {
 
