@@ -119,7 +119,7 @@ TEST_F(FaultsTest, SignalsOfTerminalsAndBatchSystemsEndARunWithACheckpoint) {
 // Named as slow, since sanitizers need more addresses than the test leaves.
 TEST_F(FaultsTest, MemoryThatRunsOutHasASentenceAndAStatusSlow) {
   const Outcome outcome =
-      shell("ulimit -v 400000; \"$PROGRAM\" run truss.toml --set member.left.elements=3000000 --quiet");
+      shell("ulimit -v 200000; \"$PROGRAM\" run truss.toml --set member.left.elements=3000000 --quiet");
   EXPECT_EQ(outcome.status, 8) << outcome.err;
   expect_in("error: memory ran out", outcome.err);
   expect_in("trace-path resume", outcome.err);
