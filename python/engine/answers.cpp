@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "model/deck/reader.hpp"
 #include "model/model.hpp"
+#include "python/engine/deck_file.hpp"
 #include "python/engine/interrupt_watch.hpp"
 #include "python/engine/shapes.hpp"
 
@@ -34,7 +35,8 @@ py::tuple study(const std::string& file, const std::string& text, const Assignme
   const deck::Deck deck = deck::read_deck_text(text, file, assignments);
   const auto found = without_lock(
       [&](const auto& stopped) { return converge(deck, {.levels = levels, .factor = factor, .stopped = stopped}); });
-  return py::make_tuple(to_python(convergence_json(*found, {.text = text, .assignments = assignments})),
+  const std::string path = described(file, text, assignments).deck_path;
+  return py::make_tuple(to_python(convergence_json(*found, {.text = text, .path = path, .assignments = assignments})),
                         convergence_text(*found));
 }
 
@@ -111,7 +113,7 @@ py::tuple event_curve(const std::string& file, const std::string& text, const As
   const EventCurve curve = without_lock([&](const auto& stopped) { return trace_event_curve(deck, stopped); });
   if (!curve.problem.empty()) raise("NoAnswer", curve.problem);
   const std::vector<LoadText> loads = driven_by_lambda(deck);
-  const RunDescription of{.deck = file, .deck_text = text, .assignments = assignments};
+  const RunDescription of = described(file, text, assignments);
   return py::make_tuple(to_python(curve_json(curve, of)), columns(curve), shapes(curve),
                         files_dict(curve_files(curve, loads, UnitLabels::shown, of)), curve_text(curve),
                         curve_picture(curve, loads));
@@ -123,9 +125,8 @@ py::tuple worst(const std::string& file, const std::string& text, const Assignme
   require(deck, Question::worst);
   const WorstCombination found = without_lock([&](const auto& stopped) { return worst_combination(deck, stopped); });
   if (!found.problem.empty()) raise("NoAnswer", found.problem);
-  return py::make_tuple(
-      to_python(worst_json(deck, found, {.deck = file, .deck_text = text, .assignments = assignments})),
-      worst_text(deck, found));
+  return py::make_tuple(to_python(worst_json(deck, found, described(file, text, assignments))),
+                        worst_text(deck, found));
 }
 
 // --- what belongs to them -------------------------------------------------------------------------------------------

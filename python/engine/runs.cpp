@@ -11,6 +11,7 @@
 #include "apps/output/search_rows.hpp"
 #include "model/session.hpp"
 #include "python/engine/columns.hpp"
+#include "python/engine/deck_file.hpp"
 #include "python/engine/interrupt_watch.hpp"
 #include "python/engine/shapes.hpp"
 
@@ -27,7 +28,7 @@ class Run {
                                       const std::vector<std::string>& assignments) {
     const Clock::time_point begin = Clock::now();
     const py::gil_scoped_release without_lock;
-    Session session({.deck = file, .deck_text = text, .assignments = assignments});
+    Session session(described(file, text, assignments));
     return std::make_unique<Run>(std::move(session), seconds_since(begin));
   }
 
