@@ -19,7 +19,7 @@ namespace arcwall {
 /// curve.csv: a row a point, from one end of the curve to the other.
 std::string curve_csv(const EventCurve& curve, UnitLabels labels);
 
-/// curve.json: what was followed, and the special points. `deck_text`: the bytes of the deck's file.
+/// curve.json: what was followed, and the special points. `run`: the deck that was followed.
 nlohmann::ordered_json curve_json(const EventCurve& curve, const RunDescription& run);
 
 /// The files of a curve by their names, in the order in which they are written: curve.csv, report.html, curve.json.
