@@ -42,7 +42,10 @@ std::vector<TriedWay> tried_ways(const System& system, const TraceOptions& trace
     if (point.at_corner) {
       tried.entered = enter_branch(system, corrector, metric, point, sign, distance, trace.guard_tolerance);
       if (!tried.entered) continue;
-      distance = tried.entered->distance;  // so that mirror images are compared at one distance
+      // Mirror images are compared at one distance.
+      const double entered_at = tried.entered->distance;
+      if (!ways.empty() && entered_at < distance) return tried_ways(system, trace, point, metric, entered_at);
+      distance = entered_at;
       tried.step = {.state = tried.entered->first, .distance = tried.entered->distance};
     } else {
       auto step = step_off(system, corrector, metric, point, tried.way, distance, trace.guard_tolerance);
