@@ -116,6 +116,13 @@ std::optional<Accepted> step_patiently(TraceTools& tools, const TracerState& sta
   return std::nullopt;
 }
 
+// The length of the next step, as the tangent where it begins allows it.
+void limit_step(const TraceTools& tools, TracerState& state) {
+  const PathPoint& from = state.from.point;
+  const Metric metric = tools.metric_on(from.state.piece, state.lambda_scale);
+  state.step.limit(std::sqrt(metric.inner_x(from.tangent, from.tangent)), from.tangent.dlambda);
+}
+
 // Goes on from an accepted arc, which is given.
 Arc take(Accepted accepted, TracerState& state) {
   if (const auto& progress = accepted.progress)
@@ -158,6 +165,7 @@ std::optional<Arc> Tracer::next() {
   }
   std::optional<Rejected> why;
   int insertions = 0;
+  limit_step(*tools_, state_);
   const double longest = state_.step.length();
   while (!state_.step.too_short()) {
     const double s = state_.step.length();

@@ -127,6 +127,7 @@ TraceOptions CurveTracing::trace_options() const {
   options.factorization = family_.own().options().factorization;
   options.step.first = sign() * asked().step.value_or(width / steps_of_range);
   options.step.max = longest_step;
+  options.step.max_lambda = longest_step * width;
   options.lambda_scale = width;
   options.max_points = asked().max_points;
   const auto key = std::make_shared<ParameterValue>();

@@ -34,6 +34,15 @@ StepOutcome outcome_of(CorrectorStatus failure) {
   return StepOutcome::accepted;
 }
 
+// In which a step's turn is measured. Where λ alone makes a step longer than `max_motion`, λ₀ is taken so great that
+// the structure's motion has an equal part in the tangent.
+Metric turning_metric(const StepOrigin& origin, double s, double max_motion) {
+  const Direction& t = origin.point().tangent;
+  const double motion = std::sqrt(origin.metric.inner_x(t, t)), rate = std::abs(t.dlambda);
+  if (s <= max_motion || motion == 0.0 || rate <= motion * origin.metric.lambda_scale()) return origin.metric;
+  return {origin.metric.weights(), rate / motion};
+}
+
 double angle_between(const Metric& metric, const Direction& a, const Direction& b) {
   const double cosine = metric.inner(a, b) / (metric.norm(a) * metric.norm(b));
   return std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -66,24 +75,36 @@ CorrectorResult corrected(TraceTools& tools, const StepOrigin& origin, double s)
 // Whether a step leads aside: its chord lies by more than half the turn off the mean of the tangents at its ends. Where
 // a path bends one way the chord lies between both tangents, and where it bends to and fro by less the shorter the
 // step. So either the step is too long for what it passes, or its end is on another branch that runs beside the first.
-bool leads_aside(const StepOrigin& origin, const StepEnd& end, const Direction& chord) {
+bool leads_aside(const Metric& metric, const PathPoint& from, const PathPoint& to) {
   constexpr double bends_back = 0.1;  // that a step may do [rad]
-  const Direction &a = origin.point().tangent, &b = end.point.tangent;
+  const Direction &a = from.tangent, &b = to.tangent;
   const Direction mean{.dx = a.dx + b.dx, .dlambda = a.dlambda + b.dlambda};
-  return angle_between(origin.metric, mean, chord) > 0.5 * end.turn + bends_back;
+  const Direction chord = difference(to.state, from.state);
+  return angle_between(metric, mean, chord) > 0.5 * angle_between(metric, a, b) + bends_back;
+}
+
+// Whether the middle of a step that λ makes long shows nothing that its ends hide: neither of its halves leads aside,
+// and its count of negative eigenvalues is none that both ends have passed. Without this a step could pass two folds
+// that take each other back, or end on a branch beside the first.
+bool middle_agrees(TraceTools& tools, const StepOrigin& origin, const Metric& metric, const PathPoint& end) {
+  const PathPoint& from = origin.point();
+  const auto middle = counted_point(tools, origin, Segment(origin.metric, from, end), 0.5);
+  if (!middle || leads_aside(metric, from, *middle) || leads_aside(metric, *middle, end)) return false;
+  const auto [fewest, most] = std::minmax({from.negative_eigenvalues, end.negative_eigenvalues});
+  return !fewest || (*middle->negative_eigenvalues >= *fewest && *middle->negative_eigenvalues <= *most);
 }
 
 // Why the end of a step is not the continuation of its start: it is far off the predictor, has turned too much or lies
 // aside. At a kink of the path a step turns it by the same angle however short it is.
-std::optional<StepOutcome> strayed(const System& system, const StepOrigin& origin, const StepEnd& end, double s,
-                                   double max_turn) {
+std::optional<StepOutcome> strayed(const System& system, const StepOrigin& origin, const Metric& metric,
+                                   const StepEnd& end, double s, const StepOptions& options) {
   constexpr double over_a_kink = 1e-6;  // steps are no longer [path metric]
   const Direction chord = difference(end.point.state, origin.point().state);
   const bool is_short = origin.metric.norm(chord) <= 2.0 * s;
   if (is_short && s <= over_a_kink && system.may_have_kink(origin.point().state, end.point.state)) return std::nullopt;
-  if (end.turn > max_turn) return StepOutcome::turned;
-  const bool near = is_short && angle_between(origin.metric, origin.point().tangent, chord) <= max_turn &&
-                    !leads_aside(origin, end, chord);
+  if (end.turn > options.max_turn) return StepOutcome::turned;
+  const bool near = is_short && angle_between(metric, origin.point().tangent, chord) <= options.max_turn &&
+                    !leads_aside(metric, origin.point(), end.point);
   return near ? std::nullopt : std::optional(StepOutcome::strayed);
 }
 
@@ -109,9 +130,9 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   if (tools.system.comes_behind_an_end(from.state, result.state)) return rejected(StepOutcome::behind_end);
 
   StepEnd end{.point = path_point(tools.system, origin.metric, std::move(result), from.tangent)};
-  tried.attempt.turn = end.turn = angle_between(origin.metric, from.tangent, end.point.tangent);
-  if (const auto outcome = strayed(tools.system, origin, end, s, tools.options.step.max_turn))
-    return rejected(*outcome);
+  const Metric metric = turning_metric(origin, s, tools.options.step.max);
+  tried.attempt.turn = end.turn = angle_between(metric, from.tangent, end.point.tangent);
+  if (const auto outcome = strayed(tools.system, origin, metric, end, s, tools.options.step)) return rejected(*outcome);
 
   LandedStep landed = land_on_first_guard(tools, origin, std::move(end));
   if (!landed.end) return rejected(StepOutcome::not_landed, landed.failure, std::move(landed.where));
@@ -138,6 +159,8 @@ StepTried try_step(TraceTools& tools, const StepOrigin& origin, double s) {
   decide_count(tools, end.point);
   // Eigenvalues that vanish behind the change have no sure sign there.
   if (end.landing && end.landing->singular) end.point.negative_eigenvalues.reset();
+  if (s > tools.options.step.max && !middle_agrees(tools, origin, metric, end.point))
+    return rejected(StepOutcome::strayed);
   tried.result = std::move(end);
   return tried;
 }

@@ -80,8 +80,8 @@ void step_keys(Keys& keys, Path& path) {
               "increment of λ of the first predictor; its sign is the direction");
   const bool min =
       keys.number(optional("min_step"), path.min_step, unit::none, positive, "arc length below which the branch ends");
-  const bool max =
-      keys.number(optional("max_step"), path.max_step, unit::none, positive, "greatest arc length of a step");
+  const bool max = keys.number(optional("max_step"), path.max_step, unit::none, positive,
+                               "greatest motion of the structure in a step, as a part of its size");
   const bool both_right = min == keys.has("min_step") && max == keys.has("max_step");
   if (both_right && path.max_step < path.min_step)
     keys.report(keys.has("max_step") ? "max_step" : "min_step",

@@ -189,7 +189,7 @@ TEST(GapMonitor, FollowsAWallThatMoves) {
                               fmt::format(R"toml(
 support = {{ A = ["x", "z"], B = ["z"] }}
 prescribed = [{{ at = "B", z = 0.1 }}]
-path = {{ step = 0.02, max_step = 0.02, stop = {{ lambda = [-0.1, 0.2] }} }}
+path = {{ step = 0.02, land = {{ lambda = [0.04, 0.08, 0.12, 0.16] }}, stop = {{ lambda = [-0.1, 0.2] }} }}
 contact = {{ points = "{}" }}
 wall = [{{ name = "press", side = "above", acts_on = "axis", profile = {{ type = "flat", z = 0.5 }}, motion = {{ z = -1.0 }} }}]
 )toml",

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace arcwall::step_control_test {
 
 namespace {
@@ -30,13 +32,27 @@ TEST(StepControl, ShrinksWithManyIterationsAndWithATurningTangentAtMostToAQuarte
   EXPECT_NEAR(sharp.length(), 0.025, 1e-15);
 }
 
-TEST(StepControl, StaysBelowItsMaximum) {
+TEST(StepControl, LimitsTheMotionOfTheStructure) {
   StepControl step(options, 5.0);
   EXPECT_EQ(step.length(), 1.0);
   step.succeeded(1, 0.0, 1.0);
+  step.limit(0.1, 0.1);
+  EXPECT_EQ(step.length(), 2.0);
+  step.limit(0.5, 0.1);
+  EXPECT_NEAR(step.length(), std::sqrt(3.0), 1e-15);
+  step.limit(0.8, 0.1);
   EXPECT_EQ(step.length(), 1.0);
   step.restart(7.0);
   EXPECT_EQ(step.length(), 1.0);
+}
+
+TEST(StepControl, LimitsTheChangeOfLambdaWhereOneIsAskedFor) {
+  StepOptions asked = options;
+  asked.max_lambda = 3.0;
+  StepControl step(asked, 1.0);
+  step.succeeded(1, 0.0, 1.0);
+  step.limit(0.0, -2.0);
+  EXPECT_EQ(step.length(), 1.5);
 }
 
 TEST(StepControl, HalvesAfterAFailureUntilItIsTooShort) {

@@ -179,7 +179,11 @@ void expect_branch_invariants(const System& system, const Branch& branch, const 
     if (i == 0) continue;
     const Arc& before = branch.arcs[i - 1];
     EXPECT_GE(arc.to.arc, before.to.arc);
-    EXPECT_LE(arc.to.arc - before.to.arc, 2.0 * options.step.max);
+    if (arc.to.state.x.size() == before.to.state.x.size()) {
+      const Metric metric(system.weights(arc.to.state.piece), branch.lambda_scale);
+      const Vector moved = arc.to.state.x - before.to.state.x;
+      EXPECT_LE(std::sqrt(metric.inner_x(moved, moved)), 2.0 * options.step.max);
+    }
     for (const Event& event : arc.events) {
       EXPECT_EQ(event.arc, arc.to.arc);
       expect_changes(event, before.to.state.piece, arc.to.state.piece);
