@@ -43,6 +43,7 @@ class MultiplierContact final : public System, public ContactQuery {
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
   Vector weights(const Piece& piece) const override;
+  std::vector<Index> turning_sets(const Piece&) const override { return inner_.turning_sets({}); }
   double squared_motion_by_lambda(const Piece&) const override;
   Index multiplier_count(const Piece& piece) const override;
 

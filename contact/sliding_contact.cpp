@@ -129,6 +129,10 @@ double SlidingContact::squared_motion_by_lambda(const Piece& piece) const {
   return sliding_layout(piece).mesh().squared_motion_by_lambda() + speed * speed;
 }
 
+std::vector<Index> SlidingContact::turning_sets(const Piece& piece) const {
+  return sliding_layout(piece).mesh().turning_sets();
+}
+
 Vector SlidingContact::weights(const Piece& piece) const {
   const SlidingUnknowns index(piece);
   Vector weights = Vector::Zero(index.size());

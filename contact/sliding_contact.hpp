@@ -41,6 +41,7 @@ class SlidingContact final : public System, public ContactQuery {
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
   Vector weights(const Piece& piece) const override;
+  std::vector<Index> turning_sets(const Piece& piece) const override;
   double squared_motion_by_lambda(const Piece& piece) const override;
   Index multiplier_count(const Piece& piece) const override;
 

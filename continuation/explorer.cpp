@@ -9,6 +9,7 @@
 #include "continuation/events/branch_point.hpp"
 #include "continuation/path_tolerances.hpp"
 #include "continuation/stability.hpp"
+#include "core/turns.hpp"
 
 namespace arcwall {
 
@@ -124,7 +125,8 @@ bool is_same_on_another_layout(const System& system, const State& a, const State
 bool is_known(const System& system, const std::vector<KnownPoint>& known, const BranchPoint& point,
               const Metric& metric) {
   return std::any_of(known.begin(), known.end(), [&](const KnownPoint& other) {
-    if (other.state.piece == point.state.piece) return metric.distance(other.state, point.state) <= same_branch_point;
+    if (other.state.piece == point.state.piece)
+      return metric.distance(turned_towards(system, point.state, other.state), point.state) <= same_branch_point;
     return is_same_on_another_layout(system, other.state, point.state);
   });
 }
@@ -292,8 +294,8 @@ void Explorer::drop_arrived_at(int other) {
   const Metric metric(system_.weights(last.piece), lambda_scale_);
   const Direction step = difference(last, before);
   std::erase_if(queue_, [&](const Queued& queued) {
-    const State& point = queued.start.state;
-    if (queued.record.parent != other || point.piece != last.piece || !queued.start.forward) return false;
+    if (queued.record.parent != other || queued.start.state.piece != last.piece || !queued.start.forward) return false;
+    const State point = turned_towards(system_, last, queued.start.state);
     const Direction arrival = difference(point, before);
     const double length = metric.norm(arrival);
     if (length > metric.norm(step) + arriving) return false;  // not in this step

@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "continuation/path_tolerances.hpp"
 #include "continuation/step/point_on_path.hpp"
+#include "core/turns.hpp"
 
 namespace arcwall {
 
 namespace {
 
-// Whether the arc passes a place: it lies beside the chord, and on the path as exactly as such places are located.
+// Whether the arc passes a place of its piece: it lies beside the chord, and on the path as exactly as such places are
+// located.
 bool passes(TraceTools& tools, const StepOrigin& origin, const PathPoint& to, const State& place) {
-  if (place.piece != to.state.piece) return false;
-  // What lies beside the chord has its λ there, too.
   const Metric& metric = origin.metric;
-  const double lambda_off = std::abs(place.lambda - to.state.lambda) / metric.lambda_scale();
-  if (lambda_off > 1.1 * (to.arc - origin.point().arc) + singular_point_accuracy) return false;
   const Segment segment(metric, origin.point(), to);
   const double L = segment.length();
   // A turning point at a pitchfork is located there, a little before or behind it.
@@ -32,18 +31,28 @@ bool passes(TraceTools& tools, const StepOrigin& origin, const PathPoint& to, co
   return at && metric.distance(at->state, place) <= singular_point_accuracy;
 }
 
+// The known state as the arc passes it, by its own multiples of 2π; empty if it does not pass.
+std::optional<State> passed(TraceTools& tools, const StepOrigin& origin, const PathPoint& to, const State& known) {
+  if (known.piece != to.state.piece) return std::nullopt;
+  // What lies beside the chord has its λ there, too.
+  const double lambda_off = std::abs(known.lambda - to.state.lambda) / origin.metric.lambda_scale();
+  if (lambda_off > 1.1 * (to.arc - origin.point().arc) + singular_point_accuracy) return std::nullopt;
+  State place = turned_towards(tools.system, to.state, known);
+  return passes(tools, origin, to, place) ? std::optional(std::move(place)) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<KnownPlace> passed_known_place(TraceTools& tools, const StepOrigin& origin, const PathPoint& to) {
   const bool far_from_start = to.arc > 3.0 * (to.arc - origin.point().arc) + coincidence_tolerance;
   if (!far_from_start) return std::nullopt;
   const BranchStart& start = origin.start;
-  if (passes(tools, origin, to, start.state))
-    return KnownPlace{.state = start.state,
+  if (auto place = passed(tools, origin, to, start.state))
+    return KnownPlace{.state = std::move(*place),
                       .end = {.reason = EndReason::closed_loop, .detail = "the branch came back to its start"}};
   for (const KnownPoint& known : start.known)
-    if (passes(tools, origin, to, known.state))
-      return KnownPlace{.state = known.state,
+    if (auto place = passed(tools, origin, to, known.state))
+      return KnownPlace{.state = std::move(*place),
                         .end = {.reason = EndReason::joined,
                                 .detail = "joins branch " + std::to_string(known.branch),
                                 .partner = known.branch}};

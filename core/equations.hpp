@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/linearization.hpp"
 #include "core/state.hpp"
 
@@ -38,6 +40,10 @@ class Equations {
   /// Square of the length, in that metric, by which λ itself moves supports and obstacles, or makes members
   /// expand, per unit.
   virtual double squared_motion_by_lambda(const Piece&) const { return 0.0; }
+
+  /// Of each unknown the set that it is in, or −1. All unknowns of a set may grow by 2π while F stays what it is, so
+  /// that the state is the same: rotations. Empty where there are no such sets; it may end before the multipliers.
+  virtual std::vector<Index> turning_sets(const Piece&) const { return {}; }
 
   /// How many unknowns at the end of those of K are multipliers: forces and moments that enforce constraints, in whose
   /// rows K has no diagonal, or a negative one. Each takes a negative eigenvalue of K, which stability does not count.

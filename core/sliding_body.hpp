@@ -165,6 +165,9 @@ class SlidingMesh {
 
   /// The same shape on another mesh of the body.
   virtual Vector transferred(const MeshState& now, const SlidingMesh& to, const Vector& s_to) const = 0;
+
+  /// Of each entry of x its set, as Equations::turning_sets() has them.
+  virtual std::vector<Index> turning_sets() const = 0;
 };
 
 /// The layout of a state on such a mesh: x of the mesh stands first in State::x, s last.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elements/chord_frame.hpp"
+
 namespace arcwall {
 
 double DrivenLoad::evaluate_at(const double* u, double lambda, double* f, double* K, double* f_lambda) const {
@@ -25,7 +27,7 @@ void DrivenLoad::complete_end_forces(const double* u, double lambda, double* f) 
 double BeamDistributedLoad::evaluate(const double* u, double* f, double* K) const {
   const double h = reference_.length;
   const Vec2 chord = reference_.chord + Vec2(u[3] - u[0], u[4] - u[1]);
-  const double bend = (reference_.slope1 - reference_.slope2 + u[2] - u[5]) / 12.0;
+  const double bend = within_half_a_turn(reference_.slope1 - reference_.slope2 + u[2] - u[5]) / 12.0;
   const double bend_0 = (reference_.slope1 - reference_.slope2) / 12.0;
   // q·Δr⊥ = q_z Δx − q_x Δz
   const double across = load_.y() * chord.x() - load_.x() * chord.y();
@@ -56,7 +58,7 @@ double BeamDistributedLoad::evaluate(const double* u, double* f, double* K) cons
 
 // With q⊥ = (q_z, −q_x): q·Δr⊥ = q⊥·Δr.
 StretchLoad::Response StretchLoad::respond(const Vec2& r1, double angle1, const Vec2& r2, double angle2) const {
-  const double h = length_, bend = (angle1 - angle2) / 12.0;
+  const double h = length_, bend = within_half_a_turn(angle1 - angle2) / 12.0;
   const Vec2 turned(load_.y(), -load_.x());
   const double across = turned.dot(r2 - r1);
   Response out{.energy = -h * (0.5 * load_.dot(r1 + r2) + across * bend)};

@@ -46,6 +46,7 @@ class KinkedSprings final : public System {
   void linearize(const State& state, Linearization& out) const override;
   double energy(const State& state) const override;
   Vector weights(const Piece& piece) const override { return inner_.weights(piece); }
+  std::vector<Index> turning_sets(const Piece& piece) const override { return inner_.turning_sets(piece); }
   double squared_motion_by_lambda(const Piece& piece) const override { return inner_.squared_motion_by_lambda(piece); }
   Index multiplier_count(const Piece& piece) const override { return inner_.multiplier_count(piece); }
   bool has_stability() const override { return inner_.has_stability(); }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elements/chord_frame.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -13,7 +15,7 @@ namespace {
 // With b = φ1 − φ2 and J r = perp(r): ∂V/∂r1 = ½ J r2 − b c/6, ∂V/∂r2 = −½ J r1 + b c/6, ∂V/∂φ1 = |c|²/12 = −∂V/∂φ2.
 StretchLoad::Response pressure_on_stretch(const Vec2& r1, double angle1, const Vec2& r2, double angle2) {
   const Vec2 c = r2 - r1;
-  const double bend = angle1 - angle2, square = c.squaredNorm();
+  const double bend = within_half_a_turn(angle1 - angle2), square = c.squaredNorm();
   StretchLoad::Response out{.energy = -0.5 * cross(r1, r2) + square * bend / 12.0};
   out.force << 0.5 * perp(r2) - bend / 6.0 * c, square / 12.0, -0.5 * perp(r1) + bend / 6.0 * c, -square / 12.0;
   Eigen::Matrix2d J;

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "elements/turning_sets.hpp"
+
 namespace arcwall {
 
 SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, ElementsPerSegment cut)
@@ -92,6 +94,23 @@ SlidingStructureMesh::SlidingStructureMesh(const SlidingStructure& structure, El
   for (Index r = 0; r < structure.strands(); ++r)
     for (Index i = 0; i < nodes(r); ++i)
       if (const Index turn = node_unknowns(r, i)[2]; turn != held) weights_[turn] = rotation_weight_;
+}
+
+// Rotations of inner nodes are sets by themselves, those of ends what supports and springs make of them.
+std::vector<Index> SlidingStructureMesh::turning_sets() const {
+  TurningSets of_freedoms(structure_.freedoms_.size());
+  of_freedoms.add(structure_.nodal_);
+  std::vector<Index> sets(static_cast<std::size_t>(unknowns()), -1);
+  const auto first_of_inner = static_cast<Index>(structure_.freedoms_.size()) + 1;
+  for (Index r = 0; r < structure_.strands(); ++r)
+    for (Index i = 0; i < nodes(r); ++i) {
+      const Index turn = node_unknowns(r, i)[2];
+      if (turn == held) continue;
+      const bool inner = i > 0 && i + 1 < nodes(r);
+      sets[static_cast<std::size_t>(turn)] =
+          inner ? first_of_inner + turn : of_freedoms.of(structure_.at(r).ends[i == 0 ? 0 : 1].freedom[2]);
+    }
+  return sets;
 }
 
 double SlidingStructureMesh::squared_motion_by_lambda() const {

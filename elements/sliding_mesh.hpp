@@ -23,6 +23,7 @@ class SlidingStructureMesh final : public SlidingMesh {
   Index breakpoints() const override { return static_cast<Index>(breakpoints_.size()); }
   const Vector& weights() const override { return weights_; }
   double squared_motion_by_lambda() const override;
+  std::vector<Index> turning_sets() const override;
   void residual(const MeshState& now, Eigen::Ref<Vector> F) const override;
   void linearize(const MeshState& now, Linearization& out) const override;
   double energy(const MeshState& now) const override;

@@ -254,6 +254,14 @@ Vector Structure::weights(const Piece&) const {
   return weights;
 }
 
+std::vector<Index> Structure::turning_sets(const Piece&) const {
+  std::vector<Index> sets;
+  sets.reserve(freedom_of_unknown_.size());
+  for (const std::int32_t freedom : freedom_of_unknown_)
+    sets.push_back(turning_set_[static_cast<std::size_t>(freedom)]);
+  return sets;
+}
+
 double Structure::squared_motion_by_lambda(const Piece&) const {
   double sum = 0.0;
   nodal_.for_each_moved_support(

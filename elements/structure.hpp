@@ -116,6 +116,8 @@ class Structure final : public System {
   /// ds² = mean over nodes of |Δu|²/L² + mean of Δθ², L = length_scale(); changes of thickness follow these.
   Vector weights(const Piece&) const override;
 
+  std::vector<Index> turning_sets(const Piece&) const override;
+
   double squared_motion_by_lambda(const Piece&) const override;
 
   /// Diagonal of the box around the stress-free structure [length].
@@ -239,6 +241,7 @@ class Structure final : public System {
   BlockAssembly assembly_;
   double rotations_ = 1.0;  // how many there are
   double length_scale_ = 1.0, force_scale_ = 0.0, heat_rate_ = 0.0;
+  std::vector<std::int32_t> turning_set_;  // of each freedom
 };
 
 /// Describes a structure step by step; build() makes it.
@@ -373,6 +376,7 @@ class StructureBuilder {
 
   // The steps of build().
   std::unique_ptr<Structure> numbered() const;
+  std::vector<std::int32_t> turning_sets() const;
   template <class Make>
   void add_along(Structure& structure, std::size_t m, const Make& make, bool is_grounded = false) const;
   void add_dead_loads(Structure& structure, bool ramp) const;

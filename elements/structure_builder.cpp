@@ -7,6 +7,7 @@
 #include "elements/distributed_load.hpp"
 #include "elements/member_elements.hpp"
 #include "elements/structure.hpp"
+#include "elements/turning_sets.hpp"
 
 namespace arcwall {
 
@@ -270,6 +271,27 @@ bool StructureBuilder::carries_force_alone(Index node, Index rotation) const {
          nodal_.load(rotation).is_zero();
 }
 
+// Of each freedom the set with which it may turn; −1 of those that do not.
+std::vector<std::int32_t> StructureBuilder::turning_sets() const {
+  TurningSets sets(freedoms_.size());
+  sets.add(nodal_);
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const MemberMesh& mesh = meshes_[m];
+    const bool is_slender = descriptions_[m].theory == Theory::classic || descriptions_[m].theory == Theory::elastica;
+    if (is_slender) continue;
+    for (const auto& rotation : mesh.rotations)
+      if (rotation) sets.join(*rotation, *mesh.rotations.front());
+    for (const Index rotation : mesh.middle_rotations) sets.join(rotation, *mesh.rotations.front());
+  }
+  for (const AddedElement& added : added_elements_)
+    for (const Index freedom : added.freedoms) sets.hold(freedom);
+  std::vector<std::int32_t> result(freedoms_.size(), -1);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (freedoms_[i].freedom == Freedom::rotation)
+      result[i] = static_cast<std::int32_t>(sets.of(static_cast<Index>(i)));
+  return result;
+}
+
 // The structure without elements, loads and supports: its unknowns are numbered along the members, so that neighbours
 // stay near.
 std::unique_ptr<Structure> StructureBuilder::numbered() const {
@@ -307,6 +329,7 @@ std::unique_ptr<Structure> StructureBuilder::numbered() const {
   structure->freedom_of_unknown_ = std::move(freedom_of_unknown);
   structure->meaning_of_freedom_ = freedoms_;
   structure->element_freedoms_ = std::move(freedoms_of_elements);
+  structure->turning_set_ = turning_sets();
   structure->length_scale_ = box_diagonal(positions_);
   const auto is_rotation = [](const Structure::Meaning& meaning) { return meaning.freedom == Freedom::rotation; };
   structure->rotations_ = static_cast<double>(std::count_if(freedoms_.begin(), freedoms_.end(), is_rotation));

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/turns.hpp"
+
 namespace arcwall {
 
 namespace {
@@ -204,7 +206,8 @@ GivenContact given(const TouchingNodes& nodes, const MovedStrand& strand, Readin
 
 }  // namespace
 
-DeckMesh::DeckMesh(const Model& model) : model_(model), size_(model.structure().size({})) {
+DeckMesh::DeckMesh(const Model& model)
+    : model_(model), size_(model.structure().size({})), turning_sets_(model.structure().turning_sets({})) {
   if (model.sliding() == nullptr) return;
   const Structure& structure = model.structure();
   readings_.resize(static_cast<std::size_t>(size_));
@@ -245,8 +248,12 @@ State DeckMesh::state(const Vector& unknowns, double lambda) const {
 }
 
 double DeckMesh::distance(const Vector& a, const Vector& b) const {
+  return length(turned_towards(b, a, turning_sets_) - b);
+}
+
+double DeckMesh::length(const Vector& change) const {
   const Vector weights = model_.structure().weights({});
-  return std::sqrt((weights.array() * (a - b).array().square()).sum());
+  return std::sqrt((weights.array() * change.array().square()).sum());
 }
 
 Vector DeckMesh::values(const State& state) const {

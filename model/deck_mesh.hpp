@@ -34,8 +34,11 @@ class DeckMesh {
   /// These as a state of system(), without contact forces.
   State state(const Vector& unknowns, double lambda) const;
 
-  /// Between the unknowns of two states, in the path metric [-].
+  /// Between the unknowns of two states, in the path metric, whatever multiples of 2π rotations have [-].
   double distance(const Vector& a, const Vector& b) const;
+
+  /// Of a change of the unknowns, likewise.
+  double length(const Vector& change) const;
 
   /// Where Newton's method may begin in the path's own formulation where contact slides, from an equilibrium of
   /// system(): the likeliest first, as nodes hardly tell whether contact is at a point, along a part without pressure
@@ -47,6 +50,7 @@ class DeckMesh {
 
   const Model& model_;
   Index size_;
+  std::vector<Index> turning_sets_;
   std::vector<std::shared_ptr<const Observable>> readings_{};  // empty where states have the deck's mesh
   Vector rest_{};
 };

@@ -200,7 +200,7 @@ class Falls {
   std::shared_ptr<RecordLanding> fall(const Loss& loss, State& rest) {
     if (!loss.behind) return nullptr;
     const Vector start = mesh_.unknowns(loss.at), behind = loss.sense * (mesh_.unknowns(*loss.behind) - start);
-    const double far = mesh_.distance(behind, Vector::Zero(behind.size()));
+    const double far = mesh_.length(behind);
     auto landing = std::make_shared<RecordLanding>();
     landing->lambda = loss.at.lambda;
     bool left = false;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/algebra/assembly.hpp"
+#include "core/turns.hpp"
 
 namespace arcwall {
 
@@ -111,10 +112,11 @@ bool DeflatedNewton::newton_step(const State& state, Vector& step) {
 double DeflatedNewton::factor(const State& state, const Vector& step) const {
   constexpr double least = 1e-3;  // of |1 − s|
   const Vector weights = system_.weights(state.piece);
+  const std::vector<Index> sets = system_.turning_sets(state.piece);
   double s = 0.0;
   for (const Vector& known : known_) {
     const Index n = known.size();
-    const Vector off = state.x.head(n) - known;
+    const Vector off = state.x.head(n) - turned_towards(state.x, known, sets);
     const double r2 = std::max(weighted_square(weights.head(n), off), 1e-300);
     const double along = (weights.head(n).array() * off.array() * step.head(n).array()).sum();
     const double ratio = deflation_length * deflation_length / r2;
@@ -126,9 +128,11 @@ double DeflatedNewton::factor(const State& state, const Vector& step) const {
 
 bool DeflatedNewton::is_known(const State& state) const {
   const Vector weights = system_.weights(state.piece);
+  const std::vector<Index> sets = system_.turning_sets(state.piece);
   return std::any_of(known_.begin(), known_.end(), [&](const Vector& known) {
     const Index n = known.size();
-    return weighted_square(weights.head(n), state.x.head(n) - known) <= is_known_one * is_known_one;
+    const Vector off = state.x.head(n) - turned_towards(state.x, known, sets);
+    return weighted_square(weights.head(n), off) <= is_known_one * is_known_one;
   });
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "continuation/path_tolerances.hpp"
+#include "core/turns.hpp"
 
 namespace arcwall {
 
@@ -90,9 +91,12 @@ Choice choose(TraceTools& tools, const std::vector<VisitedCorner>& visited, std:
   };
 
   // The layout of a piece that has been left and come back to is another one with the same unknowns.
+  const std::vector<Index> turning_sets = tools.system.turning_sets(open);
   const auto is_here = [&](const VisitedCorner& v) {
     return std::abs(v.corner.lambda - here.lambda) <= coincidence_tolerance * metric.lambda_scale() &&
-           v.corner.x.size() == here.x.size() && metric.distance(v.corner, here) <= coincidence_tolerance;
+           v.corner.x.size() == here.x.size() &&
+           metric.distance({.x = turned_towards(here.x, v.corner.x, turning_sets), .lambda = v.corner.lambda}, here) <=
+               coincidence_tolerance;
   };
   const auto place = std::find_if(visited.begin(), visited.end(), is_here);
   std::vector<Direction> known = place == visited.end() ? std::vector<Direction>{} : place->ways;

@@ -1,0 +1,79 @@
+// States whose rotations differ by whole turns are one state.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/apps/traced_deck.hpp"
+
+namespace arcwall::whole_turns_test {
+namespace {
+
+using test::TracedDeck;
+
+// A perfect column on hinges, which goes right round its foot.
+const std::string column = R"toml(title = "whole turns"
+[material.steel]
+E = 21000.0
+[section.s]
+shape = "rectangle"
+width = 3.918180471015534
+height = 0.6616489527415612
+[member.column]
+from = "foot"
+to = "top"
+theory = "elastica"
+material = "steel"
+section = "s"
+elements = 28
+[point]
+foot = [0.0, 0.0]
+top = [0.0, 28.670695085225667]
+[support]
+foot = ["x", "z"]
+top = ["x"]
+[[load]]
+at = "top"
+force = [0.0, -35.77008178355774]
+[[monitor]]
+name = "side"
+at = "column:0.5"
+component = "x"
+[[monitor]]
+name = "down"
+at = "top"
+component = "z"
+sign = -1
+[path]
+step = 0.05
+stop = { lambda = [-2.0, 3.0], down = [-8.6012085255677, 37.271903610793366] }
+branches = "all"
+landing = false
+)toml";
+
+}  // namespace
+
+// The branch along which both ends of the column lie at one place is its own image where the load changes its sign, so
+// that the loop closes where it began: after one turn, along which the load swings between opposite values.
+TEST(WholeTurns, CloseTheLoopOfAColumn) {
+  const TracedDeck traced(column);
+  const Record& record = traced.record();
+  for (const RecordBranch& branch : record.branches) EXPECT_LT(branch.points, 60) << branch.id;
+  const RecordBranch& loop = record.branches.back();
+  ASSERT_TRUE(loop.end.has_value());
+  EXPECT_EQ(loop.end->reason, EndReason::closed_loop);
+  double least = infinity, greatest = -infinity, start = 0.0, end = 0.0;
+  for (const RecordPoint& point : record.points) {
+    if (point.branch != loop.id) continue;
+    if (point.step == 0) start = point.lambda;
+    end = point.lambda;
+    least = std::min(least, point.lambda);
+    greatest = std::max(greatest, point.lambda);
+  }
+  EXPECT_NEAR(end, start, 1e-8);
+  EXPECT_NEAR(greatest, start, 1e-8);
+  EXPECT_NEAR(least, -start, 1e-8);
+}
+
+}  // namespace arcwall::whole_turns_test
