@@ -4,8 +4,8 @@
 
 namespace arcwall {
 
-/// The greatest angle by which an element's end has turned against the element's chord [rad], of members along which
-/// contact slides; 0 where it does not slide. An element that is bent to an arc turns by twice that.
+/// The greatest angle by which an element's end has turned against the element's chord [rad]; of bars 0. An element
+/// that is bent to an arc turns by twice that.
 double greatest_slope(const Model& model, const State& state);
 
 /// Slopes up to which elements tell how their body bends [rad]. Far beyond, the energy of an element that is hardly

@@ -52,6 +52,47 @@ branches = "all"
 landing = false
 )toml";
 
+// A strip that is bent by a push of its end, and pressed beside its middle.
+const std::string strip = R"toml(title = "whole turns"
+[material.steel]
+E = 2.0e5
+[section.strip]
+shape = "rectangle"
+width = 10.0
+height = 0.3
+[point]
+left = [0.0, 0.0]
+right = [100.0, 0.0]
+[support]
+left = ["x", "z", "rotation"]
+right = ["z", "rotation"]
+[member.strip]
+from = "left"
+to = "right"
+theory = "elastica"
+material = "steel"
+section = "strip"
+elements = 40
+imperfection = { shape = "sine", amplitude = 0.02, waves = 1 }
+[[prescribed]]
+at = "right"
+x = -0.5
+constant = true
+[[load]]
+at = "strip:0.4"
+force = [0.0, -1.0]
+[[monitor]]
+name = "mid"
+at = "strip:0.5"
+component = "z"
+[path]
+step = 0.1
+stop = { mid = [-8.0, 8.0], lambda = [-10.0, 20.0] }
+search = true
+search_at = [-5.312, -1.607]
+landing = false
+)toml";
+
 }  // namespace
 
 // The branch along which both ends of the column lie at one place is its own image where the load changes its sign, so
@@ -74,6 +115,22 @@ TEST(WholeTurns, CloseTheLoopOfAColumn) {
   EXPECT_NEAR(end, start, 1e-8);
   EXPECT_NEAR(greatest, start, 1e-8);
   EXPECT_NEAR(least, -start, 1e-8);
+}
+
+// Every state that is found is another one, and the mesh resolves it: pushed together by 0.5 % it bears some hundred
+// newtons, a folded element of EA = 600 kN a hundred times that.
+TEST(WholeTurns, AreNotFoundAsOtherStates) {
+  const TracedDeck traced(strip);
+  const Record& record = traced.record();
+  ASSERT_EQ(record.searches.size(), 2u);
+  for (const RecordSearch& search : record.searches) {
+    EXPECT_GE(search.found.size(), 2u);
+    for (std::size_t i = 0; i < search.found.size(); ++i) {
+      EXPECT_LT(std::abs(search.found[i].energy), 200.0);
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GT(std::abs(search.found[i].energy - search.found[j].energy), 1e-3) << i << " and " << j;
+    }
+  }
 }
 
 }  // namespace arcwall::whole_turns_test
