@@ -27,14 +27,6 @@ OrderedJson number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? OrderedJson(*value) : OrderedJson(nullptr);
 }
 
-OrderedJson deck_json(const Convergence& study, const StudiedDeck& of) {
-  return {{"file", study.deck},
-          {"title", study.title},
-          {"path", path_json(of.path)},
-          {"crc32", crc32_text(of.text)},
-          {"set", of.assignments}};
-}
-
 OrderedJson mesh_json(const Convergence& study, const MeshRun& mesh) {
   OrderedJson elements = OrderedJson::object();
   for (std::size_t i = 0; i < mesh.elements.size(); ++i) elements[study.members[i]] = mesh.elements[i];
@@ -119,7 +111,7 @@ Json study_in(const std::filesystem::path& folder, const StudiedDeck& of) {
 
 OrderedJson convergence_json(const Convergence& study, const StudiedDeck& of) {
   OrderedJson json;
-  json["deck"] = deck_json(study, of);
+  json["deck"] = deck_json({study.deck, of.path, crc32_text(of.text)}, study.title, of.assignments);
   json["version"] = program_version();
   json["factor"] = study.factor;
   json["own_mesh"] = study.own_mesh;

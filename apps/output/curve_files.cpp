@@ -77,11 +77,7 @@ std::string curve_csv(const EventCurve& curve, UnitLabels labels) {
 
 OrderedJson curve_json(const EventCurve& curve, const RunDescription& run) {
   OrderedJson json;
-  json["deck"] = {{"file", curve.deck},
-                  {"title", curve.title},
-                  {"path", path_json(run.deck_path)},
-                  {"crc32", crc32_text(run.deck_text)},
-                  {"set", run.assignments}};
+  json["deck"] = deck_json(identity_of(run), curve.title, run.assignments);
   json["version"] = program_version();
   json["event"] = {{"kind", to_text(curve.event)}, {"number", curve.number}};
   json["over"] = curve.key;
@@ -115,13 +111,8 @@ std::string curve_text(const EventCurve& curve) {
 }
 
 OrderedJson worst_json(const deck::Deck& deck, const WorstCombination& worst, const RunDescription& run) {
-  const std::string file = deck.source.file.substr(deck.source.file.rfind('/') + 1);
   OrderedJson json;
-  json["deck"] = {{"file", file},
-                  {"title", deck.title},
-                  {"path", path_json(run.deck_path)},
-                  {"crc32", crc32_text(run.deck_text)},
-                  {"set", run.assignments}};
+  json["deck"] = deck_json(identity_of(run), deck.title, run.assignments);
   json["version"] = program_version();
   json["event"] = {{"kind", to_text(deck.curve->event)}, {"number", deck.curve->number}};
   json["radius"] = *deck.curve->radius;

@@ -17,7 +17,13 @@ std::string crc32_text(std::string_view text) {
   return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
-OrderedJson path_json(const std::string& path) { return path.empty() ? OrderedJson(nullptr) : OrderedJson(path); }
+OrderedJson deck_json(const DeckIdentity& deck, const std::string& title, const std::vector<std::string>& assignments) {
+  return {{"file", deck.file},
+          {"title", title},
+          {"path", deck.path.empty() ? OrderedJson(nullptr) : OrderedJson(deck.path)},
+          {"crc32", deck.crc32},
+          {"set", assignments}};
+}
 
 namespace {
 
@@ -51,11 +57,7 @@ OrderedJson result_json(const Model& model, const RunDescription& run, const Rec
 
   OrderedJson json;
   json["schema"] = schema_version;
-  json["deck"] = {{"file", record.deck},
-                  {"title", record.title},
-                  {"path", path_json(run.deck_path)},
-                  {"crc32", crc32_text(run.deck_text)},
-                  {"set", model.deck().source.assignments}};
+  json["deck"] = deck_json(identity_of(run), record.title, model.deck().source.assignments);
   json["program"] = {{"name", "trace-path"}, {"version", program_version()}};
   json["libraries"] = std::move(libraries);
   json["model"] = model_sizes(model);

@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "apps/output/files.hpp"
 #include "model/model.hpp"
 #include "model/record.hpp"
 #include "model/run_description.hpp"
@@ -20,8 +22,9 @@ struct RunSeconds {
 nlohmann::ordered_json result_json(const Model& model, const RunDescription& run, const Record& record,
                                    const RunSeconds& seconds, int status);
 
-/// The place of a deck's file as JSON; null where the deck is not from one.
-nlohmann::ordered_json path_json(const std::string& path);
+/// Which deck results are of, and what `--set` changed in it; `path` is null where the deck is not from a file.
+nlohmann::ordered_json deck_json(const DeckIdentity& deck, const std::string& title,
+                                 const std::vector<std::string>& assignments);
 
 /// The checksum by which a deck's text is known again.
 std::string crc32_text(std::string_view text);

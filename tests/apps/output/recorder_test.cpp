@@ -214,7 +214,8 @@ TEST_F(RecorderTest, TheResultSaysWhatWasRunAndHowItEnded) {
   recorder.end({EndReason::max_points, "1 points"});
 
   // The check value of CRC-32: that of the digits 1 to 9.
-  const auto json = result_json(model_, {.deck_text = "123456789"}, record_, {.total = 2.0, .tracing = 1.5}, 6);
+  const auto json = result_json(model_, {.deck = "two-bars.toml", .deck_text = "123456789"}, record_,
+                                {.total = 2.0, .tracing = 1.5}, 6);
 
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["deck"]["file"], "two-bars.toml");
