@@ -11,6 +11,7 @@
 #include "core/algebra/near_null.hpp"
 #include "model/contact_words.hpp"
 #include "model/element_slopes.hpp"
+#include "model/event_names.hpp"
 #include "model/path_at_lambda.hpp"
 
 namespace arcwall {
@@ -20,6 +21,7 @@ namespace {
 // All lengths in the path metric of the deck's mesh.
 constexpr Index modes_of_each = 6;  // equilibrium known
 constexpr double least_push = 0.02, greatest_push = 0.5;
+constexpr double unmoved = 1e-9;  // relative difference of λ and energy between points at which nothing has moved
 
 bool is_one(const DeckMesh& mesh, const CountedState& a, const CountedState& b) {
   return a.count.unstable == b.count.unstable &&
@@ -371,6 +373,34 @@ std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& r
                      .partner = static_cast<int>(other)};
   }
   return std::nullopt;
+}
+
+std::optional<BranchEnd> end_where_it_walks_back(const Model& model, const Record& record) {
+  const std::vector<RecordPoint>& points = record.points;
+  const RecordPoint& last = points.back();
+  const auto is_on_branch = [&](std::size_t i) { return points[i].branch == last.branch; };
+  const auto is_same = [&](double a, double b) { return std::abs(a - b) <= unmoved * (std::abs(a) + std::abs(b)); };
+  if (points.size() < 4) return std::nullopt;
+  const std::size_t to = points.size() - 2;  // the last point of those at which nothing has moved
+  std::size_t from = to;
+  while (from > 0 && is_on_branch(from - 1) && is_same(points[from - 1].lambda, points[to].lambda) &&
+         is_same(points[from - 1].energy, points[to].energy))
+    --from;
+  const auto changes = [&](std::size_t i) { return points[i].event && changes_contact(*points[i].event); };
+  if (from == to || from == 0 || !is_on_branch(from - 1) || !changes(from) || !changes(to)) return std::nullopt;
+  const bool turns =
+      (points[from].lambda - points[from - 1].lambda) * (last.lambda - points[to].lambda) < 0.0 && is_on_branch(to);
+  const DeckMesh mesh(model);
+  if (!turns || !mesh.is_complete()) return std::nullopt;
+  std::vector<std::size_t> before = crossings(record, last.lambda);
+  std::erase_if(before, [&](std::size_t point) { return point >= from || !is_on_branch(point); });
+  if (before.empty()) return std::nullopt;
+  const auto there = at_crossing(model, record, before.back(), last.lambda);
+  if (!there || !is_one(mesh, counted(*there), {last.state, {.unstable = last.count.unstable}})) return std::nullopt;
+  return BranchEnd{.reason = EndReason::unsupported,
+                   .detail =
+                       "the path walks back along itself behind two changes of contact between which nothing "
+                       "moves; the way on was not found"};
 }
 
 void Search::search_at(double lambda) {

@@ -68,4 +68,8 @@ class Search {
 /// meshes, so that the tracer does not see it.
 std::optional<BranchEnd> end_of_found_branch(const Model& model, const Record& record);
 
+/// The end of a branch whose last point lies behind two changes of contact between which nothing moves, and is a state
+/// that the branch has passed before: the way on from there was missed. Empty elsewhere.
+std::optional<BranchEnd> end_where_it_walks_back(const Model& model, const Record& record);
+
 }  // namespace arcwall

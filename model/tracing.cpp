@@ -49,6 +49,7 @@ class PathTracing final : public Tracing {
     for (std::size_t i = 0; i < step->arc.events.size(); ++i)
       record_.events[first_event + i].sensitivity = sensitivities_.of(step->arc, step->arc.events[i]);
     if (const auto end = end_of_found_branch(model_, record_)) explorer_.end_branch(*end);
+    if (const auto end = end_where_it_walks_back(model_, record_)) explorer_.end_branch(*end);
     if (auto why = model_.adrift(step->arc.to.state))
       explorer_.stop({.reason = EndReason::adrift, .detail = std::move(*why)});
     return true;
