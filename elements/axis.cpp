@@ -171,8 +171,7 @@ class ParametricAxis : public Axis {
     const double curvature = cross(r.first, r.second) / cube;
     const auto k = interval(s);
     // The tangent's angle, continued from the knot before (turns between knots stay below half a turn).
-    const Vec2 tangent_before = curve(knots_[k]).first;
-    const double turn = turn_between(tangent_before, r.first);
+    const double turn = turn_between(tangents_[k], r.first);
     return {.position = r.value,
             .angle = angles_[k] + turn,
             .curvature = curvature,
@@ -185,22 +184,25 @@ class ParametricAxis : public Axis {
     Vec2 value, first, second, third;
   };
   virtual Derivatives curve(double t) const = 0;
+  virtual Vec2 tangent(double t) const = 0;  // curve(t).first
 
   // To be called once by the constructor of the curve.
   void measure(std::vector<double> knots) {
     knots_ = std::move(knots);
+    for (const double knot : knots_) tangents_.push_back(tangent(knot));
     lengths_.assign(1, 0.0);
-    angles_.assign(1, angle_of(curve(knots_[0]).first));
+    angles_.assign(1, angle_of(tangents_[0]));
     for (std::size_t k = 1; k < knots_.size(); ++k) {
-      lengths_.push_back(lengths_.back() + length_between(knots_[k - 1], knots_[k]));
-      const Vec2 a = curve(knots_[k - 1]).first, b = curve(knots_[k]).first;
-      angles_.push_back(angles_.back() + turn_between(a, b));
+      lengths_.push_back(lengths_.back() + length_between<10>(knots_[k - 1], knots_[k]));
+      angles_.push_back(angles_.back() + turn_between(tangents_[k - 1], tangents_[k]));
     }
   }
 
  private:
+  // Negative where b lies before a.
+  template <unsigned points>
   double length_between(double a, double b) const {
-    return b > a ? Gauss::integrate([this](double t) { return curve(t).first.norm(); }, a, b) : 0.0;
+    return AxisGauss<points>::integrate([this](double t) { return tangent(t).norm(); }, a, b);
   }
 
   std::size_t interval(double s) const {
@@ -208,19 +210,23 @@ class ParametricAxis : public Axis {
     return static_cast<std::size_t>(above - lengths_.begin()) - 1;
   }
 
+  // Newton's method, as coordinate_at() below.
   double parameter(double s) const {
     const auto k = interval(s);
     const double low = knots_[k], high = knots_[k + 1];
     double t = low + (high - low) * (s - lengths_[k]) / (lengths_[k + 1] - lengths_[k]);
+    double error = lengths_[k] + length_between<10>(low, t) - s;
     for (int i = 0; i < 20; ++i) {
-      const double error = lengths_[k] + length_between(low, t) - s;
-      t = std::clamp(t - error / curve(t).first.norm(), low, high);
-      if (std::abs(error) <= 1e-15 * lengths_.back()) break;
+      const double next = std::clamp(t - error / tangent(t).norm(), low, high);
+      if (std::abs(error) <= 1e-15 * lengths_.back()) return next;
+      error += length_between<3>(t, next);
+      t = next;
     }
     return t;
   }
 
   std::vector<double> knots_, lengths_, angles_;
+  std::vector<Vec2> tangents_;  // at the knots
 };
 
 class SineAxis final : public ParametricAxis {
@@ -242,6 +248,7 @@ class SineAxis final : public ParametricAxis {
             .second = -rise_ * wave_number_ * wave_number_ * std::sin(a) * normal_,
             .third = -rise_ * wave_number_ * wave_number_ * wave_number_ * std::cos(a) * normal_};
   }
+  Vec2 tangent(double t) const override { return chord_ + rise_ * wave_number_ * std::cos(wave_number_ * t) * normal_; }
 
  private:
   Vec2 from_, chord_, normal_;
@@ -277,6 +284,7 @@ class SplineAxis final : public ParametricAxis {
     const auto x = x_.at(t), z = z_.at(t);
     return {.value = {x[0], z[0]}, .first = {x[1], z[1]}, .second = {x[2], z[2]}, .third = {x[3], z[3]}};
   }
+  Vec2 tangent(double t) const override { return {x_.at(t)[1], z_.at(t)[1]}; }
 
  private:
   CubicSpline x_, z_;
@@ -370,9 +378,11 @@ double ImperfectAxis::phase(double from, double to) const {
 // Arc length of the axis takes the place of its own where nothing deviates.
 DividedPart ImperfectAxis::divided(double from, double to, DividedPart::Inside inside) const {
   DividedPart part;
-  part.at.front() = along(from);
-  part.at.back() = along(to);
-  part.chord = axis_.chord(from, to) + part.at.back().deviation - part.at.front().deviation;
+  DeviatedPoint &first = part.at.front(), &last = part.at.back();
+  first = along(from);
+  last = along(to);
+  part.chord = axis_.constant_curvature() ? axis_.chord(from, to) + last.deviation - first.deviation
+                                          : Vec2(last.position - first.position);
   const auto divide = [&](const auto& place_at) {
     if (inside == DividedPart::Inside::left_out) return;
     for (std::size_t k = 1; k + 1 < part.at.size(); ++k)
