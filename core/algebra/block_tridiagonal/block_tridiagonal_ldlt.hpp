@@ -15,7 +15,7 @@ namespace arcwall {
 class BlockTridiagonalLdlt final : public SymmetricFactors {
  public:
   /// The greatest block for which this is meant.
-  static constexpr Index widest = 8;
+  static constexpr Index widest = 6;
 
   /// `translation_free`: see Linearization; may be empty. Solutions keep the digits that the matrix has lost where
   /// blocks are nodes with two displacements as their first unknowns, one behind the other.

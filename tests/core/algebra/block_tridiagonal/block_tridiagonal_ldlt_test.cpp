@@ -127,7 +127,7 @@ TEST(BlockTridiagonalLdlt, PartsOfAChainNeedNotHangTogether) {
 
 TEST(BlockTridiagonalLdlt, InertiaAndSolutionsOfIndefiniteChainsAreThoseOfTheDenseOnes) {
   Numbers numbers(12);
-  for (const Index freedoms : {1, 2, 3, 4, 5, 6, 8})
+  for (const Index freedoms : {1, 2, 3, 4, 5, 6})
     for (const Index nodes : {1, 3, 4, 5, 30, 64}) {
       SCOPED_TRACE(std::to_string(nodes) + " nodes of " + std::to_string(freedoms));
       const Matrix A = chain(nodes, freedoms, numbers);
