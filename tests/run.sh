@@ -1,21 +1,26 @@
 #!/usr/bin/env bash
 # Builds everything with warnings as errors and runs the tests:
 #
-#   bash tests/run.sh [--sanitize] [arguments of ctest …]
+#   bash tests/run.sh [--sanitize] [--long] [arguments of ctest …]
 #
-# --sanitize builds with clang and the address and undefined-behaviour sanitizers, in a folder of its own.
-# Examples: bash tests/run.sh -R Tracer; bash tests/run.sh -L python; bash tests/run.sh --sanitize -LE slow
+# --sanitize builds with clang and the address and undefined-behaviour sanitizers, in a folder of its own. --long also runs
+# the long suite, which is for the night: more cases at random, more states, a sweep of 1000 cases.
+# Examples: bash tests/run.sh -R Tracer; bash tests/run.sh -L python; bash tests/run.sh --sanitize -LE slow;
+# bash tests/run.sh --long -L long
 set -euo pipefail
 export PATH  # bash has one where the environment has none; CMake finds its own files by it
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=build/tests
 build=()
-if [[ ${1:-} == --sanitize ]]; then
+suites=()
+while [[ ${1:-} == --sanitize || ${1:-} == --long ]]; do
+  case $1 in
+    --sanitize) folder=build/sanitize build=(--sanitize) ;;
+    --long) suites=(-C long) ;;
+  esac
   shift
-  folder=build/sanitize
-  build=(--sanitize)
-fi
+done
 
 # Without a home ccache needs another place for its files.
 if [[ -z ${HOME:-} ]]; then export CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache}; fi
@@ -32,4 +37,4 @@ if [[ $folder == build/sanitize ]]; then
 fi
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=$leaks}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
-exec ctest --test-dir "$folder" --output-on-failure -j2 "$@"
+exec ctest --test-dir "$folder" --output-on-failure -j2 "${suites[@]}" "$@"

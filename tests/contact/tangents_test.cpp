@@ -116,6 +116,6 @@ TEST(Tangents, KnowTheRatesOfWallsThatMove) {
     }
 }
 
-TEST(Tangents, AreDerivativesAtAThousandStatesSlow) { expect_tangents(1000); }
+TEST(Tangents, AreDerivativesAtAThousandStatesNightly) { expect_tangents(1000); }
 
 }  // namespace arcwall::tangents_test

@@ -37,9 +37,9 @@ std::optional<Index> negative_on_null_space(const Matrix& stiffness, const Matri
     G.rowwise().normalize();
     const Eigen::ColPivHouseholderQR<Matrix> qr(G.transpose());
     EXPECT_EQ(qr.rank(), m) << "the gradients of the closed gaps depend on each other";
-    const Matrix Q = qr.householderQ();
-    const Matrix Z = Q.rightCols(n - m);
-    K = (Z.transpose() * K * Z).eval();
+    K.applyOnTheLeft(qr.householderQ().adjoint());
+    K.applyOnTheRight(qr.householderQ());
+    K = K.bottomRightCorner(n - m, n - m).eval();
   }
   const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(K, Eigen::EigenvaluesOnly).eigenvalues();
   // Eigenvalues of a matrix with unit diagonal are sure to a few n ε.
