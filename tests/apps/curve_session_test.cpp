@@ -186,8 +186,8 @@ TEST_F(CurveProgramTest, GoesOnBehindALimitAndAKill) {
   EXPECT_EQ(run("curve deck.toml --out part --quiet --max-points 30").status, 6);
   EXPECT_EQ(run("verify part --quiet").status, 0);
   EXPECT_EQ(run("resume part --quiet --max-points 5").status, 6);
-  // It dies as it writes a checkpoint at each point.
-  shell("\"$PROGRAM\" resume part --quiet --checkpoint-pause 0 & sleep 0.05; kill -9 $!");
+  // It dies as it writes a checkpoint at each point; until it is dead the folder is its own.
+  shell("\"$PROGRAM\" resume part --quiet --checkpoint-pause 0 & sleep 0.05; kill -9 $!; wait $!");
   EXPECT_EQ(run("resume part --quiet").status, 0);
   for (const char* name : {"curve.csv", "curve.json", "report.html", "checkpoint"})
     EXPECT_EQ(content(work() / "part" / name), content(work() / "whole" / name)) << name;
