@@ -9,18 +9,13 @@
 
 namespace arcwall {
 
-/// Which ends that supports hold in z and leave free in x touch an obstacle: none where their way runs along it; else
-/// those that are clear of it in the stress-free shape, while it stands where it is written down. What stands beside or
-/// below such an end is its support's business, but for a straight wall across its way, which all of them may touch.
-enum class RollerEnds { none, clear_at_rest, all };
-
 /// An obstacle that slender members may touch.
 struct SlidingObstacle {
   std::string name{};
   std::shared_ptr<const Obstacle> surface{};
   std::shared_ptr<const Obstacle> unmoved{};  ///< the surface where it is written down, before any motion
   bool on_face = true;                        ///< contact of the members' faces, or of their axes
-  RollerEnds roller_ends = RollerEnds::none;
+  bool may_stop_rollers = false;        ///< ends that supports hold in z and leave free in x: it is not level all along
   std::vector<std::uint8_t> strands{};  ///< per strand whether it concerns it
 
   /// Of the face that looks at it from the axis, along its normal (upwards) [length].

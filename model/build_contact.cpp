@@ -375,10 +375,11 @@ std::vector<Candidate> contact_candidates(const deck::Deck& deck, const Structur
     }
     if (deepest.depth > wall.interference + round_off)
       problems.add(wall.position, "wall." + wall.name,
-                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.4g}{}",
+                   fmt::format("member \"{}\" is inside the wall at the start: node {}:{:.4g} by {:.9g}{}",
                                deepest.label.member, deepest.label.member, deepest.label.fraction, deepest.depth,
                                wall.interference > 0.0 ? ", more than its interference" : ""),
-                   how_to_part(wall, deepest));
+                   wall.interference > 0.0 ? "give it a greater interference, or move the wall or the member apart"
+                                           : how_to_part(wall, deepest));
   }
   constexpr double near = 1e-6;  // of the structure's length
   join_opposite(touches, known, near * structure.length_scale(), candidates, problems);
@@ -453,14 +454,12 @@ std::optional<Vec2> straight_direction(const deck::Wall& wall) {
   return std::nullopt;
 }
 
-// Where a wall goes is no matter, so that the ramp and all stages of a deck have the same contacts.
-RollerEnds roller_ends(const deck::Wall& wall) {
-  constexpr double along = 1e-9, across = 0.5;  // part of a straight wall's normal in x
+// A level wall lies along their way. Where a wall goes is no matter, so that the ramp and all stages of a deck have the
+// same contacts.
+bool may_stop_rollers(const deck::Wall& wall) {
+  constexpr double level = 1e-9;  // part of a straight wall's normal in x
   const std::optional<Vec2> direction = straight_direction(wall);
-  if (!direction) return RollerEnds::clear_at_rest;
-  const double in_x = std::abs(direction->normalized().y());
-  if (in_x > across) return RollerEnds::all;
-  return in_x > along ? RollerEnds::clear_at_rest : RollerEnds::none;
+  return !direction || std::abs(direction->normalized().y()) > level;
 }
 
 }  // namespace
@@ -485,7 +484,7 @@ std::vector<SlidingObstacle> sliding_obstacles(const deck::Deck& deck, const Sli
                                .surface = obstacle_of(wall, off),
                                .unmoved = obstacle_of(unmoved, off),
                                .on_face = wall.acts_on == deck::ActsOn::face && !wall.outline,
-                               .roller_ends = roller_ends(wall)};
+                               .may_stop_rollers = may_stop_rollers(wall)};
       for (Index strand = 0; strand < structure.strands(); ++strand) {
         const bool keeps = kept_off(wall, 2.0 * structure.half_height(strand)) == off;
         obstacle.strands.push_back(concerned(strand) && keeps ? 1 : 0);

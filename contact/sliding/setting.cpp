@@ -5,15 +5,22 @@
 #include <tuple>
 
 #include "contact/sliding/touch.hpp"
+#include "core/unit_tangent.hpp"
 
 namespace arcwall {
 
 namespace {
 
-// Of an end that a support holds in z; `at`: its axis in the stress-free shape.
+// Of an end that a support holds in z; `at`: its axis in the stress-free shape. What bears the end from the start is
+// its support, but for a wall that is across its way or at an angle with the body.
 bool roller_touches(const SlidingObstacle& obstacle, const AxisPlace& at, double half_height, double near) {
-  if (obstacle.roller_ends != RollerEnds::clear_at_rest) return obstacle.roller_ends == RollerEnds::all;
-  return obstacle.unmoved->gap_slope(sliding::face(obstacle.face_offset(half_height), at), 0.0).value > near;
+  constexpr double leans = 1e-9, across = 0.5;  // part of the wall's normal in x
+  constexpr double parallel = 1e-6;             // angle between body and wall
+  if (!obstacle.may_stop_rollers) return false;
+  const LinearField gap = obstacle.unmoved->gap_slope(sliding::face(obstacle.face_offset(half_height), at), 0.0);
+  if (gap.value > near) return true;
+  const bool crosses = std::abs(Vec2(gap.x, gap.z).dot(unit_tangent(at.angle))) > parallel;
+  return std::abs(gap.x) > (crosses ? leans : across);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,56 @@ path = {{ step = 0.1, stop = {{ lambda = [-1.0, 2.0] }} }}
     EXPECT_NEAR(traced.record().points.back().monitors[0], 0.5 - 2.0, 1e-10) << wall;
     test::expect_whole(traced);
   }
+}
+
+// A bar of EA = 1000 on rollers is pushed by λ against a round stop that its end touches at rest, with a normal along
+// it or leaning by 66°: before it buckles (P = 0.3155) it bears EA λ/L. What the stop presses along x the reaction
+// holds.
+TEST(RollerEnds, AreStoppedByRoundWallsThatTheyTouchAtRest) {
+  for (const double angle : {0.0, 66.0}) {
+    SCOPED_TRACE(angle);
+    const double c = std::cos(angle * pi / 180.0), s = std::sin(angle * pi / 180.0);
+    const test::TracedDeck traced(fmt::format(R"toml(
+title = "Bar on a roller pushed against a round stop"
+material.m = {{ E = 1.0 }}
+section.s = {{ shape = "general", A = 1000.0, I = 1.0 }}
+point = {{ a = [0.0, 0.0], b = [8.0, 0.0] }}
+support = {{ a = ["z", "rotation"], b = ["z"] }}
+path = {{ step = 0.0005, stop = {{ lambda = [-0.1, 0.002] }} }}
+member.s = {{ from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 16 }}
+prescribed = [{{ at = "a", x = 1.0 }}]
+wall = [{{ name = "stop", acts_on = "axis", outline = {{ type = "circle", centre = [{:.17g}, {:.17g}], radius = 1.5 }} }}]
+monitor = [{{ name = "push", at = "a", component = "reaction-x" }}, {{ name = "stop", wall = "stop", component = "force-x" }}]
+)toml",
+                                              8.0 + 1.5 * c, -1.5 * s));
+    const RecordPoint& last = traced.record().points.back();
+    ASSERT_DOUBLE_EQ(last.state.lambda, 0.002);
+    EXPECT_NEAR(last.monitors[0], 1000.0 * 0.002 / 8.0, 1e-9);
+    EXPECT_NEAR(last.monitors[1], -last.monitors[0], 1e-9);
+    EXPECT_EQ(last.count.unstable, 0);
+    test::expect_whole(traced);
+  }
+}
+
+// A stop that reaches 0.002 beyond the end is pushed there before the path begins: EA 0.002/L again, and as much for λ.
+TEST(RollerEnds, ArePushedByRoundStopsWithAnInterference) {
+  const test::TracedDeck traced(R"toml(
+title = "Bar on a roller behind a stop that reaches into it"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1000.0, I = 1.0 }
+point = { a = [0.0, 0.0], b = [8.0, 0.0] }
+support = { a = ["z", "rotation"], b = ["z"] }
+path = { step = 0.0001, stop = { lambda = [-0.1, 0.0004] } }
+member.s = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 16 }
+prescribed = [{ at = "a", x = 1.0 }]
+wall = [{ name = "stop", acts_on = "axis", interference = 0.1, outline = { type = "circle", centre = [9.498, 0.0], radius = 1.5 } }]
+monitor = [{ name = "push", at = "a", component = "reaction-x" }]
+)toml");
+  EXPECT_NEAR(traced.record().points.front().monitors[0], 0.25, 1e-9);
+  const RecordPoint& last = traced.record().points.back();
+  ASSERT_DOUBLE_EQ(last.state.lambda, 0.0004);
+  EXPECT_NEAR(last.monitors[0], 0.3, 1e-9);
+  test::expect_whole(traced);
 }
 
 // Behind the place where the end has turned into the ceiling's direction contact lies inside.
