@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/passing.hpp"
+#include "contact/sliding/bounds/edge_presses.hpp"
 #include "contact/sliding/contact_points.hpp"
 #include "contact/sliding/equations.hpp"
 #include "contact/sliding/inserted_contact.hpp"
@@ -43,11 +44,17 @@ const sliding::ValidityBound& bound_of(const SlidingState& at, Index guard) {
 
 bool is_bound(const SlidingState& at, Index guard) { return guard >= static_cast<Index>(at.contacts()); }
 
+bool is_watched_edge(const SlidingSetting& setting, const SlidingState& at, std::size_t contact) {
+  return contact < at.layout.points().size() && sliding::must_press(setting, at, contact);
+}
+
 double guard_of_contact(const SlidingSetting& setting, const SlidingState& at, Index j) {
-  constexpr double out_of_reach = 1.0;  // of a contact that faces no wall, that lies on it without force, or at a pinch
+  // Of a contact that faces no wall, that lies on it without force, at a pinch, or where a bound watches the force.
+  constexpr double out_of_reach = 1.0;
   const auto contact = static_cast<std::size_t>(j);
   if (at.layout.is_pinched(contact)) return out_of_reach;
-  if (at.is_closed(contact)) return at.force(contact) / setting.scales.force;
+  if (at.is_closed(contact))
+    return is_watched_edge(setting, at, contact) ? out_of_reach : at.force(contact) / setting.scales.force;
   if (sliding::lies_flat(setting, at.layout, contact)) return out_of_reach;
   const double gap = sliding::face_gap(setting, sliding::touch_of_contact(setting, at.layout, contact), at);
   return std::isfinite(gap) ? gap / setting.scales.length : out_of_reach;
@@ -67,6 +74,7 @@ Row guard_gradient_of_contact(const SlidingSetting& setting, const SlidingState&
   Row row = at.no_slope();
   if (at.layout.is_pinched(static_cast<std::size_t>(j))) return row;
   if (const auto p = at.index.force(static_cast<std::size_t>(j))) {
+    if (is_watched_edge(setting, at, static_cast<std::size_t>(j))) return row;
     row.dx[*p] = 1.0 / setting.scales.force;
     return row;
   }

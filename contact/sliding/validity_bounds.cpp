@@ -2,6 +2,7 @@
 
 #include "contact/sliding/bounds/clamp.hpp"
 #include "contact/sliding/bounds/curvature.hpp"
+#include "contact/sliding/bounds/edge_presses.hpp"
 #include "contact/sliding/bounds/element_size.hpp"
 #include "contact/sliding/bounds/end_stays.hpp"
 #include "contact/sliding/bounds/flat_part.hpp"
@@ -83,6 +84,7 @@ std::vector<std::unique_ptr<const ValidityBound>> validity_bounds(const SlidingB
   for (std::size_t k = 0; k < on.points().size(); ++k)
     add_if<CurvatureBound>(!on.lies_beside(k) && !on.points()[k].is_pinched(), bounds, k);
   for (std::size_t k = 0; k < on.points().size(); ++k) add_if<PullingJumpBound>(on.lies_pressed(k), bounds, k);
+  for (std::size_t k = 0; k < on.points().size(); ++k) add_if<EdgePressesBound>(on.lies_pressed(k), bounds, k);
   for (const std::size_t k : on.pinched_points())
     for (const auto side : {SlidingMesh::At::before, SlidingMesh::At::behind})
       for (const bool other : {false, true}) add_if<PinchBound>(true, bounds, k, side, other);

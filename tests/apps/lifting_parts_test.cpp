@@ -515,4 +515,38 @@ profile = { type = "line", z = -0.7237534713191682, slope = -0.01989879957722925
   }
 }
 
+// A chain of weight q on the sea floor, whose end is lifted: beside the touchdown it bends within √(EI/N), and bears q
+// √(EI/N) there. Elements that are much longer let the wall pull at some lift, which ends the path and names
+// how many follow. With these the path goes on beyond, and no wall pulls.
+TEST(LiftingParts, EndWhereACoarseMeshLetsTheWallPull) {
+  const std::string chain = R"toml(
+title = "Chain lifted off the sea floor"
+material.chain = { E = 1.0e6 }
+section.chain = { shape = "general", A = 0.1, I = 1.0e-5 }
+point = { anchor = [0.0, 0.0], fairlead = [300.0, 0.0] }
+support.anchor = ["x", "z"]
+member.chain = { from = "anchor", to = "fairlead", theory = "elastica", material = "chain", section = "chain", elements = 60 }
+wall = [{ name = "floor", side = "below", acts_on = "axis", profile = { type = "flat", z = 0.0 } }]
+load = [{ on = "chain", distributed = [0.0, -1.0], constant = true }]
+prescribed = [{ at = "fairlead", x = 0.0, z = 1.0 }]
+path = { step = 0.1, stop = { lambda = [-1.0, 1.8] } }
+)toml";
+  const test::TracedDeck coarse(chain);
+  const BranchEnd& end = *coarse.record().branches.back().end;
+  ASSERT_EQ(end.reason, EndReason::unsupported);
+  const std::string words = "it needs ";
+  const std::size_t at = end.detail.find(words);
+  ASSERT_NE(at, std::string::npos) << end.detail;
+  EXPECT_NE(end.detail.find("floor at chain:0.9"), std::string::npos) << end.detail;
+  const int elements = std::stoi(end.detail.substr(at + words.size()));
+  EXPECT_GT(elements, 600);
+  EXPECT_LT(elements, 800);
+
+  const test::TracedDeck fine(chain, {"member.chain.elements=" + std::to_string(elements)});
+  EXPECT_DOUBLE_EQ(fine.last().lambda, 1.8);
+  for (const RecordPoint& point : fine.record().points)
+    for (const ContactPoint& contact : fine.model().contacts()->closed_contacts(point.state))
+      EXPECT_GE(contact.force, 0.0) << point.lambda;
+}
+
 }  // namespace arcwall::lifting_parts_test
