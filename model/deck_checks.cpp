@@ -144,9 +144,9 @@ bool takes_increments(const deck::Deck& deck, const Structure& structure, DeckPr
 
 std::string smoothed_law(const deck::Spring& spring) {
   constexpr int parts = 32;  // of an interval, between which the difference is read off
-  const auto law_of = [](const auto& kind) { return kind.law ? &*kind.law : nullptr; };
-  const deck::TableLaw* const law = std::visit(law_of, spring.kind);
-  if (law == nullptr || law->interpolation) return {};
+  const auto* foundation = std::get_if<deck::Foundation>(&spring.kind);
+  if (foundation == nullptr || !foundation->law || foundation->law->interpolation) return {};
+  const deck::TableLaw* const law = &*foundation->law;
   const SpringLaw smooth = law->law();
   const SpringLaw straight(law->displacement, law->force, SpringLaw::Interpolation::linear);
   double off = 0.0, at = 0.0, greatest = 0.0;
@@ -161,11 +161,8 @@ std::string smoothed_law(const deck::Spring& spring) {
     }
   return fmt::format(
       "the law of {} is smooth between its points: at displacement {:.4g} it is {:.2g} % of its greatest force off a "
-      "straight line; write interpolation = {}",
-      spring.name.empty() ? "a spring" : "spring \"" + spring.name + "\"", at, 100.0 * off / greatest,
-      std::holds_alternative<deck::Foundation>(spring.kind)
-          ? "\"smooth\" if this is meant, or give points closer together"
-          : "\"linear\" for straight pieces, or \"smooth\" if this is meant");
+      "straight line; write interpolation = \"smooth\" if this is meant, or give points closer together",
+      spring.name.empty() ? "a spring" : "spring \"" + spring.name + "\"", at, 100.0 * off / greatest);
 }
 
 }  // namespace arcwall

@@ -55,21 +55,22 @@ void check_law(Keys& keys, const TableLaw& law) {
                 "let one of the displacements be 0, with force 0");
 }
 
-void law_keys(Keys& keys, TableLaw& law) {
+// Of a spring at points straight pieces are the default.
+void law_keys(Keys& keys, TableLaw& law, bool at_points) {
   keys.table(
       optional("law", "none"), Form::in_line,
       [&](Keys& of) {
         of.word("direction", law.direction, spring_direction_words, "");
         const bool u = of.numbers("displacement", law.displacement, unit::none, "");
         const bool force = of.numbers("force", law.force, unit::none, "");
-        of.word(optional("interpolation", "smooth"), law.interpolation, interpolation_words, "");
+        of.word(optional("interpolation", at_points ? "linear" : "smooth"), law.interpolation, interpolation_words, "");
+        if (of.reads() && at_points && !law.interpolation) law.interpolation = SpringLaw::Interpolation::linear;
         if (of.reads() && u && force) check_law(of, law);
       },
       "instead of `stiffness` or `foundation`, in one `direction` (`\"x\"`, `\"z\"`, `\"rotation\"`; a foundation in x "
       "or z): `force` [force, force length; of a foundation force/length] by `displacement` [length, rad], "
-      "through these points, constant beyond the first and the last; `interpolation`: `\"smooth\"`, the default, with "
-      "a "
-      "continuous slope, or `\"linear\"`, straight pieces, for springs at points");
+      "through these points, constant beyond the first and the last; `interpolation`: `\"linear\"`, straight pieces, "
+      "the default of springs at points, or `\"smooth\"`, with a continuous slope, the only one of foundations");
 }
 
 void stiffness_key(Keys& keys, Stiffness& stiffness) {
@@ -105,7 +106,7 @@ void between_keys(Keys& keys, const Deck& deck, PointToPointSpring& spring) {
 // The key `law` is listed with springs at points.
 void foundation_law_key(Keys& keys, Foundation& foundation) {
   keys.part("law", foundation.law, [&](TableLaw& law) {
-    law_keys(keys, law);
+    law_keys(keys, law, false);
     if (keys.reads() && law.direction == Freedom::rotation)
       keys.report("law", "a foundation resists no rotation", "give direction = \"x\" or \"z\"");
     if (keys.reads() && law.interpolation == SpringLaw::Interpolation::linear)
@@ -167,7 +168,7 @@ void spring_keys(Keys& keys, Spring& spring, const Deck& deck) {
   if (has_law) keys.applies(keys.lists(), "stiffness", "does not go together with a law", "write two springs");
   if (!has_law && keys.applies(!along, "stiffness", "belongs to a spring at points", "give `foundation` instead"))
     stiffness_key(keys, *stiffness_of(spring));
-  if (!along) keys.part("law", *law_of(spring), [&](TableLaw& law) { law_keys(keys, law); });
+  if (!along) keys.part("law", *law_of(spring), [&](TableLaw& law) { law_keys(keys, law, true); });
   keys.alternative<Foundation>("on", spring.kind, [&](Foundation& foundation) { foundation_keys(keys, foundation); });
   if (keys.reads() && !along)
     keys.applies(false, "foundation", "belongs to a spring along a member", "write `on`, or give stiffness");

@@ -271,19 +271,21 @@ monitor = [{ name = "w", at = "beam:0.5", component = "z" }]
 }
 
 // Between two points Hermite's cubic 2 (s + s² − s³) is off the line 2 s by 2 s² (1 − s): 8/27 at s = 2/3.
-TEST(Model, WarnsOfALawThatIsSmoothUnasked) {
-  const auto warned = [](const std::string& interpolation) {
-    const std::string law =
-        "[[spring]]\nname = \"bed\"\nat = \"B\"\nlaw = { direction = \"x\", displacement = "
-        "[-0.1, 0.0, 0.1], force = [-2.0, 0.0, 2.0]" +
-        interpolation + " }\n[path]\nstop = { lambda = [-1.0, 1.0] }\n";
+// A spring at a point has straight pieces unless asked.
+TEST(Model, WarnsOfAFoundationsLawThatIsSmoothUnasked) {
+  const auto warned = [](const std::string& where, const std::string& interpolation) {
+    const std::string law = "[[spring]]\nname = \"bed\"\n" + where +
+                            "\nlaw = { direction = \"x\", displacement = [-0.1, 0.0, 0.1], force = [-2.0, 0.0, 2.0]" +
+                            interpolation + " }\n[path]\nstop = { lambda = [-1.0, 1.0] }\n";
     const auto warnings = Model(deck::read_deck_text(std::string(deck::column_deck) + law, "odd.toml", {})).warnings();
     return warnings.empty() ? "" : warnings.front();
   };
-  EXPECT_NE(warned("").find("the law of spring \"bed\" is smooth between its points"), std::string::npos) << warned("");
-  EXPECT_NE(warned("").find("it is 15 % of its greatest force off"), std::string::npos) << warned("");
-  EXPECT_EQ(warned(", interpolation = \"smooth\""), "");
-  EXPECT_EQ(warned(", interpolation = \"linear\""), "");
+  const std::string along = "on = \"column\"", at = "at = \"B\"", unasked = warned(along, "");
+  EXPECT_NE(unasked.find("the law of spring \"bed\" is smooth between its points"), std::string::npos) << unasked;
+  EXPECT_NE(unasked.find("it is 15 % of its greatest force off"), std::string::npos) << unasked;
+  EXPECT_EQ(warned(along, ", interpolation = \"smooth\""), "");
+  for (const std::string interpolation : {"", ", interpolation = \"smooth\"", ", interpolation = \"linear\""})
+    EXPECT_EQ(warned(at, interpolation), "") << interpolation;
 }
 
 }  // namespace arcwall::model_test

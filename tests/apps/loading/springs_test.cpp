@@ -139,7 +139,7 @@ path = { step = 0.05, land = { B = [-0.1] }, stop = { B = [-0.45, 1.0] } }
 monitor = [{ name = "B", at = "B", component = "z" }]
 [[spring]]
 at = "B"
-law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0.2, -0.7, 0.0, 0.7, 0.2] }
+law = { direction = "z", displacement = [-0.5, -0.2, 0.0, 0.2, 0.5], force = [-0.2, -0.7, 0.0, 0.7, 0.2], interpolation = "smooth" }
 )";
   const TracedDeck traced(text);
   const auto limits = events_of(traced, EventKind::limit_point);

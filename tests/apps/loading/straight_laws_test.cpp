@@ -8,7 +8,7 @@
 
 #include "tests/apps/loading/loading_decks.hpp"
 
-// Springs whose laws are straight pieces (interpolation = "linear"), against the closed form of each piece.
+// Springs whose laws are straight pieces, against the closed form of each piece.
 namespace arcwall::loading_test {
 
 namespace {
@@ -65,6 +65,31 @@ const RecordPoint* point_with(const TracedDeck& traced, std::size_t monitor, dou
 }
 
 }  // namespace
+
+// A law of points on a line is a stiffness, up to where it ends: 3 EI/L³ + 10 of the tip in small slopes.
+TEST(StraightLaws, AreWhatPointsMeanUnasked) {
+  const auto tip = [](const std::string& spring) {
+    const TracedDeck traced(R"(
+title = "Cantilever on a spring"
+material.m = { E = 1.0 }
+section.s = { shape = "general", A = 1000.0, I = 1.0 }
+point = { a = [0.0, 0.0], b = [1.0, 0.0] }
+support = { a = ["x", "z", "rotation"] }
+member.s = { from = "a", to = "b", theory = "elastica", material = "m", section = "s", elements = 8 }
+load = [{ at = "b", force = [0.0, -1.0] }]
+monitor = [{ name = "tip", at = "b", component = "z" }]
+path = { step = 0.05, stop = { lambda = [-0.1, 0.2] } }
+[[spring]]
+at = "b"
+)" + spring);
+    return traced.record().points.back().monitors[0];
+  };
+  const double stiff = tip("stiffness = { z = 10.0 }");
+  EXPECT_NEAR(stiff, -0.2 / 13.0, 1e-5);
+  const std::string law = "law = { direction = \"z\", displacement = [-0.05, 0.0, 0.05], force = [-0.5, 0.0, 0.5]";
+  EXPECT_NEAR(tip(law + " }"), stiff, 1e-12);
+  EXPECT_GT(std::abs(tip(law + ", interpolation = \"smooth\" }") - stiff), 1e-4);
+}
 
 TEST(StraightLaws, MakeLimitPointsAtTheirKinksWhateverTheStep) {
   for (const double max_step : {0.02, 0.2, 1.0, 10.0}) {
