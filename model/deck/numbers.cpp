@@ -89,9 +89,14 @@ std::string written_key(const Value& root, const std::string& key) {
   return written;
 }
 
+// The whole document is asked where nothing is there, for what would be right.
 std::variant<DeckNumber, NoNumber> number_of(const Deck& deck, const std::string& key) {
-  const Value root = parse_toml(to_toml(deck), deck.source.file);
-  const auto part = part_of(root, key);
+  Value root = parse_toml(to_toml(deck, key.substr(0, key.find('.'))), deck.source.file);
+  auto part = part_of(root, key);
+  if (std::holds_alternative<NoNumber>(part)) {
+    root = parse_toml(to_toml(deck), deck.source.file);
+    part = part_of(root, key);
+  }
   if (const auto* none = std::get_if<NoNumber>(&part)) return *none;
   const auto& [at, written] = std::get<DeckPart>(part);
   if (at->kind == Value::Kind::integer)

@@ -14,13 +14,14 @@ namespace {
 std::string written(std::string_view key) { return is_name(key) ? std::string(key) : in_quotes(key); }
 
 // Writes the declared keys of a table behind a text. `before_keys` stands before each key of a dotted table, as the
-// `profile.` of `profile.type`.
+// `profile.` of `profile.type`. With `only` no other key of the table is written.
 class KeyWriter final : public Keys {
  public:
-  KeyWriter(std::string& text, std::string path, std::string before_keys = {})
-      : text_(text), path_(std::move(path)), before_keys_(std::move(before_keys)) {}
+  KeyWriter(std::string& text, std::string path, std::string before_keys = {}, std::string_view only = {})
+      : text_(text), path_(std::move(path)), before_keys_(std::move(before_keys)), only_(only) {}
 
   bool table(const Key& key, Form form, const std::function<void(Keys&)>& keys_of_table, std::string_view) override {
+    if (!is_asked(key)) return false;
     switch (form) {
       case Form::header:
         write_table("[" + path_of(key) + "]", path_of(key), keys_of_table);
@@ -50,12 +51,14 @@ class KeyWriter final : public Keys {
 
  protected:
   bool declare(const Key& key, const Target& target, const Declared& declared) override {
+    if (!is_asked(key)) return false;
     if (const auto value = toml_text(target, declared)) write(key.name, *value);
     return false;
   }
 
   bool each_table(const Key& key, ListForm form, const std::vector<std::string>& names, const UseTable& use,
                   std::string_view) override {
+    if (!is_asked(key)) return true;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const bool array = form == ListForm::array;
       const std::string path = path_of(key) + (array ? "" : "." + written(names[i]));
@@ -71,6 +74,8 @@ class KeyWriter final : public Keys {
   }
 
  private:
+  bool is_asked(const Key& key) const { return only_.empty() || key.name == only_; }
+
   std::string path_of(const Key& key) const { return (path_.empty() ? "" : path_ + ".") + std::string(key.name); }
 
   void write(std::string_view key, const std::string& value) {
@@ -85,14 +90,15 @@ class KeyWriter final : public Keys {
 
   std::string& text_;
   std::string path_, before_keys_;
+  std::string_view only_;
 };
 
 }  // namespace
 
-std::string to_toml(const Deck& deck) {
+std::string to_toml(const Deck& deck, std::string_view only) {
   Deck copy = deck;  // the declarations serve readers as well
   std::string text;
-  KeyWriter writer(text, {});
+  KeyWriter writer(text, {}, {}, only);
   declare_keys(writer, copy);
   return text;
 }
